@@ -1,0 +1,162 @@
+"""The recordings that the loop is judged on.
+
+Every effect alone, pairs, nothing at all, limited motions, closed loop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import generator
+import polars as pl
+
+PAIRS = (
+    ("load", "stribeck"),
+    ("stribeck", "temperature_viscous"),
+    ("load", "temperature_viscous"),
+    ("position", "temperature_dry"),
+    ("offset", "load"),
+    ("inertia", "stribeck"),
+    ("gravity", "temperature_viscous"),
+    ("direction", "stribeck"),
+    ("nonlinear_viscous", "temperature_dry"),
+    ("presliding", "load"),
+)
+
+#: A presliding distance that the samples resolve is never a small effect: its sizes are larger.
+SIZES = {"presliding": (1.0, 3.0, 6.0)}
+USUAL_SIZES = (1.0, 3.0, 0.5)
+
+#: (limit, hidden effect): nothing, something the motion cannot show, something that it can.
+LIMITED = (
+    ("isothermal", "none"),
+    ("isothermal", "temperature_dry"),
+    ("isothermal", "load"),
+    ("one_direction", "none"),
+    ("one_direction", "direction"),
+    ("one_direction", "load"),
+    ("constant_load", "none"),
+    ("constant_load", "load"),
+    ("constant_load", "stribeck"),
+    ("no_slow_motion", "none"),
+    ("no_slow_motion", "stribeck"),
+    ("no_slow_motion", "load"),
+    ("warm_up_only", "none"),
+    ("warm_up_only", "load"),
+    ("short_range", "none"),
+    ("short_range", "gravity"),
+)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One recording to make, and how it is judged."""
+
+    name: str
+    group: str
+    effects: tuple[str, ...]
+    seed: int
+    size: float = 1.0
+    limit: str | None = None
+    closed_loop: bool = False
+    quick: bool = False
+
+    def make(self) -> tuple[pl.DataFrame, dict[str, Any]]:
+        """The recording and its truth."""
+        if self.closed_loop:
+            return generator.make_closed_loop(self.effects, self.seed, self.size)
+        limits = {self.limit: True} if self.limit else {}
+        return generator.make(self.effects, self.seed, self.size, **limits)
+
+
+def _cases(seeds: int) -> Iterator[Case]:
+    for i, effect in enumerate(generator.EFFECTS):
+        sizes = SIZES.get(effect, USUAL_SIZES)
+        for k in range(seeds):
+            size = sizes[k % 3]
+            seed = 1000 + 100 * i + k
+            yield Case(f"{effect}-{size:g}-{seed}", "single", (effect,), seed, size, quick=k == 0)
+    for i, pair in enumerate(PAIRS):
+        size = 4.0 if "presliding" in pair else 2.0
+        seed = 4000 + i
+        yield Case("+".join(pair) + f"-{seed}", "pair", pair, seed, size, quick=i in (0, 3, 6))
+    for k in range(8):
+        yield Case(f"none-{5000 + k}", "none", ("none",), 5000 + k, quick=k < 3)
+    for i, (limit, effect) in enumerate(LIMITED):
+        seed = 6000 + i
+        name = f"{limit}-{effect}-{seed}"
+        yield Case(name, "limit", (effect,), seed, 1.0, limit, quick=effect == "none")
+    closed = ("none", "stribeck", "load", "temperature_viscous", "position", "inertia", "none")
+    for i, effect in enumerate(closed):
+        seed = 7000 + i
+        size = 2.0
+        name = f"closed-{effect}-{seed}"
+        yield Case(name, "closed", (effect,), seed, size, closed_loop=True, quick=i < 2)
+
+
+def cases(seeds: int = 3) -> list[Case]:
+    """All cases, with `seeds` recordings for every single effect."""
+    return list(_cases(seeds))
+
+
+@dataclass
+class Verdict:
+    """What an answer of the loop is worth on one case."""
+
+    problems: list[str]
+    found: list[str]
+    ratio: float
+    untestable_ok: bool
+
+    @property
+    def passed(self) -> bool:
+        """Nothing to complain about."""
+        return not self.problems
+
+
+def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
+    """Compare the JSON of `improve` with the truth.
+
+    Hidden effects must be named, or listed as indistinguishable from what was named; nothing else
+    may be added; the held-out error must end at the noise, not above and not below; what the motion
+    cannot show must be listed as untestable and never claimed.
+    """
+    steps = answer["steps"]
+    found = [s["effect"] for s in steps]
+    hidden = [e for e in truth["hidden"] if e != "none"]
+    cannot = set(truth["cannot_show"])
+    visible = [e for e in hidden if e not in cannot]
+    problems: list[str] = []
+
+    def names(step: dict[str, Any]) -> set[str]:
+        return {step["effect"], *step.get("indistinguishable_from", [])}
+
+    open_effects = list(visible)
+    if open_effects and not found:
+        problems.append(f"nothing found, hidden: {visible}")
+    for i, step in enumerate(steps):
+        match = [e for e in open_effects if e == step["effect"]]
+        match = match or [e for e in open_effects if e in names(step)]
+        if match:
+            open_effects.remove(match[0])
+        else:
+            which = "first" if i == 0 else "further"
+            problems.append(f"{which} step {step['effect']} is not hidden: {visible or 'nothing'}")
+    if open_effects and found:
+        problems.append(f"missed {open_effects}")
+    claimed = cannot & set(found)
+    if claimed:
+        problems.append(f"claimed what the motion cannot show: {sorted(claimed)}")
+    untestable = {u["effect"] for u in answer.get("untestable", [])}
+    silent = sorted(cannot - untestable)
+    if silent:
+        problems.append(f"not listed as untestable: {silent}")
+    wrong = sorted(set(visible) & untestable)
+    if wrong:
+        problems.append(f"visible but listed as untestable: {wrong}")
+    ratio = answer["final"]["rmse_held_out"] / truth["noise_rms"]
+    if not 0.95 <= ratio <= 1.05:
+        problems.append(f"held-out RMSE is {ratio:.3f} of the noise")
+    return Verdict(problems, found, ratio, not silent and not wrong)
