@@ -1,0 +1,181 @@
+"""Velocity, acceleration and smooth versions by zero-phase filters chosen from the data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .rows import segment_slices
+
+__all__ = ["Smoother", "choose_cutoff"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+_ORDER = 4
+_HIGHEST = 0.4  # of the sampling rate: a cut-off above leaves nothing worth removing
+_MARGIN = 2.0  # the pass band ends well above the frequency where motion meets noise
+_UNIFORM = 0.01  # steps within 1 % of their mean are taken as uniform
+_JITTER_GRID = 1.0
+
+
+def _grid(t: Floats) -> tuple[Floats, bool]:
+    """Return a uniform time grid over a segment and whether its samples already lie on it."""
+    n = len(t)
+    mean = (t[-1] - t[0]) / (n - 1)
+    uniform = bool(np.all(np.abs(np.diff(t) - mean) <= _UNIFORM * mean))
+    if uniform:
+        return t, True
+    step = float(np.median(np.diff(t)))
+    count = max(n, round((t[-1] - t[0]) / step * _JITTER_GRID) + 1)
+    return np.linspace(t[0], t[-1], count), False
+
+
+def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) -> float | None:
+    """Find the frequency above which a signal is only noise.
+
+    The spectrum of the differenced signal (differencing keeps the strong slow motion from leaking
+    over the weak fast one) is divided by the response of the difference. Its high-frequency plateau
+    is the noise; the highest frequency where the spectrum stands at twice the plateau is where
+    motion and noise are equal. A filter there serves the signal and all its derivatives.
+
+    Parameters
+    ----------
+    differences
+        2 for a position, 1 for a velocity.
+
+    Returns
+    -------
+    float or None
+        Cut-off [Hz], or None when there is no noise to remove or too little data to see it.
+    """
+    from scipy.signal import get_window
+
+    slices = [s for s in segment_slices(segment) if s.stop - s.start >= 32]
+    if not slices:
+        return None
+    steps = np.concatenate([np.diff(time[s]) for s in slices])
+    step = float(np.median(steps))
+    rate = 1.0 / step
+    longest = max(s.stop - s.start for s in slices)
+    # Windows of about 4 s resolve the motions of a robot joint; at least 64 samples to see a plateau.
+    length = int(2 ** np.round(np.log2(np.clip(4.0 * rate, 64, 4096))))
+    while length > 32 and length > longest - differences:
+        length //= 2
+    window = get_window("hann", length)
+    scale = 1.0 / (rate * float((window**2).sum()))
+    spectrum = np.zeros(length // 2 + 1)
+    windows = 0
+    for part in slices:
+        t, x = time[part], value[part]
+        grid, uniform = _grid(t)
+        if not uniform:
+            x = np.interp(grid, t, x)
+        d = np.diff(x, n=differences)
+        if len(d) < length:
+            continue
+        frames = np.lib.stride_tricks.sliding_window_view(d, length)[:: length // 2]
+        frames = frames - frames.mean(axis=1, keepdims=True)
+        spectrum += (np.abs(np.fft.rfft(frames * window, axis=1)) ** 2).sum(axis=0) * scale
+        windows += len(frames)
+    if windows == 0 or not spectrum.any():
+        return None
+    spectrum /= windows
+    frequency = np.fft.rfftfreq(length, step)
+    response = np.abs(2.0 * np.sin(np.pi * frequency * step)) ** (2 * differences)
+    usable = slice(1, None)
+    density = spectrum[usable] / response[usable]
+    frequency = frequency[usable]
+    nyquist = 0.5 * rate
+    plateau = density[(frequency > 0.6 * nyquist) & (frequency < 0.95 * nyquist)]
+    noise = float(np.median(plateau))
+    if noise <= 0.0:
+        return None
+    above = _smooth(density) > 2.0 * noise
+    if not above.any():
+        return None
+    meeting = float(frequency[np.flatnonzero(above)[-1]])
+    # A spectrum still falling at its end has no plateau: there is no noise to remove.
+    if meeting > 0.55 * nyquist:
+        return None
+    cutoff = _MARGIN * meeting
+    return cutoff if cutoff < _HIGHEST * rate else None
+
+
+def _smooth(density: Floats) -> Floats:
+    """Running median over three bins, or a tenth of the frequency where that is wider."""
+    n = len(density)
+    out = np.empty(n)
+    for i in range(n):
+        half = max(1, int(0.1 * i))
+        out[i] = np.median(density[max(0, i - half) : i + half + 1])
+    return out
+
+
+def _slope(x: Floats, step: float) -> Floats:
+    """First derivative on a uniform grid, sixth order inside, second order at the edges."""
+    n = len(x)
+    d = np.gradient(x, step) if n > 1 else np.zeros(n)
+    if n >= 7:
+        d[3:-3] = (
+            45.0 * (x[4:-2] - x[2:-4]) - 9.0 * (x[5:-1] - x[1:-5]) + (x[6:] - x[:-6])
+        ) / (60.0 * step)
+    return d
+
+
+@dataclass(frozen=True)
+class Smoother:
+    """A zero-phase low-pass over the segments of a recording.
+
+    Attributes
+    ----------
+    cutoff
+        Cut-off [Hz]; None leaves signals as they are.
+    """
+
+    time: Floats
+    segment: Ints
+    cutoff: float | None
+
+    def smooth(self, value: Floats, derivative: int = 0) -> Floats:
+        """Low-pass a signal and take its derivative, segment by segment.
+
+        Segments too short for the filter are differentiated as they are.
+        """
+        from scipy.signal import butter, sosfiltfilt
+
+        out = np.empty_like(value)
+        sections: dict[float, Floats] = {}
+        for part in segment_slices(self.segment):
+            t, x = self.time[part], value[part]
+            n = len(t)
+            if n < 2:
+                out[part] = 0.0 if derivative else x
+                continue
+            grid, uniform = _grid(t)
+            rate = (len(grid) - 1) / (grid[-1] - grid[0])
+            short = self.cutoff is None or n < max(16, int(rate / self.cutoff)) or (
+                self.cutoff >= _HIGHEST * rate
+            )
+            if short and not derivative:
+                out[part] = x
+                continue
+            if short and n < 8:
+                for _ in range(derivative):
+                    x = np.gradient(x, t)
+                out[part] = x
+                continue
+            y = x if uniform else np.interp(grid, t, x)
+            if not short:
+                assert self.cutoff is not None
+                key = round(rate, 6)
+                if key not in sections:
+                    sections[key] = butter(_ORDER, self.cutoff, fs=rate, output="sos")
+                pad = min(len(y) - 1, int(3.0 * rate / self.cutoff))
+                y = sosfiltfilt(sections[key], y, padlen=pad)
+            for _ in range(derivative):
+                y = _slope(y, 1.0 / rate)
+            out[part] = y if uniform else np.interp(t, grid, y)
+        return out

@@ -1,0 +1,164 @@
+"""Rows: segments, gaps, the noise of the velocity, moving rows and held-out blocks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "GAP", "SIGMAS", "held_out_blocks", "noise_level", "quantisation_step", "segment_rows",
+    "segment_slices",
+]  # fmt: skip
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+GAP = 5.0  # a step longer than this many median steps starts a new segment
+SIGMAS = 5.0  # a row moves when its speed is above this many sigmas of velocity noise
+BLOCKS = 10
+MANY_RUNS = 5  # from this many runs on, a held-out block is a whole run
+
+
+def segment_rows(time: Floats, run: Ints, row: Ints) -> tuple[Ints, Floats, float]:
+    """Number the contiguous stretches of a recording.
+
+    A segment ends where the run ends, where rows were removed, and where the step is longer than
+    `GAP` times the median step of that run (runs of one file may have their own rates).
+
+    Parameters
+    ----------
+    time
+        Time of each row [s], increasing within a run.
+    run
+        Run number of each row, runs contiguous.
+    row
+        Original row number in the file, to see removed rows.
+
+    Returns
+    -------
+    tuple
+        Segment of each row, step to the previous sample [s] (0 at each segment start), and the
+        median step of the recording [s].
+    """
+    n = len(time)
+    if n < 2:
+        return np.zeros(n, dtype=np.int64), np.zeros(n), 0.0
+    step = np.diff(time)
+    inside = run[1:] == run[:-1]
+    adjacent = inside & (np.diff(row) == 1)
+    usable = adjacent if adjacent.any() else inside
+    overall = float(np.median(step[usable])) if usable.any() else 0.0
+    limit = np.full(n - 1, GAP * overall)
+    starts = np.flatnonzero(np.concatenate(([True], ~inside)))
+    ends = np.append(starts[1:], n)
+    for first, last in zip(starts, ends, strict=True):
+        own = step[first : last - 1][usable[first : last - 1]]
+        if own.size:
+            limit[first : last - 1] = GAP * float(np.median(own))
+    joined = adjacent & (step <= limit)
+    segment = np.concatenate(([0], np.cumsum(~joined))).astype(np.int64)
+    dt = np.concatenate(([0.0], np.where(joined, step, 0.0)))
+    return segment, dt, overall
+
+
+def segment_slices(segment: Ints) -> list[slice]:
+    """Return one slice per segment, in order."""
+    edges = np.flatnonzero(np.diff(segment)) + 1
+    bounds = np.concatenate(([0], edges, [len(segment)]))
+    return [slice(int(a), int(b)) for a, b in zip(bounds[:-1], bounds[1:], strict=True) if b > a]
+
+
+def quantisation_step(values: Floats) -> float:
+    """Return the step of a quantised signal, or 0 when its values lie on no grid."""
+    if values.size < 20:
+        return 0.0
+    levels = np.unique(values)
+    gaps = np.diff(levels)
+    span = float(np.abs(values).max())
+    gaps = gaps[gaps > 1e-9 * span]
+    if gaps.size < 3:
+        return 0.0
+    step = float(np.percentile(gaps, 5.0))
+    # Rounded text and float32 blur a grid a little; a random set of levels fails this at once.
+    near = gaps[gaps <= step * 1.5]
+    step = float(np.median(near))
+    ratio = gaps / step
+    on_grid = np.abs(ratio - np.round(ratio)) < 0.05
+    return step if float(on_grid.mean()) > 0.9 else 0.0
+
+
+def _differences(time: Floats, value: Floats, slices: list[slice], order: int) -> Floats:
+    """Divided differences scaled so that white noise of sigma 1 gives values of sigma 1.
+
+    On a uniform grid these are the binomial differences over sqrt(C(2k, k)).
+    """
+    found: list[Floats] = []
+    for part in slices:
+        t, x = time[part], value[part]
+        n = len(t) - order
+        if n <= 0:
+            continue
+        weights = np.empty((order + 1, n))
+        for j in range(order + 1):
+            product = np.ones(n)
+            for m in range(order + 1):
+                if m != j:
+                    product *= t[j : j + n] - t[m : m + n]
+            weights[j] = 1.0 / product
+        weights /= np.sqrt((weights**2).sum(axis=0))
+        windows = np.stack([x[j : j + n] for j in range(order + 1)])
+        # Stretches that stand exactly still (a servo off, a clipped sensor) carry no noise and
+        # would pull the median to zero.
+        alive = (windows != windows[0]).any(axis=0)
+        found.append((weights * windows).sum(axis=0)[alive])
+    return np.concatenate(found) if found else np.empty(0)
+
+
+def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | None = None) -> float:
+    """Standard deviation of the white noise on a signal, from its high-order differences.
+
+    Differences of order 2, 3, 4 ... remove ever more of the motion and leave the noise; the first
+    order that agrees with the next within a tenth is taken, the smallest when none does. A
+    quantised signal has at least step/sqrt(12).
+
+    Parameters
+    ----------
+    time, value, segment
+        The signal and its segments; differences never cross segments.
+    quantum
+        Known quantisation step; looked for when None.
+    """
+    slices = segment_slices(segment)
+    sigmas: list[float] = []
+    for order in (2, 3, 4, 5):
+        d = _differences(time, value, slices, order)
+        if d.size < 5:
+            break
+        sigmas.append(float(np.median(np.abs(d))) / 0.6745)
+    sigma = min(sigmas) if sigmas else 0.0
+    for this, following in zip(sigmas[:-1], sigmas[1:], strict=True):
+        if this > 0.0 and abs(this - following) <= 0.1 * this:
+            sigma = min(this, following)
+            break
+    step = quantisation_step(value) if quantum is None else quantum
+    return max(sigma, step / np.sqrt(12.0))
+
+
+def held_out_blocks(dt: Floats, segment: Ints, run: Ints, typical: float) -> tuple[Ints, int]:
+    """Assign every row to a held-out block.
+
+    Ten contiguous blocks of equal recorded duration (a gap counts as one step), or whole runs when
+    there are at least five.
+    """
+    n = len(dt)
+    runs = int(run.max()) + 1 if n else 0
+    if runs >= MANY_RUNS:
+        return run.copy(), runs
+    count = min(BLOCKS, n)
+    step = np.where(dt > 0.0, dt, typical if typical > 0.0 else 1.0)
+    clock = np.cumsum(step) - 0.5 * step
+    total = float(step.sum())
+    block: Any = np.minimum((clock / total * count).astype(np.int64), count - 1)
+    return block, count

@@ -1,0 +1,238 @@
+"""A file with the user's formulas, filter and column choices applied; still every joint of it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from ..errors import RecordingError, nearest
+from .columns import Choice, choose_columns, file_unit, parse_name
+from .formula import Formula, compile_formula
+from .options import Options
+from .readers import Source, read_table
+from .units import SI
+
+__all__ = ["Prepared", "channel_values", "joint_rows", "joints_of", "labels", "prepare"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A table ready to be cut into joints.
+
+    Attributes
+    ----------
+    table
+        Rows that passed `where`.
+    row
+        Their row numbers in the file, from 0.
+    choices
+        Channel -> column of the file.
+    derived
+        Columns that a formula made.
+    """
+
+    source: Source
+    options: Options
+    table: pl.DataFrame
+    row: Ints
+    choices: dict[str, Choice]
+    derived: tuple[str, ...]
+    rows_removed: int
+    notes: tuple[str, ...]
+
+
+def _inferred_unit(formula: Formula) -> str | None:
+    """Return V or % when a formula only scales one column in that unit by powers of ten.
+
+    ``pwm_permille/1000*supply_V`` is a voltage; ``u_V*35.15`` may be anything.
+    """
+    if not formula.product or not formula.columns:
+        return None
+    if any(n <= 0.0 or not math.isclose(math.log10(n) % 1.0, 0.0, abs_tol=1e-12) for n in formula.numbers):
+        return None
+    units = [u for u in map(file_unit, formula.columns) if u is not None and u.name != "permille"]
+    if len(units) == 1 and units[0].name in ("V", "%"):
+        return units[0].name
+    return None
+
+
+def apply_formulas(
+    source: Source, options: Options
+) -> tuple[pl.DataFrame, Ints, tuple[str, ...], dict[str, str], list[str]]:
+    """Add the derived columns and remove the rows that `where` leaves out."""
+    path = source.path
+    table = source.table
+    units = dict(options.units)
+    notes: list[str] = []
+    for name, text in options.derive.items():
+        formula = compile_formula(text, table.schema, f"{path}: --derive {name}")
+        for column in formula.columns:
+            if table.schema[column] == pl.String:
+                # A bad cell makes a column of text; say which cell it is, not that text is used.
+                column_numbers(source, table, np.arange(table.height), column)
+        table = _run(path, f"--derive {name}={text}", lambda f=formula, n=name: table.with_columns(
+            f.expression.cast(pl.Float64).alias(n) if f.kind == "truth" else f.expression.alias(n)
+        ))
+        inferred = _inferred_unit(formula)
+        channel = parse_name(name).channel
+        if channel in ("torque", "load_torque", "friction_torque") and name not in units:
+            if inferred is not None:
+                units[name] = inferred
+                notes.append(f"'{name}' is in {inferred}, the unit of the columns in its formula")
+    row = np.arange(table.height)
+    if options.where is not None:
+        formula = compile_formula(options.where, table.schema, f"{path}: --where")
+        if formula.kind == "text":
+            raise RecordingError(f"{path}: --where {options.where}: is a text, not a condition")
+        mask_expression = formula.expression if formula.kind == "truth" else formula.expression != 0.0
+        mask = _run(path, f"--where {options.where}", lambda: table.select(
+            pl.lit(True).and_(mask_expression).fill_null(False).alias("keep")
+        ))["keep"].to_numpy()
+        if mask.shape[0] != table.height:
+            mask = np.full(table.height, bool(mask[0]))
+        if not mask.any():
+            raise RecordingError(f"{path}: --where {options.where}: leaves no rows of {table.height}")
+        row = np.flatnonzero(mask)
+        table = table.filter(pl.Series(mask))
+    return table, row, tuple(options.derive), units, notes
+
+
+def prepare(path: str, options: Options) -> Prepared:
+    """Read a file and apply formulas, filter and column choices."""
+    source = read_table(path)
+    table, row, derived, units, notes = apply_formulas(source, options)
+    choices, more = choose_columns(
+        source.path,
+        table.columns,
+        derived=derived,
+        maps=options.maps,
+        units=units,
+        index=_wide_index(table, options),
+    )
+    return Prepared(
+        source, options, table, row, choices, derived, source.table.height - table.height,
+        (*notes, *more),
+    )  # fmt: skip
+
+
+def _wide_index(table: pl.DataFrame, options: Options) -> str | None:
+    """Return the joint of a wide file when --joint names one and there is no joint column."""
+    if options.joint is None or "joint" in options.maps or "joint" in options.derive:
+        return None
+    if any(parse_name(name).channel == "joint" for name in table.columns):
+        return None
+    return options.joint.removeprefix("joint_").removeprefix("joint")
+
+
+def _run(path: str, what: str, compute: Any) -> pl.DataFrame:
+    try:
+        result: pl.DataFrame = compute()
+    except (pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:
+        reason = str(error).strip().splitlines()[0][:120]
+        raise RecordingError(f"{path}: {what}: cannot be computed ({reason})") from None
+    return result
+
+
+# -------------------------------------------------------------------------------------- values
+
+
+def labels(table: pl.DataFrame, column: str) -> list[str]:
+    """Return the names of the joints or runs of each row, whole numbers without a decimal point."""
+    series = table[column]
+    if series.dtype.is_float():
+        return [
+            "" if v is None else str(int(v)) if float(v).is_integer() else str(v) for v in series.to_list()
+        ]
+    return ["" if v is None else v for v in series.cast(pl.String).to_list()]
+
+
+def joints_of(prepared: Prepared) -> list[str]:
+    """Return the joints of a file in order of appearance; empty without a joint column."""
+    choice = prepared.choices.get("joint")
+    if choice is None:
+        return []
+    return list(dict.fromkeys(labels(prepared.table, choice.source)))
+
+
+def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]:
+    """Return the joint to read and its rows.
+
+    Raises
+    ------
+    RecordingError
+        When the file holds several joints and none, or an unknown one, was named.
+    """
+    path = prepared.source.path
+    joints = joints_of(prepared)
+    everything = np.arange(prepared.table.height)
+    if not joints:
+        return joint, everything
+    if joint is None:
+        if len(joints) == 1:
+            return joints[0], everything
+        raise RecordingError(f"{path}: holds {len(joints)} joints: name one with --joint ({', '.join(joints)})")
+    if joint not in joints:
+        hint = nearest(joint, joints)
+        raise RecordingError(f"{path}: there is no joint '{joint}'{hint or '; there are ' + ', '.join(joints)}")
+    names = np.asarray(labels(prepared.table, prepared.choices["joint"].source), dtype=object)
+    return joint, np.flatnonzero(names == joint)
+
+
+def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) -> Floats:
+    """Return a column as numbers, NaN where a cell is empty.
+
+    Raises
+    ------
+    RecordingError
+        When a cell holds text, naming file, row and column.
+    """
+    series = table[column]
+    dtype = series.dtype
+    if dtype == pl.String:
+        bare = series.str.strip_chars()
+        numbers = bare.cast(pl.Float64, strict=False)
+        bad = (numbers.is_null() & bare.is_not_null() & (bare != "")).fill_null(False)
+        if bad.any():
+            first = int(bad.arg_true()[0])
+            raise RecordingError(
+                f"{source.path}: {source.place(int(row[first]))}, column '{column}': "
+                f"'{str(series[first])[:40]}' is not a number: correct or remove that row"
+            )
+        series = numbers
+    elif dtype.is_temporal():
+        if dtype == pl.Date or dtype == pl.Time:
+            raise RecordingError(
+                f"{source.path}: column '{column}' holds {dtype} values, numbers are needed: "
+                "give seconds"
+            )
+        if dtype == pl.Duration:
+            series = series.dt.total_nanoseconds().cast(pl.Float64) * 1e-9
+        else:
+            # Seconds since the first row: a date in seconds would lose microseconds in rounding.
+            series = (series - series.drop_nulls()[0]).dt.total_nanoseconds().cast(pl.Float64) * 1e-9
+    elif not (dtype.is_numeric() or dtype == pl.Boolean):
+        raise RecordingError(f"{source.path}: column '{column}' holds {dtype} values, numbers are needed")
+    values = series.cast(pl.Float64).fill_null(float("nan")).to_numpy()
+    return np.array(values, dtype=np.float64)
+
+
+def channel_values(prepared: Prepared, channel: str, rows: Ints) -> tuple[Floats, str, str]:
+    """Return a channel of some rows in SI, its SI unit (or '' when none was named) and dimension."""
+    choice = prepared.choices[channel]
+    values = column_numbers(
+        prepared.source, prepared.table[rows], prepared.row[rows], choice.source
+    )
+    if choice.unit is None:
+        return values, "", ""
+    unit = choice.unit
+    if unit.factor != 1.0 or unit.offset != 0.0:
+        values = values * unit.factor + unit.offset
+    return values, SI[unit.dimension], unit.dimension
