@@ -1,0 +1,66 @@
+from collections.abc import Mapping, Sequence
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+class ModelError(ValueError): ...
+
+def catalog() -> dict[str, list[dict[str, Any]]]: ...
+@final
+class Model:
+    def __new__(
+        cls,
+        law: str,
+        effects: Sequence[str] = ...,
+        constants: Mapping[str, float] = ...,
+    ) -> Model: ...
+    @property
+    def law(self) -> str: ...
+    @property
+    def effects(self) -> list[str]: ...
+    @property
+    def spec(self) -> str: ...
+    @property
+    def constants(self) -> dict[str, float]: ...
+    @property
+    def has_bristle(self) -> bool: ...
+    @property
+    def needs(self) -> list[str]: ...
+    def parameters(self) -> list[dict[str, Any]]: ...
+    def torque(
+        self,
+        values: ArrayLike,
+        dt: float | ArrayLike | None,
+        velocity: ArrayLike,
+        position: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        load_torque: ArrayLike | None = None,
+        motor_torque: ArrayLike | None = None,
+        smooth: dict[str, ArrayLike] | None = None,
+        state: float = 0.0,
+    ) -> NDArray[np.float64]: ...
+    def gradient(
+        self,
+        values: ArrayLike,
+        dt: float | ArrayLike | None,
+        velocity: ArrayLike,
+        position: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        load_torque: ArrayLike | None = None,
+        motor_torque: ArrayLike | None = None,
+        smooth: dict[str, ArrayLike] | None = None,
+        state: float = 0.0,
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def split(
+        self,
+        values: ArrayLike,
+        velocity: ArrayLike,
+        position: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        load_torque: ArrayLike | None = None,
+        motor_torque: ArrayLike | None = None,
+    ) -> dict[str, NDArray[np.float64]]: ...

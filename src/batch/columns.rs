@@ -1,0 +1,177 @@
+use std::vec;
+use std::vec::Vec;
+
+use super::BatchError;
+use crate::catalog::EffectId;
+use crate::composed::Spec;
+use crate::sample::Sample;
+use crate::scalar::Real;
+use crate::table::Channel;
+
+/// Channels of a recording, one value a row; only the velocity is always needed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[allow(missing_docs)]
+pub struct Channels<'a> {
+    pub velocity: &'a [f64],
+    pub position: Option<&'a [f64]>,
+    pub acceleration: Option<&'a [f64]>,
+    pub temperature: Option<&'a [f64]>,
+    pub load_torque: Option<&'a [f64]>,
+    pub motor_torque: Option<&'a [f64]>,
+}
+
+impl<'a> Channels<'a> {
+    /// The column of a channel, if it is there.
+    #[must_use]
+    pub fn get(&self, channel: Channel) -> Option<&'a [f64]> {
+        match channel {
+            Channel::Velocity => (!self.velocity.is_empty()).then_some(self.velocity),
+            Channel::Position => self.position,
+            Channel::Acceleration => self.acceleration,
+            Channel::Temperature => self.temperature,
+            Channel::LoadTorque => self.load_torque,
+            Channel::MotorTorque => self.motor_torque,
+        }
+    }
+
+    /// One row; what is not there is zero.
+    #[inline]
+    pub(super) fn sample<S: Real>(&self, row: usize) -> Sample<S> {
+        let at = |column: Option<&[f64]>| match column.and_then(|c| c.get(row)) {
+            Some(&x) => S::from_f64(x),
+            None => S::zero(),
+        };
+        Sample {
+            velocity: at(Some(self.velocity)),
+            position: at(self.position),
+            acceleration: at(self.acceleration),
+            temperature: at(self.temperature),
+            load_torque: at(self.load_torque),
+            motor_torque: at(self.motor_torque),
+        }
+    }
+}
+
+/// Time since the row before [s].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum TimeStep<'a> {
+    /// Not known: enough for a model without state and delay.
+    #[default]
+    Unknown,
+    /// The same for every row, the first included.
+    Uniform(f64),
+    /// One a row; what is not positive and finite starts a new segment.
+    Each(&'a [f64]),
+}
+
+/// What a model is run over.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Columns<'a> {
+    /// Time step.
+    pub dt: TimeStep<'a>,
+    /// The channels as recorded.
+    pub channels: Channels<'a>,
+    /// Smoothed channels, which a delay interpolates; where absent the recorded ones are used.
+    /// Interpolating noise would average it, and a delay win where there is none.
+    pub smooth: Channels<'a>,
+    /// Deflection of a bristle at the start of every segment [X].
+    pub state: f64,
+}
+
+impl<'a> Columns<'a> {
+    /// Smoothed where available, as recorded elsewhere.
+    pub(super) fn smoothed(&self) -> Channels<'a> {
+        let (plain, smooth) = (&self.channels, &self.smooth);
+        Channels {
+            velocity: if smooth.velocity.is_empty() { plain.velocity } else { smooth.velocity },
+            position: smooth.position.or(plain.position),
+            acceleration: smooth.acceleration.or(plain.acceleration),
+            temperature: smooth.temperature.or(plain.temperature),
+            load_torque: smooth.load_torque.or(plain.load_torque),
+            motor_torque: smooth.motor_torque.or(plain.motor_torque),
+        }
+    }
+
+    /// Adds the load torque to the first of every `width` numbers: a delay shifts the whole
+    /// motor torque, not friction alone.
+    pub(super) fn add_load(&self, series: &mut [f64], width: usize) {
+        if let Some(load) = self.smoothed().load_torque {
+            for (row, load) in series.chunks_exact_mut(width).zip(load) {
+                row[0] += load;
+            }
+        }
+    }
+
+    /// Every column the model reads is there, as long as the velocity, and finite.
+    pub(super) fn check(&self, spec: &Spec) -> Result<(), BatchError> {
+        let rows = self.channels.velocity.len();
+        if rows == 0 {
+            return Err(BatchError::NoRows);
+        }
+        let delayed = spec.effects().contains(EffectId::Delay);
+        for channel in Channel::ALL {
+            let read = spec.channels().any(|c| c == channel);
+            let shifted = delayed && channel == Channel::LoadTorque;
+            match self.channels.get(channel) {
+                Some(column) if read || shifted => whole(channel.name(), column, rows)?,
+                None if read => return Err(BatchError::Missing(channel)),
+                _ => {}
+            }
+            if let (true, Some(column)) = (delayed, self.smooth.get(channel)) {
+                whole(channel.name(), column, rows)?;
+            }
+        }
+        if self.state.is_finite() { Ok(()) } else { Err(BatchError::State) }
+    }
+
+    /// Checks the columns and prepares the time axis.
+    pub(super) fn rows(&self, spec: &Spec) -> Result<Rows, BatchError> {
+        self.check(spec)?;
+        let count = self.channels.velocity.len();
+        let steps = match self.dt {
+            TimeStep::Unknown => {
+                if spec.has_bristle() || spec.effects().contains(EffectId::Delay) {
+                    return Err(BatchError::NoTimeStep);
+                }
+                vec![0.0; count]
+            }
+            TimeStep::Uniform(dt) if dt > 0.0 && dt.is_finite() => {
+                return Ok(Rows { steps: vec![dt; count], uniform: true });
+            }
+            TimeStep::Uniform(_) => return Err(BatchError::NotFinite { column: "dt", row: 0 }),
+            TimeStep::Each(dt) if dt.len() != count => {
+                return Err(BatchError::Length { column: "dt", length: dt.len(), rows: count });
+            }
+            TimeStep::Each(dt) => {
+                dt.iter().map(|&dt| if dt > 0.0 && dt.is_finite() { dt } else { 0.0 }).collect()
+            }
+        };
+        Ok(Rows { steps, uniform: false })
+    }
+}
+
+fn whole(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchError> {
+    if values.len() != rows {
+        return Err(BatchError::Length { column, length: values.len(), rows });
+    }
+    match values.iter().position(|x| !x.is_finite()) {
+        Some(row) => Err(BatchError::NotFinite { column, row }),
+        None => Ok(()),
+    }
+}
+
+/// The time axis: steps, 0 where a segment starts.
+pub(super) struct Rows {
+    pub(super) steps: Vec<f64>,
+    uniform: bool,
+}
+
+impl Rows {
+    pub(super) fn count(&self) -> usize {
+        self.steps.len()
+    }
+
+    pub(super) fn starts_at(&self, row: usize) -> bool {
+        row == 0 || (!self.uniform && self.steps[row] == 0.0)
+    }
+}

@@ -1,0 +1,74 @@
+//! Shifting a series in time, within each segment.
+
+use std::vec::Vec;
+
+use super::columns::Rows;
+
+/// Adds `S(g) - g` to `out`, where `S(g)(t) = g(t - delay)` by linear interpolation, held at the
+/// ends of a segment. `series` and `out` have `width` numbers a row. Yields the derivative of
+/// the first number by the delay.
+pub fn shift(rows: &Rows, delay: f64, series: &[f64], width: usize, out: &mut [f64]) -> Vec<f64> {
+    let count = rows.count();
+    let mut by_delay = Vec::with_capacity(count);
+    let mut start = 0;
+    while start < count {
+        let end = (start + 1..count).find(|&i| rows.starts_at(i)).unwrap_or(count);
+        let range = start * width..end * width;
+        let segment =
+            Segment { steps: &rows.steps[start..end], series: &series[range.clone()], width };
+        segment.shift(delay, &mut out[range], &mut by_delay);
+        start = end;
+    }
+    by_delay
+}
+
+struct Segment<'a> {
+    steps: &'a [f64],
+    series: &'a [f64],
+    width: usize,
+}
+
+impl Segment<'_> {
+    fn shift(&self, delay: f64, out: &mut [f64], by_delay: &mut Vec<f64>) {
+        let last = self.steps.len() - 1;
+        // Times relative to row k and to row i; only differences matter, so neither drifts.
+        let mut k = 0;
+        let mut ahead = -delay;
+        for i in 0..=last {
+            if i > 0 {
+                ahead += self.steps[i];
+            }
+            while k < last && ahead >= self.steps[k + 1] {
+                k += 1;
+                ahead -= self.steps[k];
+            }
+            // `ahead` is now t_i - delay - t_k.
+            let inside = ahead > 0.0 && k < last;
+            let weight = if inside { ahead / self.steps[k + 1] } else { 0.0 };
+            for j in 0..self.width {
+                let (here, next) = (self.at(k, j), self.at((k + 1).min(last), j));
+                out[i * self.width + j] += here + weight * (next - here) - self.at(i, j);
+            }
+            by_delay.push(if inside {
+                -self.slope(k)
+            } else if ahead == 0.0 {
+                // On a row the interpolation has a corner: the mean of both sides.
+                -0.5 * (self.slope(k.wrapping_sub(1)) + self.slope(k))
+            } else {
+                0.0
+            });
+        }
+    }
+
+    fn at(&self, row: usize, column: usize) -> f64 {
+        self.series[row * self.width + column]
+    }
+
+    /// Slope between a row and the next; 0 beyond the ends.
+    fn slope(&self, row: usize) -> f64 {
+        match self.steps.get(row.wrapping_add(1)) {
+            Some(&dt) if row < self.steps.len() => (self.at(row + 1, 0) - self.at(row, 0)) / dt,
+            _ => 0.0,
+        }
+    }
+}

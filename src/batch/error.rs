@@ -1,0 +1,68 @@
+use core::fmt;
+
+use super::MAX_PARAMETERS;
+use crate::error::ModelError;
+use crate::table::Channel;
+
+/// Why a model cannot be run over columns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BatchError {
+    /// The model itself.
+    Model(ModelError<'static>),
+    /// There is no row.
+    NoRows,
+    /// A column the model reads is missing.
+    Missing(Channel),
+    /// The model has a state or a delay but no time step was given.
+    NoTimeStep,
+    /// A column has another length than the velocity.
+    Length {
+        /// Which column.
+        column: &'static str,
+        /// Its length.
+        length: usize,
+        /// The velocity's length.
+        rows: usize,
+    },
+    /// A value is NaN or infinite.
+    NotFinite {
+        /// Which column.
+        column: &'static str,
+        /// Row, counted from 0.
+        row: usize,
+    },
+    /// The state at the start is NaN or infinite.
+    State,
+    /// More parameters than a gradient can be taken for.
+    TooManyParameters(usize),
+}
+
+impl From<ModelError<'static>> for BatchError {
+    fn from(error: ModelError<'static>) -> Self {
+        Self::Model(error)
+    }
+}
+
+impl fmt::Display for BatchError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Model(error) => error.fmt(f),
+            Self::NoRows => f.write_str("the columns have no rows"),
+            Self::Missing(channel) => write!(f, "the model needs the column '{channel}'"),
+            Self::NoTimeStep => f.write_str("the model needs the time step 'dt'"),
+            Self::Length { column, length, rows } => {
+                write!(f, "column '{column}' has {length} rows but 'velocity' has {rows}")
+            }
+            Self::NotFinite { column, row } => {
+                write!(f, "column '{column}' is not finite at row {row}")
+            }
+            Self::State => f.write_str("the state at the start is not finite"),
+            Self::TooManyParameters(given) => write!(
+                f,
+                "a gradient has at most {MAX_PARAMETERS} parameters but the model has {given}"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for BatchError {}

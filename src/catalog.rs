@@ -1,0 +1,186 @@
+//! The one list of laws and effects; everything else about them stands in their own files.
+
+use crate::bristle::Bristle;
+use crate::constants::Constants;
+use crate::effect::{self, FrictionEffect};
+use crate::law::{self, FrictionLaw};
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{EffectInfo, LawInfo, Parameters, Presence};
+
+macro_rules! laws {
+    ($($law:ident),+ $(,)?) => {
+        /// Which law.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[allow(missing_docs)]
+        pub enum LawId {
+            $($law,)+
+        }
+
+        /// A law with its parameters.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[allow(missing_docs)]
+        pub enum Law<S> {
+            $($law(law::$law<S>),)+
+        }
+
+        impl LawId {
+            /// Every law.
+            pub const ALL: &[Self] = &[$(Self::$law,)+];
+
+            /// Its table.
+            #[must_use]
+            pub const fn info(self) -> &'static LawInfo {
+                match self {
+                    $(Self::$law => const { &<law::$law<f64> as FrictionLaw<f64>>::INFO },)+
+                }
+            }
+
+            /// The law with the parameters that `next` yields.
+            #[inline]
+            pub fn read<S: Real>(self, next: impl FnMut(Presence) -> S) -> Law<S> {
+                match self {
+                    $(Self::$law => Law::$law(law::$law::read(next)),)+
+                }
+            }
+        }
+
+        impl<S: Real> Law<S> {
+            /// The torque at one instant, taken apart.
+            #[inline]
+            pub fn split(&self, sample: &Sample<S>) -> Split<S> {
+                match self {
+                    $(Self::$law(law) => law.split(sample),)+
+                }
+            }
+
+            /// The bristle, if the law is dynamic.
+            #[inline]
+            pub fn bristle(&self) -> Option<Bristle<S>> {
+                match self {
+                    $(Self::$law(law) => law.bristle(),)+
+                }
+            }
+        }
+    };
+}
+
+macro_rules! effects {
+    ($($id:ident: $effect:ident),+ $(,)?) => {
+        /// Which effect.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[allow(missing_docs)]
+        pub enum EffectId {
+            $($effect,)+
+        }
+
+        impl EffectId {
+            /// Every effect, in the order in which they act.
+            pub const ALL: &[Self] = &[$(Self::$effect,)+];
+
+            /// Its table.
+            #[must_use]
+            pub const fn info(self) -> &'static EffectInfo {
+                match self {
+                    $(Self::$effect => {
+                        const { &<effect::$effect<f64> as FrictionEffect<f64>>::INFO }
+                    })+
+                }
+            }
+        }
+
+        /// Effects with their parameters.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[allow(missing_docs)]
+        pub struct Effects<S> {
+            $(pub $id: Option<effect::$effect<S>>,)+
+        }
+
+        impl<S: Real> Effects<S> {
+            /// The effects of `set`, with the parameters that `next` yields.
+            #[inline]
+            pub fn read(set: EffectSet, mut next: impl FnMut(Presence) -> S) -> Self {
+                Self {
+                    $($id: set
+                        .contains(EffectId::$effect)
+                        .then(|| effect::$effect::read(&mut next)),)+
+                }
+            }
+
+            /// Changes the split, each effect in its turn.
+            #[inline]
+            pub fn apply(
+                &self,
+                split: &mut Split<S>,
+                sample: &Sample<S>,
+                constants: &Constants<S>,
+            ) {
+                $(if let Some(effect) = &self.$id {
+                    effect.apply(split, sample, constants);
+                })+
+            }
+
+            /// The bristle that an effect adds.
+            #[inline]
+            pub fn bristle(&self) -> Option<Bristle<S>> {
+                None$(.or_else(|| self.$id.as_ref().and_then(FrictionEffect::bristle)))+
+            }
+        }
+    };
+}
+
+laws! { Coulomb, BittencourtA, Lugre, GantryMap }
+
+effects! {
+    stribeck: Stribeck,
+    temperature_dry: TemperatureDry,
+    load: Load,
+    position: Position,
+    direction: Direction,
+    nonlinear_viscous: NonlinearViscous,
+    temperature_viscous: TemperatureViscous,
+    offset: Offset,
+    inertia: Inertia,
+    gravity: Gravity,
+    presliding: Presliding,
+    delay: Delay,
+}
+
+/// A set of effects.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EffectSet(u32);
+
+impl EffectSet {
+    /// No effect.
+    pub const NONE: Self = Self(0);
+
+    /// Whether the set has this effect.
+    #[inline]
+    #[must_use]
+    pub const fn contains(self, id: EffectId) -> bool {
+        self.0 & (1 << id as u32) != 0
+    }
+
+    /// The set with this effect.
+    #[must_use]
+    pub const fn with(self, id: EffectId) -> Self {
+        Self(self.0 | (1 << id as u32))
+    }
+
+    /// The effects in the order in which they act.
+    pub fn iter(self) -> impl Iterator<Item = EffectId> + Clone {
+        EffectId::ALL.iter().copied().filter(move |&id| self.contains(id))
+    }
+}
+
+/// The law of this id.
+#[must_use]
+pub fn law(id: &str) -> Option<LawId> {
+    LawId::ALL.iter().copied().find(|law| law.info().id == id)
+}
+
+/// The effect of this id.
+#[must_use]
+pub fn effect(id: &str) -> Option<EffectId> {
+    EffectId::ALL.iter().copied().find(|effect| effect.info().id == id)
+}

@@ -1,0 +1,79 @@
+//! Fixed numbers of effects: chosen with the recording, kept with the model, never fitted.
+
+use crate::scalar::Real;
+use crate::table::ConstantInfo;
+
+macro_rules! constants {
+    ($(#[doc = $description:literal] $field:ident [$unit:literal] = $default:expr, $test:expr;)+) => {
+        /// Constants of a model; those of effects it does not have are ignored.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Constants<S> {
+            $(#[doc = $description] pub $field: S,)+
+        }
+
+        /// Every constant.
+        pub const CONSTANTS: &[ConstantInfo] = &[
+            $(ConstantInfo {
+                name: stringify!($field),
+                unit: $unit,
+                default: $default,
+                description: $description.trim_ascii(),
+            },)+
+        ];
+
+        impl Default for Constants<f64> {
+            fn default() -> Self {
+                Self { $($field: $default,)+ }
+            }
+        }
+
+        impl Constants<f64> {
+            /// The constant of this name.
+            #[must_use]
+            pub fn get(&self, name: &str) -> Option<f64> {
+                match name {
+                    $(stringify!($field) => Some(self.$field),)+
+                    _ => None,
+                }
+            }
+
+            /// Sets a constant; `None` if there is none of this name, `Some(false)` if the
+            /// value cannot be used.
+            pub fn set(&mut self, name: &str, value: f64) -> Option<bool> {
+                match name {
+                    $(stringify!($field) => {
+                        let usable: fn(f64) -> bool = $test;
+                        let fits = value.is_finite() && usable(value);
+                        if fits {
+                            self.$field = value;
+                        }
+                        Some(fits)
+                    })+
+                    _ => None,
+                }
+            }
+
+            /// The same constants as another kind of number.
+            #[inline]
+            #[must_use]
+            pub fn cast<S: Real>(&self) -> Constants<S> {
+                Constants { $($field: S::from_f64(self.$field),)+ }
+            }
+        }
+    };
+}
+
+constants! {
+    /// Temperature at which the temperature factors are 1.
+    reference_temperature ["degC"] = 25.0, |_| true;
+    /// Load torque at which every load exponent gives the same friction.
+    reference_load ["T"] = 1.0, |x| x > 0.0;
+    /// Speed at which every viscous exponent gives the same friction.
+    reference_velocity ["X/s"] = 1.0, |x| x > 0.0;
+    /// Position where the stroke, or a period, starts.
+    position_start ["X"] = 0.0, |_| true;
+    /// Length of the stroke, or of one period.
+    position_length ["X"] = core::f64::consts::TAU, |x| x > 0.0;
+    /// 1 if friction repeats with the length, 0 if the length is the whole stroke.
+    position_periodic ["1"] = 1.0, |x| x == 0.0 || x == 1.0;
+}

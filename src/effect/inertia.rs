@@ -1,0 +1,32 @@
+use super::FrictionEffect;
+use crate::constants::Constants;
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{Channel, EffectInfo, Parameters, parameters};
+
+parameters! {
+    /// Inertia that the load torque leaves out.
+    Inertia {
+        /// Torque per acceleration.
+        inertia: "J" ["T s2/X"] 0.0 .. 10.0, start 0.0, Inertia, Additive;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for Inertia<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "inertia",
+        group: "rigid body",
+        title: "Inertia",
+        what: "The inertia used for the load torque is too small, or none was used.",
+        formula: "tf + J a",
+        needs: "acceleration",
+        channels: &[Channel::Acceleration],
+        constants: &[],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, _: &Constants<S>) {
+        split.additive += self.inertia * sample.acceleration;
+    }
+}

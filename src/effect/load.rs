@@ -1,0 +1,39 @@
+use super::FrictionEffect;
+use crate::constants::Constants;
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{Channel, EffectInfo, Parameters, parameters};
+
+parameters! {
+    /// Dry friction that grows with the load.
+    Load {
+        /// Coulomb friction per load, at the reference load.
+        load_coulomb: "lc" ["1"] 0.0 .. 10.0, start 0.05, None, Dry;
+        /// Exponent of the load.
+        load_exponent: "lp" ["1"] 0.4 .. 2.5, start 1.0, None, Nonlinear;
+        /// Height of the Stribeck curve per load, at the reference load.
+        load_stribeck: "ls" ["1"] 0.0 .. 10.0, start 0.02, None, Dry, WithStribeck;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for Load<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "load",
+        group: "friction",
+        title: "Load",
+        what: "The load presses teeth and bearings together, so dry friction grows with its size.",
+        formula: "D + (lc + ls E) |tl/tr|^lp tr",
+        needs: "load varied independently of speed, with both signs of v tl",
+        channels: &[Channel::LoadTorque],
+        constants: &["reference_load"],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+        let reference = constants.reference_load;
+        let load = (sample.load_torque / reference).abs().powf(self.load_exponent) * reference;
+        split.coulomb += self.load_coulomb * load;
+        split.height += self.load_stribeck * load;
+    }
+}

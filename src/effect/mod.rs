@@ -1,0 +1,52 @@
+//! Effects that can be missing from a law, one file each: what each does to a split.
+//!
+//! A new effect is one file here and one row in [`crate::catalog`], placed where it acts.
+
+mod delay;
+mod direction;
+mod factor;
+mod gravity;
+mod inertia;
+mod load;
+mod nonlinear_viscous;
+mod offset;
+mod position;
+mod presliding;
+mod stribeck;
+mod temperature_dry;
+mod temperature_viscous;
+
+pub use delay::Delay;
+pub use direction::Direction;
+pub use gravity::Gravity;
+pub use inertia::Inertia;
+pub use load::Load;
+pub use nonlinear_viscous::NonlinearViscous;
+pub use offset::Offset;
+pub use position::Position;
+pub use presliding::Presliding;
+pub use stribeck::Stribeck;
+pub use temperature_dry::TemperatureDry;
+pub use temperature_viscous::TemperatureViscous;
+
+use crate::bristle::Bristle;
+use crate::constants::Constants;
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{EffectInfo, Parameters};
+
+/// What a file in this folder provides.
+pub trait FrictionEffect<S: Real>: Parameters<S> {
+    /// The effect's table.
+    const INFO: EffectInfo;
+
+    /// Changes the split; effects that are no part of it (a bristle, a delay) leave it alone.
+    #[inline]
+    fn apply(&self, _split: &mut Split<S>, _sample: &Sample<S>, _constants: &Constants<S>) {}
+
+    /// The bristle, if that is what the effect adds.
+    #[inline]
+    fn bristle(&self) -> Option<Bristle<S>> {
+        None
+    }
+}

@@ -1,0 +1,37 @@
+use super::FrictionEffect;
+use crate::constants::Constants;
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{EffectInfo, Parameters, parameters};
+
+parameters! {
+    /// Rate-dependent friction that is not proportional to speed.
+    NonlinearViscous {
+        /// Torque per speed at the reference speed.
+        nonlinear_viscous_coefficient: "nc" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        /// Exponent of the speed; below 1 friction saturates, above 1 it steepens.
+        nonlinear_viscous_exponent: "n" ["1"] 0.15 .. 4.0, start 2.0, None, Nonlinear;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "nonlinear_viscous",
+        group: "friction",
+        title: "Nonlinear viscous friction",
+        what: "The lubricant shears thin, churns or turns turbulent, so friction is not \
+               proportional to speed.",
+        formula: "V + nc |v/vr|^n vr sgn v",
+        needs: "a wide range of speed",
+        channels: &[],
+        constants: &["reference_velocity"],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+        let (v, reference) = (sample.velocity, constants.reference_velocity);
+        let curve = (v / reference).abs().powf(self.nonlinear_viscous_exponent) * reference;
+        split.rate += self.nonlinear_viscous_coefficient * curve * v.sign();
+    }
+}

@@ -1,0 +1,32 @@
+use super::FrictionEffect;
+use crate::constants::Constants;
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{EffectInfo, Parameters, parameters};
+
+parameters! {
+    /// A constant torque.
+    Offset {
+        /// Torque that is there at any motion.
+        offset: "t0" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for Offset<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "offset",
+        group: "measurement",
+        title: "Offset",
+        what: "The torque or current sensor has a zero error, or a constant torque was left out.",
+        formula: "tf + t0",
+        needs: "motion in both directions",
+        channels: &[],
+        constants: &[],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn apply(&self, split: &mut Split<S>, _: &Sample<S>, _: &Constants<S>) {
+        split.additive += self.offset;
+    }
+}

@@ -1,0 +1,33 @@
+use super::FrictionEffect;
+use crate::bristle::Bristle;
+use crate::scalar::Real;
+use crate::table::{EffectInfo, Parameters, parameters};
+
+parameters! {
+    /// A bristle in place of the sign of the velocity.
+    Presliding {
+        /// Torque per deflection before sliding.
+        presliding_stiffness: "s0" ["T/X"] 0.5 .. 2e4, start 50.0, Stiffness, Nonlinear;
+        /// Torque per deflection rate.
+        presliding_damping: "s1" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for Presliding<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "presliding",
+        group: "friction",
+        title: "Presliding",
+        what: "Contacts bend before they slide, so torque follows displacement after a reversal.",
+        formula: "s0 z + s1 dz/dt + V; dz/dt = v - s0 |v|/D z",
+        needs: "samples inside the presliding distance",
+        channels: &[],
+        constants: &[],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn bristle(&self) -> Option<Bristle<S>> {
+        Some(Bristle { stiffness: self.presliding_stiffness, damping: self.presliding_damping })
+    }
+}

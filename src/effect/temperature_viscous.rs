@@ -1,0 +1,39 @@
+use super::FrictionEffect;
+use super::factor::temperature_factor;
+use crate::constants::Constants;
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{Channel, EffectInfo, Parameters, parameters};
+
+parameters! {
+    /// Viscous friction that thins with temperature.
+    TemperatureViscous {
+        /// Relative fall of viscous friction per kelvin at the reference temperature.
+        temperature_viscous_slope: "sv" ["1/K"] 0.0 .. 0.1, start 0.01, None, Nonlinear;
+        /// How fast that fall levels off with temperature.
+        temperature_viscous_curvature: "kv" ["1/K"] 0.0 .. 0.2, start 0.01, None, Nonlinear;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for TemperatureViscous<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "temperature_viscous",
+        group: "friction",
+        title: "Temperature of viscous friction",
+        what: "The lubricant thins as the joint warms, so viscous friction falls with temperature.",
+        formula: "V (1 + sv/kv (exp(-kv (T - T0)) - 1))",
+        needs: "a span of temperature",
+        channels: &[Channel::Temperature],
+        constants: &["reference_temperature"],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+        split.rate *= temperature_factor(
+            self.temperature_viscous_slope,
+            self.temperature_viscous_curvature,
+            sample.temperature - constants.reference_temperature,
+        );
+    }
+}

@@ -1,0 +1,77 @@
+//! What can be wrong with a model, in one sentence that names the thing and the choices.
+
+use core::fmt;
+
+use crate::catalog::{EffectId, LawId};
+use crate::constants::CONSTANTS;
+
+/// Why a model cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ModelError<'a> {
+    /// No law of this id.
+    UnknownLaw(&'a str),
+    /// No effect of this id.
+    UnknownEffect(&'a str),
+    /// The effect is named twice.
+    Twice(EffectId),
+    /// The law has this effect by itself.
+    Captured(LawId, EffectId),
+    /// No constant of this name.
+    UnknownConstant(&'a str),
+    /// The constant's value cannot be used.
+    Constant(&'a str, f64),
+    /// The number of parameter values is wrong.
+    Count {
+        /// How many the model has.
+        expected: usize,
+        /// How many were given.
+        given: usize,
+    },
+    /// The formula cannot be evaluated at this value.
+    Value {
+        /// Which parameter.
+        parameter: &'static str,
+        /// The value.
+        value: f64,
+    },
+}
+
+fn list(f: &mut fmt::Formatter<'_>, names: impl Iterator<Item = &'static str>) -> fmt::Result {
+    for (i, name) in names.enumerate() {
+        f.write_str(if i == 0 { "" } else { ", " })?;
+        f.write_str(name)?;
+    }
+    Ok(())
+}
+
+impl fmt::Display for ModelError<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::UnknownLaw(id) => {
+                write!(f, "law '{id}' is unknown; laws are ")?;
+                list(f, LawId::ALL.iter().map(|law| law.info().id))
+            }
+            Self::UnknownEffect(id) => {
+                write!(f, "effect '{id}' is unknown; effects are ")?;
+                list(f, EffectId::ALL.iter().map(|effect| effect.info().id))
+            }
+            Self::Twice(effect) => write!(f, "effect '{}' is named twice", effect.info().id),
+            Self::Captured(law, effect) => {
+                write!(f, "law '{}' already has the effect '{}'", law.info().id, effect.info().id)
+            }
+            Self::UnknownConstant(name) => {
+                write!(f, "constant '{name}' is unknown; constants are ")?;
+                list(f, CONSTANTS.iter().map(|constant| constant.name))
+            }
+            Self::Constant(name, value) => write!(f, "constant '{name}' cannot be {value}"),
+            Self::Count { expected, given } => {
+                write!(f, "the model has {expected} parameters but {given} values were given")
+            }
+            Self::Value { parameter, value } => {
+                write!(f, "parameter '{parameter}' cannot be {value}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ModelError<'_> {}

@@ -1,0 +1,42 @@
+use super::FrictionLaw;
+use crate::sample::{Sample, Split, stribeck_curve};
+use crate::scalar::Real;
+use crate::table::{LawInfo, Parameters, parameters};
+
+parameters! {
+    /// Coulomb, Stribeck and viscous friction; the second amplitude is the increment.
+    BittencourtA {
+        /// Dry friction in full sliding.
+        coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        /// Height of the Stribeck curve above Coulomb friction at rest.
+        stribeck_height: "a2" ["T"] 0.0 .. 10.0, start 0.2, Torque, Dry;
+        /// Speed at which the Stribeck curve has fallen to 1/e.
+        stribeck_velocity: "a3" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
+        /// Exponent of the Stribeck curve.
+        stribeck_exponent: "a4" ["1"] 0.5 .. 4.0, start 2.0, None, Nonlinear;
+        /// Torque per speed.
+        viscous_friction: "a5" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+    }
+}
+
+impl<S: Real> FrictionLaw<S> for BittencourtA<S> {
+    const INFO: LawInfo = LawInfo {
+        id: "bittencourt_a",
+        title: "Bittencourt and Gunnarsson (A)",
+        source: "Bittencourt et al. 2012; UR5e review 2024/25, table 1",
+        formula: "(a1 + a2 exp(-|v/a3|^a4)) sgn v + a5 v",
+        parameters: Self::TABLE,
+        captures: &["coulomb", "viscous", "stribeck"],
+    };
+
+    #[inline]
+    fn split(&self, sample: &Sample<S>) -> Split<S> {
+        Split {
+            coulomb: self.coulomb_friction,
+            height: self.stribeck_height,
+            shape: stribeck_curve(sample.velocity, self.stribeck_velocity, self.stribeck_exponent),
+            rate: self.viscous_friction * sample.velocity,
+            additive: S::zero(),
+        }
+    }
+}

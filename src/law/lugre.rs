@@ -1,0 +1,52 @@
+use super::FrictionLaw;
+use crate::bristle::Bristle;
+use crate::sample::{Sample, Split, stribeck_curve};
+use crate::scalar::Real;
+use crate::table::{LawInfo, Parameters, parameters};
+
+parameters! {
+    /// LuGre: a bristle around a Stribeck curve; the static level is the total.
+    Lugre {
+        /// Torque per deflection before sliding.
+        bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e4, start 50.0, Stiffness, Nonlinear;
+        /// Torque per deflection rate.
+        bristle_damping: "a2" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;
+        /// Torque per speed.
+        viscous_friction: "a3" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        /// Dry friction in full sliding.
+        coulomb_friction: "a4" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        /// Dry friction at the edge of sliding, Coulomb friction included.
+        static_friction: "a5" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
+        /// Speed at which the Stribeck curve has fallen to 1/e.
+        stribeck_velocity: "a6" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
+        /// Exponent of the Stribeck curve.
+        stribeck_exponent: "a7" ["1"] 0.5 .. 4.0, start 2.0, None, Nonlinear;
+    }
+}
+
+impl<S: Real> FrictionLaw<S> for Lugre<S> {
+    const INFO: LawInfo = LawInfo {
+        id: "lugre",
+        title: "LuGre",
+        source: "Canudas de Wit et al. 1995, eqs 4-6; UR5e review 2024/25, table 3",
+        formula: "a1 z + a2 dz/dt + a3 v; dz/dt = v - a1 |v|/g z; g = a4 + (a5 - a4) exp(-|v/a6|^a7)",
+        parameters: Self::TABLE,
+        captures: &["coulomb", "viscous", "stribeck", "presliding"],
+    };
+
+    #[inline]
+    fn split(&self, sample: &Sample<S>) -> Split<S> {
+        Split {
+            coulomb: self.coulomb_friction,
+            height: self.static_friction - self.coulomb_friction,
+            shape: stribeck_curve(sample.velocity, self.stribeck_velocity, self.stribeck_exponent),
+            rate: self.viscous_friction * sample.velocity,
+            additive: S::zero(),
+        }
+    }
+
+    #[inline]
+    fn bristle(&self) -> Option<Bristle<S>> {
+        Some(Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping })
+    }
+}

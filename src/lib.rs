@@ -1,0 +1,51 @@
+//! Friction laws, the effects that can be missing from them, and exact bristle steps.
+//!
+//! Dependencies point one way, down this list:
+//!
+//! | module | what lives there |
+//! |---|---|
+//! | `math` | the one door to `exp`, `pow`, `tanh` ...: same bits everywhere |
+//! | [`scalar`] | [`Real`](scalar::Real): `f32`, `f64`, [`Dual`](scalar::Dual) for gradients |
+//! | [`sample`] | what a law sees at one instant; the torque it gives, taken apart |
+//! | [`table`], [`constants`] | names, symbols, units, bounds |
+//! | [`bristle`] | the exact step around any split law |
+//! | [`law`], [`effect`] | one file each: table and formula |
+//! | [`catalog`] | the list of laws and effects |
+//! | [`composed`], [`error`] | a law with its effects |
+//! | `batch` (feature `std`) | whole recordings: torque, gradient, delay |
+//! | `python` (feature `python`) | the extension module `stribeck._core` |
+//!
+//! The core has no allocation and no `std`; features only add modules.
+//!
+//! ```
+//! use stribeck::bristle::BristleState;
+//! use stribeck::composed::Spec;
+//! use stribeck::sample::Sample;
+//!
+//! let model = Spec::new("coulomb", ["presliding"])?.with(&[0.5, 2.0, 1e4, 10.0])?;
+//! let mut state = BristleState::default();
+//! let step = model.step(&mut state, &Sample::at(0.1), 0.01);
+//! assert!((step.torque - 2.05).abs() < 0.02);
+//! # Ok::<(), stribeck::error::ModelError>(())
+//! ```
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(feature = "std")]
+extern crate std;
+
+#[cfg(feature = "std")]
+pub mod batch;
+pub mod bristle;
+pub mod catalog;
+pub mod composed;
+pub mod constants;
+pub mod effect;
+pub mod error;
+pub mod law;
+mod math;
+#[cfg(feature = "python")]
+mod python;
+pub mod sample;
+pub mod scalar;
+pub mod table;

@@ -1,0 +1,96 @@
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::format;
+use std::string::String;
+
+use numpy::{AllowTypeChange, PyArrayLike1};
+use pyo3::prelude::*;
+
+use super::ModelError;
+use crate::batch::{Channels, Columns, TimeStep};
+use crate::table::Channel;
+
+/// Anything NumPy makes a vector of floats from.
+pub(super) type Array<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
+
+/// Borrowed where the memory is contiguous, copied where it is strided.
+pub(super) fn contiguous<'a>(array: &'a Array<'_>) -> Cow<'a, [f64]> {
+    match array.as_slice() {
+        Ok(slice) => Cow::Borrowed(slice),
+        Err(_) => Cow::Owned(array.as_array().to_vec()),
+    }
+}
+
+/// One time step for all rows, or one a row.
+#[derive(FromPyObject)]
+pub(super) enum Dt<'py> {
+    Uniform(f64),
+    Each(Array<'py>),
+}
+
+/// The arguments that `torque`, `gradient` and `split` share.
+pub(super) struct Arguments<'py> {
+    pub dt: Option<Dt<'py>>,
+    pub velocity: Array<'py>,
+    pub position: Option<Array<'py>>,
+    pub acceleration: Option<Array<'py>>,
+    pub temperature: Option<Array<'py>>,
+    pub load_torque: Option<Array<'py>>,
+    pub motor_torque: Option<Array<'py>>,
+    pub smooth: Option<BTreeMap<String, Array<'py>>>,
+    pub state: f64,
+}
+
+impl Arguments<'_> {
+    /// Runs `work` on the columns without holding the interpreter.
+    pub(super) fn detached<T: Send>(
+        &self,
+        py: Python<'_>,
+        work: impl Fn(&Columns<'_>) -> T + Send + Sync,
+    ) -> PyResult<T> {
+        let velocity = contiguous(&self.velocity);
+        let position = self.position.as_ref().map(contiguous);
+        let acceleration = self.acceleration.as_ref().map(contiguous);
+        let temperature = self.temperature.as_ref().map(contiguous);
+        let load_torque = self.load_torque.as_ref().map(contiguous);
+        let motor_torque = self.motor_torque.as_ref().map(contiguous);
+        let dt = match &self.dt {
+            Some(Dt::Each(dt)) => Some(contiguous(dt)),
+            _ => None,
+        };
+        let mut smooth = BTreeMap::new();
+        for (name, array) in self.smooth.iter().flatten() {
+            if Channel::ALL.iter().all(|channel| channel.name() != name) {
+                let message = format!("smoothed column '{name}' is unknown");
+                return Err(ModelError::new_err(message));
+            }
+            smooth.insert(name.as_str(), contiguous(array));
+        }
+        let smooth = |channel: Channel| smooth.get(channel.name()).map(AsRef::as_ref);
+        let columns = Columns {
+            dt: match (&self.dt, &dt) {
+                (Some(Dt::Uniform(dt)), _) => TimeStep::Uniform(*dt),
+                (_, Some(dt)) => TimeStep::Each(dt),
+                _ => TimeStep::Unknown,
+            },
+            channels: Channels {
+                velocity: &velocity,
+                position: position.as_deref(),
+                acceleration: acceleration.as_deref(),
+                temperature: temperature.as_deref(),
+                load_torque: load_torque.as_deref(),
+                motor_torque: motor_torque.as_deref(),
+            },
+            smooth: Channels {
+                velocity: smooth(Channel::Velocity).unwrap_or_default(),
+                position: smooth(Channel::Position),
+                acceleration: smooth(Channel::Acceleration),
+                temperature: smooth(Channel::Temperature),
+                load_torque: smooth(Channel::LoadTorque),
+                motor_torque: smooth(Channel::MotorTorque),
+            },
+            state: self.state,
+        };
+        Ok(py.detach(|| work(&columns)))
+    }
+}

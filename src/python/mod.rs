@@ -1,0 +1,32 @@
+//! The extension module `stribeck._core`: a thin adapter, no mathematics.
+
+mod catalog;
+mod columns;
+mod model;
+
+use std::string::ToString;
+
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+create_exception!(
+    stribeck._core,
+    ModelError,
+    PyValueError,
+    "A model, its parameters or its columns cannot be used; the message says which and why."
+);
+
+fn refuse(error: impl core::error::Error) -> PyErr {
+    ModelError::new_err(error.to_string())
+}
+
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::ModelError;
+    #[pymodule_export]
+    use super::catalog::catalog;
+    #[pymodule_export]
+    use super::model::Model;
+}

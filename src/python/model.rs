@@ -1,0 +1,198 @@
+use std::collections::BTreeMap;
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::catalog::parameter;
+use super::columns::{Arguments, Array, Dt, contiguous};
+use super::{ModelError, refuse};
+use crate::batch;
+use crate::composed::Spec;
+
+/// A friction law with effects. Which parameters it has is fixed; their values are arguments.
+#[pyclass(frozen, module = "stribeck._core")]
+pub struct Model {
+    spec: Spec,
+}
+
+#[pymethods]
+impl Model {
+    #[new]
+    #[pyo3(signature = (law, effects = Vec::new(), constants = BTreeMap::new()))]
+    #[allow(clippy::needless_pass_by_value)]
+    fn new(law: &str, effects: Vec<String>, constants: BTreeMap<String, f64>) -> PyResult<Self> {
+        let mut spec = Spec::new(law, effects.iter().map(String::as_str)).map_err(refuse)?;
+        for (name, &value) in &constants {
+            spec.set_constant(name, value).map_err(refuse)?;
+        }
+        Ok(Self { spec })
+    }
+
+    /// Id of the law.
+    #[getter]
+    fn law(&self) -> &'static str {
+        self.spec.law().info().id
+    }
+
+    /// Ids of the effects, in the order in which they act.
+    #[getter]
+    fn effects(&self) -> Vec<&'static str> {
+        self.spec.effects().iter().map(|effect| effect.info().id).collect()
+    }
+
+    /// `law+effect+...`.
+    #[getter]
+    fn spec(&self) -> String {
+        self.spec.to_string()
+    }
+
+    /// The constants of its effects.
+    #[getter]
+    fn constants(&self) -> BTreeMap<&'static str, f64> {
+        self.spec.constants().collect()
+    }
+
+    /// Whether it has a state, the deflection of a bristle.
+    #[getter]
+    fn has_bristle(&self) -> bool {
+        self.spec.has_bristle()
+    }
+
+    /// Columns it reads.
+    #[getter]
+    fn needs(&self) -> Vec<&'static str> {
+        self.spec.channels().map(crate::table::Channel::name).collect()
+    }
+
+    /// Its parameters in the order of `values`, one dict each.
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        self.spec
+            .parameters()
+            .map(|info| {
+                let row = parameter(py, info)?;
+                row.set_item("linear", self.spec.is_linear(info))?;
+                Ok(row)
+            })
+            .collect()
+    }
+
+    /// Friction torque of every row; with a bristle, at the end of the row's step.
+    #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
+        load_torque=None, motor_torque=None, smooth=None, state=0.0))]
+    #[allow(clippy::too_many_arguments)]
+    fn torque<'py>(
+        &self,
+        py: Python<'py>,
+        values: Array<'py>,
+        dt: Option<Dt<'py>>,
+        velocity: Array<'py>,
+        position: Option<Array<'py>>,
+        acceleration: Option<Array<'py>>,
+        temperature: Option<Array<'py>>,
+        load_torque: Option<Array<'py>>,
+        motor_torque: Option<Array<'py>>,
+        smooth: Option<BTreeMap<String, Array<'py>>>,
+        state: f64,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let values = contiguous(&values);
+        let arguments = Arguments {
+            dt,
+            velocity,
+            position,
+            acceleration,
+            temperature,
+            load_torque,
+            motor_torque,
+            smooth,
+            state,
+        };
+        let torque = arguments
+            .detached(py, |columns| batch::torque(&self.spec, &values, columns))?
+            .map_err(refuse)?;
+        Ok(torque.into_pyarray(py))
+    }
+
+    /// Friction torque of every row and its derivatives, one column a parameter.
+    #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
+        load_torque=None, motor_torque=None, smooth=None, state=0.0))]
+    #[allow(clippy::too_many_arguments, clippy::type_complexity)]
+    fn gradient<'py>(
+        &self,
+        py: Python<'py>,
+        values: Array<'py>,
+        dt: Option<Dt<'py>>,
+        velocity: Array<'py>,
+        position: Option<Array<'py>>,
+        acceleration: Option<Array<'py>>,
+        temperature: Option<Array<'py>>,
+        load_torque: Option<Array<'py>>,
+        motor_torque: Option<Array<'py>>,
+        smooth: Option<BTreeMap<String, Array<'py>>>,
+        state: f64,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+        let values = contiguous(&values);
+        let arguments = Arguments {
+            dt,
+            velocity,
+            position,
+            acceleration,
+            temperature,
+            load_torque,
+            motor_torque,
+            smooth,
+            state,
+        };
+        let (torque, jacobian) = arguments
+            .detached(py, |columns| batch::gradient(&self.spec, &values, columns))?
+            .map_err(refuse)?;
+        let shape = (torque.len(), values.len());
+        let jacobian = Array2::from_shape_vec(shape, jacobian)
+            .map_err(|error| ModelError::new_err(error.to_string()))?;
+        Ok((torque.into_pyarray(py), jacobian.into_pyarray(py)))
+    }
+
+    /// Parts of the torque in steady sliding: dict of `dry`, `rate` and `additive`.
+    #[pyo3(signature = (values, velocity, position=None, acceleration=None, temperature=None,
+        load_torque=None, motor_torque=None))]
+    #[allow(clippy::too_many_arguments)]
+    fn split<'py>(
+        &self,
+        py: Python<'py>,
+        values: Array<'py>,
+        velocity: Array<'py>,
+        position: Option<Array<'py>>,
+        acceleration: Option<Array<'py>>,
+        temperature: Option<Array<'py>>,
+        load_torque: Option<Array<'py>>,
+        motor_torque: Option<Array<'py>>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let values = contiguous(&values);
+        let arguments = Arguments {
+            dt: None,
+            velocity,
+            position,
+            acceleration,
+            temperature,
+            load_torque,
+            motor_torque,
+            smooth: None,
+            state: 0.0,
+        };
+        let parts = arguments
+            .detached(py, |columns| batch::split(&self.spec, &values, columns))?
+            .map_err(refuse)?;
+        let dict = PyDict::new(py);
+        dict.set_item("dry", parts.dry.into_pyarray(py))?;
+        dict.set_item("rate", parts.rate.into_pyarray(py))?;
+        dict.set_item("additive", parts.additive.into_pyarray(py))?;
+        Ok(dict)
+    }
+
+    fn __repr__(&self) -> String {
+        std::format!("Model({})", self.spec)
+    }
+}

@@ -1,0 +1,240 @@
+use core::cmp::Ordering;
+use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
+
+use super::Real;
+
+/// A number with its derivatives along `N` directions (forward mode).
+///
+/// Arrays on the stack, no allocation; nests for higher derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct Dual<T, const N: usize> {
+    /// The value.
+    pub value: T,
+    /// Its derivatives.
+    pub derivative: [T; N],
+}
+
+impl<T: Real, const N: usize> Dual<T, N> {
+    /// A number that depends on nothing.
+    #[inline]
+    #[must_use]
+    pub fn constant(value: T) -> Self {
+        Self { value, derivative: [T::zero(); N] }
+    }
+
+    /// The variable of direction `index`; a constant if there is no such direction.
+    #[inline]
+    #[must_use]
+    pub fn variable(value: T, index: usize) -> Self {
+        let mut dual = Self::constant(value);
+        if let Some(own) = dual.derivative.get_mut(index) {
+            *own = T::one();
+        }
+        dual
+    }
+
+    /// A function's value and slope at `self`. An infinite slope leaves constants constant.
+    #[inline]
+    fn chain(self, value: T, slope: T) -> Self {
+        Self { value, derivative: scaled(self.derivative, slope) }
+    }
+}
+
+/// `slope * d`, where 0 stays 0 even under an infinite slope.
+#[inline]
+fn scaled<T: Real, const N: usize>(derivative: [T; N], slope: T) -> [T; N] {
+    if slope.value().is_finite() {
+        derivative.map(|d| slope * d)
+    } else {
+        derivative.map(|d| if d.value() == 0.0 { T::zero() } else { slope * d })
+    }
+}
+
+#[inline]
+fn zip<T: Real, const N: usize>(mut a: [T; N], b: &[T; N], f: impl Fn(T, T) -> T) -> [T; N] {
+    for (a, b) in a.iter_mut().zip(b) {
+        *a = f(*a, *b);
+    }
+    a
+}
+
+impl<T: Real, const N: usize> PartialEq for Dual<T, N> {
+    #[inline]
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+impl<T: Real, const N: usize> PartialOrd for Dual<T, N> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.value.partial_cmp(&other.value)
+    }
+}
+
+impl<T: Real, const N: usize> Add for Dual<T, N> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            derivative: zip(self.derivative, &other.derivative, |a, b| a + b),
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Sub for Dual<T, N> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self {
+            value: self.value - other.value,
+            derivative: zip(self.derivative, &other.derivative, |a, b| a - b),
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Mul for Dual<T, N> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: Self) -> Self {
+        let (x, y) = (self.value, other.value);
+        Self {
+            value: x * y,
+            derivative: zip(self.derivative, &other.derivative, |a, b| a * y + x * b),
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Div for Dual<T, N> {
+    type Output = Self;
+    #[inline]
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        let inverse = T::one() / other.value;
+        Self {
+            value,
+            derivative: zip(self.derivative, &other.derivative, |a, b| (a - value * b) * inverse),
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Neg for Dual<T, N> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self { value: -self.value, derivative: self.derivative.map(|d| -d) }
+    }
+}
+
+impl<T: Real, const N: usize> AddAssign for Dual<T, N> {
+    #[inline]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<T: Real, const N: usize> MulAssign for Dual<T, N> {
+    #[inline]
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl<T: Real, const N: usize> Real for Dual<T, N> {
+    #[inline]
+    fn from_f64(x: f64) -> Self {
+        Self::constant(T::from_f64(x))
+    }
+
+    #[inline]
+    fn value(self) -> f64 {
+        self.value.value()
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        self.chain(self.value.abs(), self.value.sign())
+    }
+
+    #[inline]
+    fn sign(self) -> Self {
+        Self::constant(self.value.sign())
+    }
+
+    #[inline]
+    fn exp(self) -> Self {
+        let value = self.value.exp();
+        // e^(-x) outruns every power of x: 0 is the limit even where the exponent's own
+        // derivative has overflowed, and 0 * inf must not become NaN.
+        if value.value() == 0.0 { Self::constant(value) } else { self.chain(value, value) }
+    }
+
+    #[inline]
+    fn expm1(self) -> Self {
+        let value = self.value.expm1();
+        if value.value() == -1.0 {
+            Self::constant(value)
+        } else {
+            self.chain(value, value + T::one())
+        }
+    }
+
+    #[inline]
+    fn phi(self, order: u8) -> Self {
+        // phi_k' = phi_k - k phi_(k+1)
+        let value = self.value.phi(order);
+        let slope = value - T::from_f64(f64::from(order)) * self.value.phi(order + 1);
+        self.chain(value, slope)
+    }
+
+    #[inline]
+    fn ln(self) -> Self {
+        self.chain(self.value.ln(), T::one() / self.value)
+    }
+
+    #[inline]
+    fn powf(self, p: Self) -> Self {
+        let value = self.value.powf(p.value);
+        if self.value.value() == 0.0 {
+            let slope = if p.value.value() == 1.0 { T::one() } else { T::zero() };
+            return self.chain(value, slope);
+        }
+        let by_base = scaled(self.derivative, p.value * (value / self.value));
+        let by_exponent = scaled(p.derivative, value * self.value.ln());
+        Self { value, derivative: zip(by_base, &by_exponent, |a, b| a + b) }
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        let value = self.value.sqrt();
+        self.chain(value, T::from_f64(0.5) / value)
+    }
+
+    #[inline]
+    fn cbrt(self) -> Self {
+        let value = self.value.cbrt();
+        self.chain(value, T::one() / (T::from_f64(3.0) * value * value))
+    }
+
+    #[inline]
+    fn sin(self) -> Self {
+        self.chain(self.value.sin(), self.value.cos())
+    }
+
+    #[inline]
+    fn cos(self) -> Self {
+        self.chain(self.value.cos(), -self.value.sin())
+    }
+
+    #[inline]
+    fn tanh(self) -> Self {
+        let value = self.value.tanh();
+        self.chain(value, T::one() - value * value)
+    }
+
+    #[inline]
+    fn atan(self) -> Self {
+        self.chain(self.value.atan(), T::one() / (T::one() + self.value * self.value))
+    }
+}

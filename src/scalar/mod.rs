@@ -1,0 +1,121 @@
+//! The numbers a law is written in: `f32`, `f64`, and [`Dual`] where a gradient is wanted.
+
+mod dual;
+
+pub use dual::Dual;
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
+
+/// A real number. Comparison is by value alone.
+pub trait Real:
+    Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + MulAssign
+{
+    /// A constant.
+    fn from_f64(x: f64) -> Self;
+    /// The plain number, without what is carried along.
+    fn value(self) -> f64;
+    /// `|x|`, with derivative `sign(x)`.
+    fn abs(self) -> Self;
+    /// -1, 0 or 1; `sign(0) = 0`, unlike `signum`. A constant to the derivative.
+    fn sign(self) -> Self;
+    /// `e^x`; where it underflows to 0 its derivative is 0 as well.
+    fn exp(self) -> Self;
+    /// `e^x - 1`.
+    fn expm1(self) -> Self;
+    /// `phi_k(x) = sum_j x^j / (j + k)!`, the weights of an exponential step.
+    fn phi(self, order: u8) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// `x^p` for `x >= 0`; at `x = 0` a derivative without a finite value is taken as 0.
+    fn powf(self, p: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Real, odd cube root.
+    fn cbrt(self) -> Self;
+    /// Sine.
+    fn sin(self) -> Self;
+    /// Cosine.
+    fn cos(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Arc tangent.
+    fn atan(self) -> Self;
+
+    /// Zero.
+    #[inline]
+    #[must_use]
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
+
+    /// One.
+    #[inline]
+    #[must_use]
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
+}
+
+macro_rules! primitive {
+    ($float:ident: $($name:ident),+) => {
+        impl Real for $float {
+            #[inline]
+            #[allow(clippy::cast_possible_truncation)]
+            fn from_f64(x: f64) -> Self {
+                x as Self
+            }
+
+            #[inline]
+            fn value(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline]
+            fn abs(self) -> Self {
+                <$float>::abs(self)
+            }
+
+            #[inline]
+            fn sign(self) -> Self {
+                if self > 0.0 {
+                    1.0
+                } else if self < 0.0 {
+                    -1.0
+                } else {
+                    // keeps NaN, turns -0 into 0
+                    self + 0.0
+                }
+            }
+
+            #[inline]
+            fn powf(self, p: Self) -> Self {
+                crate::math::$float::powf(self, p)
+            }
+
+            #[inline]
+            fn phi(self, order: u8) -> Self {
+                crate::math::$float::phi(order, self)
+            }
+
+            $(
+                #[inline]
+                fn $name(self) -> Self {
+                    crate::math::$float::$name(self)
+                }
+            )+
+        }
+    };
+}
+
+primitive!(f64: exp, expm1, ln, sqrt, cbrt, sin, cos, tanh, atan);
+primitive!(f32: exp, expm1, ln, sqrt, cbrt, sin, cos, tanh, atan);

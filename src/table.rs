@@ -1,0 +1,271 @@
+//! The tables that describe laws and effects, and the macro that ties a table to a struct.
+
+use core::fmt;
+
+/// A column of a recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Channel {
+    Velocity,
+    Position,
+    Acceleration,
+    Temperature,
+    LoadTorque,
+    MotorTorque,
+}
+
+impl Channel {
+    /// Every channel.
+    pub const ALL: [Self; 6] = [
+        Self::Velocity,
+        Self::Position,
+        Self::Acceleration,
+        Self::Temperature,
+        Self::LoadTorque,
+        Self::MotorTorque,
+    ];
+
+    /// The name users write.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Position => "position",
+            Self::Acceleration => "acceleration",
+            Self::Temperature => "temperature",
+            Self::LoadTorque => "load_torque",
+            Self::MotorTorque => "motor_torque",
+        }
+    }
+}
+
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What bounds and start of a parameter are multiples of, so that no table depends on units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// As it stands.
+    None,
+    /// Largest |velocity| of the recording.
+    Speed,
+    /// Size of the torque.
+    Torque,
+    /// Torque over the largest excursion in position.
+    Stiffness,
+    /// Torque over speed.
+    Damping,
+    /// Torque over the largest |acceleration|.
+    Inertia,
+    /// The median time step.
+    SamplePeriod,
+}
+
+impl Scale {
+    /// The name users read.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Speed => "speed",
+            Self::Torque => "torque",
+            Self::Stiffness => "stiffness",
+            Self::Damping => "damping",
+            Self::Inertia => "inertia",
+            Self::SamplePeriod => "sample_period",
+        }
+    }
+}
+
+/// How a parameter enters the torque when all [`Role::Nonlinear`] ones are held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Linear in the dry magnitude; linear in the torque unless a bristle stands between.
+    Dry,
+    /// Linear in the rate-dependent part (a bristle's damping too, given its state).
+    Rate,
+    /// Linear in the additive part.
+    Additive,
+    /// Anything else.
+    Nonlinear,
+}
+
+impl Role {
+    /// The name users read.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dry => "dry",
+            Self::Rate => "rate",
+            Self::Additive => "additive",
+            Self::Nonlinear => "nonlinear",
+        }
+    }
+}
+
+/// When a parameter of an effect is part of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presence {
+    /// Always.
+    Always,
+    /// If law or effects have a Stribeck curve.
+    WithStribeck,
+    /// Unless `offset` already explains it.
+    WithoutOffset,
+}
+
+/// One parameter. Units: `T` is the unit of torque or force, `X` that of position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterInfo {
+    /// Physical name.
+    pub name: &'static str,
+    /// Symbol in the formula.
+    pub symbol: &'static str,
+    /// Unit in terms of T, X, s and K.
+    pub unit: &'static str,
+    /// Lower bound of a fit, in multiples of `scale`.
+    pub lower: f64,
+    /// Upper bound of a fit, in multiples of `scale`.
+    pub upper: f64,
+    /// Start of a fit, in multiples of `scale`.
+    pub start: f64,
+    /// What the bounds are multiples of.
+    pub scale: Scale,
+    /// How it enters the torque.
+    pub role: Role,
+    /// When it is part of the model.
+    pub presence: Presence,
+    /// One sentence.
+    pub description: &'static str,
+}
+
+impl ParameterInfo {
+    /// Whether a formula can be evaluated at `value`. Bounds of a fit are narrower: published
+    /// parameters may lie outside them (even `vs < 0`, of which only `|v/vs|` is used).
+    #[must_use]
+    pub fn admits(&self, value: f64) -> bool {
+        value.is_finite()
+            && match self.scale {
+                _ if self.lower <= 0.0 => true,
+                Scale::Speed => value != 0.0,
+                _ => value > 0.0,
+            }
+    }
+}
+
+/// A fixed number of an effect, chosen with the recording and kept with the model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstantInfo {
+    /// Name.
+    pub name: &'static str,
+    /// Unit in terms of T, X, s and K.
+    pub unit: &'static str,
+    /// Value where none is given.
+    pub default: f64,
+    /// One sentence.
+    pub description: &'static str,
+}
+
+/// A friction law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LawInfo {
+    /// Id users write.
+    pub id: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// Paper and equation.
+    pub source: &'static str,
+    /// Formula in plain text.
+    pub formula: &'static str,
+    /// Its parameters, in the order of the source.
+    pub parameters: &'static [ParameterInfo],
+    /// Ids of the effects it has by itself.
+    pub captures: &'static [&'static str],
+}
+
+/// An effect that can be added to a law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EffectInfo {
+    /// Id users write.
+    pub id: &'static str,
+    /// Where the cause lies: friction, measurement, rigid body.
+    pub group: &'static str,
+    /// Title.
+    pub title: &'static str,
+    /// The physical cause, in one plain sentence.
+    pub what: &'static str,
+    /// Formula in plain text.
+    pub formula: &'static str,
+    /// What a recording must contain to show it.
+    pub needs: &'static str,
+    /// Columns it reads besides the velocity.
+    pub channels: &'static [Channel],
+    /// Constants it uses.
+    pub constants: &'static [&'static str],
+    /// Its parameters.
+    pub parameters: &'static [ParameterInfo],
+}
+
+/// A struct of parameters and its table, which [`parameters!`] writes from one statement.
+pub trait Parameters<S>: Sized {
+    /// One row a field, in order.
+    const TABLE: &'static [ParameterInfo];
+
+    /// Fills the fields in order with what `next` yields.
+    fn read(next: impl FnMut(Presence) -> S) -> Self;
+}
+
+/// States field, symbol, unit, bounds, start, scale and role of each parameter once; the doc
+/// comment of a field is its description.
+macro_rules! parameters {
+    (
+        $(#[$meta:meta])*
+        $name:ident {
+            $(
+                #[doc = $description:literal]
+                $field:ident: $symbol:literal [$unit:literal]
+                    $lower:literal .. $upper:literal, start $start:literal,
+                    $scale:ident, $role:ident $(, $presence:ident)?;
+            )+
+        }
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct $name<S> {
+            $(
+                #[doc = $description]
+                pub $field: S,
+            )+
+        }
+
+        impl<S> $crate::table::Parameters<S> for $name<S> {
+            const TABLE: &'static [$crate::table::ParameterInfo] = &[
+                $($crate::table::ParameterInfo {
+                    name: stringify!($field),
+                    symbol: $symbol,
+                    unit: $unit,
+                    lower: $lower,
+                    upper: $upper,
+                    start: $start,
+                    scale: $crate::table::Scale::$scale,
+                    role: $crate::table::Role::$role,
+                    presence: $crate::table::parameters!(@presence $($presence)?),
+                    description: $description.trim_ascii(),
+                },)+
+            ];
+
+            #[inline]
+            fn read(mut next: impl FnMut($crate::table::Presence) -> S) -> Self {
+                Self {
+                    $($field: next($crate::table::parameters!(@presence $($presence)?)),)+
+                }
+            }
+        }
+    };
+    (@presence) => { $crate::table::Presence::Always };
+    (@presence $presence:ident) => { $crate::table::Presence::$presence };
+}
+pub(crate) use parameters;
