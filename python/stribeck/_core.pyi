@@ -7,6 +7,9 @@ from numpy.typing import ArrayLike, NDArray
 class ModelError(ValueError): ...
 
 def catalog() -> dict[str, list[dict[str, Any]]]: ...
+def normal_equations(
+    jacobian: ArrayLike, residual: ArrayLike, group: ArrayLike, groups: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
 @final
 class Model:
     def __new__(
@@ -38,7 +41,8 @@ class Model:
         temperature: ArrayLike | None = None,
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
-        smooth: dict[str, ArrayLike] | None = None,
+        smooth: Mapping[str, ArrayLike] | None = None,
+        shift_load: bool = True,
         state: float = 0.0,
     ) -> NDArray[np.float64]: ...
     def gradient(
@@ -51,7 +55,8 @@ class Model:
         temperature: ArrayLike | None = None,
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
-        smooth: dict[str, ArrayLike] | None = None,
+        smooth: Mapping[str, ArrayLike] | None = None,
+        shift_load: bool = True,
         state: float = 0.0,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def split(

@@ -65,7 +65,7 @@ pub enum TimeStep<'a> {
 }
 
 /// What a model is run over.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Columns<'a> {
     /// Time step.
     pub dt: TimeStep<'a>,
@@ -74,8 +74,23 @@ pub struct Columns<'a> {
     /// Smoothed channels, which a delay interpolates; where absent the recorded ones are used.
     /// Interpolating noise would average it, and a delay win where there is none.
     pub smooth: Channels<'a>,
+    /// Whether a delay shifts the load torque too: yes where the target is motor torque minus
+    /// load torque, no where the load is a term of the model already or friction was measured.
+    pub shift_load: bool,
     /// Deflection of a bristle at the start of every segment [X].
     pub state: f64,
+}
+
+impl Default for Columns<'_> {
+    fn default() -> Self {
+        Self {
+            dt: TimeStep::Unknown,
+            channels: Channels::default(),
+            smooth: Channels::default(),
+            shift_load: true,
+            state: 0.0,
+        }
+    }
 }
 
 impl<'a> Columns<'a> {
@@ -92,13 +107,11 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Adds the load torque to the first of every `width` numbers: a delay shifts the whole
-    /// motor torque, not friction alone.
-    pub(super) fn add_load(&self, series: &mut [f64], width: usize) {
-        if let Some(load) = self.smoothed().load_torque {
-            for (row, load) in series.chunks_exact_mut(width).zip(load) {
-                row[0] += load;
-            }
+    /// Adds the load torque that a delay shifts along with the friction.
+    pub(super) fn add_load(&self, series: &mut [f64]) {
+        let load = self.smoothed().load_torque.filter(|_| self.shift_load);
+        for (sum, load) in series.iter_mut().zip(load.unwrap_or_default()) {
+            *sum += load;
         }
     }
 
@@ -111,7 +124,7 @@ impl<'a> Columns<'a> {
         let delayed = spec.effects().contains(EffectId::Delay);
         for channel in Channel::ALL {
             let read = spec.channels().any(|c| c == channel);
-            let shifted = delayed && channel == Channel::LoadTorque;
+            let shifted = delayed && self.shift_load && channel == Channel::LoadTorque;
             match self.channels.get(channel) {
                 Some(column) if read || shifted => whole(channel.name(), column, rows)?,
                 None if read => return Err(BatchError::Missing(channel)),

@@ -24,6 +24,26 @@ pub enum BatchError {
         /// The velocity's length.
         rows: usize,
     },
+    /// Rows to be summed do not fit together.
+    Unequal {
+        /// Which array.
+        column: &'static str,
+        /// Its rows.
+        length: usize,
+        /// The residual's rows.
+        rows: usize,
+    },
+    /// A row's group does not exist.
+    Group {
+        /// Row, counted from 0.
+        row: usize,
+        /// Its group.
+        group: u32,
+        /// How many groups there are.
+        groups: usize,
+    },
+    /// The sums of so many groups do not fit into memory.
+    TooManyGroups(usize),
     /// A value is NaN or infinite.
     NotFinite {
         /// Which column.
@@ -52,6 +72,15 @@ impl fmt::Display for BatchError {
             Self::NoTimeStep => f.write_str("the model needs the time step 'dt'"),
             Self::Length { column, length, rows } => {
                 write!(f, "column '{column}' has {length} rows but 'velocity' has {rows}")
+            }
+            Self::Unequal { column, length, rows } => {
+                write!(f, "'{column}' has {length} rows but 'residual' has {rows}")
+            }
+            Self::Group { row, group, groups } => {
+                write!(f, "row {row} is in group {group} but there are {groups} groups")
+            }
+            Self::TooManyGroups(groups) => {
+                write!(f, "the sums of {groups} groups do not fit into memory")
             }
             Self::NotFinite { column, row } => {
                 write!(f, "column '{column}' is not finite at row {row}")

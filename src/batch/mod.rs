@@ -3,15 +3,15 @@
 mod columns;
 mod delay;
 mod error;
+mod normal;
 
 pub use columns::{Channels, Columns, TimeStep};
 pub use error::BatchError;
+pub use normal::{NormalEquations, normal_equations};
 
-use std::vec;
 use std::vec::Vec;
 
 use crate::bristle::BristleState;
-use crate::catalog::EffectId;
 use crate::composed::{Composed, Spec};
 use crate::sample::Sample;
 use crate::scalar::{Dual, Real};
@@ -32,7 +32,7 @@ pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<
     if let Some(delay) = &model.effects().delay {
         let mut series = Vec::with_capacity(rows.count());
         evaluate(&model, &rows, columns.smoothed(), columns.state, |t: f64| series.push(t));
-        columns.add_load(&mut series, 1);
+        columns.add_load(&mut series);
         delay::shift(&rows, delay.delay, &series, 1, &mut torque);
     }
     Ok(torque)
@@ -126,33 +126,27 @@ fn gradient_along<const N: usize>(
     }
     let model = spec.with(&variables[..p.min(N)])?;
     let rows = columns.rows(spec)?;
-    // One row holds the torque and then its derivatives, so that a delay shifts all alike.
-    let width = p + 1;
     let run = |channels: Channels<'_>| {
-        let mut series = Vec::with_capacity(rows.count() * width);
+        let mut torque = Vec::with_capacity(rows.count());
+        let mut jacobian = Vec::with_capacity(rows.count() * p);
         evaluate(&model, &rows, channels, columns.state, |t: Dual<f64, N>| {
-            series.push(t.value);
-            series.extend_from_slice(&t.derivative[..p]);
+            torque.push(t.value);
+            jacobian.extend_from_slice(&t.derivative[..p]);
         });
-        series
+        (torque, jacobian)
     };
-    let mut series = run(columns.channels);
+    let (mut torque, mut jacobian) = run(columns.channels);
     if let Some(delay) = &model.effects().delay {
-        let mut shifted = run(columns.smoothed());
-        columns.add_load(&mut shifted, width);
-        let by_delay = delay::shift(&rows, delay.delay.value, &shifted, width, &mut series);
-        let own = spec.parameters().position(|p| p.name == EffectId::Delay.info().id);
-        if let Some(own) = own {
-            for (row, slope) in series.chunks_exact_mut(width).zip(by_delay) {
-                row[own + 1] = slope;
+        let (mut shifted, by_parameters) = run(columns.smoothed());
+        columns.add_load(&mut shifted);
+        let tau = delay.delay.value;
+        let by_delay = delay::shift(&rows, tau, &shifted, 1, &mut torque);
+        delay::shift(&rows, tau, &by_parameters, p, &mut jacobian);
+        if let Some(own) = spec.parameters().position(|info| info.name == "delay") {
+            for (row, slope) in jacobian.chunks_exact_mut(p).zip(by_delay) {
+                row[own] = slope;
             }
         }
-    }
-    let mut torque = Vec::with_capacity(rows.count());
-    let mut jacobian = vec![0.0; rows.count() * p];
-    for (row, out) in series.chunks_exact(width).zip(jacobian.chunks_exact_mut(p)) {
-        torque.push(row[0]);
-        out.copy_from_slice(&row[1..]);
     }
     Ok((torque, jacobian))
 }

@@ -38,6 +38,7 @@ pub(super) struct Arguments<'py> {
     pub load_torque: Option<Array<'py>>,
     pub motor_torque: Option<Array<'py>>,
     pub smooth: Option<BTreeMap<String, Array<'py>>>,
+    pub shift_load: bool,
     pub state: f64,
 }
 
@@ -89,6 +90,7 @@ impl Arguments<'_> {
                 load_torque: smooth(Channel::LoadTorque),
                 motor_torque: smooth(Channel::MotorTorque),
             },
+            shift_load: self.shift_load,
             state: self.state,
         };
         Ok(py.detach(|| work(&columns)))

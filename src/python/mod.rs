@@ -2,7 +2,9 @@
 
 mod catalog;
 mod columns;
+mod identify;
 mod model;
+mod normal;
 
 use std::string::ToString;
 
@@ -28,5 +30,9 @@ mod _core {
     #[pymodule_export]
     use super::catalog::catalog;
     #[pymodule_export]
+    use super::identify::normal_equations;
+    #[pymodule_export]
     use super::model::Model;
+    #[pymodule_export]
+    use super::normal::normal_equations;
 }

@@ -82,7 +82,7 @@ impl Model {
 
     /// Friction torque of every row; with a bristle, at the end of the row's step.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, smooth=None, state=0.0))]
+        load_torque=None, motor_torque=None, smooth=None, shift_load=true, state=0.0))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -96,6 +96,7 @@ impl Model {
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
+        shift_load: bool,
         state: f64,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let values = contiguous(&values);
@@ -108,6 +109,7 @@ impl Model {
             load_torque,
             motor_torque,
             smooth,
+            shift_load,
             state,
         };
         let torque = arguments
@@ -118,7 +120,7 @@ impl Model {
 
     /// Friction torque of every row and its derivatives, one column a parameter.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, smooth=None, state=0.0))]
+        load_torque=None, motor_torque=None, smooth=None, shift_load=true, state=0.0))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -132,6 +134,7 @@ impl Model {
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
+        shift_load: bool,
         state: f64,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let values = contiguous(&values);
@@ -144,6 +147,7 @@ impl Model {
             load_torque,
             motor_torque,
             smooth,
+            shift_load,
             state,
         };
         let (torque, jacobian) = arguments
@@ -180,6 +184,7 @@ impl Model {
             load_torque,
             motor_torque,
             smooth: None,
+            shift_load: true,
             state: 0.0,
         };
         let parts = arguments
