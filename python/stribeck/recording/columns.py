@@ -9,7 +9,15 @@ from dataclasses import dataclass
 from ..errors import RecordingError, nearest
 from .units import SI, Unit, find_unit, parse_unit
 
-__all__ = ["CHANNELS", "Choice", "ParsedName", "choose_columns", "file_unit", "parse_name", "wide_groups"]
+__all__ = [
+    "CHANNELS",
+    "Choice",
+    "ParsedName",
+    "choose_columns",
+    "file_unit",
+    "parse_name",
+    "wide_groups",
+]
 
 _EFFORT = ("torque", "force", "voltage", "percent")
 
@@ -32,28 +40,82 @@ CHANNELS: dict[str, tuple[str, ...]] = {
 _ALIASES: dict[str, tuple[str, ...]] = {
     "time": ("time", "t", "timestamp", "seconds", "elapsed", "times"),
     "position": (
-        "position", "pos", "q", "angle", "theta", "jointposition", "actualq", "qmeas", "qmeasured",
-        "displacement", "jointangle", "qm",
+        "position",
+        "pos",
+        "q",
+        "angle",
+        "theta",
+        "jointposition",
+        "actualq",
+        "qmeas",
+        "qmeasured",
+        "displacement",
+        "jointangle",
+        "qm",
     ),
     "velocity": (
-        "velocity", "vel", "v", "qd", "dq", "qdot", "omega", "speed", "jointvelocity", "actualqd",
-        "qdmeas", "thetadot", "dtheta", "qp",
+        "velocity",
+        "vel",
+        "v",
+        "qd",
+        "dq",
+        "qdot",
+        "omega",
+        "speed",
+        "jointvelocity",
+        "actualqd",
+        "qdmeas",
+        "thetadot",
+        "dtheta",
+        "qp",
     ),
     "acceleration": (
-        "acceleration", "acc", "accel", "a", "qdd", "ddq", "qddot", "jointacceleration", "qpp",
+        "acceleration",
+        "acc",
+        "accel",
+        "a",
+        "qdd",
+        "ddq",
+        "qddot",
+        "jointacceleration",
+        "qpp",
     ),
     "torque": (
-        "torque", "tau", "effort", "force", "motortorque", "taum", "tm", "jointtorque", "jointeffort",
-        "taumeas", "actualtorque", "motorforce",
+        "torque",
+        "tau",
+        "effort",
+        "force",
+        "motortorque",
+        "taum",
+        "tm",
+        "jointtorque",
+        "jointeffort",
+        "taumeas",
+        "actualtorque",
+        "motorforce",
     ),
     "current": ("current", "i", "motorcurrent", "iq", "actualcurrent", "jointcurrent"),
     "load_torque": ("loadtorque", "tl", "tauload", "load", "tload", "loadforce"),
-    "friction_torque": ("frictiontorque", "tf", "taufriction", "tfriction", "frictionforce", "friction"),
+    "friction_torque": (
+        "frictiontorque",
+        "tf",
+        "taufriction",
+        "tfriction",
+        "frictionforce",
+        "friction",
+    ),
     "temperature": ("temperature", "temp", "jointtemperature", "motortemperature"),
     "joint": ("joint", "jointname", "jointid", "axis"),
     "run": ("run", "runid", "trial", "repetition"),
 }
 _CHANNEL_OF = {alias: channel for channel, aliases in _ALIASES.items() for alias in aliases}
+
+# Channels not looked for when another one already says what they would.
+_INSTEAD = {
+    "torque": ("friction_torque",),
+    "current": ("torque", "friction_torque"),
+    "load_torque": ("friction_torque",),
+}
 
 
 @dataclass(frozen=True)
@@ -199,17 +261,23 @@ def choose_columns(
             )
         if column not in known and column != "none":
             hint = nearest(column, names) or f"; the file has {', '.join(names)}"
-            raise RecordingError(f"{path}: --map {channel}={column}: there is no column '{column}'{hint}")
+            raise RecordingError(
+                f"{path}: --map {channel}={column}: there is no column '{column}'{hint}"
+            )
     for column in units:
         if column not in known and column not in CHANNELS:
             hint = nearest(column, names) or f"; the file has {', '.join(names)}"
-            raise RecordingError(f"{path}: --unit {column}={units[column]}: there is no column '{column}'{hint}")
+            raise RecordingError(
+                f"{path}: --unit {column}={units[column]}: there is no column '{column}'{hint}"
+            )
 
     wide = wide_groups(names)
     follow = index
     if follow is None:
         # Maps that all name one joint of a wide file say which joint is meant.
-        named = {parse_name(c).index for c in maps.values()} | {_any_index(c) for c in maps.values()}
+        named = {parse_name(c).index for c in maps.values()} | {
+            _any_index(c) for c in maps.values()
+        }
         indices = {i for i in named if i is not None}
         if len(indices) == 1:
             follow = indices.pop()
@@ -224,13 +292,17 @@ def choose_columns(
         if channel in derived:
             chosen[channel] = _choice(path, channel, channel, units, mapped=False)
             continue
+        if channel in _INSTEAD and any(c in maps or c in chosen for c in _INSTEAD[channel]):
+            continue
         candidates = [p for p in map(parse_name, names) if p.channel == channel]
         plain = [p for p in candidates if p.index is None]
         indexed = [p for p in candidates if p.index is not None]
         if not plain and channel in wide:
             columns = wide[channel]
             if follow is not None and follow in columns:
-                notes.append(f"{channel} is read from '{columns[follow]}', the joint that was named")
+                notes.append(
+                    f"{channel} is read from '{columns[follow]}', the joint that was named"
+                )
                 plain = [parse_name(columns[follow])]
             elif index is not None:
                 raise RecordingError(
@@ -238,8 +310,6 @@ def choose_columns(
                     f"name one of {', '.join(columns)}"
                 )
             elif "velocity" in maps and channel in ("position", "acceleration"):
-                continue
-            elif channel == "current" and ("torque" in chosen or "friction_torque" in maps):
                 continue
             else:
                 raise RecordingError(_wide_sentence(path, wide))
@@ -271,7 +341,9 @@ def _any_index(name: str) -> str | None:
     return match.group(1) if match else None
 
 
-def _choice(path: str, channel: str, column: str, units: Mapping[str, str], *, mapped: bool) -> Choice:
+def _choice(
+    path: str, channel: str, column: str, units: Mapping[str, str], *, mapped: bool
+) -> Choice:
     dimensions = CHANNELS[channel]
     if not dimensions:
         return Choice(channel, column, None, "map" if mapped else "name")

@@ -16,9 +16,9 @@ Ints = NDArray[np.int64]
 
 _ORDER = 4
 _HIGHEST = 0.4  # of the sampling rate: a cut-off above leaves nothing worth removing
-_MARGIN = 2.0  # the pass band ends well above the frequency where motion meets noise
+_MARGIN = 1.25  # the pass band ends a little above the frequency where motion meets noise
+_ABOVE = 4.0  # motion is seen where the spectrum is this many times the noise
 _UNIFORM = 0.01  # steps within 1 % of their mean are taken as uniform
-_JITTER_GRID = 1.0
 
 
 def _grid(t: Floats) -> tuple[Floats, bool]:
@@ -29,7 +29,7 @@ def _grid(t: Floats) -> tuple[Floats, bool]:
     if uniform:
         return t, True
     step = float(np.median(np.diff(t)))
-    count = max(n, round((t[-1] - t[0]) / step * _JITTER_GRID) + 1)
+    count = max(n, round((t[-1] - t[0]) / step) + 1)
     return np.linspace(t[0], t[-1], count), False
 
 
@@ -38,8 +38,8 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
 
     The spectrum of the differenced signal (differencing keeps the strong slow motion from leaking
     over the weak fast one) is divided by the response of the difference. Its high-frequency plateau
-    is the noise; the highest frequency where the spectrum stands at twice the plateau is where
-    motion and noise are equal. A filter there serves the signal and all its derivatives.
+    is the noise; motion ends at the highest frequency where the spectrum stands clearly above it. The
+    cut-off does not depend on the derivative wanted: both motion and noise grow alike with it.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
     noise = float(np.median(plateau))
     if noise <= 0.0:
         return None
-    above = _smooth(density) > 2.0 * noise
+    above = _smooth(density) > _ABOVE * noise
     if not above.any():
         return None
     meeting = float(frequency[np.flatnonzero(above)[-1]])
@@ -119,9 +119,9 @@ def _slope(x: Floats, step: float) -> Floats:
     n = len(x)
     d = np.gradient(x, step) if n > 1 else np.zeros(n)
     if n >= 7:
-        d[3:-3] = (
-            45.0 * (x[4:-2] - x[2:-4]) - 9.0 * (x[5:-1] - x[1:-5]) + (x[6:] - x[:-6])
-        ) / (60.0 * step)
+        d[3:-3] = (45.0 * (x[4:-2] - x[2:-4]) - 9.0 * (x[5:-1] - x[1:-5]) + (x[6:] - x[:-6])) / (
+            60.0 * step
+        )
     return d
 
 
@@ -156,8 +156,10 @@ class Smoother:
                 continue
             grid, uniform = _grid(t)
             rate = (len(grid) - 1) / (grid[-1] - grid[0])
-            short = self.cutoff is None or n < max(16, int(rate / self.cutoff)) or (
-                self.cutoff >= _HIGHEST * rate
+            short = (
+                self.cutoff is None
+                or n < max(16, int(rate / self.cutoff))
+                or (self.cutoff >= _HIGHEST * rate)
             )
             if short and not derivative:
                 out[part] = x

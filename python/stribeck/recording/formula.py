@@ -74,7 +74,9 @@ def compile_formula(text: str, schema: Mapping[str, pl.DataType], where: str) ->
             hint = " (equality is written ==)"
         elif "&&" in plain or "||" in plain:
             hint = " (write 'and', 'or')"
-        raise RecordingError(f"{where}: '{text}' is not a formula, at position {position}{hint}") from None
+        raise RecordingError(
+            f"{where}: '{text}' is not a formula, at position {position}{hint}"
+        ) from None
     except (ValueError, RecursionError, MemoryError):
         raise RecordingError(f"{where}: '{text[:80]}' is not a formula") from None
     try:
@@ -85,7 +87,12 @@ def compile_formula(text: str, schema: Mapping[str, pl.DataType], where: str) ->
 
 class _Translator:
     def __init__(
-        self, text: str, schema: Mapping[str, pl.DataType], where: str, quoted: dict[str, str], shift: int
+        self,
+        text: str,
+        schema: Mapping[str, pl.DataType],
+        where: str,
+        quoted: dict[str, str],
+        shift: int,
     ) -> None:
         self.text = text
         self.schema = schema
@@ -144,8 +151,11 @@ class _Translator:
             return self.compare(node), "truth"
         if isinstance(node, ast.Call):
             return self.call(node), "number"
-        self.refuse(node, "only numbers, texts, columns, + - * / **, comparisons, and/or/not and "
-                          f"{', '.join(_FUNCTIONS)} are available, not what stands")
+        self.refuse(
+            node,
+            "only numbers, texts, columns, + - * / **, comparisons, and/or/not and "
+            f"{', '.join(_FUNCTIONS)} are available, not what stands",
+        )
 
     def constant(self, node: ast.Constant) -> tuple[pl.Expr, str]:
         value = node.value
@@ -175,8 +185,12 @@ class _Translator:
                 return pl.lit(name == "true"), "truth"
             else:
                 hint = nearest(name, self.schema) or f"; the file has {', '.join(self.schema)}"
-                self.refuse(node, f"unknown column '{name}'{hint} It stands" if hint.endswith("?")
-                            else f"unknown column '{name}'{hint}; it stands")
+                self.refuse(
+                    node,
+                    f"unknown column '{name}'{hint} It stands"
+                    if hint.endswith("?")
+                    else f"unknown column '{name}'{hint}; it stands",
+                )
         if name not in self.columns:
             self.columns.append(name)
         dtype = self.schema[name]
@@ -216,7 +230,9 @@ class _Translator:
         for i, operator in enumerate(node.ops):
             (left, left_kind), (right, right_kind) = visited[i], visited[i + 1]
             if (left_kind == "text") != (right_kind == "text"):
-                self.refuse(operands[i + 1], "text is compared with a number (only text stands in quotes)")
+                self.refuse(
+                    operands[i + 1], "text is compared with a number (only text stands in quotes)"
+                )
             if left_kind != right_kind:
                 left, right = left.cast(pl.Float64), right.cast(pl.Float64)
             if isinstance(operator, ast.Eq):
@@ -241,7 +257,9 @@ class _Translator:
         self.product = False
         if not isinstance(node.func, ast.Name) or node.func.id not in _FUNCTIONS:
             name = node.func.id if isinstance(node.func, ast.Name) else "this"
-            self.refuse(node, f"'{name}' is not a function here (there are {', '.join(_FUNCTIONS)}),")
+            self.refuse(
+                node, f"'{name}' is not a function here (there are {', '.join(_FUNCTIONS)}),"
+            )
         if node.keywords or any(isinstance(argument, ast.Starred) for argument in node.args):
             self.refuse(node, "functions take plain arguments only,")
         name = node.func.id

@@ -62,7 +62,9 @@ def _number(value: float | None, flag: str, *, positive: bool) -> float | None:
     except (TypeError, ValueError):
         raise RecordingError(f"{flag} {value}: is not a number") from None
     if not math.isfinite(number) or (positive and number <= 0.0):
-        raise RecordingError(f"{flag} {value}: must be a finite number{' above zero' if positive else ''}")
+        raise RecordingError(
+            f"{flag} {value}: must be a finite number{' above zero' if positive else ''}"
+        )
     return number
 
 
@@ -111,7 +113,7 @@ def gather(
     constant = _number(torque_constant, "--torque-constant", positive=True)
     if constant is None:
         constant = said.numbers.get("torque_constant")
-    terms = {
+    terms: dict[str, float] = {
         key: said.numbers[key]
         for key in ("inertia", "gravity_cos", "gravity_sin", "gravity")
         if key in said.numbers
@@ -121,7 +123,9 @@ def gather(
         if moved < 0.0:
             raise RecordingError(f"--inertia {inertia}: must not be negative")
         terms["inertia"] = moved
-    motor = {key: said.numbers[key] for key in ("km", "kb", "kt", "screw_pitch") if key in said.numbers}
+    motor: dict[str, float] = {
+        key: said.numbers[key] for key in ("km", "kb", "kt", "screw_pitch") if key in said.numbers
+    }
     if ratio != 1.0:
         motor["gear_ratio"] = ratio
     if constant is not None:

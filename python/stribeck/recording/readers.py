@@ -165,7 +165,10 @@ def _read_text(name: str, data: bytes, suffix: str) -> tuple[pl.DataFrame, int]:
             )
     else:
         start += 1
-    header = [cell.strip().strip('"').strip("'").strip() or f"column_{i + 1}" for i, cell in enumerate(header)]
+    header = [
+        cell.strip().strip('"').strip("'").strip() or f"column_{i + 1}"
+        for i, cell in enumerate(header)
+    ]
     twice = [column for column, count in Counter(header).items() if count > 1]
     if twice:
         raise RecordingError(f"{name}: two columns are both called '{twice[0]}', rename one")
@@ -238,7 +241,9 @@ def _from_arrays(name: str, arrays: Mapping[str, Any]) -> pl.DataFrame:
     return pl.DataFrame({key: column for key, column in columns.items() if len(column) == length})
 
 
-def _spread(key: str, value: np.ndarray[Any, Any], columns: dict[str, np.ndarray[Any, Any]]) -> None:
+def _spread(
+    key: str, value: np.ndarray[Any, Any], columns: dict[str, np.ndarray[Any, Any]]
+) -> None:
     if value.dtype.names:
         # A struct: its fields are the columns; a struct array of one is how MATLAB stores it.
         for field in value.dtype.names:
@@ -274,12 +279,18 @@ def _read_npz(name: str, data: bytes) -> pl.DataFrame:
             arrays = {key: archive[key] for key in archive.files}
     except Exception as error:  # the zip and pickle layers raise many kinds
         reason = str(error).splitlines()[0][:100] if str(error) else type(error).__name__
-        raise RecordingError(f"{name}: is not a whole .npz file ({reason}): write it again") from None
+        raise RecordingError(
+            f"{name}: is not a whole .npz file ({reason}): write it again"
+        ) from None
     return _from_arrays(name, arrays)
 
 
 def _read_mat(name: str, data: bytes) -> pl.DataFrame:
-    if re.match(rb"MATLAB 7\.3", data[:32]) or data[512:520] == b"\x89HDF\r\n\x1a\n" or data[:4] == b"\x89HDF":
+    if (
+        re.match(rb"MATLAB 7\.3", data[:32])
+        or data[512:520] == b"\x89HDF\r\n\x1a\n"
+        or data[:4] == b"\x89HDF"
+    ):
         return _read_mat73(name, data)
     from scipy.io import loadmat
 
@@ -287,8 +298,12 @@ def _read_mat(name: str, data: bytes) -> pl.DataFrame:
         loaded = loadmat(io.BytesIO(data))
     except Exception as error:  # scipy raises many kinds on damaged files
         reason = str(error).splitlines()[0][:100] if str(error) else type(error).__name__
-        raise RecordingError(f"{name}: is not a whole .mat file ({reason}): save it again") from None
-    return _from_arrays(name, {key: value for key, value in loaded.items() if not key.startswith("__")})
+        raise RecordingError(
+            f"{name}: is not a whole .mat file ({reason}): save it again"
+        ) from None
+    return _from_arrays(
+        name, {key: value for key, value in loaded.items() if not key.startswith("__")}
+    )
 
 
 def _read_mat73(name: str, data: bytes) -> pl.DataFrame:
@@ -304,7 +319,11 @@ def _read_mat73(name: str, data: bytes) -> pl.DataFrame:
         with h5py.File(io.BytesIO(data), "r") as file:
 
             def take(key: str, item: Any) -> None:
-                if isinstance(item, h5py.Dataset) and not key.startswith("#") and item.dtype.kind in "biuf":
+                if (
+                    isinstance(item, h5py.Dataset)
+                    and not key.startswith("#")
+                    and item.dtype.kind in "biuf"
+                ):
                     arrays[key.rsplit("/", 1)[-1]] = item[()]
 
             file.visititems(take)

@@ -16,7 +16,14 @@ from .columns import file_unit, wide_groups
 from .derive import Smoother, choose_cutoff
 from .options import Pairs, gather
 from .readers import read_table
-from .rows import SIGMAS, held_out_blocks, noise_level, quantisation_step, segment_rows, segment_slices
+from .rows import (
+    SIGMAS,
+    held_out_blocks,
+    noise_level,
+    quantisation_step,
+    segment_rows,
+    segment_slices,
+)
 from .table import (
     Prepared,
     apply_formulas,
@@ -178,7 +185,14 @@ class Recording:
     def to_frame(self) -> pl.DataFrame:
         """Return the channels as a polars frame, one row a sample."""
         data: dict[str, Any] = {"time": self.time}
-        for name in ("position", "velocity", "acceleration", "torque", "load_torque", "temperature"):
+        for name in (
+            "position",
+            "velocity",
+            "acceleration",
+            "torque",
+            "load_torque",
+            "temperature",
+        ):
             values = getattr(self, name)
             if values is not None:
                 data[name] = values
@@ -327,7 +341,9 @@ def _need(prepared: Prepared) -> None:
     have = prepared.choices
     there = f"the file has {', '.join(prepared.table.columns)}"
     if "time" not in have and not prepared.options.average:
-        raise RecordingError(f"{path}: there is no time column; {there}: say which with --map time=COLUMN")
+        raise RecordingError(
+            f"{path}: there is no time column; {there}: say which with --map time=COLUMN"
+        )
     if "velocity" not in have and "position" not in have:
         raise RecordingError(
             f"{path}: there is neither a velocity nor a position column; {there}: say which with "
@@ -369,7 +385,9 @@ class _Channels:
                 f"{channel} is read from '{choice.source}' in {choice.unit.name}, converted to {unit}"
             )
         elif choice.unit is not None and choice.said_by == "option" and choice.unit.name != unit:
-            self.notes.append(f"'{choice.source}' is in {choice.unit.name} as said, converted to {unit}")
+            self.notes.append(
+                f"'{choice.source}' is in {choice.unit.name} as said, converted to {unit}"
+            )
 
     def keep(self, mask: Bools) -> None:
         self.rows = self.rows[mask]
@@ -378,7 +396,8 @@ class _Channels:
 
 def _wanted(prepared: Prepared) -> list[str]:
     have = prepared.choices
-    wanted = [c for c in ("time", "position", "velocity", "acceleration", "temperature") if c in have]
+    motion = ("time", "position", "velocity", "acceleration", "temperature")
+    wanted: list[str] = [c for c in motion if c in have]
     # Friction measured directly stands instead of torque and load; where a file has all three
     # without being told, the torque is what was measured and the friction what someone computed.
     direct = "friction_torque" in have and (
@@ -408,7 +427,9 @@ def _build(prepared: Prepared, joint: str | None, rows: Ints) -> Recording:
         needed = needed or (channel == "position" and "velocity" not in data.values)
         if channel in data.values and not needed and not np.isfinite(data.values[channel]).any():
             del data.values[channel]
-            data.notes.append(f"{channel} ('{prepared.choices[channel].source}') is empty and left out")
+            data.notes.append(
+                f"{channel} ('{prepared.choices[channel].source}') is empty and left out"
+            )
     if "velocity" not in data.values and "position" not in data.values:
         raise RecordingError(f"{path}: velocity and position hold no numbers")
     run_names, run = _runs(data)
@@ -431,7 +452,11 @@ def _build(prepared: Prepared, joint: str | None, rows: Ints) -> Recording:
     for channel, values in data.values.items():
         choice = prepared.choices[channel]
         data.columns[channel] = _column(
-            channel, choice.source, units.get(channel, torque_unit), choice.source in prepared.derived, values
+            channel,
+            choice.source,
+            units.get(channel, torque_unit),
+            choice.source in prepared.derived,
+            values,
         )
     if prepared.rows_removed:
         data.notes.append(f"{prepared.rows_removed} rows removed by where: {options.where}")
@@ -448,11 +473,15 @@ def _runs(data: _Channels) -> tuple[tuple[str, ...], Ints]:
     choice = data.prepared.choices.get("run")
     if choice is None:
         if data.prepared.options.average:
-            raise RecordingError(f"{data.path}: --average run needs a run column: say which with --map run=COLUMN")
+            raise RecordingError(
+                f"{data.path}: --average run needs a run column: say which with --map run=COLUMN"
+            )
         return ("",), np.zeros(len(data.rows), dtype=np.int64)
     names = labels(data.prepared.table[data.rows], choice.source)
     number: dict[str, int] = {}
-    codes = np.fromiter((number.setdefault(n, len(number)) for n in names), dtype=np.int64, count=len(names))
+    codes = np.fromiter(
+        (number.setdefault(n, len(number)) for n in names), dtype=np.int64, count=len(names)
+    )
     return tuple(number), codes
 
 
@@ -474,7 +503,11 @@ def _drop_missing(data: _Channels, run: Ints) -> None:
     place = data.prepared.source.place(int(data.prepared.row[data.rows[first]]))
     if total >= _MISSING_SHARE * len(bad):
         optional = worst in ("temperature", "load_torque", "acceleration")
-        advice = f"leave the column out with --map {worst}=none" if optional else "mend the file or use --where"
+        advice = (
+            f"leave the column out with --map {worst}=none"
+            if optional
+            else "mend the file or use --where"
+        )
         raise RecordingError(
             f"{data.path}: {total} of {len(bad)} rows have empty, NaN or infinite cells, {most} of them "
             f"in column '{source}', first in {place}: {advice}"
@@ -489,7 +522,9 @@ def _drop_missing(data: _Channels, run: Ints) -> None:
 def _check_time(data: _Channels, run: Ints) -> None:
     n = len(data.rows)
     if n < 2:
-        raise RecordingError(f"{data.path}: {n} sample is not a recording, at least two rows are needed")
+        raise RecordingError(
+            f"{data.path}: {n} sample is not a recording, at least two rows are needed"
+        )
     if "time" not in data.values or data.prepared.options.average:
         return
     time = data.values["time"]
@@ -501,10 +536,16 @@ def _check_time(data: _Channels, run: Ints) -> None:
     place = data.prepared.source.place(int(data.prepared.row[data.rows[at]]))
     column = data.prepared.choices["time"].source
     before, now = time[at - 1], time[at]
-    what = f"is repeated ({now:.9g} s)" if now == before else f"runs backwards from {before:.9g} to {now:.9g} s"
+    what = (
+        f"is repeated ({now:.9g} s)"
+        if now == before
+        else f"runs backwards from {before:.9g} to {now:.9g} s"
+    )
     if "run" in data.prepared.choices:
         inside = f" inside run '{_runs(data)[0][int(run[at])]}'"
-        advice = "correct the file, or name the column that tells the runs apart with --map run=COLUMN"
+        advice = (
+            "correct the file, or name the column that tells the runs apart with --map run=COLUMN"
+        )
     else:
         inside = ""
         guess = _run_columns(data, at)
@@ -540,11 +581,15 @@ def _kinds(data: _Channels) -> tuple[str, str, str]:
     said = data.prepared.options.joint_kind
     linear = {"m", "m/s", "m/s2"}
     angular = {"rad", "rad/s", "rad/s2"}
-    motion = {c: data.units[c] for c in ("position", "velocity", "acceleration") if data.units.get(c)}
+    motion = {
+        c: data.units[c] for c in ("position", "velocity", "acceleration") if data.units.get(c)
+    }
     lines = [c for c, u in motion.items() if u in linear]
     turns = [c for c, u in motion.items() if u in angular]
     pitch = data.prepared.options.screw_pitch
-    effort = next((c for c in ("friction_torque", "torque", "current") if c in data.values), "torque")
+    effort = next(
+        (c for c in ("friction_torque", "torque", "current") if c in data.values), "torque"
+    )
     effort_unit = data.units.get(effort, "")
     if lines and turns:
         raise RecordingError(
@@ -581,7 +626,9 @@ def _kinds(data: _Channels) -> tuple[str, str, str]:
         per_rad = pitch / (2.0 * np.pi)
         for channel in motion:
             data.values[channel] = data.values[channel] * per_rad
-        data.notes.append(f"motion and torque of the screw converted with its pitch of {pitch:g} m per turn")
+        data.notes.append(
+            f"motion and torque of the screw converted with its pitch of {pitch:g} m per turn"
+        )
     natural = "N" if kind == "prismatic" else "N m"
     unit = effort_unit or natural
     if effort == "current":
@@ -707,7 +754,9 @@ def _sampled(
         velocity = velocity_smooth = smoother.smooth(position, 1)
         slope = smoother.smooth(position, 2)
         origin = "position"
-        data.columns["velocity"] = _column("velocity", "position", f"{position_unit}/s", True, velocity)
+        data.columns["velocity"] = _column(
+            "velocity", "position", f"{position_unit}/s", True, velocity
+        )
         data.notes.append(_derived_note("velocity", "position", cutoff))
     if acceleration is None:
         acceleration = acceleration_smooth = slope
@@ -723,13 +772,17 @@ def _sampled(
     if load is None:
         load = _load(data, position, acceleration, torque_unit, smooth=False)
         if load is not None:
-            load_smooth = _load(data, position_smooth, acceleration_smooth, torque_unit, smooth=True)
+            load_smooth = _load(
+                data, position_smooth, acceleration_smooth, torque_unit, smooth=True
+            )
     top = float(np.abs(velocity).max())
     threshold = max(SIGMAS * sigma, 1e-6 * top)
     moving = np.abs(velocity) > threshold
     if not moving.any():
-        what = "velocity is zero throughout" if top == 0.0 else (
-            f"no row is faster than its own noise ({threshold:.3g} {position_unit}/s)"
+        what = (
+            "velocity is zero throughout"
+            if top == 0.0
+            else (f"no row is faster than its own noise ({threshold:.3g} {position_unit}/s)")
         )
         raise RecordingError(f"{data.path}: nothing moves, {what}: give a recording with motion")
     block, count = held_out_blocks(dt, segment, run, typical)
@@ -755,7 +808,9 @@ def _sampled(
 def _derived_note(name: str, source: str, cutoff: float | None) -> str:
     if cutoff is None:
         return f"{name} derived from {source}, no filter: the data show no noise above the motion"
-    return f"{name} derived from {source}, zero-phase low-pass at {cutoff:.3g} Hz chosen from the data"
+    return (
+        f"{name} derived from {source}, zero-phase low-pass at {cutoff:.3g} Hz chosen from the data"
+    )
 
 
 def _averaged(
@@ -776,25 +831,37 @@ def _averaged(
     starts = np.flatnonzero(np.concatenate(([True], run[1:] != run[:-1])))
     parts = np.split(np.arange(len(run)), starts[1:])
     if n < 2:
-        raise RecordingError(f"{data.path}: one run averages to one point, at least two runs are needed")
-    sigma = float(np.median([_median_error(data.values["velocity"][part]) for part in parts]))
+        raise RecordingError(
+            f"{data.path}: one run averages to one point, at least two runs are needed"
+        )
+    errors = np.array([_median_error(data.values["velocity"][part]) for part in parts])
     medians = {
         name: np.array([float(np.median(values[part])) for part in parts])
         for name, values in data.values.items()
     }
     data.values = medians
     velocity = medians["velocity"]
+    # The threshold parts slow runs from standing ones, and scatter grows with speed: the slowest
+    # quarter of the runs says how well a slow median is known.
+    slowest = np.argsort(np.abs(velocity), kind="stable")[: max(1, n // 4)]
+    sigma = float(np.median(errors[slowest]))
     position = medians.get("position")
     still = np.zeros(n)
-    data.columns["acceleration"] = Column("acceleration", "steady runs", f"{position_unit}/s2", True, 0.0, 0.0)
-    data.notes.append(f"one row per run: the median of each channel over {n} runs, acceleration zero")
+    data.columns["acceleration"] = Column(
+        "acceleration", "steady runs", f"{position_unit}/s2", True, 0.0, 0.0
+    )
+    data.notes.append(
+        f"one row per run: the median of each channel over {n} runs, acceleration zero"
+    )
     torque, load = _torque(data)
     if load is None:
         load = _load(data, position, still, torque_unit, smooth=False)
     if load is None and position is None:
         # Neither inertia nor gravity could be told from steady points without a position.
         load = still
-        data.notes.append("steady runs without position or load: all of the torque is taken as friction")
+        data.notes.append(
+            "steady runs without position or load: all of the torque is taken as friction"
+        )
     top = float(np.abs(velocity).max())
     threshold = max(SIGMAS * sigma, 1e-6 * top)
     moving = np.abs(velocity) > threshold
@@ -828,7 +895,7 @@ def _median_error(values: Floats) -> float:
     scatter = float(np.median(np.abs(values - np.median(values)))) / 0.6745
     # The scatter of a coarsely quantised channel is at least that of its steps.
     scatter = max(scatter, quantisation_step(values) / np.sqrt(12.0))
-    return 1.2533 * scatter / float(np.sqrt(len(values)))
+    return float(1.2533 * scatter / np.sqrt(len(values)))
 
 
 # ------------------------------------------------------------------------------------ scanning
@@ -867,13 +934,21 @@ def scan(
         source = read_table(str(path))
         table, row, derived, _, notes = apply_formulas(source, options)
         prepared = Prepared(
-            source, options, table, row, {}, derived, source.table.height - table.height, tuple(notes)
+            source,
+            options,
+            table,
+            row,
+            {},
+            derived,
+            source.table.height - table.height,
+            tuple(notes),
         )
     wide = wide_groups(table.columns) if not prepared.choices else {}
     joints = tuple(joints_of(prepared)) or tuple(next(iter(wide.values()), {}))
     used = {choice.source: channel for channel, choice in prepared.choices.items()}
     columns = tuple(
-        _file_column(table[name], name in prepared.derived, used.get(name)) for name in table.columns
+        _file_column(table[name], name in prepared.derived, used.get(name))
+        for name in table.columns
     )
     channels: dict[str, Column] = {}
     for channel, choice in prepared.choices.items():
@@ -886,7 +961,9 @@ def scan(
             continue
         finite = values[np.isfinite(values)]
         if finite.size:
-            channels[channel] = _column(channel, choice.source, si, choice.source in prepared.derived, finite)
+            channels[channel] = _column(
+                channel, choice.source, si, choice.source in prepared.derived, finite
+            )
     runs, rate, gaps = _pace(prepared)
     return Table(
         source.path, source.sha256, table.height, joints, bool(wide), runs, columns, channels, rate,
@@ -905,7 +982,14 @@ def _file_column(series: pl.Series, derived: bool, channel: str | None) -> FileC
         if finite.size:
             low, high = float(finite.min()), float(finite.max())
     return FileColumn(
-        series.name, str(series.dtype), unit.name if unit else None, low, high, int(missing), derived, channel
+        series.name,
+        str(series.dtype),
+        unit.name if unit else None,
+        low,
+        high,
+        int(missing),
+        derived,
+        channel,
     )
 
 
@@ -923,10 +1007,10 @@ def _pace(prepared: Prepared) -> tuple[int, float | None, int | None]:
     keys = [labels(prepared.table, choices[c].source) for c in ("joint", "run") if c in choices]
     number: dict[tuple[str, ...], int] = {}
     rows = zip(*keys, strict=True) if keys else (("",) for _ in range(len(time)))
-    code = np.fromiter((number.setdefault(k, len(number)) for k in rows), dtype=np.int64, count=len(time))
+    code = np.fromiter(
+        (number.setdefault(k, len(number)) for k in rows), dtype=np.int64, count=len(time)
+    )
     order = np.argsort(code, kind="stable")
     segment, _, typical = segment_rows(time[order], code[order], prepared.row[order])
     gaps = int(segment[-1]) + 1 - len(number)
     return len(number), 1.0 / typical if typical > 0.0 else None, gaps
-
-

@@ -143,7 +143,7 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
             sigma = min(this, following)
             break
     step = quantisation_step(value) if quantum is None else quantum
-    return max(sigma, step / np.sqrt(12.0))
+    return float(max(sigma, step / np.sqrt(12.0)))
 
 
 def held_out_blocks(dt: Floats, segment: Ints, run: Ints, typical: float) -> tuple[Ints, int]:

@@ -82,7 +82,9 @@ def read_sidecar(path: str | Path) -> Sidecar:
     except UnicodeDecodeError:
         raise RecordingError(f"{name}: the sidecar is not UTF-8 text") from None
     except OSError as error:
-        raise RecordingError(f"{name}: the sidecar cannot be read ({error.strerror or error})") from None
+        raise RecordingError(
+            f"{name}: the sidecar cannot be read ({error.strerror or error})"
+        ) from None
     try:
         said = _parse(text)
     except ValueError as error:
@@ -95,18 +97,28 @@ def read_sidecar(path: str | Path) -> Sidecar:
     if said.get("kind") != "recording":
         where = _line(text, "kind") if "kind" in said else "line 1"
         got = f"kind is {said['kind']!r}" if "kind" in said else "there is no kind"
-        raise RecordingError(f"{name}, {where}: {got}: a sidecar needs kind = \"recording\"")
+        raise RecordingError(f'{name}, {where}: {got}: a sidecar needs kind = "recording"')
     numbers: dict[str, float] = {}
     for key in _NUMBERS:
         if key not in said:
             continue
         value = said[key]
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-            raise RecordingError(f"{name}, {_line(text, key)}: {key} must be a finite number, not {value!r}")
+        if (
+            isinstance(value, bool)
+            or not isinstance(value, (int, float))
+            or not math.isfinite(value)
+        ):
+            raise RecordingError(
+                f"{name}, {_line(text, key)}: {key} must be a finite number, not {value!r}"
+            )
         if (key in _POSITIVE and value <= 0.0) or (key == "gear_ratio" and value == 0.0):
-            raise RecordingError(f"{name}, {_line(text, key)}: {key} must be above zero, not {value!r}")
+            raise RecordingError(
+                f"{name}, {_line(text, key)}: {key} must be above zero, not {value!r}"
+            )
         if key == "inertia" and value < 0.0:
-            raise RecordingError(f"{name}, {_line(text, key)}: inertia must not be negative, it is {value!r}")
+            raise RecordingError(
+                f"{name}, {_line(text, key)}: inertia must not be negative, it is {value!r}"
+            )
         numbers[key] = float(value)
     texts: dict[str, str] = {}
     for key in _TEXTS:
@@ -114,13 +126,17 @@ def read_sidecar(path: str | Path) -> Sidecar:
             if key == "joint" and isinstance(said[key], int):
                 said[key] = str(said[key])
             if not isinstance(said[key], str):
-                raise RecordingError(f"{name}, {_line(text, key)}: {key} must be a text, not {said[key]!r}")
+                raise RecordingError(
+                    f"{name}, {_line(text, key)}: {key} must be a text, not {said[key]!r}"
+                )
             texts[key] = said[key]
     tables: dict[str, dict[str, str]] = {}
     for key in _TABLES:
         table = said.get(key, {})
         if not isinstance(table, dict):
-            raise RecordingError(f"{name}, {_line(text, key)}: {key} must be a table: write [{key}]")
+            raise RecordingError(
+                f"{name}, {_line(text, key)}: {key} must be a table: write [{key}]"
+            )
         for inner, value in table.items():
             if not isinstance(value, str):
                 raise RecordingError(

@@ -56,7 +56,10 @@ def _inferred_unit(formula: Formula) -> str | None:
     """
     if not formula.product or not formula.columns:
         return None
-    if any(n <= 0.0 or not math.isclose(math.log10(n) % 1.0, 0.0, abs_tol=1e-12) for n in formula.numbers):
+    if any(
+        n <= 0.0 or not math.isclose(math.log10(n) % 1.0, 0.0, abs_tol=1e-12)
+        for n in formula.numbers
+    ):
         return None
     units = [u for u in map(file_unit, formula.columns) if u is not None and u.name != "permille"]
     if len(units) == 1 and units[0].name in ("V", "%"):
@@ -78,9 +81,15 @@ def apply_formulas(
             if table.schema[column] == pl.String:
                 # A bad cell makes a column of text; say which cell it is, not that text is used.
                 column_numbers(source, table, np.arange(table.height), column)
-        table = _run(path, f"--derive {name}={text}", lambda f=formula, n=name: table.with_columns(
-            f.expression.cast(pl.Float64).alias(n) if f.kind == "truth" else f.expression.alias(n)
-        ))
+        table = _run(
+            path,
+            f"--derive {name}={text}",
+            lambda f=formula, n=name: table.with_columns(
+                f.expression.cast(pl.Float64).alias(n)
+                if f.kind == "truth"
+                else f.expression.alias(n)
+            ),
+        )
         inferred = _inferred_unit(formula)
         channel = parse_name(name).channel
         if channel in ("torque", "load_torque", "friction_torque") and name not in units:
@@ -92,14 +101,20 @@ def apply_formulas(
         formula = compile_formula(options.where, table.schema, f"{path}: --where")
         if formula.kind == "text":
             raise RecordingError(f"{path}: --where {options.where}: is a text, not a condition")
-        mask_expression = formula.expression if formula.kind == "truth" else formula.expression != 0.0
-        mask = _run(path, f"--where {options.where}", lambda: table.select(
-            pl.lit(True).and_(mask_expression).fill_null(False).alias("keep")
-        ))["keep"].to_numpy()
+        mask_expression = (
+            formula.expression if formula.kind == "truth" else formula.expression != 0.0
+        )
+        mask = _run(
+            path,
+            f"--where {options.where}",
+            lambda: table.select(pl.lit(True).and_(mask_expression).fill_null(False).alias("keep")),
+        )["keep"].to_numpy()
         if mask.shape[0] != table.height:
             mask = np.full(table.height, bool(mask[0]))
         if not mask.any():
-            raise RecordingError(f"{path}: --where {options.where}: leaves no rows of {table.height}")
+            raise RecordingError(
+                f"{path}: --where {options.where}: leaves no rows of {table.height}"
+            )
         row = np.flatnonzero(mask)
         table = table.filter(pl.Series(mask))
     return table, row, tuple(options.derive), units, notes
@@ -149,7 +164,8 @@ def labels(table: pl.DataFrame, column: str) -> list[str]:
     series = table[column]
     if series.dtype.is_float():
         return [
-            "" if v is None else str(int(v)) if float(v).is_integer() else str(v) for v in series.to_list()
+            "" if v is None else str(int(v)) if float(v).is_integer() else str(v)
+            for v in series.to_list()
         ]
     return ["" if v is None else v for v in series.cast(pl.String).to_list()]
 
@@ -178,10 +194,14 @@ def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]
     if joint is None:
         if len(joints) == 1:
             return joints[0], everything
-        raise RecordingError(f"{path}: holds {len(joints)} joints: name one with --joint ({', '.join(joints)})")
+        raise RecordingError(
+            f"{path}: holds {len(joints)} joints: name one with --joint ({', '.join(joints)})"
+        )
     if joint not in joints:
         hint = nearest(joint, joints)
-        raise RecordingError(f"{path}: there is no joint '{joint}'{hint or '; there are ' + ', '.join(joints)}")
+        raise RecordingError(
+            f"{path}: there is no joint '{joint}'{hint or '; there are ' + ', '.join(joints)}"
+        )
     names = np.asarray(labels(prepared.table, prepared.choices["joint"].source), dtype=object)
     return joint, np.flatnonzero(names == joint)
 
@@ -217,9 +237,13 @@ def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) 
             series = series.dt.total_nanoseconds().cast(pl.Float64) * 1e-9
         else:
             # Seconds since the first row: a date in seconds would lose microseconds in rounding.
-            series = (series - series.drop_nulls()[0]).dt.total_nanoseconds().cast(pl.Float64) * 1e-9
+            series = (series - series.drop_nulls()[0]).dt.total_nanoseconds().cast(
+                pl.Float64
+            ) * 1e-9
     elif not (dtype.is_numeric() or dtype == pl.Boolean):
-        raise RecordingError(f"{source.path}: column '{column}' holds {dtype} values, numbers are needed")
+        raise RecordingError(
+            f"{source.path}: column '{column}' holds {dtype} values, numbers are needed"
+        )
     values = series.cast(pl.Float64).fill_null(float("nan")).to_numpy()
     return np.array(values, dtype=np.float64)
 

@@ -140,7 +140,11 @@ def find_unit(text: str, dimensions: tuple[str, ...] | None = None) -> Unit | No
     unit = _EXACT.get(key)
     if unit is not None and (dimensions is None or unit.dimension in dimensions):
         return unit
-    same = {u for u in _FOLDED.get(key.casefold(), []) if dimensions is None or u.dimension in dimensions}
+    same = {
+        u
+        for u in _FOLDED.get(key.casefold(), [])
+        if dimensions is None or u.dimension in dimensions
+    }
     return same.pop() if len(same) == 1 else None
 
 
