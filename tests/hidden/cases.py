@@ -26,7 +26,7 @@ PAIRS = (
 )
 
 #: A presliding distance that the samples resolve is never a small effect: its sizes are larger.
-SIZES = {"presliding": (1.0, 3.0, 6.0)}
+SIZES = {"presliding": (3.0, 1.5, 4.0)}
 USUAL_SIZES = (1.0, 3.0, 0.5)
 
 #: (limit, hidden effect): nothing, something the motion cannot show, something that it can.
@@ -46,7 +46,7 @@ LIMITED = (
     ("warm_up_only", "none"),
     ("warm_up_only", "load"),
     ("short_range", "none"),
-    ("short_range", "gravity"),
+    ("short_range", "load"),
 )
 
 
@@ -80,7 +80,7 @@ def _cases(seeds: int) -> Iterator[Case]:
             yield Case(f"{effect}-{size:g}-{seed}", "single", (effect,), seed, size, quick=k == 0)
     for i, pair in enumerate(PAIRS):
         size = 4.0 if "presliding" in pair else 2.0
-        seed = 4000 + i
+        seed = 4100 + i
         yield Case("+".join(pair) + f"-{seed}", "pair", pair, seed, size, quick=i in (0, 3, 6))
     for k in range(8):
         yield Case(f"none-{5000 + k}", "none", ("none",), 5000 + k, quick=k < 3)

@@ -87,7 +87,7 @@ LIMITS: dict[str, list[str]] = {
 #: Largest amplitude tried; where it does not reach the asked size, the noise is lowered instead.
 CAPS = {
     "stribeck": 1.2,
-    "nonlinear_viscous": 8.0,
+    "nonlinear_viscous": 4.0,
     "direction": 0.7,
     "load": 2.0,
     "temperature_viscous": 1.0,
@@ -101,7 +101,7 @@ CAPS = {
 }
 
 #: Shorter presliding distances (in half strokes) drown in the encoder: raise the noise instead.
-SHORTEST_REACH = 6e-4
+SHORTEST_REACH = 1.2e-3
 
 ELEMENTS = 24
 
@@ -256,8 +256,10 @@ def _draw_joint(rng: np.random.Generator, effects: Sequence[str], limit: str | N
     if "delay" in effects:
         inertia, amax = inertia * 2, amax * 0.5
     rate_share = rng.uniform(0.35, 1.0) if "delay" in effects else _log_uniform(rng, 0.35, 1.8)
-    if {"nonlinear_viscous", "temperature_viscous"} & set(effects):
+    if "temperature_viscous" in effects:
         rate_share = max(rate_share, 0.7)
+    if "nonlinear_viscous" in effects:
+        rate_share = rng.uniform(1.3, 2.5)
     return Joint(
         kind=kind,
         coulomb=coulomb,
@@ -279,10 +281,12 @@ def _plan(
     duration: float,
     limit: str | None,
     brisk: bool = False,
+    smooth: bool = False,
 ) -> tuple[Motion, Array]:
     """The motion, and the times at which the payload may change (the middle of dwells).
 
-    A `brisk` motion has few slow reversals: few rows are inside the presliding distance.
+    A `brisk` motion has few slow reversals: few rows are inside the presliding distance. In a
+    `smooth` one the acceleration never jumps: no row near a jump is undecided under a delay.
     """
     m = Motion(q=joint.centre)
     m.rest(0.5)
@@ -294,6 +298,10 @@ def _plan(
     def go(q: float, vmax: float, amax: float) -> None:
         if abs(q - m.q) > 1e-3 * joint.half:
             total, move = _trapezoid(q - m.q, vmax, amax)
+            if smooth:
+                d = abs(q - m.q)
+                total = max(1.875 * d / vmax, math.sqrt(5.8 * d / amax))
+                move = _quintic(q - m.q, total)
             m.add(total, move, q - m.q)
 
     def sines(length: float) -> None:
@@ -374,6 +382,8 @@ def _plan(
             m.rest(rng.uniform(0.05, 0.2))
 
     mixed = [sines, moves, slow, strokes, moves, sines, strokes, slow]
+    if smooth:
+        mixed = [sines, moves, slow, sines]
     kinds = {"one_direction": [one_way], "no_slow_motion": [fast]}.get(str(limit), mixed)
     while m.end < duration:
         for i in rng.permutation(len(kinds)):
@@ -437,10 +447,10 @@ def _draw_shapes(rng: np.random.Generator, joint: Joint, loads: Array, temps: Ar
         lambda x, a: np.exp(1500 * a * (1 / (x + vogel) - 1 / (tm + vogel))),
         lambda x, a: np.exp(9000 * a * (1 / (x + kelvin) - 1 / (tm + kelvin))),
     ]
-    knee, sign = tm + span * rng.uniform(-0.3, 0.1), -1.0 if rng.random() < 0.7 else 1.0
-    bend = span * rng.uniform(0.1, 0.3)
+    knee, sign = tm + span * rng.uniform(-0.4, 0.0), -1.0 if rng.random() < 0.7 else 1.0
+    bend = span * rng.uniform(0.2, 0.4)
     nodes = tm + span * np.array([-0.8, -0.2, 0.2, 0.8])
-    values = np.cumsum([0.0, *rng.uniform(0.15, 0.5, 3)])
+    values = np.cumsum([0.0, *np.sort(rng.uniform(0.2, 0.5, 3))[:: int(rng.choice([-1, 1]))]])
     dry: list[Shape] = [
         lambda x: np.logaddexp(0, (x - knee) / bend) * bend / span,
         lambda x: np.interp(x, nodes, values),
@@ -466,7 +476,7 @@ def _draw_shapes(rng: np.random.Generator, joint: Joint, loads: Array, temps: Ar
             y = x * (1 + alpha * x * x / (1 + x))
         return joint.viscous * joint.vmax * np.sign(v) * y
 
-    exponent = float(rng.uniform(2.6, 4.0))
+    exponent = float(rng.uniform(3.0, 4.5))
     return {
         "stribeck": stribeck[int(rng.integers(3))],
         "load": load[int(rng.integers(2))],
@@ -645,7 +655,9 @@ def record(
     duration = float(rng.uniform(130.0, 235.0))
     t = np.arange(round(duration * rate)) / rate
     joint = _draw_joint(rng, names, limit)
-    motion, swaps = _plan(rng, joint, duration + 1.0, limit, "presliding" in names)
+    motion, swaps = _plan(
+        rng, joint, duration + 1.0, limit, "presliding" in names, "delay" in names
+    )
     payload = rng.permutation(np.resize([0.35, 1.0, 1.6, 0.7], len(swaps) + 1))
     heat = _heat(rng, duration, limit)
     holds = rng.uniform(-0.9, 0.9, (997, 2))
@@ -662,7 +674,9 @@ def record(
 
     noise = joint.coulomb * _log_uniform(rng, 0.015, 0.05)
     base_sigma = joint.vmax * _log_uniform(rng, 4e-4, 1.4e-3)
-    unit_v, unit = rng.standard_normal(len(t)), _colour(rng, len(t))
+    if "presliding" in names:  # the encoder must resolve the presliding distance
+        base_sigma *= 0.4
+    unit_v, unit = np.clip(rng.standard_normal(len(t)), -4.5, 4.5), _colour(rng, len(t))
     turn = np.abs(a[np.abs(v) < 0.02 * joint.vmax]) if np.any(np.abs(v) < 0.02 * joint.vmax) else a
 
     def sigma(amps: dict[str, float]) -> float:

@@ -14,7 +14,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "hidden"))
 
-import cases as hidden  # noqa: E402
+import cases as hidden
 
 
 def _parameters() -> list:

@@ -1,0 +1,22 @@
+"""Slow cases run only when asked for: ``pytest -m "slow or not slow"``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Register the marker, wherever pytest is started from."""
+    config.addinivalue_line("markers", "slow: takes long; runs only with -m")
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Skip the slow cases of this folder unless -m is given."""
+    if config.getoption("markexpr"):
+        return
+    skip = pytest.mark.skip(reason='slow: pytest -m "slow or not slow"')
+    for item in items:
+        if Path(__file__).parent in item.path.parents and item.get_closest_marker("slow"):
+            item.add_marker(skip)
