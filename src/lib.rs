@@ -42,8 +42,6 @@ pub mod composed;
 pub mod constants;
 pub mod effect;
 pub mod error;
-#[cfg(feature = "std")]
-pub mod identify;
 pub mod law;
 mod math;
 #[cfg(feature = "python")]

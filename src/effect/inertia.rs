@@ -8,7 +8,7 @@ parameters! {
     /// Inertia that the load torque leaves out.
     Inertia {
         /// Torque per acceleration.
-        inertia: "J" ["T s2/X"] 0.0 .. 10.0, start 0.0, Inertia, Additive;
+        inertia: "J" ["T s2/X"] -10.0 .. 10.0, start 0.0, Inertia, Additive;
     }
 }
 
@@ -17,7 +17,7 @@ impl<S: Real> FrictionEffect<S> for Inertia<S> {
         id: "inertia",
         group: "rigid body",
         title: "Inertia",
-        what: "The inertia used for the load torque is too small, or none was used.",
+        what: "The inertia used for the load torque is wrong, or none was used.",
         formula: "tf + J a",
         needs: "acceleration",
         channels: &[Channel::Acceleration],

@@ -2,7 +2,6 @@
 
 mod catalog;
 mod columns;
-mod identify;
 mod model;
 mod normal;
 
@@ -29,8 +28,6 @@ mod _core {
     use super::ModelError;
     #[pymodule_export]
     use super::catalog::catalog;
-    #[pymodule_export]
-    use super::identify::normal_equations;
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

@@ -381,5 +381,6 @@ def _wide_sentence(path: str, wide: Mapping[str, Mapping[str, str]]) -> str:
         maps += " --torque-constant NM_PER_A"
     return (
         f"{path}: the file holds {len(indices)} joints side by side "
-        f"({', '.join(next(iter(wide.values())).values())}): say which, e.g. for joint {first}: {maps}"
+        f"({', '.join(next(iter(wide.values())).values())}): say which, e.g. for joint {first}: "
+        f"{maps}"
     )

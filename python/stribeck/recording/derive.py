@@ -60,7 +60,8 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
     step = float(np.median(steps))
     rate = 1.0 / step
     longest = max(s.stop - s.start for s in slices)
-    # Windows of about 4 s resolve the motions of a robot joint; at least 64 samples to see a plateau.
+    # Windows of about 4 s resolve the motions of a robot joint; at least 64 samples to see a
+    # plateau.
     length = int(2 ** np.round(np.log2(np.clip(4.0 * rate, 64, 4096))))
     while length > 32 and length > longest - differences:
         length //= 2

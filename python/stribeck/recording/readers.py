@@ -199,7 +199,8 @@ def _read_text(name: str, data: bytes, suffix: str) -> tuple[pl.DataFrame, int]:
         for i, row in enumerate(csv.reader(body, delimiter=separator)):
             if len(row) != len(header):
                 raise RecordingError(
-                    f"{name}: row {i + 1} (line {start + i + 1}) has {len(row)} cells where the header "
+                    f"{name}: row {i + 1} (line {start + i + 1}) has {len(row)} cells where the "
+                    "header "
                     f"has {len(header)} columns: mend that line"
                 )
         raise RecordingError(f"{name}: is not a table of comma-separated values, export it again")

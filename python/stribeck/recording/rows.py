@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -67,7 +68,7 @@ def segment_slices(segment: Ints) -> list[slice]:
     """Return one slice per segment, in order."""
     edges = np.flatnonzero(np.diff(segment)) + 1
     bounds = np.concatenate(([0], edges, [len(segment)]))
-    return [slice(int(a), int(b)) for a, b in zip(bounds[:-1], bounds[1:], strict=True) if b > a]
+    return [slice(int(a), int(b)) for a, b in itertools.pairwise(bounds) if b > a]
 
 
 def quantisation_step(values: Floats) -> float:
@@ -138,7 +139,7 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
             break
         sigmas.append(float(np.median(np.abs(d))) / 0.6745)
     sigma = min(sigmas) if sigmas else 0.0
-    for this, following in zip(sigmas[:-1], sigmas[1:], strict=True):
+    for this, following in itertools.pairwise(sigmas):
         if this > 0.0 and abs(this - following) <= 0.1 * this:
             sigma = min(this, following)
             break

@@ -140,7 +140,8 @@ def read_sidecar(path: str | Path) -> Sidecar:
         for inner, value in table.items():
             if not isinstance(value, str):
                 raise RecordingError(
-                    f"{name}, {_line(text, inner, key)}: {key}.{inner} must be a text, not {value!r}"
+                    f"{name}, {_line(text, inner, key)}: {key}.{inner} must be a text, not "
+                    f"{value!r}"
                 )
         tables[key] = dict(table)
     return Sidecar(name, numbers, texts, tables["units"], tables["map"], tables["derive"])

@@ -249,7 +249,8 @@ def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) 
 
 
 def channel_values(prepared: Prepared, channel: str, rows: Ints) -> tuple[Floats, str, str]:
-    """Return a channel of some rows in SI, its SI unit (or '' when none was named) and dimension."""
+    """Return a channel of some rows in SI, its SI unit (or '' when none was named) and "
+    "dimension."""
     choice = prepared.choices[channel]
     values = column_numbers(
         prepared.source, prepared.table[rows], prepared.row[rows], choice.source

@@ -1,0 +1,94 @@
+"""stribeck: which physical effect is a friction model missing?
+
+Load the measurements, compare models with them, learn which effect is missing, add it, and
+watch the error fall on data that the fit never saw.
+
+>>> import stribeck as sb
+>>> sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5).torque([-1.0, 1.0])
+array([-2.5,  2.5])
+"""
+
+from __future__ import annotations
+
+import polars as pl
+
+from stribeck.compare import Comparison, compare
+from stribeck.diagnose import Diagnosis, Finding, diagnose
+from stribeck.errors import (
+    FitError,
+    ModelFileError,
+    RecordingError,
+    SpecError,
+    StribeckError,
+)
+from stribeck.fit import Estimate, Fit, evaluate, fit
+from stribeck.improve import Addition, Improvement, add, improve
+from stribeck.model import Model, Parameter, catalog, model
+from stribeck.model_file import ModelFile, load, read_model_file
+from stribeck.recording import Recording, read
+
+__version__ = "0.1.0"
+
+
+def laws() -> pl.DataFrame:
+    """The catalog of friction laws, one row a law.
+
+    Examples
+    --------
+    >>> "coulomb" in laws()["id"]
+    True
+    """
+    return _frame("laws")
+
+
+def effects() -> pl.DataFrame:
+    """The catalog of effects that can be missing, one row an effect.
+
+    Examples
+    --------
+    >>> "load" in effects()["id"]
+    True
+    """
+    return _frame("effects")
+
+
+def _frame(kind: str) -> pl.DataFrame:
+    rows = []
+    for row in catalog()[kind].values():
+        flat = {key: value for key, value in row.items() if key != "parameters"}
+        flat["parameters"] = [p["name"] for p in row["parameters"]]
+        rows.append(flat)
+    return pl.DataFrame(rows)
+
+
+__all__ = [
+    "Addition",
+    "Comparison",
+    "Diagnosis",
+    "Estimate",
+    "Finding",
+    "Fit",
+    "FitError",
+    "Improvement",
+    "Model",
+    "ModelFile",
+    "ModelFileError",
+    "Parameter",
+    "Recording",
+    "RecordingError",
+    "SpecError",
+    "StribeckError",
+    "add",
+    "catalog",
+    "compare",
+    "diagnose",
+    "effects",
+    "evaluate",
+    "fit",
+    "improve",
+    "laws",
+    "load",
+    "model",
+    "read",
+    "read_model_file",
+]

@@ -1,0 +1,5 @@
+"""`python -m stribeck` is the command `stribeck`."""
+
+from stribeck.cli import main
+
+main()

@@ -1,0 +1,185 @@
+"""The loop's commands: fit, compare, diagnose, add, improve."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from stribeck.cli.common import (
+    check_output,
+    echo_json,
+    json_option,
+    least_fall_option,
+    model_fit,
+    output_option,
+    read_recording,
+    recording_options,
+    save_fit,
+    say,
+    seed_option,
+    starts_option,
+)
+from stribeck.compare import compare as compare_fits
+from stribeck.diagnose import diagnose as diagnose_fit
+from stribeck.improve import Addition
+from stribeck.improve import add as add_to
+from stribeck.improve import improve as improve_from
+from stribeck.model_file import read_model_file
+
+
+@click.command()
+@click.argument("data")
+@click.option("--model", "spec", required=True, help="LAW[+effect...] or a model file to start.")
+@output_option
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def fit(
+    data: str, spec: str, output: str | None, starts: int, reading: dict[str, Any], seed: int,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Identify a model's parameters on DATA."""
+    check_output(output)
+    fitted = model_fit(spec, read_recording(data, reading), starts=starts, seed=seed, refit=True)
+    if output is not None:
+        save_fit(fitted, output)
+    if as_json:
+        echo_json(fitted.to_dict())
+    else:
+        click.echo(repr(fitted))
+
+
+@click.command()
+@click.argument("data")
+@click.argument("models", nargs=-1, required=True)
+@click.option("--plot", "picture", default=None, help="Write the residuals' picture (PNG).")
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def compare(
+    data: str, models: tuple[str, ...], picture: str | None, starts: int,
+    reading: dict[str, Any], seed: int, as_json: bool,
+) -> None:  # fmt: skip
+    """Compare MODELS (specs or model files) with DATA, and show where each fails."""
+    check_output(picture)
+    recording = read_recording(data, reading)
+    fits = []
+    for argument in models:
+        say(f"{argument} ...")
+        fits.append(model_fit(argument, recording, starts=starts, seed=seed, refit=False))
+    comparison = compare_fits(fits, recording)
+    if picture is not None:
+        from stribeck.report.figures import save_figure
+
+        save_figure(comparison.plot(), picture)
+        say(f"wrote {picture}")
+    if as_json:
+        echo_json(comparison.to_dict())
+    else:
+        click.echo(repr(comparison))
+
+
+@click.command()
+@click.argument("data")
+@click.argument("model")
+@least_fall_option
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def diagnose(
+    data: str, model: str, least_fall: float, starts: int, reading: dict[str, Any], seed: int,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Find which physical effect MODEL is missing on DATA."""
+    recording = read_recording(data, reading)
+    fitted = model_fit(model, recording, starts=starts, seed=seed, refit=True)
+    diagnosis = diagnose_fit(fitted, recording, least_fall=least_fall, seed=seed)
+    if as_json:
+        echo_json(diagnosis.to_dict())
+    else:
+        click.echo(repr(diagnosis))
+
+
+@click.command()
+@click.argument("model")
+@click.argument("effect")
+@click.argument("data")
+@output_option
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def add(
+    model: str, effect: str, data: str, output: str | None, starts: int,
+    reading: dict[str, Any], seed: int, as_json: bool,
+) -> None:  # fmt: skip
+    """Add EFFECT to MODEL, refit on DATA, and show the error before and after."""
+    check_output(output)
+    recording = read_recording(data, reading)
+    before = model_fit(model, recording, starts=starts, seed=seed, refit=True)
+    after = add_to(before, effect, recording, starts=starts, seed=seed)
+    addition = Addition(effect, before, after)
+    if output is not None:
+        save_fit(after, output)
+    if as_json:
+        echo_json(addition.to_dict())
+    else:
+        click.echo(repr(addition))
+
+
+@click.command()
+@click.argument("data")
+@click.option("--base", default="coulomb", show_default=True, help="Spec or model file.")
+@output_option
+@click.option("--report", default=None, help="Write a self-contained page (HTML).")
+@click.option("--plot", "picture", default=None, help="Write the picture (PNG).")
+@least_fall_option
+@click.option(
+    "--max-steps", type=click.IntRange(min=0), default=8, show_default=True,
+    help="Most effects to add.",
+)  # fmt: skip
+@click.option("--reject", multiple=True, metavar="EFFECT", help="Never add this effect.")
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def improve(
+    data: str, base: str, output: str | None, report: str | None, picture: str | None,
+    least_fall: float, max_steps: int, reject: tuple[str, ...], starts: int,
+    reading: dict[str, Any], seed: int, as_json: bool,
+) -> None:  # fmt: skip
+    """Diagnose and add effects to a base model until what is left is noise."""
+    from stribeck.cli.common import is_model_file
+    from stribeck.model import check_effect
+
+    for path in (output, report, picture):
+        check_output(path)
+    for effect in reject:
+        check_effect(effect)
+    recording = read_recording(data, reading)
+    start = read_model_file(base).model if is_model_file(base) else base
+    improvement = improve_from(
+        start, recording, starts=starts, seed=seed, least_fall=least_fall,
+        most_steps=max_steps, rejected=reject, progress=say,
+    )  # fmt: skip
+    if output is not None:
+        save_fit(improvement.final, output)
+    if picture is not None:
+        from stribeck.report.figures import save_figure
+
+        save_figure(improvement.plot(), picture)
+        say(f"wrote {picture}")
+    if report is not None:
+        from stribeck.model_file import write_whole
+        from stribeck.report.html import improvement_page
+
+        write_whole(report, improvement_page(improvement))
+        say(f"wrote {report}")
+    if as_json:
+        echo_json(improvement.to_dict())
+    else:
+        click.echo(repr(improvement))

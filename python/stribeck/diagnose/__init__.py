@@ -1,0 +1,225 @@
+"""Which physical effect is missing from a model?"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import polars as pl
+
+from stribeck.diagnose.floor import NoiseFloor, noise_floor
+from stribeck.diagnose.testable import Untestable, untestable
+from stribeck.diagnose.trial import (
+    SIGNIFICANCE,
+    TIE,
+    Trial,
+    explained_by_shape,
+    passes,
+    tie_statistic,
+    tie_weight,
+    try_effect,
+)
+from stribeck.diagnose.unexplained import Unexplained, unexplained
+from stribeck.diagnose.words import where
+from stribeck.fit import Fit, on_recording, own_load
+from stribeck.model import effect_ids
+from stribeck.recording import Recording
+
+#: Least relative fall of the held-out RMSE that a finding must bring.
+LEAST_FALL = 0.01
+
+
+@dataclass(frozen=True)
+class Finding:
+    """An effect that passed the test."""
+
+    effect: str
+    confidence: float
+    rmse_held_out_before: float
+    rmse_held_out_after: float
+    share_of_unexplained: float | None
+    where: str
+    indistinguishable_from: tuple[str, ...]
+    fit: Fit
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON."""
+        return {
+            "effect": self.effect,
+            "confidence": self.confidence,
+            "rmse_held_out_before": self.rmse_held_out_before,
+            "rmse_held_out_after": self.rmse_held_out_after,
+            "share_of_unexplained": self.share_of_unexplained,
+            "where": self.where,
+            "indistinguishable_from": list(self.indistinguishable_from),
+        }
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What is missing from a model on a recording.
+
+    Attributes
+    ----------
+    verdict : {"missing", "none", "unexplained"}
+    findings
+        Effects that pass the test, best first.
+    """
+
+    fit: Fit
+    noise_floor: NoiseFloor
+    verdict: str
+    findings: tuple[Finding, ...]
+    untestable: tuple[Untestable, ...]
+    unexplained: Unexplained
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck diagnose`."""
+        made: dict[str, Any] = {
+            "model": self.fit.model.spec,
+            "rmse": self.fit.rmse,
+            "rmse_held_out": self.fit.rmse_held_out,
+            "unit": self.fit.model.torque_unit,
+            "noise_floor": self.noise_floor.value,
+            "verdict": self.verdict,
+            "findings": [finding.to_dict() for finding in self.findings],
+            "untestable": [row.to_dict() for row in self.untestable],
+            "unexplained": self.unexplained.to_dict(),
+            "scored": self.fit.recording.scored(),
+            "notes": [*self.fit.recording.notes, *self.fit.notes],
+        }
+        if self.noise_floor.value is None:
+            made["noise_floor_why"] = self.noise_floor.why
+        return made
+
+    def to_frame(self) -> pl.DataFrame:
+        """The findings as a table."""
+        return pl.DataFrame([finding.to_dict() for finding in self.findings])
+
+    def plot(self) -> Any:
+        """Residual against each channel, before the first finding and after."""
+        from stribeck.report.figures import residual_figure
+
+        after = [self.findings[0].fit] if self.findings else []
+        return residual_figure([self.fit, *after])
+
+    def __repr__(self) -> str:
+        from stribeck.report.text import diagnosis_text
+
+        return diagnosis_text(self)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{self!r}</pre>"
+
+
+def diagnose(
+    fitted: Fit,
+    recording: Recording | None = None,
+    *,
+    least_fall: float = LEAST_FALL,
+    rejected: Collection[str] = (),
+    seed: int = 0,
+) -> Diagnosis:
+    """Find the effects that are missing from `fitted`.
+
+    Every effect that the recording can show is added and refitted. It passes if the held-out
+    error falls by at least `least_fall`, if that is more than chance given the residual's
+    autocorrelation and the number of effects tried, and if the effects already in the model
+    cannot do the same by taking a freer form.
+
+    Parameters
+    ----------
+    recording : Recording
+        Default: the fit's own. On another one the model is fitted again first.
+    rejected : collection of str
+        Effects that are not to be tried.
+    """
+    fitted = on_recording(fitted, recording, seed)
+    recording, model = fitted.recording, fitted.model
+    cannot = untestable(recording, own_load(model, recording))
+    inside = set(model.effects) | set(model.rigid_body)
+    candidates = [
+        effect
+        for effect in effect_ids()
+        if effect not in inside and effect not in cannot and effect not in rejected
+    ]
+    trials = [t for e in candidates if (t := try_effect(fitted, e, seed=seed)) is not None]
+    tried = max(len(trials), 1)
+    good = [
+        t
+        for t in trials
+        if passes(t, tried, least_fall) and _reported_fall(fitted, t)
+        and not explained_by_shape(fitted, t, tried, least_fall)
+    ]
+    good.sort(key=lambda t: t.square)
+    best_fit = good[0].fit if good else fitted
+    floor = noise_floor(best_fit)
+    findings = _findings(fitted, good, tried, floor)
+    left = unexplained(best_fit if good else fitted, floor)
+    verdict = "missing" if findings else ("unexplained" if left.is_structure else "none")
+    shown = tuple(row for effect, row in cannot.items() if effect not in inside)
+    return Diagnosis(fitted, floor, verdict, findings, shown, left)
+
+
+def _reported_fall(before: Fit, trial: Trial) -> bool:
+    """The error over all scored rows must fall too, transients included."""
+    assert before.rmse_held_out is not None and trial.fit.rmse_held_out is not None
+    return trial.fit.rmse_held_out < before.rmse_held_out
+
+
+def _findings(
+    before: Fit, good: list[Trial], tried: int, floor: NoiseFloor
+) -> tuple[Finding, ...]:
+    """Order the trials that pass: of those that tie with the best, the simplest first."""
+    if not good:
+        return ()
+    best = good[0]
+    statistic = {t.effect: tie_statistic(best, t) for t in good}
+    tied = [t for t in good if statistic[t.effect] <= TIE]
+    tied.sort(key=lambda t: (t.parameters, t.square))
+    ordered = tied + [t for t in good if t not in tied]
+    weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
+    total = sum(weights[t.effect] for t in tied)
+    made = []
+    for t in ordered:
+        chance = min(1.0, t.comparison.p_value * tried / SIGNIFICANCE) * SIGNIFICANCE
+        share = weights[t.effect] / (total if t in tied else total + weights[t.effect])
+        others = tuple(o.effect for o in tied if o is not t) if t in tied else ()
+        made.append(
+            Finding(
+                effect=t.effect,
+                confidence=float((1.0 - chance) * share),
+                rmse_held_out_before=float(before.rmse_held_out or np.nan),
+                rmse_held_out_after=float(t.fit.rmse_held_out or np.nan),
+                share_of_unexplained=share_of_unexplained(before, t.fit, floor),
+                where=where(t.effect, before, t.fit),
+                indistinguishable_from=others,
+                fit=t.fit,
+            )
+        )
+    return tuple(made)
+
+
+def share_of_unexplained(before: Fit, after: Fit, floor: NoiseFloor) -> float | None:
+    """(before^2 - after^2) / (before^2 - floor^2), clipped to 0..1."""
+    if floor.value is None or before.rmse_held_out is None or after.rmse_held_out is None:
+        return None
+    room = before.rmse_held_out**2 - floor.value**2
+    if room <= 0:
+        return 0.0
+    return float(np.clip((before.rmse_held_out**2 - after.rmse_held_out**2) / room, 0.0, 1.0))
+
+
+__all__ = [
+    "LEAST_FALL",
+    "Diagnosis",
+    "Finding",
+    "NoiseFloor",
+    "Unexplained",
+    "Untestable",
+    "diagnose",
+    "share_of_unexplained",
+    "untestable",
+]

@@ -1,0 +1,86 @@
+"""Noise floor: what no function of the recorded channels explains.
+
+Nearest neighbours in state space, far apart in time (so that correlated noise is independent),
+differ by twice the noise variance plus what the function changes between them; the latter is
+extrapolated to zero distance (the Gamma test, Stefansson, Koncar and Jones 1997).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from stribeck.diagnose.shape import displacement_since_reversal
+from stribeck.fit import Fit
+from stribeck.identify.covariance import correlation_length
+
+Array = NDArray[np.float64]
+
+NEIGHBOURS = 40
+FEWEST_PAIRS = 300
+
+
+@dataclass(frozen=True)
+class NoiseFloor:
+    """An estimate in the unit of torque, or None and why."""
+
+    value: float | None
+    why: str | None = None
+
+
+def noise_floor(fit: Fit) -> NoiseFloor:
+    """Estimate the noise floor from the residual of `fit`, the best model at hand.
+
+    The model takes out most of what varies, so that neighbours need not be very near.
+    """
+    r, rows = fit.recording, fit.rows
+    residual = fit.residual[rows]
+    if residual.size < FEWEST_PAIRS:
+        return NoiseFloor(None, f"too few moving rows ({residual.size}) to compare repeats")
+    features = _features(fit)
+    step = -(-residual.size // 20000)
+    index = np.arange(0, residual.size, step)
+    apart = max(4.0 * correlation_length(residual, r.segment[rows]), 20.0) / step
+    tree = cKDTree(features[index])
+    distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1)
+    far = np.abs(neighbour - np.arange(index.size)[:, None]) > apart
+    first = np.argmax(far, axis=1)
+    found = far[np.arange(index.size), first]
+    if found.sum() < FEWEST_PAIRS:
+        return NoiseFloor(None, "the motion does not pass the same state twice")
+    pick = np.flatnonzero(found)
+    gap = distance[pick, first[pick]] ** 2
+    other = index[neighbour[pick, first[pick]]]
+    gamma = (residual[index[pick]] - residual[other]) ** 2 / 2.0
+    # The nearest half tells most about zero distance.
+    near = gap <= np.median(gap)
+    weights = np.polyfit(gap[near], gamma[near], 1) if np.ptp(gap[near]) > 0 else None
+    at_zero = gamma[near].mean() if weights is None or weights[0] < 0 else weights[1]
+    if at_zero <= 0:
+        at_zero = gamma[near].mean()
+    return NoiseFloor(float(min(np.sqrt(at_zero), fit.rmse)))
+
+
+def _features(fit: Fit) -> Array:
+    """What the friction may depend on, each channel scaled to unit spread, array [m, k]."""
+    r, rows = fit.recording, fit.rows
+    v = r.velocity[rows]
+    load = r.load_torque if r.load_torque is not None else fit.load
+    travel = displacement_since_reversal(r)[rows]
+    channels: list[Array | None] = [
+        v,
+        r.position[rows] if r.position is not None else None,
+        r.acceleration[rows] if r.acceleration is not None else None,
+        r.temperature[rows] if r.temperature is not None else None,
+        load[rows] if load is not None else None,
+        np.sqrt(travel),
+    ]
+    scaled = [
+        (c - c.mean()) / c.std() for c in channels if c is not None and c.std() > 1e-12
+    ]
+    # Opposite directions are different states however slow.
+    scaled.append(3.0 * np.sign(v))
+    return np.column_stack(scaled)

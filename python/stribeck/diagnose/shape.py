@@ -1,0 +1,76 @@
+"""The most flexible form of an effect, as columns that only a diagnosis uses.
+
+Before a second cause is claimed, the causes already in the model get these: what they remove
+was the first cause's shape, not another cause.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.fit import Fit
+from stribeck.recording import Recording
+
+Array = NDArray[np.float64]
+
+
+def hats(x: Array, count: int) -> list[Array]:
+    """Piecewise-linear functions of x over quantile knots, without the constant."""
+    knots = np.unique(np.quantile(x, np.linspace(0.0, 1.0, count)))
+    if knots.size < 3:
+        return []
+    rows = np.eye(knots.size)
+    return [np.interp(x, knots, row) for row in rows[1:]]
+
+
+def displacement_since_reversal(recording: Recording) -> Array:
+    """Distance moved since the direction last changed, every row, in the unit of position."""
+    v = np.where(recording.moving, recording.velocity, 0.0)
+    sign = np.sign(v)
+    index = np.arange(v.size)
+    last = np.maximum.accumulate(np.where(sign != 0, index, 0))
+    direction = sign[last]
+    new = np.concatenate([[True], direction[1:] != direction[:-1]])
+    new |= recording.dt <= 0
+    start = np.maximum.accumulate(np.where(new, index, 0))
+    travel = np.cumsum(np.abs(v) * recording.dt)
+    return np.asarray(travel - travel[start])
+
+
+def flexible_columns(fit: Fit) -> Array:
+    """Columns [m, k] that let the effects of `fit` take any smooth form, on its rows."""
+    r, rows = fit.recording, fit.rows
+    v = r.velocity[rows]
+    sign = np.sign(v)
+    speed = np.abs(v) / (r.scales()["speed"] or 1.0)
+    columns: list[Array] = []
+    for effect in fit.model.effects:
+        columns += _columns(effect, fit, v, sign, speed)
+    if not columns:
+        return np.empty((rows.size, 0))
+    return np.column_stack(columns)
+
+
+def _columns(effect: str, fit: Fit, v: Array, sign: Array, speed: Array) -> list[Array]:
+    r, rows = fit.recording, fit.rows
+    if effect == "stribeck":
+        slow = fit.model.value("stribeck_velocity")
+        return [sign * np.exp(-np.abs(v) / (slow * k)) for k in (0.3, 1.0, 3.0)]
+    if effect == "nonlinear_viscous":
+        return [sign * speed**power for power in (0.5, 1.5, 2.0, 3.0)]
+    if effect == "load":
+        load = r.load_torque if r.load_torque is not None else fit.load
+        return [] if load is None else [sign * h for h in hats(np.abs(load[rows]), 7)]
+    if effect in ("temperature_dry", "temperature_viscous") and r.temperature is not None:
+        by = sign if effect == "temperature_dry" else v
+        return [by * h for h in hats(r.temperature[rows], 6)]
+    if effect == "position" and r.position is not None:
+        u = (r.position[rows] - r.position[rows].min()) / (np.ptp(r.position[rows]) or 1.0)
+        return [sign * np.cos(k * np.pi * u) for k in range(1, 15)]
+    if effect == "presliding":
+        travel = displacement_since_reversal(r)[rows]
+        return [sign * h for h in hats(np.log(travel + 1e-9 * (travel.max() or 1.0)), 8)]
+    if effect == "direction":
+        return [speed**power for power in (0.5, 2.0, 3.0)]
+    return []

@@ -1,0 +1,180 @@
+"""Plain sentences: where the data shows an effect, with numbers and units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.fit import Fit
+from stribeck.model import catalog
+
+Array = NDArray[np.float64]
+
+
+def number(value: float) -> str:
+    """Three significant digits, without exponents for everyday sizes."""
+    return f"{value:.3g}"
+
+
+def where(effect: str, before: Fit, after: Fit) -> str:
+    """One sentence that says where `effect` shows, from the fitted values and the data."""
+    return SENTENCES[effect](before, after)
+
+
+def physically(effect: str) -> str:
+    """What the effect is, in one sentence, from the catalog."""
+    return str(catalog()["effects"][effect]["what"])
+
+
+def _stribeck(before: Fit, after: Fit) -> str:
+    m, unit = after.model, after.model.torque_unit
+    return (
+        f"at low speed friction is {number(m.value('stribeck_height'))} {unit} higher than the "
+        f"Coulomb level and falls to it around {number(m.value('stribeck_velocity'))} "
+        f"{m.position_unit}/s"
+    )
+
+
+def _nonlinear_viscous(before: Fit, after: Fit) -> str:
+    m = after.model
+    power = m.value("nonlinear_viscous_exponent")
+    bends = "flattens" if power < 1 else "steepens"
+    top = max(abs(x) for x in m.box["velocity"])
+    part = m.value("nonlinear_viscous_coefficient") * (
+        (top / m.constants["reference_velocity"]) ** power
+    ) * m.constants["reference_velocity"]  # fmt: skip
+    return (
+        f"the curve of friction against speed {bends}: a part that grows with speed to the power "
+        f"{number(power)} reaches {number(part)} {m.torque_unit} at {number(top)} "
+        f"{m.position_unit}/s"
+    )
+
+
+def _direction(before: Fit, after: Fit) -> str:
+    m = after.model
+    top = max(abs(x) for x in m.box["velocity"])
+    slope = m.value("direction_viscous")
+    base = m.value("direction_coulomb") if "direction_coulomb" in m.names else 0.0
+    return (
+        f"friction in the two directions differs by {number(2 * abs(base))} {m.torque_unit} near "
+        f"rest and by {number(2 * abs(base + slope * top))} {m.torque_unit} at {number(top)} "
+        f"{m.position_unit}/s, larger "
+        f"{'forward' if base + slope * top > 0 else 'backward'}"
+    )
+
+
+def _load(before: Fit, after: Fit) -> str:
+    m = after.model
+    low, high = m.box["load_torque"]
+    most = max(abs(low), abs(high))
+    reference = m.constants["reference_load"]
+    part = m.value("load_coulomb") * reference * (most / reference) ** m.value("load_exponent")
+    return (
+        f"at the same speed friction is {number(part)} {m.torque_unit} higher under "
+        f"{number(most)} {m.torque_unit} of load than without load"
+    )
+
+
+def _at_temperatures(after: Fit, part: str) -> tuple[float, float, float, float]:
+    m = after.model
+    cold, hot = m.box["temperature"]
+    low, high = m.box["velocity"]
+    speed = 0.5 * max(abs(low), abs(high))
+    split = m.split(speed, temperature=np.array([cold, hot]))
+    return cold, hot, float(split[part][0]), float(split[part][1])
+
+
+def _temperature(part: str) -> Callable[[Fit, Fit], str]:
+    def sentence(before: Fit, after: Fit) -> str:
+        cold, hot, at_cold, at_hot = _at_temperatures(after, part)
+        m = after.model
+        name = "viscous" if part == "rate" else "dry"
+        more = "higher" if at_cold > at_hot else "lower"
+        low, high = m.box["velocity"]
+        speed = 0.5 * max(abs(low), abs(high))
+        at = f" at {number(speed)} {m.position_unit}/s" if part == "rate" else ""
+        return (
+            f"{name} friction{at} is {number(abs(at_cold - at_hot))} {m.torque_unit} {more} at "
+            f"{number(cold)} degC than at {number(hot)} degC"
+        )
+
+    return sentence
+
+
+def _presliding(before: Fit, after: Fit) -> str:
+    m = after.model
+    level = m.value("coulomb_friction") if "coulomb_friction" in m.names else float("nan")
+    distance = level / m.value("presliding_stiffness")
+    return (
+        f"after each reversal friction builds up over about {number(distance)} {m.position_unit} "
+        f"of motion instead of jumping"
+    )
+
+
+def _position(before: Fit, after: Fit) -> str:
+    m = after.model
+    low, high = m.box["position"]
+    q = np.linspace(low, high, 200)
+    top = max(abs(x) for x in m.box["velocity"])
+    dry = m.split(top, position=q)["dry"]
+    at = float(q[int(np.argmax(dry))])
+    return (
+        f"dry friction varies by {number(float(np.ptp(dry)))} {m.torque_unit} along the stroke and "
+        f"is highest at {number(at)} {m.position_unit}, in both directions"
+    )
+
+
+def _offset(before: Fit, after: Fit) -> str:
+    m = after.model
+    return (
+        f"the torque is shifted by {number(m.value('offset'))} {m.torque_unit}, the same in both "
+        f"directions"
+    )
+
+
+def _inertia(before: Fit, after: Fit) -> str:
+    m = after.model
+    name = next(n for n in m.names if n == "inertia")
+    unit = next(p.unit for p in m.parameters if p.name == name)
+    value = m.value(name)
+    return (
+        f"what is left grows with acceleration, as if {number(abs(value))} {unit} of inertia were "
+        f"{'missing from' if value > 0 else 'too much in'} the load torque"
+    )
+
+
+def _gravity(before: Fit, after: Fit) -> str:
+    m = after.model
+    size = float(np.hypot(m.value("gravity_cos"), m.value("gravity_sin")))
+    return (
+        f"what is left follows the angle like a weight of {number(size)} {m.torque_unit} that the "
+        f"load torque does not hold"
+    )
+
+
+def _delay(before: Fit, after: Fit) -> str:
+    tau = after.model.value("delay")
+    way = "lags behind" if tau > 0 else "leads"
+    samples = abs(tau) * after.recording.rate_hz
+    return (
+        f"the torque {way} the motion by {number(1e3 * abs(tau))} ms ({number(samples)} samples), "
+        f"most visible at reversals"
+    )
+
+
+SENTENCES: dict[str, Callable[[Fit, Fit], str]] = {
+    "stribeck": _stribeck,
+    "nonlinear_viscous": _nonlinear_viscous,
+    "direction": _direction,
+    "load": _load,
+    "temperature_viscous": _temperature("rate"),
+    "temperature_dry": _temperature("dry"),
+    "presliding": _presliding,
+    "position": _position,
+    "offset": _offset,
+    "inertia": _inertia,
+    "gravity": _gravity,
+    "delay": _delay,
+}

@@ -1,0 +1,479 @@
+"""Identify a model's parameters on a recording."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+from scipy.stats import t as student
+
+from stribeck.errors import FitError
+from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
+from stribeck.identify.figures import relative_residual, rms
+from stribeck.identify.held_out import held_out_prediction
+from stribeck.identify.problem import Problem
+from stribeck.identify.reduced import ReducedProblem, Search
+from stribeck.identify.scaling import (
+    bounds,
+    check_channels,
+    effect_constants,
+    model_for,
+    scaled_parameters,
+)
+from stribeck.identify.transients import stretches, transient_rows
+from stribeck.model import Model
+from stribeck.recording import Recording
+
+Array = NDArray[np.float64]
+
+#: Rows that a start is searched on before the best ones are finished on all rows.
+SEARCH_ROWS = 4000
+SEARCH_SAMPLES = 12000
+#: Starts that are finished on all rows.
+FINISHED = 2
+#: A bound counts as reached within this share of its range.
+AT_BOUND = 1e-6
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One identified parameter: value, standard error and 95 % interval in `unit`."""
+
+    name: str
+    symbol: str
+    value: float
+    unit: str
+    stderr: float | None
+    ci95: tuple[float, float] | None
+    at_bound: bool
+    identifiable: bool
+    lower: float
+    upper: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of a parameter."""
+        return {
+            "symbol": self.symbol,
+            "value": self.value,
+            "unit": self.unit,
+            "stderr": self.stderr,
+            "ci95": list(self.ci95) if self.ci95 else None,
+            "at_bound": self.at_bound,
+            "identifiable": self.identifiable,
+        }
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A model identified on a recording.
+
+    Attributes
+    ----------
+    prediction, held_out
+        Predicted torque of every row: by the fit, and by the refit without the row's block.
+    rmse, rmse_held_out
+        Over the scored (moving) rows, in the unit of torque.
+    """
+
+    model: Model
+    recording: Recording
+    estimates: Mapping[str, Estimate]
+    prediction: Array
+    held_out: Array
+    rmse: float
+    rmse_held_out: float | None
+    relative_residual: float | None
+    starts: int
+    converged: bool
+    outcome: str
+    evaluations: int
+    seconds: float
+    transient: NDArray[np.bool_]
+    load: Array | None
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def residual(self) -> Array:
+        """Measured minus predicted, every row."""
+        return self.recording.torque - self.prediction
+
+    @property
+    def held_out_residual(self) -> Array:
+        """Measured minus predicted by the refit that has not seen the row, every row."""
+        return self.recording.torque - self.held_out
+
+    @property
+    def rows(self) -> NDArray[np.intp]:
+        """The rows that the parameters were fitted to."""
+        return np.flatnonzero(self.recording.moving & ~self.transient)
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck fit`."""
+        return {
+            "model": self.model.spec,
+            "parameters": {name: e.to_dict() for name, e in self.estimates.items()},
+            "rmse": self.rmse,
+            "rmse_held_out": self.rmse_held_out,
+            "relative_residual": self.relative_residual,
+            "relative_residual_cutoff_hz": self.recording.cutoff_hz,
+            "unit": self.model.torque_unit,
+            "starts": self.starts,
+            "converged": self.converged,
+            "outcome": self.outcome,
+            "evaluations": self.evaluations,
+            "seconds": self.seconds,
+            "passive": None,
+            "rigid_body": list(self.model.rigid_body),
+            "transients": [list(pair) for pair in stretches(self.recording, self.transient)],
+            "scored": self.recording.scored(),
+            "notes": [*self.recording.notes, *self.notes],
+        }
+
+    def to_frame(self) -> pl.DataFrame:
+        """The parameters as a table."""
+        return pl.DataFrame(
+            [
+                {
+                    "parameter": e.name,
+                    "symbol": e.symbol,
+                    "value": e.value,
+                    "stderr": e.stderr,
+                    "unit": e.unit,
+                    "at_bound": e.at_bound,
+                    "identifiable": e.identifiable,
+                }
+                for e in self.estimates.values()
+            ]
+        )
+
+    def plot(self) -> Any:
+        """Measured and modelled torque, and the residual, as a matplotlib figure."""
+        from stribeck.report.figures import fit_figure
+
+        return fit_figure(self)
+
+    def __repr__(self) -> str:
+        from stribeck.report.text import fit_text
+
+        return fit_text(self)
+
+    def _repr_html_(self) -> str:
+        return str(self.to_frame()._repr_html_())
+
+
+def fit(
+    spec: str | Model,
+    recording: Recording,
+    *,
+    starts: int = 20,
+    seed: int = 0,
+    transient: NDArray[np.bool_] | None = None,
+) -> Fit:
+    """Identify the parameters of `spec` on `recording` by bounded least squares.
+
+    Linear parameters are eliminated (variable projection), the others searched with nlopt from
+    `starts` seeded starts. The measured torque is the target as recorded.
+
+    Parameters
+    ----------
+    spec : str or Model
+        ``"coulomb+load"``, or a model; a model's values are the first start.
+    starts, seed : int
+        Random starts of the nonlinear parameters (review of 25 models, eqs 4-5: 20).
+
+    Raises
+    ------
+    SpecError, FitError
+        Unknown law or effect; a channel that the model needs and the recording lacks; too few
+        moving rows.
+    """
+    began = time.perf_counter()
+    made = model_for(spec, recording)
+    marked = transient_rows(recording) if transient is None else transient
+    rows = np.flatnonzero(recording.moving & ~marked)
+    fewest = len(made.names) + 2
+    if rows.size < fewest:
+        raise FitError(
+            f"{recording.path} has {rows.size} rows that move, {made.spec} needs at least "
+            f"{fewest}: record more motion"
+        )
+    made, load = _with_own_load(made, recording, rows, starts, seed)
+    solution = _identify(made, recording, rows, load, starts, seed)
+    values, load = solution.values, solution.load
+    made = made.with_values(values)
+    return _finish(made, recording, marked, rows, load, solution, time.perf_counter() - began)
+
+
+@dataclass
+class _Solution:
+    values: Array
+    load: Array | None
+    lower: Array
+    upper: Array
+    starts: int
+    converged: bool
+    outcome: str
+    evaluations: int
+
+
+def own_load(model: Model, recording: Recording) -> Array | None:
+    """Load torque of the rigid body that `model` has identified, every row; None without one."""
+    if not model.rigid_body:
+        return None
+    load = np.zeros_like(recording.torque)
+    if "inertia" in model.rigid_body and recording.acceleration is not None:
+        load += model.value("inertia") * recording.acceleration
+    if "gravity" in model.rigid_body and recording.position is not None:
+        load += model.value("gravity_cos") * np.cos(recording.position)
+        load += model.value("gravity_sin") * np.sin(recording.position)
+    return load
+
+
+def _needs_own_load(model: Model) -> bool:
+    return bool(model.rigid_body) and "load_torque" in model.core.needs
+
+
+def _with_own_load(
+    made: Model, recording: Recording, rows: NDArray[np.intp], starts: int, seed: int
+) -> tuple[Model, Array | None]:
+    """A first load torque from a fit without the effects that depend on it."""
+    if not _needs_own_load(made):
+        return made, None
+    plain = made
+    for effect in ("load",):
+        if effect in plain.effects:
+            plain = plain.without_effect(effect)
+    if not np.all(np.isfinite(plain.values)):
+        solved = _identify(plain, recording, rows, None, min(starts, 4), seed)
+        plain = plain.with_values(solved.values)
+    load = own_load(plain, recording)
+    constants = dict(made.constants)
+    if "reference_load" not in constants or constants["reference_load"] == 1.0:
+        constants.update(effect_constants("load", recording, load))
+    return replace(made, constants=constants), load
+
+
+def _identify(
+    made: Model,
+    recording: Recording,
+    rows: NDArray[np.intp],
+    load: Array | None,
+    starts: int,
+    seed: int,
+) -> _Solution:
+    """Best values; where friction depends on the identified rigid body, to a fixed point."""
+    lower, upper, first = bounds(made, recording)
+    known = made.values
+    start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)
+    problem = Problem(recording, made, rows, load)
+    reduced = ReducedProblem(problem, lower, upper)
+    found, used = _multi_start(reduced, start, starts, seed)
+    evaluations = reduced.evaluations
+    if load is not None and _needs_own_load(made):
+        for _ in range(8):
+            renewed = own_load(made.with_values(found.values), recording)
+            assert renewed is not None
+            moved = rms(renewed - load) / (rms(renewed) or 1.0)
+            load = renewed
+            again = ReducedProblem(Problem(recording, made, rows, load), lower, upper)
+            found = again.search(found.values, 40, 1e-10)
+            evaluations += again.evaluations
+            if moved < 1e-5:
+                break
+    return _Solution(
+        found.values, load, lower, upper, used, found.converged, found.outcome, evaluations
+    )
+
+
+def _multi_start(
+    reduced: ReducedProblem, start: Array, starts: int, seed: int
+) -> tuple[Search, int]:
+    count = int(reduced.nonlinear.sum())
+    if count == 0:
+        return reduced.search(start, 1, 1e-10), 1
+    problem = reduced.problem
+    model = problem.model
+    coarse_problem = (
+        problem.window(SEARCH_SAMPLES) if not model.memoryless else problem.thinned(SEARCH_ROWS)
+    )
+    coarse = ReducedProblem(coarse_problem, reduced.lower, reduced.upper)
+    rng = np.random.default_rng(seed)
+    tried: list[Search] = []
+    for k in range(max(starts, 1)):
+        at = start.copy()
+        if k > 0:
+            at[reduced.nonlinear] = reduced.decode(rng.uniform(size=count))
+        tried.append(coarse.search(at, 60, 1e-7))
+    tried.sort(key=lambda search: search.square)
+    finished = [reduced.search(search.values, 60, 1e-11) for search in tried[:FINISHED]]
+    reduced.evaluations += coarse.evaluations
+    return min(finished, key=lambda search: search.square), max(starts, 1)
+
+
+def on_recording(fitted: Fit, recording: Recording | None, seed: int = 0) -> Fit:
+    """`fitted` itself, or its model fitted again where `recording` is another one."""
+    if recording is None or recording is fitted.recording:
+        return fitted
+    return fit(fitted.model, recording, seed=seed)
+
+
+def evaluate(
+    model: Model,
+    recording: Recording,
+    *,
+    fitted_on: str | None = None,
+    stderr: Mapping[str, float] | None = None,
+) -> Fit:
+    """A model's error on a recording without refitting it.
+
+    Parameters
+    ----------
+    fitted_on : str
+        SHA-256 of the file that the model was fitted on; on that same file there is no
+        held-out figure.
+    """
+    began = time.perf_counter()
+    check_channels(model, recording)
+    if recording.load_torque is not None and model.rigid_body:
+        raise FitError(
+            f"the model {model.spec} holds an identified rigid body, and {recording.path} gives "
+            f"load_torque: use one of them (--map load_torque=... or a model fitted on such data)"
+        )
+    load = own_load(model, recording)
+    problem = Problem(recording, model, np.flatnonzero(recording.moving), load)
+    prediction = problem.predict(model.values)
+    if not np.all(np.isfinite(prediction)):
+        raise FitError(f"{model.spec} predicts torques that are not finite on {recording.path}")
+    residual = recording.torque - prediction
+    moving = recording.moving
+    same = fitted_on is not None and fitted_on == recording.sha256
+    estimates = {
+        p.name: Estimate(
+            p.name, p.symbol, float(value), p.unit, (stderr or {}).get(p.name), None,
+            False, True, *model.bounds.get(p.name, (-np.inf, np.inf)),
+        )
+        for p, value in zip(model.parameters, model.values, strict=True)
+    }  # fmt: skip
+    return Fit(
+        model=model,
+        recording=recording,
+        estimates=estimates,
+        prediction=prediction,
+        held_out=prediction,
+        rmse=rms(residual[moving]),
+        rmse_held_out=None if same else rms(residual[moving]),
+        relative_residual=None if same else relative_residual(recording, residual),
+        starts=0,
+        converged=True,
+        outcome="not refitted",
+        evaluations=0,
+        seconds=time.perf_counter() - began,
+        transient=np.zeros(recording.time.size, dtype=bool),
+        load=load,
+    )
+
+
+def _finish(
+    made: Model,
+    recording: Recording,
+    marked: NDArray[np.bool_],
+    rows: NDArray[np.intp],
+    load: Array | None,
+    solution: _Solution,
+    seconds: float,
+) -> Fit:
+    problem = Problem(recording, made, rows, load)
+    values = made.values
+    lower, upper = solution.lower, solution.upper
+    prediction = problem.predict(values)
+    if not np.all(np.isfinite(prediction)):
+        raise FitError(f"{made.spec} predicts torques that are not finite on {recording.path}")
+    held_out, _ = held_out_prediction(problem, values, lower, upper)
+    moving = recording.moving
+    residual = recording.torque - held_out
+    blocks = np.unique(recording.block[moving]).size
+    has_held_out = blocks >= 2 and bool(np.all(np.isfinite(residual[moving])))
+    notes: tuple[str, ...] = ()
+    if marked.any():
+        spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, marked))
+        notes = (
+            f"no friction model explains the motion at {spans} (an approach move, an abrupt "
+            f"stop?): scored, but not fitted to",
+        )
+    if made.rigid_body:
+        notes += (f"identified together with the friction: {' and '.join(made.rigid_body)}",)
+    return Fit(
+        model=replace(
+            made,
+            bounds={n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper)},
+            box=operating_box(recording, load),
+        ).with_values(values),
+        recording=recording,
+        estimates=_estimates(problem, values, lower, upper),
+        prediction=prediction,
+        held_out=held_out,
+        rmse=rms((recording.torque - prediction)[moving]),
+        rmse_held_out=rms(residual[moving]) if has_held_out else None,
+        relative_residual=relative_residual(recording, residual) if has_held_out else None,
+        starts=solution.starts,
+        converged=solution.converged,
+        outcome=solution.outcome,
+        evaluations=solution.evaluations,
+        seconds=seconds,
+        transient=marked,
+        load=load,
+        notes=notes,
+    )
+
+
+def _estimates(
+    problem: Problem, values: Array, lower: Array, upper: Array
+) -> dict[str, Estimate]:
+    residual, jacobian = problem.linearise(values)
+    span = AT_BOUND * (upper - lower)
+    at_bound = (values <= lower + span) | (values >= upper - span)
+    shown = seen(jacobian, np.ones(values.size, dtype=bool))
+    free = shown & ~at_bound
+    length = correlation_length(residual, problem.recording.segment[problem.rows])
+    batch = batches(problem.recording.segment[problem.rows], length)
+    covariance = sandwich(jacobian, residual, batch, free)
+    quantile = float(student.ppf(0.975, max(int(batch.max()), 1)))
+    made = {}
+    for k, p in enumerate(scaled_parameters(problem.model, problem.recording)):
+        error = float(np.sqrt(covariance[k, k])) if free[k] else None
+        value = float(values[k])
+        made[p.name] = Estimate(
+            name=p.name,
+            symbol=p.symbol,
+            value=value,
+            unit=p.unit,
+            stderr=error,
+            ci95=None if error is None else (value - quantile * error, value + quantile * error),
+            at_bound=bool(at_bound[k]),
+            identifiable=bool(shown[k]),
+            lower=float(lower[k]),
+            upper=float(upper[k]),
+        )
+    return made
+
+
+def operating_box(recording: Recording, load: Array | None) -> dict[str, tuple[float, float]]:
+    """Ranges of the channels over the scored rows: where the model has been seen."""
+    moving = recording.moving
+    channels = {
+        "velocity": recording.velocity,
+        "position": recording.position,
+        "acceleration": recording.acceleration,
+        "temperature": recording.temperature,
+        "load_torque": recording.load_torque if recording.load_torque is not None else load,
+    }
+    return {
+        name: (float(column[moving].min()), float(column[moving].max()))
+        for name, column in channels.items()
+        if column is not None and moving.any()
+    }

@@ -1,0 +1,68 @@
+"""Normal equations, summed in a fixed order, and their bounded solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
+
+from stribeck import _core
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class NormalEquations:
+    """Sums of J'J, J'r and r'r over groups of rows.
+
+    Attributes
+    ----------
+    matrix : array [groups, p, p]
+    vector : array [groups, p]
+    square : array [groups]
+    """
+
+    matrix: Array
+    vector: Array
+    square: Array
+
+    @classmethod
+    def of(
+        cls, jacobian: Array, residual: Array, group: NDArray[np.uint32] | None = None
+    ) -> NormalEquations:
+        """Sum row by row; `group` gives each row's group (default: one group)."""
+        if group is None:
+            group = np.zeros(residual.size, dtype=np.uint32)
+        groups = int(group.max()) + 1 if group.size else 1
+        return cls(*_core.normal_equations(jacobian, residual, group, groups))
+
+    def total(self) -> tuple[Array, Array]:
+        """J'J and J'r over all groups."""
+        return self.matrix.sum(axis=0), self.vector.sum(axis=0)
+
+
+def solve_bounded(matrix: Array, vector: Array, lower: Array, upper: Array) -> Array:
+    """Minimise x'Ax/2 - b'x within bounds; directions the data does not show stay at zero.
+
+    Parameters
+    ----------
+    matrix, vector
+        A [p, p] positive semidefinite and b [p].
+    lower, upper
+        Bounds [p]; zero is moved inside them where it is the fallback.
+    """
+    if vector.size == 0:
+        return vector.copy()
+    size = np.sqrt(np.diag(matrix))
+    scale = np.where(size > 0, size, 1.0)
+    weights, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
+    seen = weights > weights[-1] * 1e-12
+    root = np.sqrt(weights[seen])[:, None] * vectors[:, seen].T
+    right = (vectors[:, seen].T @ (vector / scale)) / np.sqrt(weights[seen])
+    free = np.linalg.lstsq(root, right, rcond=None)[0] / scale
+    if np.all(free >= lower) and np.all(free <= upper):
+        return free
+    bounded = lsq_linear(root, right, bounds=(lower * scale, upper * scale), method="bvls")
+    return np.clip(bounded.x / scale, lower, upper)

@@ -1,0 +1,131 @@
+"""One model bound to one recording: which rows count, what is predicted, against what."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.model import Model
+from stribeck.recording import Recording
+
+Array = NDArray[np.float64]
+
+CHANNELS = ("position", "velocity", "acceleration", "temperature", "load_torque")
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Predict the measured torque of `recording` by `model`.
+
+    Parameters
+    ----------
+    rows : int array
+        The rows whose residuals are summed. A bristle's state runs through the others too.
+    load : array [n] or None
+        The load torque that friction depends on, where the recording does not give it: that of
+        the identified rigid body.
+    span : (start, stop) or None
+        The stretch of samples that a model with a memory is run over; None: all.
+    """
+
+    recording: Recording
+    model: Model
+    rows: NDArray[np.intp]
+    load: Array | None = None
+    span: tuple[int, int] | None = None
+
+    @cached_property
+    def known(self) -> Array:
+        """The part of the torque that is known beforehand: the load torque, where given."""
+        given = self.recording.load_torque
+        return np.zeros_like(self.recording.torque) if given is None else given
+
+    @cached_property
+    def target(self) -> Array:
+        """The measured torque on `rows`, exactly as recorded."""
+        return self.recording.torque[self.rows]
+
+    @cached_property
+    def _all_channels(self) -> dict[str, Array | None]:
+        r = self.recording
+        load = self.load if r.load_torque is None else r.load_torque
+        return {
+            "dt": r.dt,
+            "velocity": r.velocity,
+            "position": r.position,
+            "acceleration": r.acceleration,
+            "temperature": r.temperature,
+            "load_torque": load,
+            "motor_torque": None,
+        }
+
+    @cached_property
+    def _row_channels(self) -> dict[str, Array | None]:
+        """The channels of `rows` alone, for models in which each sample stands by itself."""
+        return {
+            name: None if column is None else np.ascontiguousarray(column[self.rows])
+            for name, column in self._all_channels.items()
+        }
+
+    @cached_property
+    def _smooth(self) -> dict[str, Array] | None:
+        """Zero-phase smoothed channels: what `delay` shifts, so that it cannot average noise."""
+        r = self.recording
+        if "delay" not in self.model.effects:
+            return None
+        smooth = {
+            "velocity": r.velocity_smooth,
+            "position": r.position_smooth,
+            "acceleration": r.acceleration_smooth,
+            "load_torque": r.load_torque_smooth if r.load_torque is not None else self.load,
+        }
+        return {name: column for name, column in smooth.items() if column is not None}
+
+    def _stretch(self, start: int, stop: int) -> dict[str, object]:
+        """The channels of a contiguous stretch, for models that need what went before."""
+        delayed: dict[str, object] = {}
+        if self._smooth is not None:
+            smooth = {name: column[start:stop] for name, column in self._smooth.items()}
+            delayed = {"smooth": smooth, "shift_load": self.recording.load_torque is not None}
+        channels = {
+            name: None if column is None else column[start:stop]
+            for name, column in self._all_channels.items()
+        }
+        return {**channels, **delayed}
+
+    def predict(self, values: Array) -> Array:
+        """Predicted torque of every row of the recording, array [n]."""
+        everything = self._stretch(0, self.recording.time.size)
+        return self.model.core.torque(values, **everything) + self.known
+
+    def linearise(self, values: Array) -> tuple[Array, Array]:
+        """Residual (measured - predicted) on `rows` and derivative of the prediction: [m], [m, p]."""
+        if self.model.memoryless:
+            torque, jacobian = self.model.core.gradient(values, **self._row_channels)
+        else:
+            start, stop = self.span or (0, self.recording.time.size)
+            torque, jacobian = self.model.core.gradient(values, **self._stretch(start, stop))
+            torque, jacobian = torque[self.rows - start], jacobian[self.rows - start]
+        return self.target - self.known[self.rows] - torque, jacobian
+
+    def thinned(self, most: int) -> Problem:
+        """The same problem on at most `most` rows, evenly chosen."""
+        step = -(-self.rows.size // most)
+        return self if step <= 1 else Problem(
+            self.recording, self.model, self.rows[::step], self.load
+        )
+
+    def window(self, most: int) -> Problem:
+        """The same problem on the stretch of at most `most` samples with the most reversals."""
+        size = self.recording.time.size
+        if size <= most:
+            return self
+        turned = np.diff(np.sign(self.recording.velocity), prepend=0.0) != 0
+        count = np.cumsum(turned)
+        starts = np.arange(0, size - most + 1, most // 4)
+        start = int(starts[np.argmax(count[starts + most - 1] - count[starts])])
+        rows = self.rows[(self.rows >= start) & (self.rows < start + most)]
+        return Problem(self.recording, self.model, rows, self.load, (start, start + most))

@@ -1,0 +1,227 @@
+"""Diagnose and add until what is left is noise."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from typing import Any
+
+import polars as pl
+
+from stribeck.diagnose import (
+    LEAST_FALL,
+    Diagnosis,
+    Finding,
+    NoiseFloor,
+    Unexplained,
+    Untestable,
+    diagnose,
+)
+from stribeck.diagnose.evidence import compare_fits
+from stribeck.diagnose.trial import SIGNIFICANCE, add_effect
+from stribeck.fit import Fit, fit, on_recording
+from stribeck.model import Model, check_effect
+from stribeck.recording import Recording
+
+MOST_STEPS = 8
+
+
+@dataclass(frozen=True)
+class Addition:
+    """One effect added: the model before and after, on the same rows."""
+
+    effect: str
+    before: Fit
+    after: Fit
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck add`."""
+        return {
+            "model": self.after.model.spec,
+            "effect": self.effect,
+            "rmse_before": self.before.rmse,
+            "rmse_after": self.after.rmse,
+            "rmse_held_out_before": self.before.rmse_held_out,
+            "rmse_held_out_after": self.after.rmse_held_out,
+            "unit": self.after.model.torque_unit,
+            "parameters": {n: e.to_dict() for n, e in self.after.estimates.items()},
+            "scored": self.after.recording.scored(),
+        }
+
+    def __repr__(self) -> str:
+        from stribeck.report.text import addition_text
+
+        return addition_text(self.before, self.after, self.effect)
+
+
+@dataclass(frozen=True)
+class Step:
+    """One accepted finding, and the model with it."""
+
+    finding: Finding
+    before: Fit
+    after: Fit
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of one step."""
+        return {
+            "effect": self.finding.effect,
+            "confidence": self.finding.confidence,
+            "rmse_before": self.before.rmse,
+            "rmse_after": self.after.rmse,
+            "rmse_held_out_before": self.before.rmse_held_out,
+            "rmse_held_out_after": self.after.rmse_held_out,
+            "share_of_unexplained": self.finding.share_of_unexplained,
+            "where": self.finding.where,
+            "indistinguishable_from": list(self.finding.indistinguishable_from),
+            "parameters": {n: e.to_dict() for n, e in self.after.estimates.items()},
+        }
+
+
+@dataclass(frozen=True)
+class Improvement:
+    """The way from a base model to one that leaves noise."""
+
+    base: Fit
+    steps: tuple[Step, ...]
+    final: Fit
+    noise_floor: NoiseFloor
+    stopped: str
+    untestable: tuple[Untestable, ...]
+    unexplained: Unexplained
+    last: Diagnosis
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck improve`."""
+        made: dict[str, Any] = {
+            "base": self.base.model.spec,
+            "unit": self.final.model.torque_unit,
+            "noise_floor": self.noise_floor.value,
+            "steps": [step.to_dict() for step in self.steps],
+            "final": {
+                "model": self.final.model.spec,
+                "rmse": self.final.rmse,
+                "rmse_held_out": self.final.rmse_held_out,
+                "relative_residual": self.final.relative_residual,
+                "parameters": {n: e.to_dict() for n, e in self.final.estimates.items()},
+            },
+            "rmse_held_out_base": self.base.rmse_held_out,
+            "relative_residual_base": self.base.relative_residual,
+            "stopped": self.stopped,
+            "untestable": [row.to_dict() for row in self.untestable],
+            "unexplained": self.unexplained.to_dict(),
+            "scored": self.final.recording.scored(),
+            "notes": [*self.final.recording.notes, *self.final.notes],
+        }
+        if self.noise_floor.value is None:
+            made["noise_floor_why"] = self.noise_floor.why
+        return made
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row a step."""
+        rows = [{"effect": "(base)", "model": self.base.model.spec, "rmse": self.base.rmse,
+                 "rmse_held_out": self.base.rmse_held_out}]  # fmt: skip
+        rows += [{"effect": s.finding.effect, "model": s.after.model.spec, "rmse": s.after.rmse,
+                  "rmse_held_out": s.after.rmse_held_out} for s in self.steps]  # fmt: skip
+        return pl.DataFrame(rows)
+
+    def plot(self) -> Any:
+        """Measured and modelled torque and the residual, before and after."""
+        from stribeck.report.figures import improvement_figure
+
+        return improvement_figure(self)
+
+    def __repr__(self) -> str:
+        from stribeck.report.text import improvement_text
+
+        return improvement_text(self)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{self!r}</pre>"
+
+
+def add(
+    fitted: Fit, effect: str, recording: Recording | None = None, *, starts: int = 20, seed: int = 0
+) -> Fit:
+    """Add `effect` to a fitted model and refit it on `recording` (default: the fit's own).
+
+    Raises
+    ------
+    SpecError
+        The effect is unknown or in the model already.
+    FitError
+        The recording lacks a channel that the effect needs.
+    """
+    check_effect(effect)
+    return add_effect(on_recording(fitted, recording, seed), effect, starts=starts, seed=seed)
+
+
+def improve(
+    base: str | Model,
+    recording: Recording,
+    *,
+    starts: int = 20,
+    seed: int = 0,
+    least_fall: float = LEAST_FALL,
+    most_steps: int = MOST_STEPS,
+    rejected: Collection[str] = (),
+    progress: Callable[[str], None] = lambda sentence: None,
+) -> Improvement:
+    """Diagnose and add until nothing passes the test.
+
+    An effect that a later one makes superfluous is dropped, and the way is walked again
+    without it.
+
+    Parameters
+    ----------
+    progress : callable
+        Told what is being done, in one sentence.
+    """
+    dropped = set(rejected)
+    progress(f"fitting {base if isinstance(base, str) else base.spec}")
+    first = fit(base, recording, starts=starts, seed=seed)
+    steps: list[Step] = []
+    current = first
+    while True:
+        progress(f"looking for what {current.model.spec} misses")
+        found = diagnose(current, least_fall=least_fall, rejected=dropped, seed=seed)
+        if not found.findings or len(steps) >= most_steps:
+            break
+        finding = found.findings[0]
+        progress(f"adding {finding.effect}")
+        steps.append(Step(finding, current, finding.fit))
+        current = finding.fit
+        idle = _superfluous(steps, least_fall, seed)
+        if idle is not None:
+            progress(f"{idle} is no longer needed: going back without it")
+            dropped.add(idle)
+            steps, current = [], first
+    stopped = "nothing_passes"
+    if found.findings:
+        stopped = "max_steps"
+    elif found.noise_floor.value is not None and not found.unexplained.is_structure:
+        stopped = "noise_floor"
+    return Improvement(
+        first, tuple(steps), current, found.noise_floor, stopped, found.untestable,
+        found.unexplained, found,
+    )  # fmt: skip
+
+
+def _superfluous(steps: list[Step], least_fall: float, seed: int) -> str | None:
+    """An earlier effect without which the model does as well, if there is one."""
+    if len(steps) < 2:
+        return None
+    current = steps[-1].after
+    for step in steps[:-1]:
+        effect = step.finding.effect
+        without = fit(
+            current.model.without_effect(effect),
+            current.recording,
+            starts=4,
+            seed=seed,
+            transient=current.transient,
+        )
+        comparison = compare_fits(without, current)
+        if comparison.fall < least_fall / 2 or comparison.p_value > SIGNIFICANCE:
+            return effect
+    return None

@@ -1,0 +1,373 @@
+"""A friction model: a law, the effects added to it, and the values of its parameters.
+
+The mathematics lives in the compiled core; this module gives it names, units and values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stribeck import _core
+from stribeck.errors import SpecError, nearest
+
+Array = NDArray[np.float64]
+
+#: Effects whose parameters are the rigid body's when it is identified with the friction.
+RIGID_BODY_EFFECTS = ("inertia", "gravity")
+
+
+@lru_cache(maxsize=1)
+def catalog() -> dict[str, dict[str, dict[str, Any]]]:
+    """The core's tables: ``{"laws": {id: row}, "effects": {id: row}}``, in catalog order."""
+    tables = _core.catalog()
+    return {kind: {row["id"]: row for row in tables[kind]} for kind in ("laws", "effects")}
+
+
+def law_ids() -> tuple[str, ...]:
+    """Every law of the catalog."""
+    return tuple(catalog()["laws"])
+
+
+def effect_ids() -> tuple[str, ...]:
+    """Every effect of the catalog, in the order in which a model applies them."""
+    return tuple(catalog()["effects"])
+
+
+def check_effect(effect: str) -> str:
+    """Return `effect` if the catalog has it, else raise `SpecError` with the nearest name."""
+    if effect not in effect_ids():
+        raise SpecError(
+            f"effect {effect!r} is unknown{nearest(effect, effect_ids())}; "
+            f"`stribeck effects` lists them"
+        )
+    return effect
+
+
+def parse_spec(spec: str) -> tuple[str, tuple[str, ...]]:
+    """Split ``"coulomb+load+stribeck"`` into the law and its effects, in catalog order.
+
+    Examples
+    --------
+    >>> parse_spec("coulomb+load+stribeck")
+    ('coulomb', ('stribeck', 'load'))
+    """
+    law, *effects = [word.strip() for word in spec.split("+")]
+    if law not in law_ids():
+        raise SpecError(
+            f"law {law!r} is unknown{nearest(law, law_ids())}; `stribeck models` lists them"
+        )
+    for effect in effects:
+        check_effect(effect)
+        if effects.count(effect) > 1:
+            raise SpecError(f"effect {effect!r} is given twice in {spec!r}: leave one out")
+    return law, tuple(sorted(effects, key=effect_ids().index))
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What one parameter is: its name, symbol in the literature, unit and bounds.
+
+    `lower`, `upper` and `start` are in `unit` once the model is scaled to a recording, and
+    multiples of `scale` before.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    lower: float
+    upper: float
+    start: float
+    scale: str
+    linear: bool
+    description: str
+
+
+@dataclass(frozen=True)
+class Model:
+    """A friction law with effects, and the values of its parameters.
+
+    Parameters
+    ----------
+    law, effects
+        Ids of the catalog. `effects` are kept in catalog order.
+    constants
+        Fixed numbers that belong to the model and are not fitted: reference temperature,
+        the stroke of a position dependence ...
+    rigid_body
+        Rigid-body terms (``"inertia"``, ``"gravity"``) that were identified together with the
+        friction; their parameters are part of `values`.
+    values
+        One value a parameter, NaN where none is known yet.
+
+    Examples
+    --------
+    >>> m = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> m.torque([-1.0, 0.0, 1.0])
+    array([-2.5,  0. ,  2.5])
+    """
+
+    law: str
+    effects: tuple[str, ...] = ()
+    constants: Mapping[str, float] = field(default_factory=dict)
+    rigid_body: tuple[str, ...] = ()
+    values: Array = field(default_factory=lambda: np.empty(0))
+    torque_unit: str = "N m"
+    position_unit: str = "rad"
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.values.shape != (len(self.names),):
+            object.__setattr__(self, "values", np.full(len(self.names), np.nan))
+
+    @cached_property
+    def core(self) -> _core.Model:
+        """The compiled model."""
+        for term in self.rigid_body:
+            if term in self.effects:
+                raise SpecError(
+                    f"{term} is identified with the friction already (the recording has no "
+                    f"load_torque), so effect {term!r} cannot be added"
+                )
+        try:
+            return _core.Model(
+                self.law, list(self.effects + self.rigid_body), dict(self.constants)
+            )
+        except _core.ModelError as error:
+            raise SpecError(str(error)) from None
+
+    @property
+    def spec(self) -> str:
+        """``law+effect+...``, as commands take it."""
+        return "+".join((self.law, *self.effects))
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The parameters in the order of `values`."""
+        return tuple(
+            Parameter(
+                name=row["name"],
+                symbol=row["symbol"],
+                unit=self._unit(row["unit"]),
+                lower=row["lower"],
+                upper=row["upper"],
+                start=row["start"],
+                scale=row["scale"],
+                linear=row["linear"],
+                description=row["description"],
+            )
+            for row in self.core.parameters()
+        )
+
+    def _unit(self, unit: str) -> str:
+        """Spell the catalog's unit (T torque or force, X position) for this joint."""
+        spelled = {"T": self.torque_unit, "X": self.position_unit}
+        words = [
+            "/".join(spelled.get(part, part) for part in word.split("/"))
+            for word in unit.split(" ")
+        ]
+        if unit == "T s2/X" and self.torque_unit in ("N m", "N"):
+            return "kg m2" if self.position_unit == "rad" else "kg"
+        return " ".join(words)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Parameter names in the order of `values`."""
+        return tuple(p.name for p in self.parameters)
+
+    @property
+    def has_state(self) -> bool:
+        """Whether the torque depends on the past motion (a bristle)."""
+        return bool(self.core.has_bristle)
+
+    @property
+    def memoryless(self) -> bool:
+        """Whether each sample's torque depends on that sample alone."""
+        return not self.has_state and "delay" not in self.effects
+
+    def value(self, name: str) -> float:
+        """The value of one parameter, by name."""
+        return float(self.values[self.names.index(name)])
+
+    def with_values(self, values: ArrayLike) -> Model:
+        """The same model with other values."""
+        return replace(self, values=np.asarray(values, dtype=np.float64).copy())
+
+    def with_effect(self, effect: str, constants: Mapping[str, float]) -> Model:
+        """The model with one more effect; values known before are kept, new ones are NaN."""
+        check_effect(effect)
+        if effect in self.effects:
+            raise SpecError(f"effect {effect!r} is in {self.spec} already")
+        effects = tuple(sorted((*self.effects, effect), key=effect_ids().index))
+        wider = replace(
+            self, effects=effects, constants={**self.constants, **constants}, values=np.empty(0)
+        )
+        known = dict(zip(self.names, self.values, strict=True))
+        return wider.with_values([known.get(name, np.nan) for name in wider.names])
+
+    def without_effect(self, effect: str) -> Model:
+        """The model with one effect fewer."""
+        effects = tuple(e for e in self.effects if e != effect)
+        narrower = replace(self, effects=effects, values=np.empty(0))
+        known = dict(zip(self.names, self.values, strict=True))
+        return narrower.with_values([known.get(name, np.nan) for name in narrower.names])
+
+    def torque(
+        self,
+        velocity: ArrayLike,
+        position: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        load_torque: ArrayLike | None = None,
+        motor_torque: ArrayLike | None = None,
+        dt: ArrayLike | None = None,
+        state: float = 0.0,
+    ) -> Array:
+        """Friction torque of each sample, and identified rigid-body terms where there are any.
+
+        Parameters
+        ----------
+        velocity : array [n]
+            rad/s or m/s. The other channels likewise, SI units and degC; an effect that needs
+            one of them raises when it is missing.
+        dt : float or array [n]
+            Step to the previous sample in s, for models with a state: sample i is the torque at
+            the end of a step with velocity[i] held. The state starts from `state`.
+
+        Returns
+        -------
+        array [n]
+        """
+        return self.core.torque(
+            self._known_values(),
+            **_channels(
+                velocity, position, acceleration, temperature, load_torque, motor_torque, dt
+            ),
+            state=state,
+        )
+
+    def gradient(
+        self,
+        velocity: ArrayLike,
+        position: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+        temperature: ArrayLike | None = None,
+        load_torque: ArrayLike | None = None,
+        motor_torque: ArrayLike | None = None,
+        dt: ArrayLike | None = None,
+        state: float = 0.0,
+    ) -> Array:
+        """Derivative of `torque` with respect to the parameters, array [n, p]."""
+        _, jacobian = self.core.gradient(
+            self._known_values(),
+            **_channels(
+                velocity, position, acceleration, temperature, load_torque, motor_torque, dt
+            ),
+            state=state,
+        )
+        return jacobian
+
+    def split(self, velocity: ArrayLike, **channels: ArrayLike | None) -> dict[str, Array]:
+        """The parts of the steady friction torque: ``dry`` (D), ``rate``, ``additive``.
+
+        Parameters
+        ----------
+        velocity : array [n]
+            rad/s or m/s.
+        **channels : arrays [n]
+            ``position``, ``acceleration``, ``temperature``, ``load_torque``. One that is left
+            out stands at the middle of the operating box.
+        """
+        speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
+        filled: dict[str, Array] = {}
+        for name in ("position", "acceleration", "temperature", "load_torque"):
+            given = channels.get(name)
+            if given is None and name in self.box:
+                given = 0.5 * sum(self.box[name])
+            if given is not None:
+                size = max(speed.size, np.size(given))
+                filled[name] = np.ascontiguousarray(np.broadcast_to(given, size), dtype=np.float64)
+        size = max([speed.size, *(column.size for column in filled.values())])
+        full = np.ascontiguousarray(np.broadcast_to(speed, size), dtype=np.float64)
+        filled = {
+            name: np.ascontiguousarray(np.broadcast_to(column, size), dtype=np.float64)
+            for name, column in filled.items()
+        }
+        return dict(self.core.split(self._known_values(), velocity=full, **filled))
+
+    def _known_values(self) -> Array:
+        unknown = [n for n, v in zip(self.names, self.values, strict=True) if not np.isfinite(v)]
+        if unknown:
+            raise SpecError(f"{self.spec} has no value for {', '.join(unknown)}: fit it or give it")
+        return self.values
+
+    def save(self, path: str) -> None:
+        """Write the model file (TOML)."""
+        from stribeck.model_file import ModelFile
+
+        ModelFile(self).write(path)
+
+
+def _channels(
+    velocity: ArrayLike,
+    position: ArrayLike | None,
+    acceleration: ArrayLike | None,
+    temperature: ArrayLike | None,
+    load_torque: ArrayLike | None,
+    motor_torque: ArrayLike | None,
+    dt: ArrayLike | None,
+) -> dict[str, Array | None]:
+    speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
+
+    def column(values: ArrayLike | None) -> Array | None:
+        if values is None:
+            return None
+        return np.ascontiguousarray(np.broadcast_to(values, speed.shape), dtype=np.float64)
+
+    return {
+        "dt": np.zeros_like(speed) if dt is None else column(dt),
+        "velocity": speed,
+        "position": column(position),
+        "acceleration": column(acceleration),
+        "temperature": column(temperature),
+        "load_torque": column(load_torque),
+        "motor_torque": column(motor_torque),
+    }
+
+
+def model(
+    spec: str, /, *, constants: Mapping[str, float] | None = None, **values: float
+) -> Model:
+    """A model by its spec, with parameter values by physical name or by symbol.
+
+    Examples
+    --------
+    >>> model("bittencourt_a", a1=2.0, a2=1.0, a3=0.1, a4=2.0, a5=0.3).spec
+    'bittencourt_a'
+    """
+    law, effects = parse_spec(spec)
+    made = Model(law=law, effects=effects, constants=dict(constants or {}))
+    return made.with_values(_place(made, values)) if values else made
+
+
+def _place(made: Model, values: Mapping[str, float]) -> Sequence[float]:
+    placed = dict.fromkeys(made.names, np.nan)
+    symbols = {p.symbol: p.name for p in made.parameters}
+    for given, value in values.items():
+        name = given if given in placed else symbols.get(given)
+        if name is None:
+            known: Iterable[str] = (*placed, *symbols)
+            raise SpecError(
+                f"{made.spec} has no parameter {given!r}{nearest(given, tuple(known))}; "
+                f"it has {', '.join(placed)}"
+            )
+        if not np.isfinite(value):
+            raise SpecError(f"parameter {given} of {made.spec} is {value}: give a finite number")
+        placed[name] = float(value)
+    return list(placed.values())

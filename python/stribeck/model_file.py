@@ -1,0 +1,250 @@
+"""Model files: a model, what it was fitted on and its operating box, as editable TOML."""
+
+from __future__ import annotations
+
+import math
+import os
+import sys
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import tomlkit
+
+from stribeck.errors import ModelFileError, SpecError, nearest
+from stribeck.model import Model, parse_spec
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    import tomli as tomllib
+
+SCHEMA = 1
+TOP_KEYS = {
+    "kind", "schema", "law", "effects", "rigid_body", "torque_unit", "position_unit",
+    "constants", "parameters", "fitted_on", "box",
+}  # fmt: skip
+PARAMETER_KEYS = {"value", "symbol", "unit", "bounds", "stderr"}
+FITTED_KEYS = {"path", "sha256", "rows", "time_span", "rmse", "rmse_held_out"}
+
+
+@dataclass(frozen=True)
+class ModelFile:
+    """A model with its standard errors and provenance, as stored.
+
+    Attributes
+    ----------
+    stderr : dict
+        Standard errors by parameter name, where known.
+    fitted_on : dict
+        ``path``, ``sha256``, ``rows``, ``time_span`` [s, s], ``rmse``, ``rmse_held_out``.
+    """
+
+    model: Model
+    stderr: Mapping[str, float] = field(default_factory=dict)
+    fitted_on: Mapping[str, Any] = field(default_factory=dict)
+
+    def to_toml(self) -> str:
+        """The file's text; numbers are written so that they read back with the same bits."""
+        m = self.model
+        document = tomlkit.document()
+        document.add("kind", tomlkit.item("model"))
+        document.add("schema", tomlkit.item(SCHEMA))
+        document.add("law", tomlkit.item(m.law))
+        document.add("effects", tomlkit.item(list(m.effects)))
+        document.add("rigid_body", tomlkit.item(list(m.rigid_body)))
+        document.add("torque_unit", tomlkit.item(m.torque_unit))
+        document.add("position_unit", tomlkit.item(m.position_unit))
+        if m.constants:
+            document.add("constants", _table({k: float(v) for k, v in m.constants.items()}))
+        rows = tomlkit.table(is_super_table=True)
+        for p, value in zip(m.parameters, m.values, strict=True):
+            lower, upper = m.bounds.get(p.name, (None, None))
+            row = {
+                "value": float(value),
+                "symbol": p.symbol,
+                "unit": p.unit,
+                "bounds": None if lower is None else [float(lower), float(upper)],
+                "stderr": self.stderr.get(p.name),
+            }
+            rows.add(p.name, _table({k: v for k, v in row.items() if v is not None}))
+        document.add("parameters", rows)
+        if self.fitted_on:
+            document.add("fitted_on", _table(dict(self.fitted_on)))
+        if m.box:
+            document.add("box", _table({k: [float(a), float(b)] for k, (a, b) in m.box.items()}))
+        return tomlkit.dumps(document)
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Write the file whole or not at all."""
+        unknown = [
+            n for n, v in zip(self.model.names, self.model.values, strict=True)
+            if not math.isfinite(v)
+        ]  # fmt: skip
+        if unknown:
+            raise ModelFileError(
+                f"{self.model.spec} has no value for {', '.join(unknown)}: fit it before saving"
+            )
+        write_whole(path, self.to_toml())
+
+
+def write_whole(path: str | os.PathLike[str], text: str) -> None:
+    """Write `text` to `path` so that a reader never sees half of it."""
+    target = Path(path)
+    try:
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}-")
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8") as stream:
+                stream.write(text)
+            os.chmod(name, 0o644)
+            os.replace(name, target)
+        except BaseException:
+            os.unlink(name)
+            raise
+    except OSError as error:
+        raise ModelFileError(
+            f"cannot write {target}: {error.strerror or error}; give a path in a folder that "
+            f"exists and may be written to"
+        ) from None
+
+
+def _table(values: Mapping[str, Any]) -> Any:
+    table = tomlkit.table()
+    for key, value in values.items():
+        table.add(key, tomlkit.item(value))
+    return table
+
+
+def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
+    """Read a model file; everything that is not understood is refused with its line.
+
+    Raises
+    ------
+    ModelFileError
+    """
+    return _Reader(Path(path)).read()
+
+
+def load(path: str | os.PathLike[str]) -> Model:
+    """Read the model of a model file."""
+    return read_model_file(path).model
+
+
+class _Reader:
+    """Reads one file; keeps its text to tell the line of what is wrong."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            self.text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            reason = getattr(error, "strerror", None) or "it is not text"
+            raise ModelFileError(f"cannot read the model file {path}: {reason}") from None
+
+    def stop(self, what: str, *keys: str) -> ModelFileError:
+        """An error that names the line on which the last of `keys` stands."""
+        line = 0
+        rows = self.text.splitlines()
+        for key in keys:
+            for k in range(line, len(rows)):
+                if key in rows[k]:
+                    line = k
+                    break
+        where = f", line {line + 1}" if keys else ""
+        return ModelFileError(f"{self.path}{where}: {what}")
+
+    def read(self) -> ModelFile:
+        try:
+            data = tomllib.loads(self.text)
+        except tomllib.TOMLDecodeError as error:
+            raise ModelFileError(f"{self.path}: not a TOML file ({error})") from None
+        if data.get("kind") != "model":
+            raise self.stop(
+                f'this is not a model file: kind is {data.get("kind")!r}, "model" is needed',
+                *(["kind"] if "kind" in data else []),
+            )
+        if data.get("schema") != SCHEMA:
+            raise self.stop(
+                f"schema {data.get('schema')!r} is not known here, {SCHEMA} is", "schema"
+            )
+        self._known(data, TOP_KEYS)
+        try:
+            law, effects = parse_spec("+".join([str(data["law"]), *data.get("effects", [])]))
+            made = Model(
+                law=law,
+                effects=effects,
+                constants=self._numbers(data.get("constants", {}), "constants"),
+                rigid_body=tuple(data.get("rigid_body", ())),
+                torque_unit=self._choice(data, "torque_unit", ("N m", "N", "V", "%")),
+                position_unit=self._choice(data, "position_unit", ("rad", "m")),
+                box={k: self._pair(v, "box", k) for k, v in data.get("box", {}).items()},
+            )
+        except SpecError as error:
+            raise self.stop(str(error), "effects" if data.get("effects") else "law") from None
+        except KeyError as error:
+            raise ModelFileError(f"{self.path}: the key {error} is missing") from None
+        return self._with_parameters(made, data)
+
+    def _with_parameters(self, made: Model, data: Mapping[str, Any]) -> ModelFile:
+        rows = data.get("parameters", {})
+        values, errors, bounds = [], {}, {}
+        for name in rows:
+            if name not in made.names:
+                raise self.stop(
+                    f"{made.spec} has no parameter {name!r}{nearest(name, made.names)}",
+                    "parameters", name,
+                )  # fmt: skip
+        for p in made.parameters:
+            row = rows.get(p.name)
+            if not isinstance(row, dict) or "value" not in row:
+                raise ModelFileError(f"{self.path}: parameter {p.name} of {made.spec} is missing")
+            self._known(row, PARAMETER_KEYS, "parameters", p.name)
+            values.append(self._number(row["value"], "parameters", f"parameters.{p.name}", "value"))
+            if row.get("unit", p.unit) != p.unit:
+                raise self.stop(
+                    f"parameter {p.name} is in {p.unit}, not {row['unit']!r}",
+                    f"parameters.{p.name}", "unit",
+                )  # fmt: skip
+            if "stderr" in row:
+                errors[p.name] = self._number(row["stderr"], f"parameters.{p.name}", "stderr")
+            if "bounds" in row:
+                bounds[p.name] = self._pair(row["bounds"], f"parameters.{p.name}", "bounds")
+        fitted = data.get("fitted_on", {})
+        self._known(fitted, FITTED_KEYS, "fitted_on")
+        from dataclasses import replace
+
+        filled = replace(made, bounds=bounds).with_values(np.array(values))
+        return ModelFile(filled, errors, fitted)
+
+    def _known(self, table: Mapping[str, Any], keys: set[str], *where: str) -> None:
+        for key in table:
+            if key not in keys:
+                raise self.stop(
+                    f"key {key!r} is unknown{nearest(key, tuple(sorted(keys)))}", *where, key
+                )
+
+    def _number(self, value: Any, *where: str) -> float:
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise self.stop(f"{where[-1]} is {value!r}, a number is needed", *where)
+        if not math.isfinite(value):
+            raise self.stop(f"{where[-1]} is {value}, a finite number is needed", *where)
+        return float(value)
+
+    def _numbers(self, table: Any, *where: str) -> dict[str, float]:
+        return {key: self._number(value, *where, key) for key, value in table.items()}
+
+    def _pair(self, value: Any, *where: str) -> tuple[float, float]:
+        if not isinstance(value, list) or len(value) != 2:
+            raise self.stop(f"{where[-1]} is {value!r}, two numbers are needed", *where)
+        return self._number(value[0], *where), self._number(value[1], *where)
+
+    def _choice(self, data: Mapping[str, Any], key: str, options: tuple[str, ...]) -> str:
+        value = str(data.get(key, options[0]))
+        if value not in options:
+            raise self.stop(
+                f"{key} is {value!r}; known are {', '.join(options)}", key
+            )
+        return value

@@ -1,0 +1,98 @@
+"""`read` and `read_all`: from a path and options to recordings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from .assemble import build
+from .options import Pairs, gather
+from .recording import Recording
+from .table import joint_rows, joints_of, prepare
+
+__all__ = ["read", "read_all"]
+
+
+def read(
+    path: str | Path,
+    *,
+    sidecar: str | Path | None = None,
+    joint: str | None = None,
+    joint_kind: str | None = None,
+    gear_ratio: float | None = None,
+    torque_constant: float | None = None,
+    inertia: float | None = None,
+    unit: Pairs = (),
+    map: Pairs = (),
+    derive: Pairs = (),
+    where: str | None = None,
+    average: str | None = None,
+) -> Recording:
+    """Read one joint of a recording.
+
+    Parameters
+    ----------
+    path
+        CSV, TSV, Parquet, Arrow, .npz or .mat file.
+    sidecar
+        Sidecar to use instead of ``FILE.EXT.sidecar.toml`` beside the file. Options win over it.
+    joint
+        Joint of a file that holds several.
+    joint_kind
+        ``"revolute"`` or ``"prismatic"``.
+    gear_ratio, torque_constant
+        Joint-side torque = current [A] * torque_constant [N m/A] * gear_ratio.
+    inertia
+        Known inertia [kg m2] or mass [kg]: load torque = inertia * acceleration (+ gravity).
+    unit
+        ``"COLUMN=UNIT"`` texts: the unit of a column of the file.
+    map
+        ``"NAME=COLUMN"`` texts: which column of the file a channel is; ``NAME=none`` leaves it out.
+    derive
+        ``"NAME=FORMULA"`` texts: new columns from those of the file, in the file's own units.
+    where
+        Condition on the columns; rows that fail it become gaps.
+    average
+        ``"run"``: one row per run, the median of each channel.
+
+    Raises
+    ------
+    RecordingError
+        One sentence that says what is wrong, where, and what to do.
+    """
+    options = gather(
+        path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
+        torque_constant=torque_constant, inertia=inertia, unit=unit, map=map, derive=derive,
+        where=where, average=average,
+    )  # fmt: skip
+    prepared = prepare(str(path), options)
+    name, rows = joint_rows(prepared, options.joint)
+    return build(prepared, name, rows)
+
+
+def read_all(
+    path: str | Path,
+    *,
+    sidecar: str | Path | None = None,
+    joint: str | None = None,
+    joint_kind: str | None = None,
+    gear_ratio: float | None = None,
+    torque_constant: float | None = None,
+    inertia: float | None = None,
+    unit: Pairs = (),
+    map: Pairs = (),
+    derive: Pairs = (),
+    where: str | None = None,
+    average: str | None = None,
+) -> list[Recording]:
+    """Read every joint of a recording, in order of appearance; see `read`."""
+    options = gather(
+        path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
+        torque_constant=torque_constant, inertia=inertia, unit=unit, map=map, derive=derive,
+        where=where, average=average,
+    )  # fmt: skip
+    prepared = prepare(str(path), options)
+    wanted: Iterable[str | None] = joints_of(prepared) or [None]
+    if options.joint is not None:
+        wanted = [options.joint]
+    return [build(prepared, *joint_rows(prepared, name)) for name in wanted]

@@ -1,0 +1,190 @@
+"""What `scan` finds: what is in a file before a joint is selected."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+
+from ..errors import RecordingError
+from .assemble import make_column, require
+from .columns import file_unit, wide_groups
+from .options import Pairs, gather
+from .readers import read_table
+from .recording import Column
+from .rows import segment_rows
+from .table import (
+    Prepared,
+    apply_formulas,
+    channel_values,
+    column_numbers,
+    joints_of,
+    labels,
+    prepare,
+)
+
+__all__ = ["FileColumn", "Table", "scan"]
+
+
+@dataclass(frozen=True)
+class FileColumn:
+    """A column as the file has it: its type, the unit its name carries, its range and empty "
+    "cells."""
+
+    name: str
+    dtype: str
+    unit: str | None
+    minimum: float | None
+    maximum: float | None
+    missing: int
+    derived: bool
+    channel: str | None
+
+
+@dataclass(frozen=True)
+class Table:
+    """What is in a file before a joint is selected.
+
+    Attributes
+    ----------
+    rows
+        Rows that `where` leaves.
+    joints
+        Joints of a joint column, or the joint numbers of a wide file.
+    columns
+        Every column of the file.
+    channels
+        Channel -> column read for it, unit and range in SI.
+    problem
+        The sentence with which reading a joint would be refused, as far as the columns tell.
+    """
+
+    path: str
+    sha256: str
+    rows: int
+    joints: tuple[str, ...]
+    wide: bool
+    runs: int
+    columns: tuple[FileColumn, ...]
+    channels: dict[str, Column]
+    rate_hz: float | None
+    gaps: int | None
+    problem: str | None
+    notes: tuple[str, ...]
+
+
+def scan(
+    path: str | Path,
+    *,
+    sidecar: str | Path | None = None,
+    joint: str | None = None,
+    joint_kind: str | None = None,
+    gear_ratio: float | None = None,
+    torque_constant: float | None = None,
+    inertia: float | None = None,
+    unit: Pairs = (),
+    map: Pairs = (),
+    derive: Pairs = (),
+    where: str | None = None,
+    average: str | None = None,
+) -> Table:
+    """Look at a file without selecting a joint; see `read` for the options."""
+    options = gather(
+        path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
+        torque_constant=torque_constant, inertia=inertia, unit=unit, map=map, derive=derive,
+        where=where, average=average,
+    )  # fmt: skip
+    problem: str | None = None
+    prepared: Prepared | None
+    try:
+        prepared = prepare(str(path), options)
+        source, table = prepared.source, prepared.table
+        require(prepared)
+    except RecordingError as error:
+        problem = str(error)
+        # A file that cannot be opened, or a wrong formula, is refused here as it is by `read`.
+        source = read_table(str(path))
+        table, row, derived, _, notes = apply_formulas(source, options)
+        prepared = Prepared(
+            source,
+            options,
+            table,
+            row,
+            {},
+            derived,
+            source.table.height - table.height,
+            tuple(notes),
+        )
+    wide = wide_groups(table.columns) if not prepared.choices else {}
+    joints = tuple(joints_of(prepared)) or tuple(next(iter(wide.values()), {}))
+    used = {choice.source: channel for channel, choice in prepared.choices.items()}
+    columns = tuple(
+        _file_column(table[name], name in prepared.derived, used.get(name))
+        for name in table.columns
+    )
+    channels: dict[str, Column] = {}
+    for channel, choice in prepared.choices.items():
+        if channel in ("joint", "run"):
+            continue
+        try:
+            values, si, _ = channel_values(prepared, channel, np.arange(table.height))
+        except RecordingError as error:
+            problem = problem or str(error)
+            continue
+        finite = values[np.isfinite(values)]
+        if finite.size:
+            channels[channel] = make_column(
+                channel, choice.source, si, choice.source in prepared.derived, finite
+            )
+    runs, rate, gaps = _pace(prepared)
+    return Table(
+        source.path, source.sha256, table.height, joints, bool(wide), runs, columns, channels, rate,
+        gaps, problem, prepared.notes,
+    )  # fmt: skip
+
+
+def _file_column(series: pl.Series, derived: bool, channel: str | None) -> FileColumn:
+    unit = file_unit(series.name)
+    low = high = None
+    missing = series.null_count()
+    if series.dtype.is_numeric():
+        values = series.cast(pl.Float64).drop_nulls().to_numpy()
+        finite = values[np.isfinite(values)]
+        missing += len(values) - len(finite)
+        if finite.size:
+            low, high = float(finite.min()), float(finite.max())
+    return FileColumn(
+        series.name,
+        str(series.dtype),
+        unit.name if unit else None,
+        low,
+        high,
+        int(missing),
+        derived,
+        channel,
+    )
+
+
+def _pace(prepared: Prepared) -> tuple[int, float | None, int | None]:
+    """Count runs and gaps and find the rate over every joint of a file."""
+    choices = prepared.choices
+    if "time" not in choices:
+        return 1, None, None
+    try:
+        time = column_numbers(prepared.source, prepared.table, prepared.row, choices["time"].source)
+    except RecordingError:
+        return 1, None, None
+    if choices["time"].unit is not None:
+        time = time * choices["time"].unit.factor
+    keys = [labels(prepared.table, choices[c].source) for c in ("joint", "run") if c in choices]
+    number: dict[tuple[str, ...], int] = {}
+    rows = zip(*keys, strict=True) if keys else (("",) for _ in range(len(time)))
+    code = np.fromiter(
+        (number.setdefault(k, len(number)) for k in rows), dtype=np.int64, count=len(time)
+    )
+    order = np.argsort(code, kind="stable")
+    segment, _, typical = segment_rows(time[order], code[order], prepared.row[order])
+    gaps = int(segment[-1]) + 1 - len(number)
+    return len(number), 1.0 / typical if typical > 0.0 else None, gaps
