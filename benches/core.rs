@@ -1,4 +1,6 @@
 //! Time per sample of the kernels that a fit and a controller spend their time in.
+// The inputs need not be the same bits everywhere.
+#![allow(clippy::disallowed_methods)]
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
