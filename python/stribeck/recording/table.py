@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import polars as pl
@@ -76,39 +76,27 @@ def apply_formulas(
     units = dict(options.units)
     notes: list[str] = []
     for name, text in options.derive.items():
-        formula = compile_formula(text, table.schema, f"{path}: --derive {name}")
-        for column in formula.columns:
-            if table.schema[column] == pl.String:
-                # A bad cell makes a column of text; say which cell it is, not that text is used.
-                column_numbers(source, table, np.arange(table.height), column)
-        table = _run(
-            path,
-            f"--derive {name}={text}",
-            lambda f=formula, n=name: table.with_columns(
-                f.expression.cast(pl.Float64).alias(n)
-                if f.kind == "truth"
-                else f.expression.alias(n)
-            ),
-        )
+        formula = _compile(source, table, text, f"{path}: --derive {name}")
+        expression = formula.expression
+        if formula.kind == "truth":
+            expression = expression.cast(pl.Float64)
+        table = _run(path, f"--derive {name}={text}", table.with_columns, expression.alias(name))
         inferred = _inferred_unit(formula)
         channel = parse_name(name).channel
-        if channel in ("torque", "load_torque", "friction_torque") and name not in units:
-            if inferred is not None:
-                units[name] = inferred
-                notes.append(f"'{name}' is in {inferred}, the unit of the columns in its formula")
+        effort = channel in ("torque", "load_torque", "friction_torque")
+        if effort and name not in units and inferred is not None:
+            units[name] = inferred
+            notes.append(f"'{name}' is in {inferred}, the unit of the columns in its formula")
     row = np.arange(table.height)
     if options.where is not None:
-        formula = compile_formula(options.where, table.schema, f"{path}: --where")
+        formula = _compile(source, table, options.where, f"{path}: --where")
         if formula.kind == "text":
             raise RecordingError(f"{path}: --where {options.where}: is a text, not a condition")
         mask_expression = (
             formula.expression if formula.kind == "truth" else formula.expression != 0.0
         )
-        mask = _run(
-            path,
-            f"--where {options.where}",
-            lambda: table.select(pl.lit(True).and_(mask_expression).fill_null(False).alias("keep")),
-        )["keep"].to_numpy()
+        keep = mask_expression.fill_null(False).alias("keep")
+        mask = _run(path, f"--where {options.where}", table.select, keep)["keep"].to_numpy()
         if mask.shape[0] != table.height:
             mask = np.full(table.height, bool(mask[0]))
         if not mask.any():
@@ -147,13 +135,28 @@ def _wide_index(table: pl.DataFrame, options: Options) -> str | None:
     return options.joint.removeprefix("joint_").removeprefix("joint")
 
 
-def _run(path: str, what: str, compute: Any) -> pl.DataFrame:
+def _compile(source: Source, table: pl.DataFrame, text: str, where: str) -> Formula:
     try:
-        result: pl.DataFrame = compute()
+        return compile_formula(text, table.schema, where)
+    except RecordingError:
+        # One bad cell turns a column of numbers into text: then the cell is what is wrong.
+        for name in table.columns:
+            if table.schema[name] == pl.String and name in text:
+                bare = table[name].str.strip_chars().drop_nulls()
+                numbers = bare.cast(pl.Float64, strict=False).drop_nulls()
+                if 2 * len(numbers) > len(bare):
+                    column_numbers(source, table, np.arange(table.height), name)
+        raise
+
+
+def _run(
+    path: str, what: str, compute: Callable[[pl.Expr], pl.DataFrame], expression: pl.Expr
+) -> pl.DataFrame:
+    try:
+        return compute(expression)
     except (pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:
         reason = str(error).strip().splitlines()[0][:120]
         raise RecordingError(f"{path}: {what}: cannot be computed ({reason})") from None
-    return result
 
 
 # -------------------------------------------------------------------------------------- values
