@@ -51,7 +51,6 @@ _ALIASES: dict[str, tuple[str, ...]] = {
         "qmeasured",
         "displacement",
         "jointangle",
-        "qm",
     ),
     "velocity": (
         "velocity",

@@ -39,7 +39,7 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
     The spectrum of the differenced signal (differencing keeps the strong slow motion from leaking
     over the weak fast one) is divided by the response of the difference. Its high-frequency plateau
     is the noise; motion ends at the highest frequency where the spectrum stands clearly above
-    it. The cut-off does not depend on the derivative wanted: both motion and noise grow alike with it.
+    it. The cut-off does not depend on the derivative wanted: motion and noise grow alike with it.
 
     Parameters
     ----------

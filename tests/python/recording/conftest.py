@@ -16,7 +16,9 @@ CASES = ROOT.parent / "shared" / "cases"
 SIDECARS = ROOT / "tests" / "sidecars"
 
 
-def joint(rows: int = 2000, rate: float = 200.0, noise: float = 1e-3, seed: int = 1) -> pl.DataFrame:
+def joint(
+    rows: int = 2000, rate: float = 200.0, noise: float = 1e-3, seed: int = 1
+) -> pl.DataFrame:
     """A revolute joint on two sines with Coulomb and viscous friction."""
     rng = np.random.default_rng(seed)
     t = np.arange(rows) / rate

@@ -32,16 +32,27 @@ def _save(frame, path):
 
 
 @pytest.mark.parametrize(
-    "name", ["d.csv", "d.tsv", "d.txt", "d.parquet", "d.arrow", "d.feather", "d.arrows", "d.npz", "d.mat"]
+    "name",
+    ["d.csv", "d.tsv", "d.txt", "d.parquet", "d.arrow", "d.feather", "d.arrows", "d.npz", "d.mat"],
 )
 def test_round_trip(tmp_path, frame, name):
     path = tmp_path / name
     _save(frame, path)
     recording = read(path)
-    for channel in ("time", "position", "velocity", "acceleration", "torque", "load_torque", "temperature"):
+    for channel in (
+        "time",
+        "position",
+        "velocity",
+        "acceleration",
+        "torque",
+        "load_torque",
+        "temperature",
+    ):
         values = getattr(recording, channel)
         np.testing.assert_array_equal(values, frame[channel].to_numpy())
-        assert values.dtype == np.float64 and values.flags.c_contiguous and not values.flags.writeable
+        assert (
+            values.dtype == np.float64 and values.flags.c_contiguous and not values.flags.writeable
+        )
     assert recording.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
     assert recording.rate_hz == pytest.approx(200.0)
     assert recording.gaps == 0 and recording.rows_dropped == 0
@@ -52,7 +63,9 @@ def test_struct_and_matrix_in_mat(tmp_path, frame):
 
     path = tmp_path / "s.mat"
     q = np.stack([frame["position"].to_numpy(), frame["position"].to_numpy() * 2], axis=1)
-    savemat(path, {"log": {"t": frame["time"].to_numpy(), "q": q, "tau": frame["torque"].to_numpy()}})
+    savemat(
+        path, {"log": {"t": frame["time"].to_numpy(), "q": q, "tau": frame["torque"].to_numpy()}}
+    )
     with pytest.raises(RecordingError, match="2 joints side by side"):
         read(path)
     recording = read(path, map=("position=q_2",))

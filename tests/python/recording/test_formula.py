@@ -10,7 +10,13 @@ from stribeck.errors import RecordingError
 from stribeck.recording.formula import compile_formula
 
 TABLE = pl.DataFrame(
-    {"a": [1, 4, 9], "b": [2.0, -3.0, 0.5], "name": ["x", "y", "x"], "on": [True, False, True], "i A": [1.0, 2.0, 3.0]}
+    {
+        "a": [1, 4, 9],
+        "b": [2.0, -3.0, 0.5],
+        "name": ["x", "y", "x"],
+        "on": [True, False, True],
+        "i A": [1.0, 2.0, 3.0],
+    }
 )
 
 
