@@ -25,7 +25,8 @@
 //! let model = Spec::new("coulomb", ["presliding"])?.with(&[0.5, 2.0, 1e4, 10.0])?;
 //! let mut state = BristleState::default();
 //! let step = model.step(&mut state, &Sample::at(0.1), 0.01);
-//! assert!((step.torque - 2.05).abs() < 0.02);
+//! // s0 z + s1 dz/dt + a1 v, the bristle almost at its steady deflection
+//! assert_eq!((step.torque * 1e3_f64).round(), 2043.0);
 //! # Ok::<(), stribeck::error::ModelError>(())
 //! ```
 #![no_std]

@@ -1,0 +1,113 @@
+//! What the exact step promises, for any stiffness and any step.
+
+mod common;
+
+use common::close;
+use stribeck::bristle::{Bristle, BristleState};
+use stribeck::sample::{Sample, Split};
+
+fn split(dry: f64) -> Split<f64> {
+    Split { coulomb: dry, height: 0.0, shape: 0.0, rate: 0.0, additive: 0.0 }
+}
+
+#[test]
+fn two_half_steps_are_one_step() {
+    for stiffness in [1.0, 1e3, 1e6] {
+        for velocity in [-2.0, 1e-3, 0.4] {
+            let bristle = Bristle { stiffness, damping: 0.7 };
+            let (mut once, mut twice) = (BristleState { z: 1e-4 }, BristleState { z: 1e-4 });
+            let whole = bristle.step(&mut once, &split(3.0), velocity, 0.02);
+            let first = bristle.step(&mut twice, &split(3.0), velocity, 0.01);
+            let second = bristle.step(&mut twice, &split(3.0), velocity, 0.01);
+            close(once.z, twice.z, 1e-14);
+            close(whole.torque, second.torque, 1e-13);
+            close(whole.mean_torque, 0.5 * (first.mean_torque + second.mean_torque), 1e-12);
+        }
+    }
+}
+
+#[test]
+fn agrees_with_many_small_explicit_steps() {
+    let bristle = Bristle { stiffness: 500.0, damping: 2.0 };
+    let (dry, velocity, dt, z0) = (3.0, 0.3_f64, 0.05, -4e-3);
+    let n = 400_000;
+    let h = dt / f64::from(n);
+    // Explicit midpoint rule, error below 1e-12 at this step.
+    let rate = |z: f64| velocity - bristle.stiffness * velocity.abs() / dry * z;
+    let (mut z, mut area) = (z0, 0.0);
+    for _ in 0..n {
+        let middle = z + 0.5 * h * rate(z);
+        area += h * (bristle.stiffness * middle + bristle.damping * rate(middle));
+        z += h * rate(middle);
+    }
+    let mut state = BristleState { z: z0 };
+    let step = bristle.step(&mut state, &split(dry), velocity, dt);
+    close(state.z, z, 1e-10);
+    close(step.torque, bristle.stiffness * z + bristle.damping * rate(z), 1e-10);
+    close(step.mean_torque, area / dt, 1e-9);
+}
+
+#[test]
+fn deflection_stays_bounded_and_finite() {
+    let magnitudes = [0.0, 1e-300, 1e-12, 0.5, 4.0];
+    for stiffness in [1.0, 1e5, 1e12] {
+        let bristle = Bristle { stiffness, damping: 1.0 };
+        let mut state = BristleState::default();
+        for i in 0..2000_u32 {
+            let velocity = f64::from((i * 7919) % 401) / 50.0 - 4.0;
+            let dry = magnitudes[(i as usize * 31) % magnitudes.len()];
+            let step = bristle.step(&mut state, &split(dry), velocity, 0.002);
+            assert!(state.z.abs() <= 4.0 / stiffness * (1.0 + 1e-12), "{i}: {}", state.z);
+            assert!(step.torque.is_finite() && step.mean_torque.is_finite());
+        }
+    }
+}
+
+#[test]
+fn rest_keeps_the_deflection() {
+    let bristle = Bristle { stiffness: 1e4, damping: 5.0 };
+    let mut state = BristleState { z: 1e-4 };
+    for dry in [0.0, 2.0] {
+        assert_eq!(bristle.step(&mut state, &split(dry), 0.0, 1.0).torque, 1.0);
+        assert_eq!(state.z, 1e-4);
+    }
+}
+
+#[test]
+fn without_a_step_the_state_is_kept() {
+    let bristle = Bristle { stiffness: 1e4, damping: 5.0 };
+    let mut state = BristleState { z: 1e-4 };
+    let step = bristle.step(&mut state, &split(2.0), 0.1, 0.0);
+    assert_eq!(state.z, 1e-4);
+    close(step.torque, 1.0 + 5.0 * (0.1 - 1e4 * 0.1 / 2.0 * 1e-4), 1e-14);
+}
+
+#[test]
+fn work_of_a_cycle_is_never_gained() {
+    // Held velocities, exact mean torque: stored plus dissipated energy equals the work.
+    let bristle = Bristle { stiffness: 2e3, damping: 0.5 };
+    let mut state = BristleState::default();
+    let (mut work, dt) = (0.0, 0.004);
+    for i in 0..5000_i32 {
+        let velocity = f64::from((i % 40) - 20) / 30.0;
+        work += bristle.step(&mut state, &split(1.5), velocity, dt).mean_torque * velocity * dt;
+        assert!(work >= 0.5 * bristle.stiffness * state.z * state.z - 1e-12);
+    }
+}
+
+#[test]
+fn single_precision_agrees_with_double() {
+    for spec in common::every_model() {
+        let values = common::values(&spec);
+        let single: Vec<f32> = values.iter().map(|&x| x as f32).collect();
+        let (model, model32) = (spec.with(&values).unwrap(), spec.with(&single).unwrap());
+        let (mut state, mut state32) = (BristleState::default(), BristleState::default());
+        for v in [0.3, -0.02, 0.0, 0.7] {
+            let sample = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v) };
+            let sample32 = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v as f32) };
+            let torque = model.step(&mut state, &sample, 0.01).torque;
+            let torque32 = f64::from(model32.step(&mut state32, &sample32, 0.01).torque);
+            assert!((torque - torque32).abs() < 3e-5 * (1.0 + torque.abs()), "{spec}: {torque}");
+        }
+    }
+}

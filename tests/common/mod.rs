@@ -1,0 +1,93 @@
+//! Models and motions that several tests share.
+#![allow(dead_code)]
+
+use stribeck::catalog::{EffectId, LawId};
+use stribeck::composed::Spec;
+
+/// Every law alone, with each effect it can have, and with all of them.
+pub fn every_model() -> Vec<Spec> {
+    let mut specs = Vec::new();
+    for law in LawId::ALL {
+        let law = law.info();
+        let free: Vec<&str> = EffectId::ALL
+            .iter()
+            .map(|effect| effect.info().id)
+            .filter(|id| !law.captures.contains(id))
+            .collect();
+        specs.push(Spec::new(law.id, []).unwrap());
+        specs.extend(free.iter().map(|&id| Spec::new(law.id, [id]).unwrap()));
+        specs.push(Spec::new(law.id, free).unwrap());
+    }
+    for spec in &mut specs {
+        spec.set_constant("reference_temperature", 28.0).unwrap();
+        spec.set_constant("reference_load", 4.0).unwrap();
+        spec.set_constant("reference_velocity", 0.7).unwrap();
+        spec.set_constant("position_length", 2.5).unwrap();
+    }
+    specs
+}
+
+/// Plausible values, none of them where a derivative happens to vanish.
+pub fn values(spec: &Spec) -> Vec<f64> {
+    spec.parameters()
+        .enumerate()
+        .map(|(i, p)| match p.name {
+            "bristle_stiffness" | "presliding_stiffness" => 900.0,
+            "bristle_damping" | "presliding_damping" => 1.3,
+            "coulomb_friction" => 4.0,
+            "static_friction" => 6.5,
+            "delay" => 0.0037,
+            name if name.starts_with("position_") => 0.05 * (1.0 + i as f64 % 3.0),
+            _ => p.start + 0.01 * (1.0 + i as f64 / 10.0),
+        })
+        .collect()
+}
+
+/// A motion with reversals, rest and all channels.
+pub struct Motion {
+    pub dt: f64,
+    pub velocity: Vec<f64>,
+    pub position: Vec<f64>,
+    pub acceleration: Vec<f64>,
+    pub temperature: Vec<f64>,
+    pub load_torque: Vec<f64>,
+}
+
+#[allow(clippy::disallowed_methods)]
+pub fn motion(rows: usize) -> Motion {
+    let dt = 0.01;
+    let time = |i: usize| i as f64 * dt;
+    let rests = |i: usize| i % 100 < 7;
+    let column = |f: &dyn Fn(usize) -> f64| (0..rows).map(f).collect::<Vec<f64>>();
+    Motion {
+        dt,
+        velocity: column(&|i| if rests(i) { 0.0 } else { 0.8 * (3.1 * time(i)).sin() }),
+        position: column(&|i| 0.3 - 0.26 * (3.1 * time(i)).cos()),
+        acceleration: column(&|i| 2.5 * (3.1 * time(i)).cos()),
+        temperature: column(&|i| 25.0 + 2.0 * time(i)),
+        load_torque: column(&|i| 6.0 * (1.7 * time(i)).cos()),
+    }
+}
+
+impl Motion {
+    pub fn columns(&self) -> stribeck::batch::Columns<'_> {
+        use stribeck::batch::{Channels, Columns, TimeStep};
+        Columns {
+            dt: TimeStep::Uniform(self.dt),
+            channels: Channels {
+                velocity: &self.velocity,
+                position: Some(&self.position),
+                acceleration: Some(&self.acceleration),
+                temperature: Some(&self.temperature),
+                load_torque: Some(&self.load_torque),
+                motor_torque: None,
+            },
+            ..Columns::default()
+        }
+    }
+}
+
+pub fn close(a: f64, b: f64, relative: f64) {
+    let size = a.abs().max(b.abs()).max(1e-300);
+    assert!((a - b).abs() <= relative * size, "{a} and {b} differ by {:e}", (a - b).abs() / size);
+}

@@ -1,0 +1,143 @@
+//! Gradients against central differences, and values that must stay finite.
+#![cfg(feature = "std")]
+
+mod common;
+
+use common::{every_model, motion, values};
+use stribeck::batch::{self, TimeStep};
+use stribeck::composed::Spec;
+
+#[test]
+fn gradient_is_the_derivative_of_every_model() {
+    let motion = motion(250);
+    let mut smooth = motion.columns();
+    smooth.smooth.velocity = &motion.acceleration;
+    smooth.smooth.load_torque = Some(&motion.temperature);
+    for columns in [motion.columns(), smooth] {
+        for spec in every_model() {
+            let values = values(&spec);
+            let (torque, jacobian) = batch::gradient(&spec, &values, &columns).unwrap();
+            assert_eq!(torque, batch::torque(&spec, &values, &columns).unwrap(), "{spec}");
+            for (j, info) in spec.parameters().enumerate() {
+                let step = 1e-6 * values[j].abs().max(1e-3);
+                let at = |sign: f64| {
+                    let mut moved = values.clone();
+                    moved[j] += sign * step;
+                    batch::torque(&spec, &moved, &columns).unwrap()
+                };
+                let (above, below) = (at(1.0), at(-1.0));
+                let column: Vec<f64> =
+                    jacobian.iter().skip(j).step_by(values.len()).copied().collect();
+                let size = column.iter().fold(1e-3_f64, |m, x| m.max(x.abs()));
+                for (i, slope) in column.iter().enumerate() {
+                    let difference = (above[i] - below[i]) / (2.0 * step);
+                    assert!(
+                        (slope - difference).abs() < 2e-5 * size,
+                        "{spec}: {} at row {i}: {slope} but differences give {difference}",
+                        info.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn delay_at_zero_changes_nothing_and_has_the_mean_slope() {
+    let motion = motion(120);
+    let columns = motion.columns();
+    let spec = Spec::new("coulomb", ["delay"]).unwrap();
+    let plain = Spec::new("coulomb", []).unwrap();
+    let (torque, jacobian) = batch::gradient(&spec, &[2.0, 3.0, 0.0], &columns).unwrap();
+    assert_eq!(torque, batch::torque(&plain, &[2.0, 3.0], &columns).unwrap());
+    let whole: Vec<f64> = torque.iter().zip(&motion.load_torque).map(|(f, l)| f + l).collect();
+    for i in 1..119 {
+        let slope = (whole[i + 1] - whole[i - 1]) / (2.0 * motion.dt);
+        common::close(jacobian[3 * i + 2], -slope, 1e-9);
+    }
+}
+
+#[test]
+fn delay_of_whole_samples_shifts_rows_within_a_segment() {
+    let motion = motion(60);
+    let mut dt = vec![motion.dt; 60];
+    (dt[0], dt[30]) = (f64::NAN, 0.0);
+    let mut columns = motion.columns();
+    columns.dt = TimeStep::Each(&dt);
+    columns.shift_load = false;
+    let plain = Spec::new("coulomb", []).unwrap();
+    let before = batch::torque(&plain, &[2.0, 3.0], &columns).unwrap();
+    let spec = Spec::new("coulomb", ["delay"]).unwrap();
+    for shift in [-2_i32, 3] {
+        let tau = f64::from(shift) * motion.dt;
+        let after = batch::torque(&spec, &[2.0, 3.0, tau], &columns).unwrap();
+        for i in 0..60_i32 {
+            let (first, last) = if i < 30 { (0, 29) } else { (30, 59) };
+            let from = (i - shift).clamp(first, last) as usize;
+            assert!((after[i as usize] - before[from]).abs() < 1e-9, "row {i}");
+        }
+    }
+}
+
+#[test]
+fn a_gap_makes_the_state_start_afresh() {
+    let motion = motion(80);
+    let mut dt = vec![motion.dt; 80];
+    (dt[0], dt[40]) = (0.0, f64::INFINITY);
+    let mut columns = motion.columns();
+    columns.dt = TimeStep::Each(&dt);
+    let spec = Spec::new("lugre", []).unwrap();
+    let whole = batch::torque(&spec, &values(&spec), &columns).unwrap();
+    columns.channels.velocity = &motion.velocity[40..];
+    columns.dt = TimeStep::Each(&dt[40..]);
+    assert_eq!(whole[40..], batch::torque(&spec, &values(&spec), &columns).unwrap());
+}
+
+#[test]
+fn nothing_is_ever_nan() {
+    let speeds = [0.0, -0.0, 1e-308, 1e-12, 1e-3, 0.5, 1e3, 1e12];
+    let velocity: Vec<f64> = speeds.iter().flat_map(|&v| [v, -v]).collect();
+    let many = |x: f64| vec![x; velocity.len()];
+    let motion = motion(velocity.len());
+    for spec in every_model() {
+        for pick in 0..3 {
+            // At the lower bounds, the upper ones (or beyond, for exponents), and the start.
+            let values: Vec<f64> = spec
+                .parameters()
+                .map(|p| match (pick, p.name.contains("stribeck_exponent")) {
+                    (0, _) => p.lower,
+                    (1, true) => 1887.0,
+                    (1, false) => p.upper,
+                    _ => p.start,
+                })
+                .collect();
+            for load in [0.0, -20.0] {
+                let (load, temperature) = (many(load), many(-40.0));
+                let mut columns = motion.columns();
+                columns.channels.velocity = &velocity;
+                columns.channels.load_torque = Some(&load);
+                columns.channels.temperature = Some(&temperature);
+                let (torque, jacobian) = batch::gradient(&spec, &values, &columns).unwrap();
+                assert!(torque.iter().all(|x| !x.is_nan()), "{spec} at {values:?}: {torque:?}");
+                for (k, x) in jacobian.iter().enumerate() {
+                    let (row, column) = (k / values.len(), k % values.len());
+                    let name = spec.parameters().nth(column).unwrap().name;
+                    assert!(!x.is_nan(), "{spec}: {name} at v = {}", velocity[row]);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn split_adds_up_to_the_static_torque() {
+    let motion = motion(50);
+    let spec = Spec::new("bittencourt_a", ["load", "offset", "direction", "gravity"]).unwrap();
+    let (values, columns) = (values(&spec), motion.columns());
+    let torque = batch::torque(&spec, &values, &columns).unwrap();
+    let parts = batch::split(&spec, &values, &columns).unwrap();
+    for (i, v) in motion.velocity.iter().enumerate() {
+        let sign = f64::from(i8::from(*v > 0.0) - i8::from(*v < 0.0));
+        common::close(torque[i], parts.dry[i] * sign + parts.rate[i] + parts.additive[i], 1e-14);
+    }
+}
