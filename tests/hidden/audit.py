@@ -25,11 +25,6 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def _hats(x: Array, knots: Array) -> list[Array]:
-    """Piecewise-linear bumps on the knots."""
-    return [np.interp(x, knots, row) for row in np.eye(len(knots))]
-
-
 def _travel(q: Array, v: Array, threshold: float) -> tuple[Array, Array]:
     """Distance since the last reversal, and the direction of motion (held at rest)."""
     moving = np.where(np.abs(v) > threshold, np.sign(v), 0.0)
@@ -48,12 +43,14 @@ def dictionaries(frame: pl.DataFrame, threshold: float) -> dict[str, Array]:
     hot = (temp - temp.mean()) / max(float(np.ptp(temp)), 5.0)
     place = (q - q.min()) / np.ptp(q)
     load = np.abs(tl) / (np.abs(tl).max() + 1e-12)
-    low = np.linspace(0, 0.35, 13)[:-1] ** 1.5 * top
     travel, _ = _travel(q, v, threshold)
     reach = float(np.ptp(q)) / 2
     columns: dict[str, list[Array]] = {
-        "stribeck": [s * h for h in _hats(speed, low)[:-1]],
-        "nonlinear_viscous": [s * speed**p for p in (0.3, 0.5, 1.5, 2.0, 3.0)],
+        "stribeck": [s * np.exp(-speed / (top * w)) for w in (0.02, 0.04, 0.08, 0.16)],
+        "nonlinear_viscous": [
+            *(s * (speed / top) ** p for p in (2.0, 3.0)),
+            *(s * np.log1p(k * speed / top) for k in (2.0, 6.0)),
+        ],
         "direction": [np.ones_like(v), speed],
         "offset": [np.ones_like(v)],
         "load": [s * load, s * load**2, s * load**0.5],
