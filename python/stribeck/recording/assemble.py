@@ -156,7 +156,9 @@ def build(prepared: Prepared, joint: str | None, rows: Ints) -> Recording:
             values,
         )
     if prepared.rows_removed:
-        data.notes.append(f"{prepared.rows_removed} rows removed by where: {options.where}")
+        count = prepared.rows_removed
+        rows_are = "1 row" if count == 1 else f"{count} rows"
+        data.notes.append(f"{rows_are} removed by where: {options.where}")
     if options.average:
         return _averaged(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
     return _sampled(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)

@@ -16,7 +16,7 @@ Ints = NDArray[np.int64]
 
 _ORDER = 4
 _HIGHEST = 0.4  # of the sampling rate: a cut-off above leaves nothing worth removing
-_MARGIN = 1.25  # the pass band ends a little above the frequency where motion meets noise
+_MARGIN = 1.5  # the pass band ends a little above the frequency where motion meets noise
 _ABOVE = 4.0  # motion is seen where the spectrum is this many times the noise
 _UNIFORM = 0.01  # steps within 1 % of their mean are taken as uniform
 
@@ -126,6 +126,32 @@ def _slope(x: Floats, step: float) -> Floats:
     return d
 
 
+def _mend_ends(raw: Floats, y: Floats, rate: float, cutoff: float, derivative: int) -> Floats:
+    """Replace what a filter leaves at the ends of a segment by a cubic fitted to the raw samples.
+
+    A filter has to guess what lies beyond the ends, which bends velocity and acceleration there.
+    The cubic spans as many samples as a cubic Savitzky-Golay filter of the same cut-off, and fades
+    into the filtered signal over half of them.
+    """
+    half = int(np.ceil((4.0 * 0.5 * rate / cutoff + 4.6) / 3.2))
+    span = 2 * half + 1
+    if span > len(y) or half < 3:
+        return y
+    u = np.linspace(-1.0, 1.0, span)
+    scale = (2.0 * rate / (span - 1)) ** derivative  # d/dt from d/du
+    fade = np.linspace(1.0, 0.0, half)
+    y = y.copy()
+    for first in (True, False):
+        part = slice(0, span) if first else slice(len(y) - span, len(y))
+        fit = np.polynomial.Polynomial.fit(u, raw[part], 3, domain=[-1.0, 1.0])
+        cubic = fit.deriv(derivative)(u) * scale if derivative else fit(u)
+        if first:
+            y[:half] = fade * cubic[:half] + (1.0 - fade) * y[:half]
+        else:
+            y[-half:] = fade[::-1] * cubic[-half:] + (1.0 - fade[::-1]) * y[-half:]
+    return y
+
+
 @dataclass(frozen=True)
 class Smoother:
     """A zero-phase low-pass over the segments of a recording.
@@ -171,6 +197,7 @@ class Smoother:
                 out[part] = x
                 continue
             y = x if uniform else np.interp(grid, t, x)
+            raw = y
             if not short:
                 assert self.cutoff is not None
                 key = round(rate, 6)
@@ -180,5 +207,8 @@ class Smoother:
                 y = sosfiltfilt(sections[key], y, padlen=pad)
             for _ in range(derivative):
                 y = _slope(y, 1.0 / rate)
+            if not short:
+                assert self.cutoff is not None
+                y = _mend_ends(raw, y, rate, self.cutoff, derivative)
             out[part] = y if uniform else np.interp(t, grid, y)
         return out

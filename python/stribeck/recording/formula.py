@@ -65,10 +65,11 @@ def compile_formula(text: str, schema: Mapping[str, pl.DataType], where: str) ->
     # Leading blanks would be an indentation error; columns are counted back in below.
     stripped = plain.lstrip()
     shift = len(plain) - len(stripped)
+    stripped = stripped.rstrip()
     try:
         tree = ast.parse(stripped, mode="eval")
     except SyntaxError as error:
-        position = (error.offset or 1) + shift
+        position = (error.offset or len(stripped) + 1) + shift
         hint = ""
         if re.search(r"(?<![=!<>])=(?!=)", plain):
             hint = " (equality is written ==)"

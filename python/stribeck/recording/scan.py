@@ -10,7 +10,7 @@ import polars as pl
 
 from ..errors import RecordingError
 from .assemble import make_column, require
-from .columns import file_unit, wide_groups
+from .columns import CHANNELS, file_unit, wide_groups
 from .options import Pairs, gather
 from .readers import read_table
 from .recording import Column
@@ -24,6 +24,7 @@ from .table import (
     labels,
     prepare,
 )
+from .units import SI
 
 __all__ = ["FileColumn", "Table", "scan"]
 
@@ -125,15 +126,22 @@ def scan(
         for name in table.columns
     )
     channels: dict[str, Column] = {}
+    slides = options.joint_kind == "prismatic" or any(
+        choice.unit is not None and choice.unit.dimension.startswith(("length", "linear", "force"))
+        for choice in prepared.choices.values()
+    )
     for channel, choice in prepared.choices.items():
         if channel in ("joint", "run"):
             continue
         try:
-            values, si, _ = channel_values(prepared, channel, np.arange(table.height))
+            values, unit_named, _ = channel_values(prepared, channel, np.arange(table.height))
         except RecordingError as error:
             problem = problem or str(error)
             continue
         finite = values[np.isfinite(values)]
+        dimensions = CHANNELS[channel]
+        # Angle and torque stand first in the list of a channel, length and force second.
+        si = unit_named or SI[dimensions[1 if slides and len(dimensions) > 1 else 0]]
         if finite.size:
             channels[channel] = make_column(
                 channel, choice.source, si, choice.source in prepared.derived, finite

@@ -11,7 +11,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from ..errors import RecordingError, nearest
-from .columns import Choice, choose_columns, file_unit, parse_name
+from .columns import Choice, choose_columns, file_unit, parse_name, wide_groups
 from .formula import Formula, compile_formula
 from .options import Options
 from .readers import Source, read_table
@@ -193,6 +193,11 @@ def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]
     joints = joints_of(prepared)
     everything = np.arange(prepared.table.height)
     if not joints:
+        if joint is not None and not wide_groups(prepared.table.columns):
+            raise RecordingError(
+                f"{path}: there is no joint column to find '{joint}' in: leave --joint out, or say "
+                "which with --map joint=COLUMN"
+            )
         return joint, everything
     if joint is None:
         if len(joints) == 1:

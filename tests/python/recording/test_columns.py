@@ -100,13 +100,13 @@ def test_unit_option_wins(write, frame):
         RecordingError, match=r"unknown unit 'degs'; did you mean 'deg/s'.*Use one of rad/s"
     ):
         read(path, unit=("velocity=degs",))
-    with pytest.raises(RecordingError, match="'kg' is|unknown unit 'kg'"):
+    with pytest.raises(RecordingError, match=r"'kg' is|unknown unit 'kg'"):
         read(path, unit=("velocity=kg",))
-    with pytest.raises(RecordingError, match="'N m' is a unit of torque, not of angular velocity"):
+    with pytest.raises(RecordingError, match=r"'N m' is a unit of torque, not of angular velocity"):
         read(path, unit=("velocity=N m",))
     with pytest.raises(RecordingError, match=r"no column 'velocty'; did you mean 'velocity'\?"):
         read(path, unit=("velocty=rpm",))
-    with pytest.raises(RecordingError, match="write --unit COLUMN=UNIT"):
+    with pytest.raises(RecordingError, match=r"write --unit COLUMN=UNIT"):
         read(path, unit=("velocity",))
 
 
@@ -127,7 +127,7 @@ def test_wide_files_are_refused_with_the_maps(write, frame):
     for reader in (read, read_all):
         with pytest.raises(RecordingError, match=sentence):
             reader(path)
-    with pytest.raises(RecordingError, match="name one of 1, 2, 3"):
+    with pytest.raises(RecordingError, match=r"name one of 1, 2, 3"):
         read(path, joint="7")
     maps = ("position=q_2", "velocity=dq_2", "torque=tau_2")
     np.testing.assert_array_equal(read(path, map=maps).torque, 2 * frame["torque"].to_numpy())
@@ -149,19 +149,19 @@ def test_map(write, frame):
         read(path, map=("torque=mesured",))
     with pytest.raises(RecordingError, match=r"unknown name 'torqe'; did you mean 'torque'\?"):
         read(path, map=("torqe=measured",))
-    with pytest.raises(RecordingError, match="write --map NAME=COLUMN"):
+    with pytest.raises(RecordingError, match=r"write --map NAME=COLUMN"):
         read(path, map=("torque",))
     assert read(path, map={"torque": "measured", "temperature": "none"}).temperature is None
 
 
 def test_missing_columns(write, frame):
-    with pytest.raises(RecordingError, match="no time column.*--map time=COLUMN"):
+    with pytest.raises(RecordingError, match=r"no time column.*--map time=COLUMN"):
         read(write(frame.drop("time")))
-    with pytest.raises(RecordingError, match="neither a velocity nor a position"):
+    with pytest.raises(RecordingError, match=r"neither a velocity nor a position"):
         read(write(frame.drop("velocity", "position")))
-    with pytest.raises(RecordingError, match="no torque column"):
+    with pytest.raises(RecordingError, match=r"no torque column"):
         read(write(frame.drop("torque")))
-    with pytest.raises(RecordingError, match="pos, q could each be the position"):
+    with pytest.raises(RecordingError, match=r"pos, q could each be the position"):
         read(write(frame.with_columns(pl.col("position").alias("q")).rename({"position": "pos"})))
 
 
@@ -180,7 +180,7 @@ def test_current(write, frame):
     np.testing.assert_allclose(recording.torque, frame["torque"].to_numpy(), rtol=1e-12)
     assert recording.motor == {"gear_ratio": 100.0, "torque_constant": 0.12}
     with pytest.raises(
-        RecordingError, match="--torque-constant -1: must be a finite number above zero"
+        RecordingError, match=r"--torque-constant -1: must be a finite number above zero"
     ):
         read(path, torque_constant=-1)
 
@@ -197,7 +197,7 @@ def test_derive_and_effort_units(write, frame):
     scaled = read(path, derive=("torque=35.15*supply_V",))
     assert scaled.torque_unit == "N m"
     assert read(path, derive=("torque=35.15*supply_V",), unit=("torque=%",)).torque_unit == "%"
-    with pytest.raises(RecordingError, match="unknown column 'pwm'.*position 1"):
+    with pytest.raises(RecordingError, match=r"unknown column 'pwm'.*position 1"):
         read(path, derive=("torque=pwm/1000",))
 
 
@@ -215,14 +215,14 @@ def test_joint_kind(write, frame):
         "m",
     )
     assert any("taken as prismatic" in note for note in recording.notes)
-    with pytest.raises(RecordingError, match="said to be revolute"):
+    with pytest.raises(RecordingError, match=r"said to be revolute"):
         read(write(line), joint_kind="revolute")
     assert "joint kind not given, taken as revolute" in read(write(frame)).notes
     assert read(write(frame), joint_kind="prismatic").torque_unit == "N"
     with pytest.raises(RecordingError, match=r"unknown kind of joint; did you mean 'prismatic'\?"):
         read(write(frame), joint_kind="prismatik")
     mixed = line.with_columns(pl.col("v_mps").alias("v_radps")).drop("v_mps")
-    with pytest.raises(RecordingError, match="a joint turns or slides"):
+    with pytest.raises(RecordingError, match=r"a joint turns or slides"):
         read(write(mixed))
 
 
@@ -249,7 +249,7 @@ def test_several_joints(write, frame):
     path = write(two)
     with pytest.raises(RecordingError, match=r"holds 2 joints: name one with --joint \(a, b\)"):
         read(path)
-    with pytest.raises(RecordingError, match="there is no joint 'c'"):
+    with pytest.raises(RecordingError, match=r"there is no joint 'c'"):
         read(path, joint="c")
     np.testing.assert_array_equal(read(path, joint="b").torque, 2 * frame["torque"].to_numpy())
     assert [r.joint for r in read_all(path)] == ["a", "b"]
@@ -265,4 +265,7 @@ def test_scan(write, frame):
     assert table.rows == 2000 and table.rate_hz == pytest.approx(200.0)
     assert table.channels["velocity"].minimum == pytest.approx(frame["velocity"].min())
     assert [c.name for c in table.columns] == frame.columns
+    assert table.channels["velocity"].unit == "rad/s" and table.channels["torque"].unit == "N m"
+    with pytest.raises(RecordingError, match="no joint column to find '3' in"):
+        read(write(frame), joint="3")
     assert "no torque column" in scan(write(frame.drop("torque"))).problem
