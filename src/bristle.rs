@@ -13,16 +13,16 @@ const SATURATED: f64 = 700.0;
 /// Parameters of a bristle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bristle<S> {
-    /// Stiffness `s0` [T/X].
+    /// Stiffness `s0` (T/X).
     pub stiffness: S,
-    /// Damping `s1` [T s/X].
+    /// Damping `s1` (T s/X).
     pub damping: S,
 }
 
 /// State of a bristle, kept apart from its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BristleState<S> {
-    /// Mean deflection `z` [X].
+    /// Mean deflection `z` (X).
     pub z: S,
 }
 
@@ -35,14 +35,14 @@ impl<S: Real> Default for BristleState<S> {
 /// What one step yields.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<S> {
-    /// Torque at the end of the step [T].
+    /// Torque at the end of the step (T).
     pub torque: S,
-    /// Torque averaged over the step [T]: times `v dt` it is the exact work.
+    /// Torque averaged over the step (T): times `v dt` it is the exact work.
     pub mean_torque: S,
 }
 
 impl<S: Real> Bristle<S> {
-    /// Holds `velocity` and `split` for `dt` [s]. With `dt <= 0` the state stays as it is.
+    /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
     ///
     /// At rest the deflection is kept. A magnitude `D <= 0` has no bristle; the limit
     /// `z = sgn(v) D/s0` is used, so that a fit passing through it sees a finite slope.

@@ -190,14 +190,14 @@ impl<S: Real> Composed<S> {
         split
     }
 
-    /// The torque in steady sliding, where dry friction acts along `sgn v` [T].
+    /// The torque in steady sliding, where dry friction acts along `sgn v` (T).
     #[inline]
     #[must_use]
     pub fn static_torque(&self, sample: &Sample<S>) -> S {
         self.split(sample).torque(sample.velocity.sign())
     }
 
-    /// Holds `sample` for `dt` [s]; a model without a bristle has no use for `state` and `dt`.
+    /// Holds `sample` for `dt` (s); a model without a bristle has no use for `state` and `dt`.
     #[inline]
     pub fn step(&self, state: &mut BristleState<S>, sample: &Sample<S>, dt: S) -> Step<S> {
         let split = self.split(sample);

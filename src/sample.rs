@@ -5,17 +5,17 @@ use crate::scalar::Real;
 /// One instant. Rotary joints: rad, N m; prismatic joints: m, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample<S> {
-    /// Velocity `v` [X/s].
+    /// Velocity `v` (X/s).
     pub velocity: S,
-    /// Position `q` [X].
+    /// Position `q` (X).
     pub position: S,
-    /// Acceleration `a` [X/s2].
+    /// Acceleration `a` (X/s2).
     pub acceleration: S,
-    /// Joint temperature `T` [degC].
+    /// Joint temperature `T` (degC).
     pub temperature: S,
-    /// Load torque `tl` [T]: all at the joint that is not friction.
+    /// Load torque `tl` (T): all at the joint that is not friction.
     pub load_torque: S,
-    /// Motor torque `tm` [T].
+    /// Motor torque `tm` (T).
     pub motor_torque: S,
 }
 
@@ -41,27 +41,27 @@ impl<S: Real> Sample<S> {
 /// The direction is `sgn(v)` in a static law and the bristle's deflection in a dynamic one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split<S> {
-    /// Dry magnitude without the Stribeck part [T].
+    /// Dry magnitude without the Stribeck part (T).
     pub coulomb: S,
-    /// Height of the Stribeck curve above `coulomb` at rest [T].
+    /// Height of the Stribeck curve above `coulomb` at rest (T).
     pub height: S,
     /// The Stribeck curve `E(v)`: 1 at rest, falling to 0 with speed; 0 where there is none.
     pub shape: S,
-    /// What vanishes with the velocity and needs no direction, `V(v)` [T].
+    /// What vanishes with the velocity and needs no direction, `V(v)` (T).
     pub rate: S,
-    /// What does not care about motion [T]: never dissipation.
+    /// What does not care about motion (T): never dissipation.
     pub additive: S,
 }
 
 impl<S: Real> Split<S> {
-    /// The dry magnitude `D = coulomb + height * shape` [T].
+    /// The dry magnitude `D = coulomb + height * shape` (T).
     #[inline]
     #[must_use]
     pub fn dry(&self) -> S {
         self.coulomb + self.height * self.shape
     }
 
-    /// The torque where dry friction acts along `direction` [T].
+    /// The torque where dry friction acts along `direction` (T).
     #[inline]
     #[must_use]
     pub fn torque(&self, direction: S) -> S {

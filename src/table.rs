@@ -209,7 +209,7 @@ pub struct EffectInfo {
     pub parameters: &'static [ParameterInfo],
 }
 
-/// A struct of parameters and its table, which [`parameters!`] writes from one statement.
+/// A struct of parameters and its table, which `parameters!` writes from one statement.
 pub trait Parameters<S>: Sized {
     /// One row a field, in order.
     const TABLE: &'static [ParameterInfo];

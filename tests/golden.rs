@@ -1,6 +1,9 @@
 //! Formulas against values computed with mpmath at 50 digits, written out from the papers'
 //! equations and not from this code.
 
+// All the digits that mpmath printed.
+#![allow(clippy::excessive_precision)]
+
 mod common;
 
 use common::close;

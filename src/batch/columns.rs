@@ -52,7 +52,7 @@ impl<'a> Channels<'a> {
     }
 }
 
-/// Time since the row before [s].
+/// Time since the row before (s).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum TimeStep<'a> {
     /// Not known: enough for a model without state and delay.
@@ -77,7 +77,7 @@ pub struct Columns<'a> {
     /// Whether a delay shifts the load torque too: yes where the target is motor torque minus
     /// load torque, no where the load is a term of the model already or friction was measured.
     pub shift_load: bool,
-    /// Deflection of a bristle at the start of every segment [X].
+    /// Deflection of a bristle at the start of every segment (X).
     pub state: f64,
 }
 

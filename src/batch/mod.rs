@@ -20,7 +20,7 @@ use columns::Rows;
 /// The most parameters a gradient can be taken for.
 pub const MAX_PARAMETERS: usize = 32;
 
-/// The friction torque of every row [T]: of a model with a bristle, at the end of the row's step.
+/// The friction torque of every row (T): of a model with a bristle, at the end of the row's step.
 ///
 /// # Errors
 /// Columns that are missing, of unequal length or not finite; parameters that cannot be used.
@@ -57,7 +57,7 @@ pub fn gradient(
     }
 }
 
-/// Dry magnitude, rate part and additive part of every row [T], in steady sliding.
+/// Dry magnitude, rate part and additive part of every row (T), in steady sliding.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SplitColumns {
     /// Dry magnitude `D`.

@@ -69,6 +69,7 @@ pub fn motion(rows: usize) -> Motion {
     }
 }
 
+#[cfg(feature = "std")]
 impl Motion {
     pub fn columns(&self) -> stribeck::batch::Columns<'_> {
         use stribeck::batch::{Channels, Columns, TimeStep};
