@@ -1,0 +1,536 @@
+"""Pictures: measured and modelled torque, residuals, and the way down to the noise.
+
+Figures are made without pyplot, so that nothing is shared between threads or callers. Colours
+are those of Okabe and Ito, which colour-blind readers can tell apart.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from stribeck.errors import StribeckError
+from stribeck.report.numbers import percent, plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from stribeck.fit import Fit
+    from stribeck.improve import Improvement
+    from stribeck.recording import Recording
+
+Array = NDArray[np.float64]
+
+MEASURED = "#4d4d4d"
+BEFORE = "#D55E00"
+AFTER = "#0072B2"
+FLOOR = "#009E73"
+COLOURS = (AFTER, BEFORE, FLOOR, "#CC79A7", "#E69F00", "#56B4E9")
+DPI = 120
+#: Points drawn of a scatter; more only make ink.
+MOST_POINTS = 3000
+BINS = 30
+FORMATS = ("png", "svg", "pdf")
+
+#: The channel against which an effect shows, and whether the residual is taken along the motion.
+TELLING = {
+    "stribeck": ("speed", True),
+    "nonlinear_viscous": ("speed", True),
+    "direction": ("velocity", False),
+    "load": ("load", True),
+    "temperature_dry": ("temperature", True),
+    "temperature_viscous": ("temperature", True),
+    "position": ("position", True),
+    "offset": ("velocity", False),
+    "inertia": ("acceleration", False),
+    "gravity": ("position", False),
+    "presliding": ("reversal", True),
+    "delay": ("acceleration", False),
+}
+
+
+@dataclass(frozen=True)
+class Channel:
+    """What a residual is drawn against: one value a row and the axis label."""
+
+    values: Array
+    label: str
+
+
+def _figure(width: float, height: float) -> Figure:
+    figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _style(axes: Axes) -> None:
+    axes.grid(True, color="#e6e6e6", linewidth=0.6)
+    axes.set_axisbelow(True)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    axes.title.set_fontsize(10.5)
+    axes.tick_params(labelsize=9)
+
+
+def _title(axes: Axes, text: str) -> None:
+    axes.set_title(text, loc="left", fontsize=10.5)
+
+
+def _legend_above(axes: Axes, columns: int = 4) -> None:
+    """A legend to the right above the axes, where it covers no data."""
+    axes.legend(
+        loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, frameon=False, fontsize=9,
+        borderaxespad=0.2, handlelength=1.6, columnspacing=1.2,
+    )  # fmt: skip
+
+
+def clock(r: Recording) -> Channel:
+    """Time for drawing: runs one after another, or the number of a steady-state point."""
+    if r.averaged:
+        return Channel(np.arange(1.0, r.time.size + 1.0), "steady-state point")
+    if r.runs <= 1:
+        return Channel(r.time, "time [s]")
+    steps = np.diff(r.time, prepend=r.time[0])
+    typical = float(np.median(r.dt[r.dt > 0])) if np.any(r.dt > 0) else 1.0
+    steps = np.where((np.diff(r.run, prepend=r.run[0]) != 0) | (steps <= 0), typical, steps)
+    return Channel(np.cumsum(steps) - steps[0], "time, runs one after another [s]")
+
+
+def load_of(fit: Fit) -> Array | None:
+    """Load torque of every row, recorded or identified with the friction; None where unknown."""
+    return fit.recording.load_torque if fit.recording.load_torque is not None else fit.load
+
+
+def channel(fit: Fit, name: str) -> Channel | None:
+    """A channel by name; None where the recording has none, or it does not vary."""
+    from stribeck.diagnose.shape import displacement_since_reversal
+
+    r = fit.recording
+    x, t = r.position_unit, r.torque_unit
+    made: Channel | None = None
+    if name == "time":
+        made = clock(r)
+    elif name == "velocity":
+        made = Channel(r.velocity, f"velocity [{x}/s]")
+    elif name == "speed":
+        made = Channel(np.abs(r.velocity), f"speed |v| [{x}/s]")
+    elif name == "position" and r.position is not None:
+        made = Channel(r.position, f"position [{x}]")
+    elif name == "acceleration" and not r.averaged:
+        made = Channel(r.acceleration_smooth, f"acceleration [{x}/s²]")
+    elif name == "temperature" and r.temperature is not None:
+        made = Channel(r.temperature, "temperature [°C]")
+    elif name == "load" and (load := load_of(fit)) is not None:
+        made = Channel(load, f"load torque [{t}]" if t != "N" else "load force [N]")
+    elif name == "reversal" and not r.averaged:
+        travel = np.asarray(displacement_since_reversal(r), dtype=np.float64)
+        made = Channel(travel, f"way since the last reversal [{x}]")
+    if made is None or not np.ptp(made.values[r.moving]) > 0:
+        return None
+    return made
+
+
+def torque_name(unit: str) -> str:
+    """Torque, force or whatever the effort is measured in."""
+    return {"N m": "torque", "N": "force"}.get(unit, "effort")
+
+
+def _thin(rows: NDArray[np.intp], most: int = MOST_POINTS) -> NDArray[np.intp]:
+    if rows.size <= most:
+        return rows
+    # Seeded and not strided: a stride may beat with a periodic motion.
+    picked = np.random.default_rng(0).choice(rows, most, replace=False)
+    return np.asarray(np.sort(picked))
+
+
+def binned_median(x: Array, y: Array, bins: int = BINS) -> tuple[Array, Array]:
+    """Median of `y` in bins of `x` of equal width, where there are enough points."""
+    if x.size < 10 or not np.ptp(x) > 0:
+        return np.empty(0), np.empty(0)
+    low, high = np.quantile(x, [0.002, 0.998])
+    if not high > low:
+        return np.empty(0), np.empty(0)
+    index = np.clip(((x - low) / (high - low) * bins).astype(np.intp), -1, bins)
+    least = max(5, x.size // 2000)
+    at, median = [], []
+    for k in range(bins):
+        inside = index == k
+        if np.count_nonzero(inside) >= least:
+            at.append(float(np.median(x[inside])))
+            median.append(float(np.median(y[inside])))
+    return np.array(at), np.array(median)
+
+
+def _limits(axes: Axes, values: Sequence[Array]) -> None:
+    """Show 99.8 % of the residuals; a single spike must not flatten the rest."""
+    joined = np.concatenate([v[np.isfinite(v)] for v in values])
+    if joined.size == 0:
+        return
+    low, high = np.quantile(joined, [0.001, 0.999])
+    room = 0.1 * (high - low) or 1.0
+    axes.set_ylim(float(low - room), float(high + room))
+
+
+def _lines(r: Recording, values: Array) -> Array:
+    """`values` with NaN at rest and before each gap, so that a line breaks there."""
+    drawn = np.where(r.moving, values, np.nan)
+    drawn[np.flatnonzero(np.diff(r.segment)) + 1] = np.nan
+    return drawn
+
+
+def residual_figure(fits: Sequence[Fit]) -> Figure:
+    """Residual of one or several models against each channel of the recording.
+
+    Dots are single rows (thinned); lines are medians of bins, forward solid, backward dashed,
+    since friction turns its sign with the motion.
+    """
+    found = [
+        (name, made)
+        for name in ("time", "velocity", "position", "load", "temperature", "acceleration")
+        if (made := channel(fits[0], name)) is not None
+    ]
+    rows = -(-len(found) // 2)
+    figure = _figure(12.0, 1.0 + 3.1 * rows)
+    grid = np.atleast_1d(figure.subplots(rows, 2, squeeze=False)).ravel()
+    r, unit = fits[0].recording, fits[0].model.torque_unit
+    moving = np.flatnonzero(r.moving)
+    some = _thin(moving, MOST_POINTS // min(len(fits), 3))
+    for axes, (name, made) in zip(grid, found, strict=False):
+        _style(axes)
+        axes.axhline(0.0, color="#999999", linewidth=0.8)
+        for k, fit in enumerate(fits):
+            colour = COLOURS[k % len(COLOURS)]
+            residual = fit.residual
+            if len(fits) <= 3:
+                axes.plot(
+                    made.values[some], residual[some], ".", color=colour, markersize=2.2,
+                    alpha=0.25, markeredgewidth=0, rasterized=True,
+                )  # fmt: skip
+            ways = (
+                [(moving, "-")] if name == "velocity"
+                else [(moving[r.velocity[moving] > 0], "-"), (moving[r.velocity[moving] < 0], "--")]
+            )  # fmt: skip
+            for way, line in ways:
+                at, median = binned_median(made.values[way], residual[way])
+                axes.plot(at, median, line, color=colour, linewidth=1.8)
+        _limits(axes, [fit.residual[moving] for fit in fits])
+        axes.set_xlabel(made.label)
+        axes.set_ylabel(f"residual [{unit}]")
+    for axes in grid[len(found) :]:
+        axes.set_visible(False)
+    figure.suptitle(
+        f"Residual (measured minus model) against each channel, {Path(r.path).name}",
+        fontsize=12, x=0.01, ha="left",
+    )  # fmt: skip
+    from matplotlib.lines import Line2D
+
+    handles = [
+        Line2D([], [], color=COLOURS[k % len(COLOURS)], linewidth=2.5,
+               label=f"{fit.model.spec}  (RMSE {plain(fit.rmse)} {unit})")
+        for k, fit in enumerate(fits)
+    ]  # fmt: skip
+    handles += [
+        Line2D([], [], color="#555555", linewidth=1.8, label="median, moving forward"),
+        Line2D([], [], color="#555555", linewidth=1.8, linestyle="--",
+               label="median, moving backward"),
+    ]  # fmt: skip
+    figure.legend(
+        handles=handles, loc="outside lower left", ncols=2 if len(fits) > 1 else 3,
+        frameon=False, fontsize=9,
+    )  # fmt: skip
+    return figure
+
+
+def fit_figure(fit: Fit) -> Figure:
+    """Measured and modelled torque over time, the residual, and the friction curve."""
+    r, unit = fit.recording, fit.model.torque_unit
+    what = torque_name(unit)
+    figure = _figure(12.0, 9.0)
+    grid = figure.add_gridspec(3, 2, height_ratios=[1.15, 0.8, 1.15])
+    top, middle = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
+    left, right = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
+    time = clock(r)
+    for axes in (top, middle, left, right):
+        _style(axes)
+    mark = "o" if r.averaged else "-"
+    size = {"markersize": 3.0} if r.averaged else {"linewidth": 0.9}
+    top.plot(time.values, r.torque, mark, color=MEASURED, label="measured", **size)
+    top.plot(time.values, _lines(r, fit.prediction), mark, color=AFTER, alpha=0.85,
+             label=fit.model.spec, **size)  # fmt: skip
+    top.set_ylabel(f"{what} [{unit}]")
+    _title(top, f"Measured and modelled {what}")
+    _legend_above(top)
+    top.tick_params(labelbottom=False)
+    middle.sharex(top)
+    middle.axhline(0.0, color="#999999", linewidth=0.8)
+    middle.plot(time.values, _lines(r, fit.residual), mark, color=AFTER, **size)
+    _limits(middle, [fit.residual[r.moving]])
+    middle.set_ylabel(f"residual [{unit}]")
+    middle.set_xlabel(time.label)
+    _title(middle, f"Residual, measured minus model: RMSE {plain(fit.rmse)} {unit}")
+
+    moving = np.flatnonzero(r.moving)
+    some = _thin(moving)
+    load = load_of(fit)
+    rest = np.zeros_like(r.torque) if load is None else load
+    name = what if load is None else f"friction {what}"
+    dots: dict[str, Any] = {"markersize": 2.6, "alpha": 0.45, "markeredgewidth": 0}
+    # A rigid body identified with the friction is in the prediction, and so is a known load.
+    left.plot(r.velocity[some], (r.torque - rest)[some], ".", color=MEASURED,
+              label="measured", **dots)  # fmt: skip
+    left.plot(r.velocity[some], (fit.prediction - rest)[some], ".", color=AFTER,
+              label=fit.model.spec, **dots)  # fmt: skip
+    left.set_xlabel(f"velocity [{r.position_unit}/s]")
+    left.set_ylabel(f"{name} [{unit}]")
+    without = "" if load is None else f" ({what} minus load)"
+    _title(left, f"{name[0].upper()}{name[1:]} against velocity{without}")
+    for line in left.get_lines():
+        line.set_rasterized(True)
+
+    _residual_panel(right, [(fit, AFTER, fit.model.spec)], "velocity", False)
+    _title(right, "Residual against velocity, line: median")
+    return figure
+
+
+def _residual_panel(
+    axes: Axes, shown: Sequence[tuple[Fit, str, str]], name: str, along: bool
+) -> str:
+    """Draw residuals against a channel; `along` the motion: positive where it resists more."""
+    first = shown[0][0]
+    made = channel(first, name)
+    if made is None:
+        made, along = channel(first, "velocity") or clock(first.recording), False
+    r, unit = first.recording, first.model.torque_unit
+    moving = np.flatnonzero(r.moving)
+    some = _thin(moving, 2000)
+    sign = np.sign(r.velocity) if along else np.ones_like(r.velocity)
+    axes.axhline(0.0, color="#999999", linewidth=0.8)
+    for fit, colour, label in shown:
+        residual = fit.residual * sign
+        axes.plot(made.values[some], residual[some], ".", color=colour, markersize=2.4,
+                  alpha=0.3, markeredgewidth=0, rasterized=True)  # fmt: skip
+        at, median = binned_median(made.values[moving], residual[moving])
+        axes.plot(at, median, "-", color="white", linewidth=3.6)
+        axes.plot(at, median, "-", color=colour, linewidth=2.0, label=label)
+    _limits(axes, [(fit.residual * sign)[moving] for fit, _, _ in shown])
+    axes.set_xlabel(made.label)
+    axes.set_ylabel(f"residual{' · sgn v' if along else ''} [{unit}]")
+    return made.label
+
+
+def telling_window(improvement: Improvement) -> slice:
+    """The rows, a few seconds, in which the final model gains most on the base."""
+    r = improvement.final.recording
+    n = r.time.size
+    if r.averaged or r.rate_hz <= 0:
+        return slice(0, n)
+    duration = float(np.clip(0.1 * float(np.sum(r.dt)), 3.0, 12.0))
+    length = min(max(round(duration * r.rate_hz), 20), n)
+    gain = np.where(
+        r.moving, improvement.base.residual**2 - improvement.final.residual**2, 0.0
+    )
+    sums = np.concatenate(([0.0], np.cumsum(gain)))
+    total = sums[length:] - sums[:-length]
+    # A window must not run across a gap.
+    whole = r.segment[length - 1 :] == r.segment[: n - length + 1]
+    if whole.any():
+        total = np.where(whole, total, -np.inf)
+    start = int(np.argmax(total))
+    return slice(start, start + length)
+
+
+def improvement_figure(improvement: Improvement) -> Figure:
+    """The way from the base model to the last one.
+
+    Torque in the window where the gain is largest, the residual over the whole recording, the
+    residual against the channel in which each effect shows (two at most), and the held-out
+    error after each step with the noise floor.
+    """
+    base, final = improvement.base, improvement.final
+    r, unit = final.recording, final.model.torque_unit
+    what = torque_name(unit)
+    steps = improvement.steps
+    count = max(min(len(steps), 2), 1)
+    figure = _figure(12.0, 11.0)
+    outer = figure.add_gridspec(3, 1, height_ratios=[1.2, 0.85, 1.15])
+    top = figure.add_subplot(outer[0])
+    middle = figure.add_subplot(outer[1])
+    below = outer[2].subgridspec(1, count + 1)
+    panels = [figure.add_subplot(below[0, k]) for k in range(count)]
+    last = figure.add_subplot(below[0, count])
+    for axes in (top, middle, *panels, last):
+        _style(axes)
+    labels = _short_labels(improvement)
+
+    time, window = clock(r), telling_window(improvement)
+    _torque_panel(top, improvement, window, time, labels)
+    mark = "." if r.averaged else "-"
+    middle.axvspan(
+        time.values[window][0], time.values[window][-1], color="#f0f0f0", zorder=0, linewidth=0
+    )
+    middle.axhline(0.0, color="#999999", linewidth=0.8)
+    middle.plot(time.values, _lines(r, base.residual), mark, color=BEFORE, linewidth=0.7,
+                label=labels[0])  # fmt: skip
+    if steps:
+        middle.plot(time.values, _lines(r, final.residual), mark, color=AFTER, linewidth=0.7,
+                    label=labels[1])  # fmt: skip
+    _limits(middle, [base.residual[r.moving], final.residual[r.moving]])
+    middle.set_xlabel(time.label)
+    middle.set_ylabel(f"residual [{unit}]")
+    _title(middle, f"Residual (measured minus model) of {what}; grey: the time shown above")
+    _legend_above(middle)
+    middle.margins(x=0.01)
+
+    if not steps:
+        _residual_panel(panels[0], [(base, BEFORE, base.model.spec)], "velocity", False)
+        _title(panels[0], "Residual against velocity")
+    for axes, step in zip(panels, steps, strict=False):
+        effect = step.finding.effect
+        name, along = TELLING.get(effect, ("velocity", False))
+        _residual_panel(
+            axes, [(step.before, BEFORE, "without"), (step.after, AFTER, "with")], name, along
+        )
+        _title(axes, f"Residual without and with {effect}")
+        axes.legend(
+            loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, frameon=False, fontsize=9,
+            title="dots: rows, lines: median", title_fontsize=8.5,
+        )  # fmt: skip
+    _bars_panel(last, improvement)
+    figure.suptitle(
+        f"{base.model.spec} → {final.model.spec} on {Path(r.path).name}" if steps
+        else f"{base.model.spec} on {Path(r.path).name}",
+        fontsize=12.5, x=0.01, ha="left",
+    )  # fmt: skip
+    return figure
+
+
+def _short_labels(improvement: Improvement) -> tuple[str, str]:
+    spec = improvement.final.model.spec
+    short = spec if len(spec) <= 48 else f"with {len(improvement.steps)} effects added"
+    return improvement.base.model.spec, short
+
+
+def _torque_panel(
+    axes: Axes, improvement: Improvement, window: slice, time: Channel, labels: tuple[str, str]
+) -> None:
+    base, final = improvement.base, improvement.final
+    r, unit = final.recording, final.model.torque_unit
+    what = torque_name(unit)
+    mark = "o" if r.averaged else "-"
+    size = {"markersize": 3.0} if r.averaged else {}
+    x = time.values[window]
+    axes.plot(x, r.torque[window], mark, color=MEASURED, linewidth=2.6, alpha=0.55,
+              label=f"measured {what}", **size)  # fmt: skip
+    axes.plot(x, _lines(r, base.prediction)[window], mark, color=BEFORE, linewidth=1.3,
+              label=labels[0], **size)  # fmt: skip
+    if improvement.steps:
+        axes.plot(x, _lines(r, final.prediction)[window], mark, color=AFTER, linewidth=1.3,
+                  label=labels[1], **size)  # fmt: skip
+    axes.set_xlabel(time.label)
+    axes.set_ylabel(f"{what} [{unit}]")
+    axes.margins(x=0.01)
+    share = (x[-1] - x[0]) / max(np.ptp(time.values), 1e-12)
+    where = "" if r.averaged or share > 0.95 else " where the gain is largest"
+    _title(axes, f"Measured and modelled {what}{where}")
+    _legend_above(axes)
+
+
+def _bars_panel(axes: Axes, improvement: Improvement) -> None:
+    from stribeck.report.text import step_errors, step_labels
+
+    unit = improvement.final.model.torque_unit
+    labels, errors = step_labels(improvement), step_errors(improvement)
+    held_out = all(e is not None for e in errors)
+    values = [
+        e if e is not None else f.rmse
+        for e, f in zip(
+            errors, [improvement.base, *(s.after for s in improvement.steps)], strict=True
+        )
+    ]
+    places = np.arange(len(values))
+    colours = [BEFORE, *([AFTER] * (len(values) - 1))]
+    axes.barh(places, values, color=colours, height=0.62)
+    largest = max(values)
+    for k, value in enumerate(values):
+        fall = "" if k == 0 else f"  (−{percent(1 - value / values[k - 1])})"
+        fall = "" if k and value > values[k - 1] else fall
+        inside = value > 0.6 * largest
+        axes.text(
+            value - 0.02 * largest if inside else value + 0.02 * largest, k,
+            f"{plain(value)}{fall}", va="center", ha="right" if inside else "left", fontsize=9,
+            color="white" if inside else "black",
+        )  # fmt: skip
+    axes.set_yticks(places, labels)
+    axes.invert_yaxis()
+    axes.set_xlim(0.0, 1.05 * largest)
+    axes.xaxis.set_major_locator(MaxNLocator(5))
+    axes.set_xlabel(f"{'held-out ' if held_out else ''}RMSE [{unit}]")
+    axes.grid(False, axis="y")
+    floor = improvement.noise_floor.value
+    if floor is not None:
+        axes.axvline(floor, color="black", linewidth=1.3, linestyle=":",
+                     label=f"noise floor {plain(floor)} {unit}")  # fmt: skip
+        axes.legend(
+            loc="upper center", bbox_to_anchor=(0.5, -0.2), frameon=False, fontsize=9,
+            title="error of predictions for data not seen" if held_out else None,
+            title_fontsize=8.5,
+        )  # fmt: skip
+    _title(axes, "Error after each step")
+
+
+def png_bytes(figure: Figure) -> bytes:
+    """The figure as a PNG file."""
+    return _bytes(figure, "png")
+
+
+def _bytes(figure: Figure, kind: str) -> bytes:
+    stream = io.BytesIO()
+    # No date inside: the same run gives the same bytes.
+    metadata = {"png": {}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
+    figure.savefig(stream, format=kind, metadata=metadata)
+    return stream.getvalue()
+
+
+def save_figure(figure: Figure, path: str | os.PathLike[str]) -> None:
+    """Write a figure whole or not at all; the format (png, svg, pdf) is the path's ending.
+
+    Raises
+    ------
+    StribeckError
+        Another ending, or a path that cannot be written.
+    """
+    target = Path(path)
+    kind = target.suffix.lower().lstrip(".")
+    if kind not in FORMATS:
+        raise StribeckError(f"cannot draw {target}: its name must end in .png, .svg or .pdf")
+    write_bytes_whole(target, _bytes(figure, kind))
+
+
+def write_bytes_whole(target: Path, content: bytes) -> None:
+    """Write `content` so that a reader never sees half of it."""
+    try:
+        handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}-")
+        try:
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(content)
+            os.chmod(name, 0o644)
+            os.replace(name, target)
+        except BaseException:
+            os.unlink(name)
+            raise
+    except OSError as error:
+        raise StribeckError(
+            f"cannot write {target}: {error.strerror or error}; give a path in a folder that "
+            f"exists and may be written to"
+        ) from None

@@ -1,0 +1,146 @@
+"""Self-contained pages: everything a reader needs in one file, no network."""
+
+from __future__ import annotations
+
+import base64
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import jinja2
+import numpy as np
+
+from stribeck.diagnose.words import physically
+from stribeck.report.figures import FLOOR, improvement_figure, png_bytes
+from stribeck.report.numbers import confidence_words, percent, plain
+from stribeck.report.text import (
+    STOPPED,
+    file_name,
+    held_out_meaning,
+    indistinguishable_sentence,
+    left_text,
+    parameter_rows,
+    scored_sentence,
+    step_errors,
+    summary_sentence,
+    unit_text,
+    untestable_rows,
+)
+
+if TYPE_CHECKING:
+    from stribeck.improve import Improvement
+    from stribeck.recording import Recording
+
+
+@lru_cache(maxsize=1)
+def _environment() -> jinja2.Environment:
+    return jinja2.Environment(
+        loader=jinja2.PackageLoader("stribeck", "report/templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+
+
+def _facts(r: Recording) -> list[tuple[str, str]]:
+    """What the recording is, as pairs of a name and a text."""
+    duration = float(np.sum(r.dt))
+    facts = [
+        ("file", r.path),
+        ("SHA-256", r.sha256),
+        ("joint", f"{r.joint or 'not named'}, {r.joint_kind}"),
+        ("rows", scored_sentence(r)),
+        ("runs", str(r.runs)),
+    ]
+    if r.averaged:
+        facts.append(("time", "one steady-state point a run"))
+    else:
+        facts.append(("time", f"{plain(duration)} s at {plain(r.rate_hz)} Hz, gaps: {r.gaps}"))
+    for name, column in r.columns.items():
+        if name == "time":
+            continue
+        span = ""
+        if np.isfinite(column.minimum) and np.isfinite(column.maximum):
+            unit = unit_text(column.unit)
+            span = f"{plain(column.minimum)} to {plain(column.maximum)} {unit}"
+        source = "" if column.source == name else f" (from {column.source})"
+        facts.append((name.replace("_", " "), f"{span}{source}".strip()))
+    return facts
+
+
+def _steps(improvement: Improvement) -> list[dict[str, Any]]:
+    errors = step_errors(improvement)
+    known = [e for e in errors if e is not None]
+    largest = max(known, default=1.0)
+    rows = []
+    before: float | None = None
+    for k, error in enumerate(errors):
+        step = improvement.steps[k - 1] if k else None
+        f = step.after if step else improvement.base
+        fall = ""
+        if before and error is not None:
+            fall = f"{'−' if error <= before else '+'}{percent(abs(1.0 - error / before))}"
+        rows.append(
+            {
+                "label": f"+ {step.finding.effect}" if step else improvement.base.model.spec,
+                "rmse": plain(f.rmse),
+                "held_out": plain(error) if error is not None else "–",
+                "fall": fall,
+                "confidence": confidence_words(step.finding.confidence) if step else "",
+                "bar": 100.0 * error / largest if error is not None else 0.0,
+            }
+        )
+        before = error
+    return rows
+
+
+def _findings(improvement: Improvement) -> list[dict[str, Any]]:
+    found = []
+    for step in improvement.steps:
+        finding = step.finding
+        share = finding.share_of_unexplained
+        found.append(
+            {
+                "effect": finding.effect,
+                "confidence": confidence_words(finding.confidence),
+                "physically": physically(finding.effect),
+                "where": finding.where[:1].upper() + finding.where[1:] + ".",
+                "share": percent(share) if share is not None else None,
+                "ties": (
+                    indistinguishable_sentence(finding) if finding.indistinguishable_from else ""
+                ),
+            }
+        )
+    return found
+
+
+def improvement_page(improvement: Improvement) -> str:
+    """A page on one improvement: what was found, what it means, the figure and the numbers."""
+    from stribeck import __version__
+
+    final, r = improvement.final, improvement.final.recording
+    picture = base64.b64encode(png_bytes(improvement_figure(improvement))).decode("ascii")
+    floor = improvement.noise_floor
+    largest = max([e for e in step_errors(improvement) if e is not None], default=1.0)
+    return _environment().get_template("improvement.html").render(
+        name=file_name(r),
+        summary=summary_sentence(improvement),
+        findings=_findings(improvement),
+        picture=picture,
+        steps=_steps(improvement),
+        unit=final.model.torque_unit,
+        floor=None if floor.value is None else plain(floor.value),
+        floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
+        floor_why=floor.why,
+        floor_colour=FLOOR,
+        held_out=held_out_meaning(r),
+        stopped=STOPPED[improvement.stopped],
+        left=left_text(improvement.unexplained),
+        spec=final.model.spec,
+        parameters=parameter_rows(final.estimates.values()),
+        untestable=untestable_rows(improvement.untestable),
+        facts=_facts(r),
+        notes=list(dict.fromkeys([*r.notes, *final.notes])),
+        relative=None if final.relative_residual is None else percent(final.relative_residual),
+        version=__version__,
+    )

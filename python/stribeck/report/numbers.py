@@ -1,0 +1,91 @@
+"""Numbers as people read them: as many digits as the data supports."""
+
+from __future__ import annotations
+
+import math
+
+#: Digits where no error is known.
+PLAIN_DIGITS = 4
+
+
+def plain(value: float, digits: int = 3) -> str:
+    """`value` with significant digits, without exponents for everyday sizes.
+
+    Examples
+    --------
+    >>> plain(0.012345), plain(1234.5), plain(2.5e-7), plain(8.0)
+    ('0.0123', '1234', '2.5e-07', '8.00')
+    """
+    if not math.isfinite(value):
+        return "unknown"
+    if value == 0.0:
+        return "0"
+    size = math.floor(math.log10(abs(value)))
+    if size < -4 or size > 6:
+        return f"{value:.{digits}g}"
+    return f"{value:.{max(digits - 1 - size, 0)}f}"
+
+
+def with_error(value: float, error: float | None) -> tuple[str, str]:
+    """`value` and its standard error, both ending at the error's second digit.
+
+    Examples
+    --------
+    >>> with_error(8.01234, 0.0223), with_error(1234.5, 87.0), with_error(0.25, None)
+    (('8.012', '0.022'), ('1234', '87'), ('0.2500', ''))
+    """
+    if error is None or not math.isfinite(error):
+        return plain(value, PLAIN_DIGITS), ""
+    if error <= 0.0:
+        return plain(value, PLAIN_DIGITS), "0"
+    last = math.floor(math.log10(error)) - 1
+    size = math.floor(math.log10(abs(value))) if value else last
+    if min(size, last) < -7 or size > 6:
+        digits = min(max(size - last, 1), 9)
+        return f"{value:.{digits}e}", f"{error:.1e}"
+    return f"{value:.{max(-last, 0)}f}", f"{error:.{max(-last, 0)}f}"
+
+
+def percent(share: float) -> str:
+    """A share as a percentage with two digits, and no false 100 % or 0 %.
+
+    Examples
+    --------
+    >>> percent(0.4712), percent(0.9999), percent(0.0312), percent(1.0)
+    ('47 %', '> 99 %', '3.1 %', '100 %')
+    """
+    value = 100.0 * share
+    if not math.isfinite(value):
+        return "unknown"
+    if 99.5 <= value < 100.0:
+        return "> 99 %"
+    if abs(value) >= 10.0 or value == 0.0:
+        return f"{value:.0f} %"
+    return "< 0.1 %" if 0.0 < value < 0.1 else f"{value:.1f} %"
+
+
+def confidence_words(confidence: float) -> str:
+    """A confidence (0..1) in words and as a number.
+
+    Examples
+    --------
+    >>> confidence_words(0.998), confidence_words(0.5)
+    ('practically certain (confidence > 0.99)', 'as likely as not (confidence 0.50)')
+    """
+    for least, words in (
+        (0.99, "practically certain"), (0.95, "very likely"), (0.8, "likely"),
+        (0.55, "more likely than not"), (0.45, "as likely as not"),
+    ):  # fmt: skip
+        if confidence >= least:
+            break
+    else:
+        words = "possible"
+    number = "> 0.99" if confidence > 0.99 else f"{confidence:.2f}"
+    return f"{words} (confidence {number})"
+
+
+def listed(words: list[str] | tuple[str, ...], last: str = "and") -> str:
+    """``a, b and c``."""
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}"
