@@ -21,7 +21,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from stribeck.errors import StribeckError
-from stribeck.report.numbers import percent, plain
+from stribeck.report.numbers import change_text, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,7 +36,7 @@ MEASURED = "#4d4d4d"
 BEFORE = "#D55E00"
 AFTER = "#0072B2"
 FLOOR = "#009E73"
-COLOURS = (AFTER, BEFORE, FLOOR, "#CC79A7", "#E69F00", "#56B4E9")
+COLOURS = (BEFORE, AFTER, FLOOR, "#CC79A7", "#E69F00", "#56B4E9")
 DPI = 120
 #: Points drawn of a scatter; more only make ink.
 MOST_POINTS = 3000
@@ -89,10 +89,12 @@ def _title(axes: Axes, text: str) -> None:
 
 def _legend_above(axes: Axes, columns: int = 4) -> None:
     """A legend to the right above the axes, where it covers no data."""
-    axes.legend(
+    legend = axes.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=columns, frameon=False, fontsize=9,
         borderaxespad=0.2, handlelength=1.6, columnspacing=1.2,
     )  # fmt: skip
+    for line in legend.get_lines():
+        line.set_linewidth(2.4)
 
 
 def clock(r: Recording) -> Channel:
@@ -214,8 +216,8 @@ def residual_figure(fits: Sequence[Fit]) -> Figure:
             residual = fit.residual
             if len(fits) <= 3:
                 axes.plot(
-                    made.values[some], residual[some], ".", color=colour, markersize=2.2,
-                    alpha=0.25, markeredgewidth=0, rasterized=True,
+                    made.values[some], residual[some], ".", color=colour, markersize=3.0,
+                    alpha=0.35, markeredgewidth=0, rasterized=True,
                 )  # fmt: skip
             ways = (
                 [(moving, "-")] if name == "velocity"
@@ -264,10 +266,12 @@ def fit_figure(fit: Fit) -> Figure:
     for axes in (top, middle, left, right):
         _style(axes)
     mark = "o" if r.averaged else "-"
-    size = {"markersize": 3.0} if r.averaged else {"linewidth": 0.9}
-    top.plot(time.values, r.torque, mark, color=MEASURED, label="measured", **size)
-    top.plot(time.values, _lines(r, fit.prediction), mark, color=AFTER, alpha=0.85,
-             label=fit.model.spec, **size)  # fmt: skip
+    size: dict[str, Any] = {"markersize": 3.0} if r.averaged else {"linewidth": 0.9}
+    broad: dict[str, Any] = {"markersize": 5.0} if r.averaged else {"linewidth": 2.4}
+    top.plot(time.values, r.torque, mark, color=MEASURED, alpha=0.5, label="measured", **broad)
+    top.plot(time.values, _lines(r, fit.prediction), mark, color=AFTER, label=fit.model.spec,
+             **size)  # fmt: skip
+    top.margins(x=0.01)
     top.set_ylabel(f"{what} [{unit}]")
     _title(top, f"Measured and modelled {what}")
     _legend_above(top)
@@ -285,11 +289,11 @@ def fit_figure(fit: Fit) -> Figure:
     load = load_of(fit)
     rest = np.zeros_like(r.torque) if load is None else load
     name = what if load is None else f"friction {what}"
-    dots: dict[str, Any] = {"markersize": 2.6, "alpha": 0.45, "markeredgewidth": 0}
+    dots: dict[str, Any] = {"markeredgewidth": 0}
     # A rigid body identified with the friction is in the prediction, and so is a known load.
-    left.plot(r.velocity[some], (r.torque - rest)[some], ".", color=MEASURED,
-              label="measured", **dots)  # fmt: skip
-    left.plot(r.velocity[some], (fit.prediction - rest)[some], ".", color=AFTER,
+    left.plot(r.velocity[some], (r.torque - rest)[some], ".", color=MEASURED, markersize=6.0,
+              alpha=0.35, label="measured", **dots)  # fmt: skip
+    left.plot(r.velocity[some], (fit.prediction - rest)[some], ".", color=AFTER, markersize=2.2,
               label=fit.model.spec, **dots)  # fmt: skip
     left.set_xlabel(f"velocity [{r.position_unit}/s]")
     left.set_ylabel(f"{name} [{unit}]")
@@ -404,7 +408,10 @@ def improvement_figure(improvement: Improvement) -> Figure:
         _title(axes, f"Residual without and with {effect}")
         axes.legend(
             loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, frameon=False, fontsize=9,
-            title="dots: rows, lines: median", title_fontsize=8.5,
+            title="dots: rows, lines: median" + (
+                "; above 0: too little friction" if along else ""
+            ),
+            title_fontsize=8.5,
         )  # fmt: skip
     _bars_panel(last, improvement)
     figure.suptitle(
@@ -428,7 +435,7 @@ def _torque_panel(
     r, unit = final.recording, final.model.torque_unit
     what = torque_name(unit)
     mark = "o" if r.averaged else "-"
-    size = {"markersize": 3.0} if r.averaged else {}
+    size: dict[str, Any] = {"markersize": 3.0} if r.averaged else {}
     x = time.values[window]
     axes.plot(x, r.torque[window], mark, color=MEASURED, linewidth=2.6, alpha=0.55,
               label=f"measured {what}", **size)  # fmt: skip
@@ -441,7 +448,9 @@ def _torque_panel(
     axes.set_ylabel(f"{what} [{unit}]")
     axes.margins(x=0.01)
     share = (x[-1] - x[0]) / max(np.ptp(time.values), 1e-12)
-    where = "" if r.averaged or share > 0.95 else " where the gain is largest"
+    where = "" if r.averaged or share > 0.95 else ", where the added effects help most"
+    if not improvement.steps:
+        where = ""
     _title(axes, f"Measured and modelled {what}{where}")
     _legend_above(axes)
 
@@ -463,8 +472,7 @@ def _bars_panel(axes: Axes, improvement: Improvement) -> None:
     axes.barh(places, values, color=colours, height=0.62)
     largest = max(values)
     for k, value in enumerate(values):
-        fall = "" if k == 0 else f"  (−{percent(1 - value / values[k - 1])})"
-        fall = "" if k and value > values[k - 1] else fall
+        fall = "" if k == 0 else f"  ({change_text(values[k - 1], value)})"
         inside = value > 0.6 * largest
         axes.text(
             value - 0.02 * largest if inside else value + 0.02 * largest, k,

@@ -10,8 +10,9 @@ import jinja2
 import numpy as np
 
 from stribeck.diagnose.words import physically
-from stribeck.report.figures import FLOOR, improvement_figure, png_bytes
-from stribeck.report.numbers import confidence_words, percent, plain
+from stribeck.model import catalog
+from stribeck.report.figures import improvement_figure, png_bytes
+from stribeck.report.numbers import DASH, change_text, confidence_words, percent, plain
 from stribeck.report.text import (
     STOPPED,
     file_name,
@@ -79,12 +80,12 @@ def _steps(improvement: Improvement) -> list[dict[str, Any]]:
         f = step.after if step else improvement.base
         fall = ""
         if before and error is not None:
-            fall = f"{'−' if error <= before else '+'}{percent(abs(1.0 - error / before))}"
+            fall = change_text(before, error)
         rows.append(
             {
                 "label": f"+ {step.finding.effect}" if step else improvement.base.model.spec,
                 "rmse": plain(f.rmse),
-                "held_out": plain(error) if error is not None else "–",
+                "held_out": plain(error) if error is not None else DASH,
                 "fall": fall,
                 "confidence": confidence_words(step.finding.confidence) if step else "",
                 "bar": 100.0 * error / largest if error is not None else 0.0,
@@ -102,6 +103,7 @@ def _findings(improvement: Improvement) -> list[dict[str, Any]]:
         found.append(
             {
                 "effect": finding.effect,
+                "title": catalog()["effects"][finding.effect]["title"],
                 "confidence": confidence_words(finding.confidence),
                 "physically": physically(finding.effect),
                 "where": finding.where[:1].upper() + finding.where[1:] + ".",
@@ -132,7 +134,6 @@ def improvement_page(improvement: Improvement) -> str:
         floor=None if floor.value is None else plain(floor.value),
         floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
         floor_why=floor.why,
-        floor_colour=FLOOR,
         held_out=held_out_meaning(r),
         stopped=STOPPED[improvement.stopped],
         left=left_text(improvement.unexplained),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+MINUS = "\N{MINUS SIGN}"
+DASH = "\N{EN DASH}"
 #: Digits where no error is known.
 PLAIN_DIGITS = 4
 
@@ -72,16 +74,34 @@ def confidence_words(confidence: float) -> str:
     >>> confidence_words(0.998), confidence_words(0.5)
     ('practically certain (confidence > 0.99)', 'as likely as not (confidence 0.50)')
     """
-    for least, words in (
-        (0.99, "practically certain"), (0.95, "very likely"), (0.8, "likely"),
-        (0.55, "more likely than not"), (0.45, "as likely as not"),
-    ):  # fmt: skip
-        if confidence >= least:
-            break
-    else:
-        words = "possible"
+    levels = {
+        0.99: "practically certain",
+        0.95: "very likely",
+        0.8: "likely",
+        0.55: "more likely than not",
+        0.45: "as likely as not",
+    }
+    words = next((said for least, said in levels.items() if confidence >= least), "possible")
     number = "> 0.99" if confidence > 0.99 else f"{confidence:.2f}"
     return f"{words} (confidence {number})"
+
+
+def change_text(before: float, after: float) -> str:
+    """How much a number rose or fell, in per cent with its sign."""
+    if not before:
+        return ""
+    return f"{MINUS if after <= before else '+'}{percent(abs(1.0 - after / before))}"
+
+
+def thousands(count: int) -> str:
+    """A count with a thin gap every three digits.
+
+    Examples
+    --------
+    >>> thousands(1234567), thousands(12)
+    ('1 234 567', '12')
+    """
+    return f"{count:,}".replace(",", " ")
 
 
 def listed(words: list[str] | tuple[str, ...], last: str = "and") -> str:

@@ -14,7 +14,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stribeck.diagnose.words import physically
-from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
+from stribeck.report.numbers import (
+    DASH,
+    MINUS,
+    change_text,
+    confidence_words,
+    listed,
+    percent,
+    plain,
+    thousands,
+    with_error,
+)
 
 if TYPE_CHECKING:
     from stribeck.compare import Assessment, Comparison
@@ -99,8 +109,7 @@ def bars(
             continue
         change = ""
         if before:
-            way = "−" if value <= before else "+"
-            change = f"  {way}{percent(abs(1.0 - value / before))}"
+            change = f"  {change_text(before, value)}"
         shape = bar(value, largest, floor)
         lines.append(f"  {label:<{wide}}  {shape:<{BAR}}  {plain(value)} {unit}{change}")
         before = value
@@ -119,10 +128,11 @@ def scored_sentence(r: Recording) -> str:
     """Which rows count, in one sentence."""
     scored = r.scored()
     return (
-        f"{int(scored['rows']):,} of {r.time.size:,} rows count "
+        f"{thousands(int(scored['rows']))} of {thousands(r.time.size)} rows count "
         f"({percent(scored['share'])}): those moving faster than "
-        f"{plain(r.velocity_threshold, 2)} {r.position_unit}/s, five times the noise of the velocity."
-    ).replace(",", " ", 2)
+        f"{plain(r.velocity_threshold, 2)} {r.position_unit}/s, five times the noise of the "
+        f"velocity."
+    )
 
 
 def held_out_meaning(r: Recording) -> str:
@@ -152,7 +162,7 @@ def _flags(e: Estimate) -> str:
 
 def unit_text(unit: str) -> str:
     """A unit, or a dash for a pure number: a lone 1 reads like a value."""
-    return "–" if unit == "1" else unit
+    return DASH if unit == "1" else unit
 
 
 def parameter_rows(estimates: Iterable[Estimate]) -> list[list[str]]:
@@ -167,7 +177,7 @@ def parameter_rows(estimates: Iterable[Estimate]) -> list[list[str]]:
             [
                 e.name, e.symbol, value, f"± {error}" if error else "", unit_text(e.unit),
                 relative, _flags(e),
-            ]  # fmt: skip
+            ]
         )
     return rows
 
@@ -184,7 +194,8 @@ def parameters_text(estimates: Mapping[str, Estimate]) -> str:
 
 def _errors_text(f: Fit) -> str:
     unit, r = f.model.torque_unit, f.recording
-    rows = [("error (RMSE)", f"{plain(f.rmse)} {unit}", "root mean square over the rows that count")]
+    meaning = "root mean square over the rows that count"
+    rows = [("error (RMSE)", f"{plain(f.rmse)} {unit}", meaning)]
     if f.rmse_held_out is not None:
         rows.append(
             ("held-out error", f"{plain(f.rmse_held_out)} {unit}", held_out_meaning(r))
@@ -267,7 +278,7 @@ def worst_places(assessment: Assessment, most: int = 3) -> list[str]:
     unit = assessment.fit.model.torque_unit
     rows = [
         g for g in assessment.regimes
-        if g.regime != "standstill" and g.share > 0.005 and g.rmse > 1.1 * assessment.rmse
+        if g.regime != "standstill" and g.share > 0.005 and g.rmse > 1.15 * assessment.rmse
     ]  # fmt: skip
     rows.sort(key=lambda g: -g.rmse)
     return [
@@ -363,7 +374,7 @@ def _signed(value: float, beside: float) -> str:
     """`value` with its sign and as many decimals as `beside` shows."""
     decimals = len(plain(beside).partition(".")[2]) if "e" not in plain(beside) else 9
     shown = f"{abs(value):.{decimals}f}"
-    return ("+" if value > 0 else "−") + shown if shown.strip("0.") else shown
+    return ("+" if value > 0 else MINUS) + shown if shown.strip("0.") else shown
 
 
 def finding_text(finding: Finding, unit: str, number: int | None = None) -> str:
@@ -528,12 +539,12 @@ def summary_sentence(improvement: Improvement) -> str:
         left = improvement.unexplained
         if left.is_structure:
             return (
-                f"{spec} misses something on this recording, but no known effect explains it on "
-                f"data that it has not seen."
+                f"The model {spec} misses something on this recording, but no known effect "
+                f"explains it on data that it has not seen."
             )
-        return f"Nothing that this recording can show is missing from {spec}."
+        return f"Nothing that this recording can show is missing from the model {spec}."
     found = listed([step.finding.effect for step in improvement.steps])
-    text = f"{spec} lacks {found}"
+    text = f"The model {spec} lacks {found}"
     if base.rmse_held_out is not None and final.rmse_held_out is not None:
         text += (
             f": with {'it' if len(improvement.steps) == 1 else 'them'} the error on data the fit "
