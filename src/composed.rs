@@ -200,9 +200,22 @@ impl<S: Real> Composed<S> {
     /// Holds `sample` for `dt` (s); a model without a bristle has no use for `state` and `dt`.
     #[inline]
     pub fn step(&self, state: &mut BristleState<S>, sample: &Sample<S>, dt: S) -> Step<S> {
+        self.step_over(state, sample, sample.velocity, dt)
+    }
+
+    /// As [`step`](Self::step), with the velocity that carries the bristle given apart: the mean
+    /// over the step, where positions tell it, makes the step second order.
+    #[inline]
+    pub fn step_over(
+        &self,
+        state: &mut BristleState<S>,
+        sample: &Sample<S>,
+        mean_velocity: S,
+        dt: S,
+    ) -> Step<S> {
         let split = self.split(sample);
         match &self.bristle {
-            Some(bristle) => bristle.step(state, &split, sample.velocity, dt),
+            Some(bristle) => bristle.step(state, &split, mean_velocity, dt),
             None => {
                 let torque = split.torque(sample.velocity.sign());
                 Step { torque, mean_torque: torque }

@@ -43,6 +43,7 @@ class Model:
         motor_torque: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
+        mean_velocity: ArrayLike | None = None,
         state: float = 0.0,
     ) -> NDArray[np.float64]: ...
     def gradient(
@@ -57,6 +58,7 @@ class Model:
         motor_torque: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
+        mean_velocity: ArrayLike | None = None,
         state: float = 0.0,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def split(

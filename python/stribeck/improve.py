@@ -17,7 +17,7 @@ from stribeck.diagnose import (
     Untestable,
     diagnose,
 )
-from stribeck.diagnose.evidence import compare_fits
+from stribeck.diagnose.evidence import evidence
 from stribeck.diagnose.trial import SIGNIFICANCE, add_effect
 from stribeck.fit import Fit, fit, on_recording
 from stribeck.model import Model, check_effect
@@ -221,7 +221,7 @@ def _superfluous(steps: list[Step], least_fall: float, seed: int) -> str | None:
             seed=seed,
             transient=current.transient,
         )
-        comparison = compare_fits(without, current)
-        if comparison.fall < least_fall / 2 or comparison.p_value > SIGNIFICANCE:
+        found = evidence(without, current)
+        if found.fall < least_fall / 2 or found.p_value > SIGNIFICANCE:
             return effect
     return None

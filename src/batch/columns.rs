@@ -77,6 +77,9 @@ pub struct Columns<'a> {
     /// Whether a delay shifts the load torque too: yes where the target is motor torque minus
     /// load torque, no where the load is a term of the model already or friction was measured.
     pub shift_load: bool,
+    /// Mean velocity over each row's step, which carries a bristle; else the row's velocity is
+    /// held over the step. From position differences it does not gather velocity noise.
+    pub mean_velocity: Option<&'a [f64]>,
     /// Deflection of a bristle at the start of every segment (X).
     pub state: f64,
 }
@@ -88,6 +91,7 @@ impl Default for Columns<'_> {
             channels: Channels::default(),
             smooth: Channels::default(),
             shift_load: true,
+            mean_velocity: None,
             state: 0.0,
         }
     }
@@ -133,6 +137,9 @@ impl<'a> Columns<'a> {
             if let (true, Some(column)) = (delayed, self.smooth.get(channel)) {
                 whole(channel.name(), column, rows)?;
             }
+        }
+        if let (true, Some(column)) = (spec.has_bristle(), self.mean_velocity) {
+            whole("mean_velocity", column, rows)?;
         }
         if self.state.is_finite() { Ok(()) } else { Err(BatchError::State) }
     }

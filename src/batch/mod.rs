@@ -28,10 +28,19 @@ pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<
     let model = spec.with(values)?;
     let rows = columns.rows(spec)?;
     let mut torque = Vec::with_capacity(rows.count());
-    evaluate(&model, &rows, columns.channels, columns.state, |t: f64| torque.push(t));
+    evaluate(&model, &rows, columns.channels, columns.mean_velocity, columns.state, |t: f64| {
+        torque.push(t)
+    });
     if let Some(delay) = &model.effects().delay {
         let mut series = Vec::with_capacity(rows.count());
-        evaluate(&model, &rows, columns.smoothed(), columns.state, |t: f64| series.push(t));
+        evaluate(
+            &model,
+            &rows,
+            columns.smoothed(),
+            columns.mean_velocity,
+            columns.state,
+            |t: f64| series.push(t),
+        );
         columns.add_load(&mut series);
         delay::shift(&rows, delay.delay, &series, 1, &mut torque);
     }
@@ -94,6 +103,7 @@ fn evaluate<S: Real>(
     model: &Composed<S>,
     rows: &Rows,
     channels: Channels<'_>,
+    mean_velocity: Option<&[f64]>,
     start: f64,
     mut sink: impl FnMut(S),
 ) {
@@ -110,7 +120,12 @@ fn evaluate<S: Real>(
         if rows.starts_at(i) {
             state = fresh;
         }
-        sink(model.step(&mut state, &channels.sample(i), S::from_f64(dt)).torque);
+        let sample = channels.sample(i);
+        let carried = match mean_velocity.and_then(|column| column.get(i)) {
+            Some(&mean) => S::from_f64(mean),
+            None => sample.velocity,
+        };
+        sink(model.step_over(&mut state, &sample, carried, S::from_f64(dt)).torque);
     }
 }
 
@@ -129,10 +144,17 @@ fn gradient_along<const N: usize>(
     let run = |channels: Channels<'_>| {
         let mut torque = Vec::with_capacity(rows.count());
         let mut jacobian = Vec::with_capacity(rows.count() * p);
-        evaluate(&model, &rows, channels, columns.state, |t: Dual<f64, N>| {
-            torque.push(t.value);
-            jacobian.extend_from_slice(&t.derivative[..p]);
-        });
+        evaluate(
+            &model,
+            &rows,
+            channels,
+            columns.mean_velocity,
+            columns.state,
+            |t: Dual<f64, N>| {
+                torque.push(t.value);
+                jacobian.extend_from_slice(&t.derivative[..p]);
+            },
+        );
         (torque, jacobian)
     };
     let (mut torque, mut jacobian) = run(columns.channels);

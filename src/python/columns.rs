@@ -39,6 +39,7 @@ pub(super) struct Arguments<'py> {
     pub motor_torque: Option<Array<'py>>,
     pub smooth: Option<BTreeMap<String, Array<'py>>>,
     pub shift_load: bool,
+    pub mean_velocity: Option<Array<'py>>,
     pub state: f64,
 }
 
@@ -55,6 +56,7 @@ impl Arguments<'_> {
         let temperature = self.temperature.as_ref().map(contiguous);
         let load_torque = self.load_torque.as_ref().map(contiguous);
         let motor_torque = self.motor_torque.as_ref().map(contiguous);
+        let mean_velocity = self.mean_velocity.as_ref().map(contiguous);
         let dt = match &self.dt {
             Some(Dt::Each(dt)) => Some(contiguous(dt)),
             _ => None,
@@ -91,6 +93,7 @@ impl Arguments<'_> {
                 motor_torque: smooth(Channel::MotorTorque),
             },
             shift_load: self.shift_load,
+            mean_velocity: mean_velocity.as_deref(),
             state: self.state,
         };
         Ok(py.detach(|| work(&columns)))

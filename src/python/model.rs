@@ -82,7 +82,8 @@ impl Model {
 
     /// Friction torque of every row; with a bristle, at the end of the row's step.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, smooth=None, shift_load=true, state=0.0))]
+        load_torque=None, motor_torque=None, smooth=None, shift_load=true,
+        mean_velocity=None, state=0.0))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -97,6 +98,7 @@ impl Model {
         motor_torque: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
+        mean_velocity: Option<Array<'py>>,
         state: f64,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let values = contiguous(&values);
@@ -110,6 +112,7 @@ impl Model {
             motor_torque,
             smooth,
             shift_load,
+            mean_velocity,
             state,
         };
         let torque = arguments
@@ -120,7 +123,8 @@ impl Model {
 
     /// Friction torque of every row and its derivatives, one column a parameter.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, smooth=None, shift_load=true, state=0.0))]
+        load_torque=None, motor_torque=None, smooth=None, shift_load=true,
+        mean_velocity=None, state=0.0))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -135,6 +139,7 @@ impl Model {
         motor_torque: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
+        mean_velocity: Option<Array<'py>>,
         state: f64,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let values = contiguous(&values);
@@ -148,6 +153,7 @@ impl Model {
             motor_torque,
             smooth,
             shift_load,
+            mean_velocity,
             state,
         };
         let (torque, jacobian) = arguments
@@ -185,6 +191,7 @@ impl Model {
             motor_torque,
             smooth: None,
             shift_load: true,
+            mean_velocity: None,
             state: 0.0,
         };
         let parts = arguments

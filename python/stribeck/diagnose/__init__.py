@@ -12,9 +12,9 @@ import polars as pl
 from stribeck.diagnose.floor import NoiseFloor, noise_floor
 from stribeck.diagnose.testable import Untestable, untestable
 from stribeck.diagnose.trial import (
-    SIGNIFICANCE,
     TIE,
     Trial,
+    adds_to,
     explained_by_shape,
     passes,
     tie_statistic,
@@ -156,7 +156,7 @@ def diagnose(
     good.sort(key=lambda t: t.square)
     best_fit = good[0].fit if good else fitted
     floor = noise_floor(best_fit)
-    findings = _findings(fitted, good, tried, floor)
+    findings = _findings(fitted, good, tried, least_fall, floor, seed)
     left = unexplained(best_fit if good else fitted, floor)
     verdict = "missing" if findings else ("unexplained" if left.is_structure else "none")
     shown = tuple(row for effect, row in cannot.items() if effect not in inside)
@@ -170,21 +170,25 @@ def _reported_fall(before: Fit, trial: Trial) -> bool:
 
 
 def _findings(
-    before: Fit, good: list[Trial], tried: int, floor: NoiseFloor
+    before: Fit, good: list[Trial], tried: int, least: float, floor: NoiseFloor, seed: int
 ) -> tuple[Finding, ...]:
-    """Order the trials that pass: of those that tie with the best, the simplest first."""
+    """Order the trials that pass; effects that are one on this data, the simplest first."""
     if not good:
         return ()
     best = good[0]
     statistic = {t.effect: tie_statistic(best, t) for t in good}
-    tied = [t for t in good if statistic[t.effect] <= TIE]
+    tied = [best] + [
+        t
+        for t in good[1:]
+        if statistic[t.effect] <= TIE and not adds_to(best, t, tried, least, seed)
+    ]
     tied.sort(key=lambda t: (t.parameters, t.square))
     ordered = tied + [t for t in good if t not in tied]
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
     total = sum(weights[t.effect] for t in tied)
     made = []
     for t in ordered:
-        chance = min(1.0, t.comparison.p_value * tried / SIGNIFICANCE) * SIGNIFICANCE
+        chance = min(1.0, t.evidence.p_value * tried)
         share = weights[t.effect] / (total if t in tied else total + weights[t.effect])
         others = tuple(o.effect for o in tied if o is not t) if t in tied else ()
         made.append(

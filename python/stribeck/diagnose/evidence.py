@@ -1,8 +1,9 @@
-"""Does a wider model predict held-out data better, by more than chance?
+"""Does a wider model predict better, by more than chance?
 
-The two models' held-out squared errors are compared row by row; the differences are summed
-over contiguous batches longer than their memory, so that the t statistic stands up to
-autocorrelation. Held-out errors already charge for fitted parameters and for the search.
+Two questions. How much does the error fall on held-out blocks? And could the torque that the
+wider model adds have come from the noise alone? The second is a Wald test along the added
+torque, with the noise's variance in that direction from batches longer than its memory, so that
+it stands up to autocorrelation and to noise that is not the same everywhere.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import t as student
+from scipy.stats import f as fisher
 
 from stribeck.fit import Fit
 from stribeck.identify.covariance import batches, correlation_length
@@ -20,48 +21,91 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Comparison:
-    """Held-out squared error of one model against another's, on the same rows.
+class Evidence:
+    """What speaks for a wider model.
 
     Attributes
     ----------
     fall : float
         Relative fall of the held-out RMSE, on the rows that are fitted to.
-    statistic, p_value : float
-        t of the mean difference, and its one-sided probability under "no better".
+    everywhere : bool
+        Whether the error falls without the block that gains most: not a single event.
+    p_value : float
+        Probability of added torque this large if noise were all there is to explain.
     """
 
     fall: float
-    difference: float
-    error: float
-    statistic: float
+    everywhere: bool
     p_value: float
 
 
-def compare_squares(before: Array, after: Array, segment: NDArray[np.intp]) -> Comparison:
-    """Compare held-out residuals [m] of two models on the same rows."""
-    square_before, square_after = before**2, after**2
-    change = square_before - square_after
-    level = float(np.sqrt(square_before.mean()))
-    fall = 1.0 - float(np.sqrt(square_after.mean())) / level if level > 0 else 0.0
+def evidence(before: Fit, after: Fit) -> Evidence:
+    """Weigh a wider fit `after` against `before`."""
+    r, rows = before.recording, before.rows
+    square_before = before.held_out_residual[rows] ** 2
+    square_after = after.held_out_residual[rows] ** 2
+    gain = np.bincount(r.block[rows], square_before - square_after)
+    level = float(square_before.mean())
+    fall = 1.0 - float(np.sqrt(square_after.mean() / level)) if level > 0 else 0.0
+    added = (after.prediction - before.prediction)[rows]
+    return Evidence(
+        fall,
+        bool(gain.sum() - gain.max() > 0),
+        added_torque_test(
+            added,
+            after.residual[rows],
+            r.segment[rows],
+            len(after.model.names) - len(before.model.names),
+        ),
+    )
+
+
+def added_torque_test(
+    added: Array, residual: Array, segment: NDArray[np.intp], parameters: int
+) -> float:
+    """Probability that noise like `residual` alone makes `added` torque [m] this large.
+
+    `added` is the best of a family with so many more `parameters`, nonlinear ones counted like
+    the others: that pays for their search.
+    """
+    size = float(added @ added)
+    if size <= 0 or parameters < 1:
+        return 1.0
+    batch = batches(segment, correlation_length(residual, segment), fewest=20, most=200)
+    count = int(batch.max()) + 1
+    if count <= parameters + 1:
+        return 1.0
+    scores = np.bincount(batch, added * residual, count)
+    variance = float(np.sum((scores - scores.mean()) ** 2)) * count / (count - 1)
+    if variance <= 0:
+        return 0.0
+    return float(
+        fisher.sf(size**2 / variance / parameters, parameters, count - parameters)
+    )
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Mean difference of two models' held-out squared errors, and its standard error."""
+
+    total: float
+    error: float
+
+    @property
+    def statistic(self) -> float:
+        """Standard errors by which the first model is worse."""
+        if self.total <= 0:
+            return 0.0
+        return self.total / self.error if self.error > 0 else np.inf
+
+
+def difference(worse: Fit, better: Fit) -> Difference:
+    """Compare two models that need not contain one another, on held-out rows."""
+    rows = worse.rows
+    change = worse.held_out_residual[rows] ** 2 - better.held_out_residual[rows] ** 2
+    segment = worse.recording.segment[rows]
     batch = batches(segment, correlation_length(change, segment), fewest=20, most=100)
     count = int(batch.max()) + 1
-    if count < 3 or change.size < 3:
-        return Comparison(fall, float(change.sum()), np.inf, 0.0, 1.0)
     sums = np.bincount(batch, change, count)
-    error = float(np.sqrt(count) * sums.std(ddof=1))
-    total = float(sums.sum())
-    statistic = total / error if error > 0 else (np.inf if total > 0 else 0.0)
-    return Comparison(
-        fall, total, error, float(statistic), float(student.sf(statistic, count - 1))
-    )
-
-
-def compare_fits(before: Fit, after: Fit) -> Comparison:
-    """How much better `after` predicts the held-out rows that both are fitted to."""
-    rows = before.rows
-    return compare_squares(
-        before.held_out_residual[rows],
-        after.held_out_residual[rows],
-        before.recording.segment[rows],
-    )
+    error = float(np.sqrt(count) * sums.std(ddof=1)) if count > 2 else np.inf
+    return Difference(float(sums.sum()), error)

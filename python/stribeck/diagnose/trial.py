@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import norm
 
-from stribeck.diagnose.evidence import Comparison, compare_fits, compare_squares
+from stribeck.diagnose.evidence import Evidence, added_torque_test, difference, evidence
 from stribeck.diagnose.shape import flexible_columns
 from stribeck.errors import StribeckError
 from stribeck.fit import Fit, fit, own_load
@@ -25,20 +25,11 @@ TIE = 1.0
 
 @dataclass(frozen=True)
 class Trial:
-    """One effect added to a model and fitted.
-
-    Attributes
-    ----------
-    comparison
-        Against the model without the effect.
-    is_shape
-        Whether the effects already in the model, let free in form, do as well.
-    """
+    """One effect added to a model and fitted, and what speaks for it."""
 
     effect: str
     fit: Fit
-    comparison: Comparison
-    is_shape: bool = False
+    evidence: Evidence
 
     @property
     def parameters(self) -> int:
@@ -75,21 +66,18 @@ def try_effect(before: Fit, effect: str, *, seed: int = 0) -> Trial | None:
         return None
     if after.rmse_held_out is None or before.rmse_held_out is None:
         return None
-    return Trial(effect, after, compare_fits(before, after))
+    return Trial(effect, after, evidence(before, after))
 
 
 def passes(trial: Trial, tried: int, least: float) -> bool:
-    """Whether a trial is evidence: it matters, and it is not chance among `tried` effects."""
-    before = trial.comparison
-    return before.fall >= least and before.p_value * tried <= SIGNIFICANCE
+    """Whether a trial counts: it matters, not only once, and is not chance among `tried`."""
+    e = trial.evidence
+    return e.fall >= least and e.everywhere and e.p_value * tried <= SIGNIFICANCE
 
 
 def tie_statistic(best: Trial, other: Trial) -> float:
     """Standard errors by which `other`'s held-out error exceeds `best`'s."""
-    comparison = compare_fits(other.fit, best.fit)
-    if comparison.difference <= 0:
-        return 0.0
-    return comparison.difference / comparison.error if comparison.error > 0 else np.inf
+    return difference(other.fit, best.fit).statistic
 
 
 def tie_weight(statistic: float) -> float:
@@ -97,21 +85,32 @@ def tie_weight(statistic: float) -> float:
     return float(2.0 * norm.sf(abs(statistic)))
 
 
+def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:
+    """Whether `other`'s effect explains something that `first`'s, once in the model, does not."""
+    again = try_effect(first.fit, other.effect, seed=seed)
+    return again is not None and passes(again, tried, least)
+
+
 def explained_by_shape(before: Fit, trial: Trial, tried: int, least: float) -> bool:
     """Whether a freer form of the effects already in `before` leaves nothing to `trial`."""
     extra = flexible_columns(before)
     if extra.shape[1] == 0:
         return False
-    with_extra = _held_out_linear(before, extra)
-    with_both = _held_out_linear(trial.fit, extra)
-    comparison = compare_squares(
-        with_extra, with_both, before.recording.segment[before.rows]
+    without, residual_without = _linear_refit(before, extra)
+    along, residual_along = _linear_refit(trial.fit, extra)
+    level = float(np.mean(without**2))
+    fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
+    p_value = added_torque_test(
+        residual_without - residual_along,
+        residual_along,
+        before.recording.segment[before.rows],
+        len(trial.fit.model.names) - len(before.model.names),
     )
-    return not (comparison.fall >= least / 2 and comparison.p_value * tried <= SIGNIFICANCE)
+    return fall < least / 2 or p_value * tried > SIGNIFICANCE
 
 
-def _held_out_linear(fitted: Fit, extra: np.ndarray) -> np.ndarray:
-    """Held-out residuals of `fitted` linearised, with `extra` columns added, on its rows."""
+def _linear_refit(fitted: Fit, extra: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Held-out and in-sample residuals of `fitted`, linearised, with `extra` columns added."""
     problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
     residual, jacobian = problem.linearise(fitted.model.values)
     columns = np.column_stack([jacobian, extra])
@@ -128,4 +127,5 @@ def _held_out_linear(fitted: Fit, extra: np.ndarray) -> np.ndarray:
         step = solve_bounded(matrix - sums.matrix[b] + ridge, vector - sums.vector[b], -free, free)
         rows = group == b
         held_out[rows] = residual[rows] - columns[rows] @ step
-    return held_out
+    step = solve_bounded(matrix + ridge, vector, -free, free)
+    return held_out, residual - columns @ step

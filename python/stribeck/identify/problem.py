@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from stribeck.model import Model
 from stribeck.recording import Recording
+from stribeck.recording.rows import noise_level
 
 Array = NDArray[np.float64]
 
@@ -54,13 +55,28 @@ class Problem:
         load = self.load if r.load_torque is None else r.load_torque
         return {
             "dt": r.dt,
-            "velocity": r.velocity,
+            "velocity": np.where(r.moving, r.velocity, self._denoised(r.velocity, r.velocity_smooth)),
             "position": r.position,
             "acceleration": r.acceleration,
             "temperature": r.temperature,
             "load_torque": load,
             "motor_torque": None,
+            "mean_velocity": self._mean_velocity if self.model.has_state else None,
         }
+
+    @cached_property
+    def _mean_velocity(self) -> Array:
+        """Mean velocity over each step, which carries a bristle, array [n].
+
+        From positions where they were recorded: their differences do not gather velocity noise.
+        """
+        r = self.recording
+        before = np.concatenate([[0], np.arange(r.time.size - 1)])
+        mean = 0.5 * (r.velocity + r.velocity[before])
+        if r.position is not None and not r.columns["position"].derived:
+            step = np.where(r.dt > 0, r.dt, np.inf)
+            mean = np.where(r.dt > 0, (r.position - r.position[before]) / step, mean)
+        return mean
 
     @cached_property
     def _row_channels(self) -> dict[str, Array | None]:
@@ -76,13 +92,27 @@ class Problem:
         r = self.recording
         if "delay" not in self.model.effects:
             return None
+        velocity = self._denoised(r.velocity, r.velocity_smooth)
         smooth = {
-            "velocity": r.velocity_smooth,
-            "position": r.position_smooth,
-            "acceleration": r.acceleration_smooth,
-            "load_torque": r.load_torque_smooth if r.load_torque is not None else self.load,
+            # The direction is never in doubt on moving rows; smoothing must not turn it.
+            "velocity": np.where(r.moving, np.copysign(velocity, r.velocity), velocity),
+            "position": self._denoised(r.position, r.position_smooth),
+            "acceleration": self._denoised(r.acceleration, r.acceleration_smooth),
+            "load_torque": (
+                self._denoised(r.load_torque, r.load_torque_smooth)
+                if r.load_torque is not None
+                else self.load
+            ),
         }
         return {name: column for name, column in smooth.items() if column is not None}
+
+    def _denoised(self, measured: Array | None, smooth: Array | None) -> Array | None:
+        """`smooth` where it takes out noise alone, `measured` where it would bend the signal."""
+        if measured is None or smooth is None:
+            return measured
+        r = self.recording
+        sigma = noise_level(r.time, measured, r.segment)
+        return np.where(np.abs(smooth - measured) <= 5.0 * sigma, smooth, measured)
 
     def _stretch(self, start: int, stop: int) -> dict[str, object]:
         """The channels of a contiguous stretch, for models that need what went before."""
