@@ -41,6 +41,8 @@ DPI = 120
 #: Points drawn of a scatter; more only make ink.
 MOST_POINTS = 3000
 BINS = 30
+#: With fewer rows a median by bins says less than the rows themselves.
+FEWEST_FOR_MEDIAN = 150
 FORMATS = ("png", "svg", "pdf")
 
 #: The channel against which an effect shows, and whether the residual is taken along the motion.
@@ -98,9 +100,9 @@ def _legend_above(axes: Axes, columns: int = 4) -> None:
 
 
 def clock(r: Recording) -> Channel:
-    """Time for drawing: runs one after another, or the number of a steady-state point."""
+    """Time for drawing, runs one after another; steady-state points stand at their velocity."""
     if r.averaged:
-        return Channel(np.arange(1.0, r.time.size + 1.0), "steady-state point")
+        return Channel(r.velocity, f"velocity [{r.position_unit}/s]")
     if r.runs <= 1:
         return Channel(r.time, "time [s]")
     steps = np.diff(r.time, prepend=r.time[0])
@@ -121,7 +123,7 @@ def channel(fit: Fit, name: str) -> Channel | None:
     r = fit.recording
     x, t = r.position_unit, r.torque_unit
     made: Channel | None = None
-    if name == "time":
+    if name == "time" and not r.averaged:
         made = clock(r)
     elif name == "velocity":
         made = Channel(r.velocity, f"velocity [{x}/s]")
@@ -156,9 +158,18 @@ def _thin(rows: NDArray[np.intp], most: int = MOST_POINTS) -> NDArray[np.intp]:
     return np.asarray(np.sort(picked))
 
 
+def _dots(count: int) -> dict[str, Any]:
+    """How to draw `count` single rows: few of them large, many of them faint."""
+    size, alpha = (7.0, 0.9) if count < 300 else (4.0, 0.5) if count < 1500 else (3.0, 0.35)
+    return {
+        "linestyle": "none", "marker": ".", "markersize": size, "alpha": alpha,
+        "markeredgewidth": 0, "rasterized": True,
+    }  # fmt: skip
+
+
 def binned_median(x: Array, y: Array, bins: int = BINS) -> tuple[Array, Array]:
     """Median of `y` in bins of `x` of equal width, where there are enough points."""
-    if x.size < 10 or not np.ptp(x) > 0:
+    if x.size < FEWEST_FOR_MEDIAN or not np.ptp(x) > 0:
         return np.empty(0), np.empty(0)
     low, high = np.quantile(x, [0.002, 0.998])
     if not high > low:
@@ -187,6 +198,8 @@ def _limits(axes: Axes, values: Sequence[Array]) -> None:
 def _lines(r: Recording, values: Array) -> Array:
     """`values` with NaN at rest and before each gap, so that a line breaks there."""
     drawn = np.where(r.moving, values, np.nan)
+    if r.averaged:
+        return drawn
     drawn[np.flatnonzero(np.diff(r.segment)) + 1] = np.nan
     return drawn
 
@@ -202,9 +215,10 @@ def residual_figure(fits: Sequence[Fit]) -> Figure:
         for name in ("time", "velocity", "position", "load", "temperature", "acceleration")
         if (made := channel(fits[0], name)) is not None
     ]
-    rows = -(-len(found) // 2)
-    figure = _figure(12.0, 1.0 + 3.1 * rows)
-    grid = np.atleast_1d(figure.subplots(rows, 2, squeeze=False)).ravel()
+    columns = min(len(found), 2)
+    rows = -(-len(found) // columns)
+    figure = _figure(12.0, 1.0 + 3.1 * max(rows, 1.3))
+    grid = figure.subplots(rows, columns, squeeze=False).ravel()
     r, unit = fits[0].recording, fits[0].model.torque_unit
     moving = np.flatnonzero(r.moving)
     some = _thin(moving, MOST_POINTS // min(len(fits), 3))
@@ -215,10 +229,7 @@ def residual_figure(fits: Sequence[Fit]) -> Figure:
             colour = COLOURS[k % len(COLOURS)]
             residual = fit.residual
             if len(fits) <= 3:
-                axes.plot(
-                    made.values[some], residual[some], ".", color=colour, markersize=3.0,
-                    alpha=0.35, markeredgewidth=0, rasterized=True,
-                )  # fmt: skip
+                axes.plot(made.values[some], residual[some], color=colour, **_dots(some.size))
             ways = (
                 [(moving, "-")] if name == "velocity"
                 else [(moving[r.velocity[moving] > 0], "-"), (moving[r.velocity[moving] < 0], "--")]
@@ -242,11 +253,12 @@ def residual_figure(fits: Sequence[Fit]) -> Figure:
                label=f"{fit.model.spec}  (RMSE {plain(fit.rmse)} {unit})")
         for k, fit in enumerate(fits)
     ]  # fmt: skip
-    handles += [
-        Line2D([], [], color="#555555", linewidth=1.8, label="median, moving forward"),
-        Line2D([], [], color="#555555", linewidth=1.8, linestyle="--",
-               label="median, moving backward"),
-    ]  # fmt: skip
+    if moving.size >= FEWEST_FOR_MEDIAN:
+        handles += [
+            Line2D([], [], color="#555555", linewidth=1.8, label="median, moving forward"),
+            Line2D([], [], color="#555555", linewidth=1.8, linestyle="--",
+                   label="median, moving backward"),
+        ]  # fmt: skip
     figure.legend(
         handles=handles, loc="outside lower left", ncols=2 if len(fits) > 1 else 3,
         frameon=False, fontsize=9,
@@ -303,7 +315,7 @@ def fit_figure(fit: Fit) -> Figure:
         line.set_rasterized(True)
 
     _residual_panel(right, [(fit, AFTER, fit.model.spec)], "velocity", False)
-    _title(right, "Residual against velocity, line: median")
+    _title(right, "Residual against velocity")
     return figure
 
 
@@ -322,8 +334,7 @@ def _residual_panel(
     axes.axhline(0.0, color="#999999", linewidth=0.8)
     for fit, colour, label in shown:
         residual = fit.residual * sign
-        axes.plot(made.values[some], residual[some], ".", color=colour, markersize=2.4,
-                  alpha=0.3, markeredgewidth=0, rasterized=True)  # fmt: skip
+        axes.plot(made.values[some], residual[some], color=colour, **_dots(some.size))
         at, median = binned_median(made.values[moving], residual[moving])
         axes.plot(at, median, "-", color="white", linewidth=3.6)
         axes.plot(at, median, "-", color=colour, linewidth=2.0, label=label)
@@ -380,9 +391,11 @@ def improvement_figure(improvement: Improvement) -> Figure:
     time, window = clock(r), telling_window(improvement)
     _torque_panel(top, improvement, window, time, labels)
     mark = "." if r.averaged else "-"
-    middle.axvspan(
-        time.values[window][0], time.values[window][-1], color="#f0f0f0", zorder=0, linewidth=0
-    )
+    part = window.stop - window.start < r.time.size
+    if part:
+        middle.axvspan(
+            time.values[window][0], time.values[window][-1], color="#ececec", zorder=0, linewidth=0
+        )
     middle.axhline(0.0, color="#999999", linewidth=0.8)
     middle.plot(time.values, _lines(r, base.residual), mark, color=BEFORE, linewidth=0.7,
                 label=labels[0])  # fmt: skip
@@ -392,7 +405,8 @@ def improvement_figure(improvement: Improvement) -> Figure:
     _limits(middle, [base.residual[r.moving], final.residual[r.moving]])
     middle.set_xlabel(time.label)
     middle.set_ylabel(f"residual [{unit}]")
-    _title(middle, f"Residual (measured minus model) of {what}; grey: the time shown above")
+    grey = "; grey: the time shown above" if part else ""
+    _title(middle, f"Residual (measured minus model) of {what}{grey}")
     _legend_above(middle)
     middle.margins(x=0.01)
 
@@ -437,8 +451,9 @@ def _torque_panel(
     mark = "o" if r.averaged else "-"
     size: dict[str, Any] = {"markersize": 3.0} if r.averaged else {}
     x = time.values[window]
-    axes.plot(x, r.torque[window], mark, color=MEASURED, linewidth=2.6, alpha=0.55,
-              label=f"measured {what}", **size)  # fmt: skip
+    broad: dict[str, Any] = {"markersize": 7.0} if r.averaged else {"linewidth": 2.6}
+    axes.plot(x, r.torque[window], mark, color=MEASURED, alpha=0.55, label=f"measured {what}",
+              **broad)  # fmt: skip
     axes.plot(x, _lines(r, base.prediction)[window], mark, color=BEFORE, linewidth=1.3,
               label=labels[0], **size)  # fmt: skip
     if improvement.steps:
@@ -480,7 +495,7 @@ def _bars_panel(axes: Axes, improvement: Improvement) -> None:
             color="white" if inside else "black",
         )  # fmt: skip
     axes.set_yticks(places, labels)
-    axes.invert_yaxis()
+    axes.set_ylim(max(len(values), 3) - 0.5, -0.5)
     axes.set_xlim(0.0, 1.05 * largest)
     axes.xaxis.set_major_locator(MaxNLocator(5))
     axes.set_xlabel(f"{'held-out ' if held_out else ''}RMSE [{unit}]")

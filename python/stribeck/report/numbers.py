@@ -43,7 +43,7 @@ def with_error(value: float, error: float | None) -> tuple[str, str]:
     last = math.floor(math.log10(error)) - 1
     size = math.floor(math.log10(abs(value))) if value else last
     if min(size, last) < -7 or size > 6:
-        digits = min(max(size - last, 1), 9)
+        digits = min(max(size - last, 0), 9)
         return f"{value:.{digits}e}", f"{error:.1e}"
     return f"{value:.{max(-last, 0)}f}", f"{error:.{max(-last, 0)}f}"
 

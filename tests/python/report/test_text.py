@@ -1,0 +1,109 @@
+"""What the commands print."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+import stribeck as sb
+from stribeck.diagnose import Untestable
+from stribeck.report import text
+from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
+
+
+def every_text(improvement: sb.Improvement, steady: sb.Fit) -> dict[str, str]:
+    base, final = improvement.base, improvement.final
+    comparison = sb.compare([base, final], final.recording)
+    return {
+        "fit": text.fit_text(final),
+        "steady": text.fit_text(steady),
+        "comparison": text.comparison_text(comparison),
+        "diagnosis": text.diagnosis_text(improvement.last),
+        "addition": text.addition_text(base, final, "load"),
+        "improvement": text.improvement_text(improvement),
+        "model": text.model_text(final.model),
+    }
+
+
+def test_no_line_is_wider_than_a_terminal(improvement: sb.Improvement, steady: sb.Fit) -> None:
+    for name, shown in every_text(improvement, steady).items():
+        for line in shown.splitlines():
+            assert len(line) <= 100, (name, line)
+            assert line == line.rstrip(), (name, line)
+
+
+def test_no_number_is_missing(improvement: sb.Improvement, steady: sb.Fit) -> None:
+    for name, shown in every_text(improvement, steady).items():
+        for word in ("nan", "inf ", "None", "unknown"):
+            assert word not in shown, (name, word)
+
+
+def test_an_improvement_tells_what_was_found(improvement: sb.Improvement) -> None:
+    shown = text.improvement_text(improvement)
+    assert [s.finding.effect for s in improvement.steps] == ["load"]
+    assert "The model coulomb lacks load" in shown
+    assert "N m" in shown
+    assert "± " in shown
+    assert "the temperature varies by" in shown
+
+
+def test_bars_are_as_long_as_the_errors() -> None:
+    shown = text.bars(["base", "+ load"], [2.0, 0.5], 0.5, "N m").splitlines()
+    assert shown[0].count("█") + shown[0].count("▒") == text.BAR
+    assert shown[1].count("▒") == text.BAR // 4
+    assert "█" not in shown[1]
+    assert "75 %" in shown[1]
+    assert "noise floor, 0.500 N m" in shown[2]
+
+
+def test_bars_without_figures() -> None:
+    assert "no held-out figure" in text.bars(["base"], [None], None, "N")
+
+
+def test_ties_are_said(improvement: sb.Improvement) -> None:
+    finding = replace(improvement.steps[0].finding, indistinguishable_from=("gravity", "inertia"))
+    shown = text.finding_text(finding, "N m")
+    assert "Cannot be told apart from gravity or inertia on this data" in " ".join(shown.split())
+
+
+def test_flags_of_parameters(improvement: sb.Improvement) -> None:
+    e = improvement.final.estimates["coulomb_friction"]
+    top = replace(e, value=e.upper, at_bound=True, stderr=None, ci95=None)
+    blind = replace(e, identifiable=False, stderr=None, ci95=None)
+    vague = replace(e, stderr=e.value)
+    flags = [row[-1] for row in text.parameter_rows([e, top, blind, vague])]
+    assert flags == ["", "at its upper bound", "not identifiable on this data", "hardly determined"]
+
+
+def test_effects_with_the_same_reason_stand_together() -> None:
+    rows = [Untestable("a", "why", "do"), Untestable("b", "why", "do"), Untestable("c", "x", "y")]
+    assert text.untestable_rows(rows) == [("a and b", "why", "do"), ("c", "x", "y")]
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "shown"),
+    [
+        (8.01234, 0.0223, ("8.012", "0.022")),
+        (1234.5, 87.0, ("1234", "87")),
+        (1e-9, 2e-10, ("1.00e-09", "2.0e-10")),
+        (0.0, 0.01, ("0.000", "0.010")),
+        (3.0, None, ("3.000", "")),
+        (3.0, float("nan"), ("3.000", "")),
+        (0.001, 5.0, ("0.0", "5.0")),
+    ],
+)
+def test_digits_follow_the_error(
+    value: float, error: float | None, shown: tuple[str, str]
+) -> None:
+    assert with_error(value, error) == shown
+
+
+def test_numbers_as_people_read_them() -> None:
+    assert [plain(x) for x in (0.0, 0.1234, 12.34, 1234.0, 1e-9)] == [
+        "0", "0.123", "12.3", "1234", "1e-09",
+    ]  # fmt: skip
+    assert [percent(x) for x in (0.0, 0.5, 0.9999, 1.0, 3.0, 1e-5)] == [
+        "0 %", "50 %", "> 99 %", "100 %", "300 %", "< 0.1 %",
+    ]  # fmt: skip
+    assert listed(["a", "b", "c"]) == "a, b and c"
+    assert confidence_words(0.3) == "possible (confidence 0.30)"
