@@ -28,10 +28,11 @@ fn kernels(criterion: &mut Criterion) {
         },
         ..Columns::default()
     };
-    let models: [(&str, &[&str]); 4] = [
+    let models: [(&str, &[&str]); 5] = [
         ("coulomb", &[]),
         ("bittencourt_a", &[]),
         ("lugre", &[]),
+        ("coulomb", &["stribeck", "load", "position", "direction", "temperature_dry"]),
         ("bittencourt_a", &["load", "temperature_dry", "temperature_viscous", "position"]),
     ];
     for (law, effects) in models {
@@ -43,7 +44,10 @@ fn kernels(criterion: &mut Criterion) {
             b.iter(|| batch::torque(&spec, black_box(&values), &columns));
         });
         group.bench_function("gradient", |b| {
-            b.iter(|| batch::gradient(&spec, black_box(&values), &columns));
+            b.iter(|| batch::gradient(&spec, black_box(&values), &columns, None));
+        });
+        group.bench_function("gradient by two", |b| {
+            b.iter(|| batch::gradient(&spec, black_box(&values), &columns, Some(&[0, 1])));
         });
         group.finish();
     }

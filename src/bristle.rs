@@ -51,39 +51,76 @@ impl<S: Real> Bristle<S> {
         &self,
         state: &mut BristleState<S>,
         split: &Split<S>,
-        velocity: S,
-        dt: S,
+        velocity: S::Plain,
+        dt: S::Plain,
     ) -> Step<S> {
-        let (s0, z) = (self.stiffness, state.z);
-        let smooth = split.rate + split.additive;
+        let z = state.z;
+        let (torque, path) = self.advance(state, split, velocity, dt);
+        let mean_torque = match path {
+            Path::Rest => torque,
+            Path::Saturated { dry, travel } if dt.value() > 0.0 => {
+                // The mean still holds the transient's area, (z - end)/x.
+                let area = (z - state.z) * (dry / travel);
+                let slip = (state.z - z).scale(S::Plain::one() / dt);
+                torque + self.stiffness * area + self.damping * slip
+            }
+            Path::Saturated { .. } => torque,
+            Path::Transient { y, phi, slip } => {
+                let mean = z + (y.phi(2) * slip).scale(dt);
+                self.stiffness * mean + self.damping * (phi * slip) + split.rate + split.additive
+            }
+        };
+        Step { torque, mean_torque }
+    }
+
+    /// As [`step`](Self::step), for the torque at the end of the step alone.
+    #[inline]
+    pub fn step_to(
+        &self,
+        state: &mut BristleState<S>,
+        split: &Split<S>,
+        velocity: S::Plain,
+        dt: S::Plain,
+    ) -> S {
+        self.advance(state, split, velocity, dt).0
+    }
+
+    #[inline]
+    fn advance(
+        &self,
+        state: &mut BristleState<S>,
+        split: &Split<S>,
+        velocity: S::Plain,
+        dt: S::Plain,
+    ) -> (S, Path<S>) {
+        let s0 = self.stiffness;
         let speed = velocity.abs();
         if speed.value() == 0.0 {
-            let torque = s0 * z + smooth;
-            return Step { torque, mean_torque: torque };
+            return (s0 * state.z + split.rate + split.additive, Path::Rest);
         }
         let dry = split.dry();
-        let dt = if dt.value() > 0.0 { dt } else { S::zero() };
-        let travel = s0 * speed * dt;
-        if travel.value() >= SATURATED * dry.value() {
-            let end = velocity.sign() * dry / s0;
-            state.z = end;
-            let torque = s0 * end + smooth;
-            // The mean still holds the transient's area, (z - end)/x.
-            let area = if dt.value() > 0.0 { (z - end) * (dry / travel) } else { S::zero() };
-            let slip = if dt.value() > 0.0 { (end - z) / dt } else { S::zero() };
-            return Step { torque, mean_torque: torque + s0 * area + self.damping * slip };
+        let dt = if dt.value() > 0.0 { dt } else { S::Plain::zero() };
+        let pull = s0.scale(speed);
+        if pull.value() * dt.value() >= SATURATED * dry.value() {
+            state.z = (dry / s0).scale(velocity.sign());
+            let torque = s0 * state.z + split.rate + split.additive;
+            return (torque, Path::Saturated { dry, travel: pull.scale(dt) });
         }
         // dz/dt decays exponentially, so it is carried forward rather than differenced.
-        let y = -travel / dry;
+        let pace = pull / dry;
+        let y = pace.scale(-dt);
         let phi = y.phi(1);
-        let decay = S::one() + y * phi;
-        let slip = velocity - s0 * speed * z / dry;
-        let end = z + dt * phi * slip;
-        state.z = end;
-        let mean = z + dt * y.phi(2) * slip;
-        Step {
-            torque: s0 * end + self.damping * (decay * slip) + smooth,
-            mean_torque: s0 * mean + self.damping * (phi * slip) + smooth,
-        }
+        let decay = (y * phi).shift(S::Plain::one());
+        let slip = (-(pace * state.z)).shift(velocity);
+        state.z.add_scaled(&(phi * slip), dt);
+        let torque = s0 * state.z + self.damping * (decay * slip) + split.rate + split.additive;
+        (torque, Path::Transient { y, phi, slip })
     }
+}
+
+/// How a step went, and what its mean takes from there.
+enum Path<S> {
+    Rest,
+    Saturated { dry: S, travel: S },
+    Transient { y: S, phi: S, slip: S },
 }

@@ -48,7 +48,7 @@ macro_rules! laws {
         impl<S: Real> Law<S> {
             /// The torque at one instant, taken apart.
             #[inline]
-            pub fn split(&self, sample: &Sample<S>) -> Split<S> {
+            pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
                 match self {
                     $(Self::$law(law) => law.split(sample),)+
                 }
@@ -112,8 +112,8 @@ macro_rules! effects {
             pub fn apply(
                 &self,
                 split: &mut Split<S>,
-                sample: &Sample<S>,
-                constants: &Constants<S>,
+                sample: &Sample<S::Plain>,
+                constants: &Constants<S::Plain>,
             ) {
                 $(if let Some(effect) = &self.$id {
                     effect.apply(split, sample, constants);

@@ -161,11 +161,11 @@ impl fmt::Display for Spec {
 
 /// A law and its effects with numbers: immutable, its state is kept apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Composed<S> {
+pub struct Composed<S: Real> {
     law: Law<S>,
     effects: Effects<S>,
     bristle: Option<Bristle<S>>,
-    constants: Constants<S>,
+    constants: Constants<S::Plain>,
 }
 
 impl<S: Real> Composed<S> {
@@ -184,7 +184,7 @@ impl<S: Real> Composed<S> {
     /// The torque at one instant, taken apart.
     #[inline]
     #[must_use]
-    pub fn split(&self, sample: &Sample<S>) -> Split<S> {
+    pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
         let mut split = self.law.split(sample);
         self.effects.apply(&mut split, sample, &self.constants);
         split
@@ -193,13 +193,18 @@ impl<S: Real> Composed<S> {
     /// The torque in steady sliding, where dry friction acts along `sgn v` (T).
     #[inline]
     #[must_use]
-    pub fn static_torque(&self, sample: &Sample<S>) -> S {
+    pub fn static_torque(&self, sample: &Sample<S::Plain>) -> S {
         self.split(sample).torque(sample.velocity.sign())
     }
 
     /// Holds `sample` for `dt` (s); a model without a bristle has no use for `state` and `dt`.
     #[inline]
-    pub fn step(&self, state: &mut BristleState<S>, sample: &Sample<S>, dt: S) -> Step<S> {
+    pub fn step(
+        &self,
+        state: &mut BristleState<S>,
+        sample: &Sample<S::Plain>,
+        dt: S::Plain,
+    ) -> Step<S> {
         self.step_over(state, sample, sample.velocity, dt)
     }
 
@@ -209,9 +214,9 @@ impl<S: Real> Composed<S> {
     pub fn step_over(
         &self,
         state: &mut BristleState<S>,
-        sample: &Sample<S>,
-        mean_velocity: S,
-        dt: S,
+        sample: &Sample<S::Plain>,
+        mean_velocity: S::Plain,
+        dt: S::Plain,
     ) -> Step<S> {
         let split = self.split(sample);
         match &self.bristle {

@@ -64,14 +64,14 @@ impl<S: Real> Split<S> {
     /// The torque where dry friction acts along `direction` (T).
     #[inline]
     #[must_use]
-    pub fn torque(&self, direction: S) -> S {
-        self.dry() * direction + self.rate + self.additive
+    pub fn torque(&self, direction: S::Plain) -> S {
+        self.dry().scale(direction) + self.rate + self.additive
     }
 }
 
 /// The Stribeck curve `exp(-|v/vs|^alpha)`.
 #[inline]
 #[must_use]
-pub fn stribeck_curve<S: Real>(velocity: S, stribeck_velocity: S, exponent: S) -> S {
-    (-(velocity / stribeck_velocity).abs().powf(exponent)).exp()
+pub fn stribeck_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S, exponent: S) -> S {
+    (-stribeck_velocity.divide(velocity).abs().powf(exponent)).exp()
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{every_model, motion, values};
-use stribeck::batch::{self, TimeStep};
+use stribeck::batch::{self, BatchError, TimeStep};
 use stribeck::composed::Spec;
 
 #[test]
@@ -16,7 +16,7 @@ fn gradient_is_the_derivative_of_every_model() {
     for columns in [motion.columns(), smooth] {
         for spec in every_model() {
             let values = values(&spec);
-            let (torque, jacobian) = batch::gradient(&spec, &values, &columns).unwrap();
+            let (torque, jacobian) = batch::gradient(&spec, &values, &columns, None).unwrap();
             assert_eq!(torque, batch::torque(&spec, &values, &columns).unwrap(), "{spec}");
             for (j, info) in spec.parameters().enumerate() {
                 let step = 1e-6 * values[j].abs().max(1e-3);
@@ -48,7 +48,7 @@ fn delay_at_zero_changes_nothing_and_has_the_mean_slope() {
     let columns = motion.columns();
     let spec = Spec::new("coulomb", ["delay"]).unwrap();
     let plain = Spec::new("coulomb", []).unwrap();
-    let (torque, jacobian) = batch::gradient(&spec, &[2.0, 3.0, 0.0], &columns).unwrap();
+    let (torque, jacobian) = batch::gradient(&spec, &[2.0, 3.0, 0.0], &columns, None).unwrap();
     assert_eq!(torque, batch::torque(&plain, &[2.0, 3.0], &columns).unwrap());
     let whole: Vec<f64> = torque.iter().zip(&motion.load_torque).map(|(f, l)| f + l).collect();
     for i in 1..119 {
@@ -117,7 +117,7 @@ fn nothing_is_ever_nan() {
                 columns.channels.velocity = &velocity;
                 columns.channels.load_torque = Some(&load);
                 columns.channels.temperature = Some(&temperature);
-                let (torque, jacobian) = batch::gradient(&spec, &values, &columns).unwrap();
+                let (torque, jacobian) = batch::gradient(&spec, &values, &columns, None).unwrap();
                 assert!(torque.iter().all(|x| !x.is_nan()), "{spec} at {values:?}: {torque:?}");
                 for (k, x) in jacobian.iter().enumerate() {
                     let (row, column) = (k / values.len(), k % values.len());
@@ -140,4 +140,39 @@ fn split_adds_up_to_the_static_torque() {
         let sign = f64::from(i8::from(*v > 0.0) - i8::from(*v < 0.0));
         common::close(torque[i], parts.dry[i] * sign + parts.rate[i] + parts.additive[i], 1e-14);
     }
+}
+
+/// Bits, so that a fit may leave parameters out without changing its way.
+#[test]
+fn wanted_columns_are_those_of_the_full_gradient() {
+    let motion = motion(130);
+    let columns = motion.columns();
+    let mut specs = every_model();
+    for both in [["delay", "presliding"], ["delay", "load"]] {
+        specs.push(Spec::new("bittencourt_a", both).unwrap());
+    }
+    for spec in specs {
+        let values = values(&spec);
+        let p = values.len();
+        let (torque, full) = batch::gradient(&spec, &values, &columns, None).unwrap();
+        let odd: Vec<usize> = (0..p).rev().filter(|i| i % 2 == 1).collect();
+        let picks = (0..p).map(|i| vec![i]).chain([vec![], odd, (0..p).rev().collect()]);
+        for wanted in picks {
+            let (same, part) = batch::gradient(&spec, &values, &columns, Some(&wanted)).unwrap();
+            assert_eq!(torque, same, "{spec} by {wanted:?}");
+            let expected = full.chunks(p).flat_map(|row| wanted.iter().map(|&i| row[i].to_bits()));
+            assert!(part.iter().map(|x| x.to_bits()).eq(expected), "{spec} by {wanted:?}");
+        }
+    }
+}
+
+#[test]
+fn wanted_parameters_exist_and_are_named_once() {
+    let motion = motion(3);
+    let spec = Spec::new("coulomb", []).unwrap();
+    let refused = |wanted: &[usize]| {
+        batch::gradient(&spec, &[1.0, 2.0], &motion.columns(), Some(wanted)).unwrap_err()
+    };
+    assert_eq!(refused(&[1, 2]), BatchError::Wanted { index: 2, parameters: 2 });
+    assert_eq!(refused(&[1, 0, 1]), BatchError::WantedTwice(1));
 }

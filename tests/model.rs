@@ -109,7 +109,7 @@ fn linear_parameters_have_no_second_derivative() {
                 })
                 .collect();
             let model = spec.with(&twice).unwrap();
-            let constant = |x| Second::constant(Dual::constant(x));
+            let constant = Dual::<f64, 1>::constant;
             let mut state = BristleState::default();
             let mut curved = false;
             for v in [0.02, 0.1, -0.03] {

@@ -60,6 +60,8 @@ class Model:
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
         state: float = 0.0,
+        *,
+        wanted: Sequence[int] | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def split(
         self,

@@ -5,7 +5,6 @@ use super::BatchError;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 use crate::sample::Sample;
-use crate::scalar::Real;
 use crate::table::Channel;
 
 /// Channels of a recording, one value a row; only the velocity is always needed.
@@ -36,10 +35,10 @@ impl<'a> Channels<'a> {
 
     /// One row; what is not there is zero.
     #[inline]
-    pub(super) fn sample<S: Real>(&self, row: usize) -> Sample<S> {
+    pub(super) fn sample(&self, row: usize) -> Sample<f64> {
         let at = |column: Option<&[f64]>| match column.and_then(|c| c.get(row)) {
-            Some(&x) => S::from_f64(x),
-            None => S::zero(),
+            Some(&x) => x,
+            None => 0.0,
         };
         Sample {
             velocity: at(Some(self.velocity)),

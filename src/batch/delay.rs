@@ -45,9 +45,10 @@ impl Segment<'_> {
             // `ahead` is now t_i - delay - t_k.
             let inside = ahead > 0.0 && k < last;
             let weight = if inside { ahead / self.steps[k + 1] } else { 0.0 };
-            for j in 0..self.width {
-                let (here, next) = (self.at(k, j), self.at((k + 1).min(last), j));
-                out[i * self.width + j] += here + weight * (next - here) - self.at(i, j);
+            let (here, next) = (self.row(k), self.row((k + 1).min(last)));
+            let out = &mut out[i * self.width..(i + 1) * self.width];
+            for (((out, x), here), next) in out.iter_mut().zip(self.row(i)).zip(here).zip(next) {
+                *out += here + weight * (next - here) - x;
             }
             by_delay.push(if inside {
                 -self.slope(k)
@@ -60,14 +61,14 @@ impl Segment<'_> {
         }
     }
 
-    fn at(&self, row: usize, column: usize) -> f64 {
-        self.series[row * self.width + column]
+    fn row(&self, row: usize) -> &[f64] {
+        &self.series[row * self.width..(row + 1) * self.width]
     }
 
     /// Slope between a row and the next; 0 beyond the ends.
     fn slope(&self, row: usize) -> f64 {
         match self.steps.get(row.wrapping_add(1)) {
-            Some(&dt) if row < self.steps.len() => (self.at(row + 1, 0) - self.at(row, 0)) / dt,
+            Some(&dt) if row < self.steps.len() => (self.row(row + 1)[0] - self.row(row)[0]) / dt,
             _ => 0.0,
         }
     }

@@ -53,8 +53,17 @@ pub enum BatchError {
     },
     /// The state at the start is NaN or infinite.
     State,
-    /// More parameters than a gradient can be taken for.
+    /// More parameters than a gradient can be taken by.
     TooManyParameters(usize),
+    /// A wanted parameter does not exist.
+    Wanted {
+        /// Its index.
+        index: usize,
+        /// How many parameters there are.
+        parameters: usize,
+    },
+    /// A parameter is wanted twice.
+    WantedTwice(usize),
 }
 
 impl From<ModelError<'static>> for BatchError {
@@ -88,8 +97,12 @@ impl fmt::Display for BatchError {
             Self::State => f.write_str("the state at the start is not finite"),
             Self::TooManyParameters(given) => write!(
                 f,
-                "a gradient has at most {MAX_PARAMETERS} parameters but the model has {given}"
+                "a gradient has at most {MAX_PARAMETERS} parameters but {given} are wanted"
             ),
+            Self::Wanted { index, parameters } => {
+                write!(f, "parameter {index} is wanted but the model has {parameters}, from 0")
+            }
+            Self::WantedTwice(index) => write!(f, "parameter {index} is wanted twice"),
         }
     }
 }

@@ -9,15 +9,15 @@ pub use columns::{Channels, Columns, TimeStep};
 pub use error::BatchError;
 pub use normal::{NormalEquations, normal_equations};
 
+use std::vec;
 use std::vec::Vec;
 
 use crate::bristle::BristleState;
 use crate::composed::{Composed, Spec};
-use crate::sample::Sample;
 use crate::scalar::{Dual, Real};
 use columns::Rows;
 
-/// The most parameters a gradient can be taken for.
+/// The most parameters a gradient can be taken by.
 pub const MAX_PARAMETERS: usize = 32;
 
 /// The friction torque of every row (T): of a model with a bristle, at the end of the row's step.
@@ -27,41 +27,52 @@ pub const MAX_PARAMETERS: usize = 32;
 pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<f64>, BatchError> {
     let model = spec.with(values)?;
     let rows = columns.rows(spec)?;
-    let mut torque = Vec::with_capacity(rows.count());
-    evaluate(&model, &rows, columns.channels, columns.mean_velocity, columns.state, |t: f64| {
-        torque.push(t)
-    });
+    let run = |channels: Channels<'_>| {
+        let mut torque = Vec::with_capacity(rows.count());
+        evaluate(&model, &rows, channels, columns, |t: &f64| torque.push(*t));
+        torque
+    };
+    let mut torque = run(columns.channels);
     if let Some(delay) = &model.effects().delay {
-        let mut series = Vec::with_capacity(rows.count());
-        evaluate(
-            &model,
-            &rows,
-            columns.smoothed(),
-            columns.mean_velocity,
-            columns.state,
-            |t: f64| series.push(t),
-        );
+        let mut series = run(columns.smoothed());
         columns.add_load(&mut series);
         delay::shift(&rows, delay.delay, &series, 1, &mut torque);
     }
     Ok(torque)
 }
 
-/// The friction torque of every row, and its derivatives by every parameter, row by row.
+/// The friction torque of every row, and its derivatives by the `wanted` parameters (indices into
+/// `values`, by default all of them) in that order, row by row.
 ///
 /// # Errors
-/// As [`torque`], and more than [`MAX_PARAMETERS`] parameters.
+/// As [`torque`]; more than [`MAX_PARAMETERS`] derivatives, one that does not exist or is wanted
+/// twice.
 pub fn gradient(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,
+    wanted: Option<&[usize]>,
 ) -> Result<(Vec<f64>, Vec<f64>), BatchError> {
-    match values.len() {
-        0..=4 => gradient_along::<4>(spec, values, columns),
-        5..=8 => gradient_along::<8>(spec, values, columns),
-        9..=16 => gradient_along::<16>(spec, values, columns),
-        17..=24 => gradient_along::<24>(spec, values, columns),
-        25..=MAX_PARAMETERS => gradient_along::<32>(spec, values, columns),
+    let all: Vec<usize>;
+    let wanted = match wanted {
+        Some(wanted) => wanted,
+        None => {
+            all = (0..values.len()).collect();
+            &all
+        }
+    };
+    match wanted.len() {
+        0 => gradient_along::<0>(spec, values, columns, wanted),
+        1 => gradient_along::<1>(spec, values, columns, wanted),
+        2 => gradient_along::<2>(spec, values, columns, wanted),
+        3..=4 => gradient_along::<4>(spec, values, columns, wanted),
+        5..=6 => gradient_along::<6>(spec, values, columns, wanted),
+        7..=8 => gradient_along::<8>(spec, values, columns, wanted),
+        9..=12 => gradient_along::<12>(spec, values, columns, wanted),
+        13..=16 => gradient_along::<16>(spec, values, columns, wanted),
+        17..=20 => gradient_along::<20>(spec, values, columns, wanted),
+        21..=24 => gradient_along::<24>(spec, values, columns, wanted),
+        25..=MAX_PARAMETERS => gradient_along::<MAX_PARAMETERS>(spec, values, columns, wanted),
         given => Err(BatchError::TooManyParameters(given)),
     }
 }
@@ -99,33 +110,28 @@ pub fn split(
 }
 
 /// Runs a model over rows; the state starts afresh with every segment.
-fn evaluate<S: Real>(
+fn evaluate<S: Real<Plain = f64>>(
     model: &Composed<S>,
     rows: &Rows,
     channels: Channels<'_>,
-    mean_velocity: Option<&[f64]>,
-    start: f64,
-    mut sink: impl FnMut(S),
+    columns: &Columns<'_>,
+    mut sink: impl FnMut(&S),
 ) {
-    if model.bristle().is_none() {
+    let Some(bristle) = model.bristle() else {
         for i in 0..rows.count() {
-            let sample: Sample<S> = channels.sample(i);
-            sink(model.static_torque(&sample));
+            sink(&model.static_torque(&channels.sample(i)));
         }
         return;
-    }
-    let fresh = BristleState { z: S::from_f64(start) };
+    };
+    let fresh = BristleState { z: S::from_f64(columns.state) };
     let mut state = fresh;
-    for (i, &dt) in rows.steps.iter().enumerate() {
+    let carried = columns.mean_velocity.unwrap_or(channels.velocity);
+    for (i, (&dt, &carried)) in rows.steps.iter().zip(carried).enumerate() {
         if rows.starts_at(i) {
             state = fresh;
         }
-        let sample = channels.sample(i);
-        let carried = match mean_velocity.and_then(|column| column.get(i)) {
-            Some(&mean) => S::from_f64(mean),
-            None => sample.velocity,
-        };
-        sink(model.step_over(&mut state, &sample, carried, S::from_f64(dt)).torque);
+        let split = model.split(&channels.sample(i));
+        sink(&bristle.step_to(&mut state, &split, carried, dt));
     }
 }
 
@@ -133,39 +139,46 @@ fn gradient_along<const N: usize>(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,
+    wanted: &[usize],
 ) -> Result<(Vec<f64>, Vec<f64>), BatchError> {
-    let p = values.len();
-    let mut variables = [Dual::<f64, N>::constant(0.0); N];
-    for (i, (variable, &value)) in variables.iter_mut().zip(values).enumerate() {
-        *variable = Dual::variable(value, i);
+    let mut variables: Vec<_> = values.iter().map(|&x| Dual::<f64, N>::constant(x)).collect();
+    for (direction, &index) in wanted.iter().enumerate() {
+        match variables.get_mut(index) {
+            _ if wanted[..direction].contains(&index) => {
+                return Err(BatchError::WantedTwice(index));
+            }
+            Some(variable) => *variable = Dual::variable(variable.value, direction),
+            None => return Err(BatchError::Wanted { index, parameters: values.len() }),
+        }
     }
-    let model = spec.with(&variables[..p.min(N)])?;
+    let model = spec.with(&variables)?;
     let rows = columns.rows(spec)?;
+    let width = wanted.len();
     let run = |channels: Channels<'_>| {
         let mut torque = Vec::with_capacity(rows.count());
-        let mut jacobian = Vec::with_capacity(rows.count() * p);
-        evaluate(
-            &model,
-            &rows,
-            channels,
-            columns.mean_velocity,
-            columns.state,
-            |t: Dual<f64, N>| {
-                torque.push(t.value);
-                jacobian.extend_from_slice(&t.derivative[..p]);
-            },
-        );
+        let mut jacobian = vec![0.0; rows.count() * width];
+        let mut slopes = jacobian.chunks_exact_mut(width.max(1));
+        evaluate(&model, &rows, channels, columns, |t: &Dual<f64, N>| {
+            torque.push(t.value);
+            for (slope, d) in slopes.next().into_iter().flatten().zip(&t.derivative) {
+                // Turns -0 into 0: which of them it is depends on what else is wanted.
+                *slope = d + 0.0;
+            }
+        });
         (torque, jacobian)
     };
     let (mut torque, mut jacobian) = run(columns.channels);
     if let Some(delay) = &model.effects().delay {
-        let (mut shifted, by_parameters) = run(columns.smoothed());
+        let (mut shifted, slopes) = run(columns.smoothed());
         columns.add_load(&mut shifted);
         let tau = delay.delay.value;
         let by_delay = delay::shift(&rows, tau, &shifted, 1, &mut torque);
-        delay::shift(&rows, tau, &by_parameters, p, &mut jacobian);
-        if let Some(own) = spec.parameters().position(|info| info.name == "delay") {
-            for (row, slope) in jacobian.chunks_exact_mut(p).zip(by_delay) {
+        if width > 0 {
+            delay::shift(&rows, tau, &slopes, width, &mut jacobian);
+        }
+        let own = |&index: &usize| spec.parameters().nth(index).is_some_and(|p| p.name == "delay");
+        if let Some(own) = wanted.iter().position(own) {
+            for (row, slope) in jacobian.chunks_exact_mut(width).zip(by_delay) {
                 row[own] = slope;
             }
         }

@@ -29,8 +29,8 @@ impl<S: Real> FrictionEffect<S> for Direction<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, _: &Constants<S>) {
-        split.coulomb += self.direction_coulomb * sample.velocity.sign();
-        split.rate += self.direction_viscous * sample.velocity.abs();
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) {
+        split.coulomb.add_scaled(&self.direction_coulomb, sample.velocity.sign());
+        split.rate.add_scaled(&self.direction_viscous, sample.velocity.abs());
     }
 }

@@ -3,6 +3,8 @@ use crate::scalar::Real;
 /// `1 + (s/k) (exp(-k (T - T0)) - 1)`: falls with slope `s` at `T0` and flattens with curvature
 /// `k`; written with `phi_1` it is the straight line `1 - s (T - T0)` at `k = 0`.
 #[inline]
-pub fn temperature_factor<S: Real>(slope: S, curvature: S, above_reference: S) -> S {
-    S::one() - slope * above_reference * (-(curvature * above_reference)).phi(1)
+pub fn temperature_factor<S: Real>(slope: S, curvature: S, above_reference: S::Plain) -> S {
+    (slope * curvature.scale(-above_reference).phi(1))
+        .scale(-above_reference)
+        .shift(S::Plain::one())
 }

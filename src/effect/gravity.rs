@@ -28,8 +28,9 @@ impl<S: Real> FrictionEffect<S> for Gravity<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, _: &Constants<S>) {
-        split.additive +=
-            self.gravity_cos * sample.position.cos() + self.gravity_sin * sample.position.sin();
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) {
+        let (sin, cos) = sample.position.sin_cos();
+        split.additive.add_scaled(&self.gravity_cos, cos);
+        split.additive.add_scaled(&self.gravity_sin, sin);
     }
 }

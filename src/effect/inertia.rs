@@ -26,7 +26,7 @@ impl<S: Real> FrictionEffect<S> for Inertia<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, _: &Constants<S>) {
-        split.additive += self.inertia * sample.acceleration;
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) {
+        split.additive.add_scaled(&self.inertia, sample.acceleration);
     }
 }

@@ -30,9 +30,15 @@ impl<S: Real> FrictionEffect<S> for Load<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+    fn apply(
+        &self,
+        split: &mut Split<S>,
+        sample: &Sample<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) {
         let reference = constants.reference_load;
-        let load = (sample.load_torque / reference).abs().powf(self.load_exponent) * reference;
+        let ratio = (sample.load_torque / reference).abs();
+        let load = self.load_exponent.exponent_of(ratio).scale(reference);
         split.coulomb += self.load_coulomb * load;
         split.height += self.load_stribeck * load;
     }

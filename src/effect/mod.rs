@@ -42,7 +42,13 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
 
     /// Changes the split; effects that are no part of it (a bristle, a delay) leave it alone.
     #[inline]
-    fn apply(&self, _split: &mut Split<S>, _sample: &Sample<S>, _constants: &Constants<S>) {}
+    fn apply(
+        &self,
+        _split: &mut Split<S>,
+        _sample: &Sample<S::Plain>,
+        _constants: &Constants<S::Plain>,
+    ) {
+    }
 
     /// The bristle, if that is what the effect adds.
     #[inline]

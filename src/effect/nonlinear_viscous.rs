@@ -29,9 +29,15 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+    fn apply(
+        &self,
+        split: &mut Split<S>,
+        sample: &Sample<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) {
         let (v, reference) = (sample.velocity, constants.reference_velocity);
-        let curve = (v / reference).abs().powf(self.nonlinear_viscous_exponent) * reference;
-        split.rate += self.nonlinear_viscous_coefficient * curve * v.sign();
+        let curve = self.nonlinear_viscous_exponent.exponent_of((v / reference).abs());
+        let friction = self.nonlinear_viscous_coefficient * curve;
+        split.rate.add_scaled(&friction, reference * v.sign());
     }
 }

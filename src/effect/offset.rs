@@ -26,7 +26,7 @@ impl<S: Real> FrictionEffect<S> for Offset<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, _: &Sample<S>, _: &Constants<S>) {
+    fn apply(&self, split: &mut Split<S>, _: &Sample<S::Plain>, _: &Constants<S::Plain>) {
         split.additive += self.offset;
     }
 }

@@ -42,34 +42,40 @@ impl<S: Real> FrictionEffect<S> for Position<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+    fn apply(
+        &self,
+        split: &mut Split<S>,
+        sample: &Sample<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) {
         let p = [
-            self.position_1,
-            self.position_2,
-            self.position_3,
-            self.position_4,
-            self.position_5,
-            self.position_6,
-            self.position_7,
-            self.position_8,
+            &self.position_1,
+            &self.position_2,
+            &self.position_3,
+            &self.position_4,
+            &self.position_5,
+            &self.position_6,
+            &self.position_7,
+            &self.position_8,
         ];
         let stroke = (sample.position - constants.position_start) / constants.position_length;
-        let half_turn = S::from_f64(core::f64::consts::PI) * stroke;
+        let half_turn = S::Plain::from_f64(core::f64::consts::PI) * stroke;
         if constants.position_periodic.value() == 0.0 {
             // cos((j + 1) th) = 2 cos th cos(j th) - cos((j - 1) th)
             let cos = half_turn.cos();
-            let (mut before, mut now) = (S::one(), cos);
+            let (mut before, mut now) = (S::Plain::one(), cos);
             for p in p {
-                split.coulomb += p * now;
+                split.coulomb.add_scaled(p, now);
                 (before, now) = (now, (cos + cos) * now - before);
             }
         } else {
             let turn = half_turn + half_turn;
-            let (cos, sin) = (turn.cos(), turn.sin());
+            let (sin, cos) = turn.sin_cos();
             let (mut c, mut s) = (cos, sin);
             for pair in p.chunks_exact(2) {
                 if let [along_cos, along_sin] = *pair {
-                    split.coulomb += along_cos * c + along_sin * s;
+                    split.coulomb.add_scaled(along_cos, c);
+                    split.coulomb.add_scaled(along_sin, s);
                 }
                 (c, s) = (c * cos - s * sin, s * cos + c * sin);
             }

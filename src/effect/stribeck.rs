@@ -31,7 +31,7 @@ impl<S: Real> FrictionEffect<S> for Stribeck<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, _: &Constants<S>) {
+    fn apply(&self, split: &mut Split<S>, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) {
         split.height += self.stribeck_height;
         split.shape =
             stribeck_curve(sample.velocity, self.stribeck_velocity, self.stribeck_exponent);

@@ -30,7 +30,12 @@ impl<S: Real> FrictionEffect<S> for TemperatureDry<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+    fn apply(
+        &self,
+        split: &mut Split<S>,
+        sample: &Sample<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) {
         let factor = temperature_factor(
             self.temperature_dry_slope,
             self.temperature_dry_curvature,

@@ -29,7 +29,12 @@ impl<S: Real> FrictionEffect<S> for TemperatureViscous<S> {
     };
 
     #[inline]
-    fn apply(&self, split: &mut Split<S>, sample: &Sample<S>, constants: &Constants<S>) {
+    fn apply(
+        &self,
+        split: &mut Split<S>,
+        sample: &Sample<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) {
         split.rate *= temperature_factor(
             self.temperature_viscous_slope,
             self.temperature_viscous_curvature,

@@ -30,12 +30,12 @@ impl<S: Real> FrictionLaw<S> for BittencourtA<S> {
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S>) -> Split<S> {
+    fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
         Split {
             coulomb: self.coulomb_friction,
             height: self.stribeck_height,
             shape: stribeck_curve(sample.velocity, self.stribeck_velocity, self.stribeck_exponent),
-            rate: self.viscous_friction * sample.velocity,
+            rate: self.viscous_friction.scale(sample.velocity),
             additive: S::zero(),
         }
     }

@@ -24,12 +24,12 @@ impl<S: Real> FrictionLaw<S> for Coulomb<S> {
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S>) -> Split<S> {
+    fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
         Split {
             coulomb: self.coulomb_friction,
             height: S::zero(),
             shape: S::zero(),
-            rate: self.viscous_friction * sample.velocity,
+            rate: self.viscous_friction.scale(sample.velocity),
             additive: S::zero(),
         }
     }

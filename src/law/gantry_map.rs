@@ -30,9 +30,9 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S>) -> Split<S> {
+    fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
         let v = sample.velocity;
-        let ratio = v / self.stribeck_velocity;
+        let ratio = self.stribeck_velocity.divide(v);
         let viscous = if v.value() > 0.0 {
             self.viscous_friction_forward
         } else {
@@ -42,7 +42,7 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
             coulomb: self.coulomb_friction,
             height: self.static_friction - self.coulomb_friction,
             shape: (-(ratio * ratio)).exp(),
-            rate: viscous * v,
+            rate: viscous.scale(v),
             additive: S::zero(),
         }
     }

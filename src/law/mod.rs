@@ -23,7 +23,7 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     const INFO: LawInfo;
 
     /// The torque at one instant, taken apart.
-    fn split(&self, sample: &Sample<S>) -> Split<S>;
+    fn split(&self, sample: &Sample<S::Plain>) -> Split<S>;
 
     /// The bristle, if the law is dynamic.
     #[inline]

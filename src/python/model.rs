@@ -121,10 +121,11 @@ impl Model {
         Ok(torque.into_pyarray(py))
     }
 
-    /// Friction torque of every row and its derivatives, one column a parameter.
+    /// Friction torque of every row and its derivatives by the `wanted` parameters (indices, by
+    /// default all) in that order, one column each.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, smooth=None, shift_load=true,
-        mean_velocity=None, state=0.0))]
+        mean_velocity=None, state=0.0, *, wanted=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -141,6 +142,7 @@ impl Model {
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
         state: f64,
+        wanted: Option<Vec<usize>>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -157,9 +159,11 @@ impl Model {
             state,
         };
         let (torque, jacobian) = arguments
-            .detached(py, |columns| batch::gradient(&self.spec, &values, columns))?
+            .detached(py, |columns| {
+                batch::gradient(&self.spec, &values, columns, wanted.as_deref())
+            })?
             .map_err(refuse)?;
-        let shape = (torque.len(), values.len());
+        let shape = (torque.len(), wanted.map_or(values.len(), |wanted| wanted.len()));
         let jacobian = Array2::from_shape_vec(shape, jacobian)
             .map_err(|error| ModelError::new_err(error.to_string()))?;
         Ok((torque.into_pyarray(py), jacobian.into_pyarray(py)))

@@ -36,26 +36,31 @@ impl<T: Real, const N: usize> Dual<T, N> {
     /// A function's value and slope at `self`. An infinite slope leaves constants constant.
     #[inline]
     fn chain(self, value: T, slope: T) -> Self {
-        Self { value, derivative: scaled(self.derivative, slope) }
+        let derivative = if slope.value().is_finite() {
+            self.map(|d| slope * d)
+        } else {
+            self.map(|d| if d.value() == 0.0 { T::zero() } else { slope * d })
+        };
+        Self { value, derivative }
     }
-}
 
-/// `slope * d`, where 0 stays 0 even under an infinite slope.
-#[inline]
-fn scaled<T: Real, const N: usize>(derivative: [T; N], slope: T) -> [T; N] {
-    if slope.value().is_finite() {
-        derivative.map(|d| slope * d)
-    } else {
-        derivative.map(|d| if d.value() == 0.0 { T::zero() } else { slope * d })
+    /// Whether nothing it depends on is a variable.
+    #[inline]
+    fn is_constant(&self) -> bool {
+        self.derivative.iter().all(Real::is_zero)
     }
-}
 
-#[inline]
-fn zip<T: Real, const N: usize>(mut a: [T; N], b: &[T; N], f: impl Fn(T, T) -> T) -> [T; N] {
-    for (a, b) in a.iter_mut().zip(b) {
-        *a = f(*a, *b);
+    /// New derivatives, one from each: no temporary arrays, no branches in the loop.
+    #[inline]
+    fn map(&self, f: impl Fn(T) -> T) -> [T; N] {
+        core::array::from_fn(|i| f(self.derivative[i]))
     }
-    a
+
+    /// New derivatives, one from each pair.
+    #[inline]
+    fn zip(&self, other: &Self, f: impl Fn(T, T) -> T) -> [T; N] {
+        core::array::from_fn(|i| f(self.derivative[i], other.derivative[i]))
+    }
 }
 
 impl<T: Real, const N: usize> PartialEq for Dual<T, N> {
@@ -76,10 +81,7 @@ impl<T: Real, const N: usize> Add for Dual<T, N> {
     type Output = Self;
     #[inline]
     fn add(self, other: Self) -> Self {
-        Self {
-            value: self.value + other.value,
-            derivative: zip(self.derivative, &other.derivative, |a, b| a + b),
-        }
+        Self { value: self.value + other.value, derivative: self.zip(&other, |a, b| a + b) }
     }
 }
 
@@ -87,10 +89,7 @@ impl<T: Real, const N: usize> Sub for Dual<T, N> {
     type Output = Self;
     #[inline]
     fn sub(self, other: Self) -> Self {
-        Self {
-            value: self.value - other.value,
-            derivative: zip(self.derivative, &other.derivative, |a, b| a - b),
-        }
+        Self { value: self.value - other.value, derivative: self.zip(&other, |a, b| a - b) }
     }
 }
 
@@ -100,10 +99,7 @@ impl<T: Real, const N: usize> Mul for Dual<T, N> {
     #[allow(clippy::suspicious_arithmetic_impl)]
     fn mul(self, other: Self) -> Self {
         let (x, y) = (self.value, other.value);
-        Self {
-            value: x * y,
-            derivative: zip(self.derivative, &other.derivative, |a, b| a * y + x * b),
-        }
+        Self { value: x * y, derivative: self.zip(&other, |a, b| a * y + x * b) }
     }
 }
 
@@ -113,10 +109,7 @@ impl<T: Real, const N: usize> Div for Dual<T, N> {
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         let inverse = T::one() / other.value;
-        Self {
-            value,
-            derivative: zip(self.derivative, &other.derivative, |a, b| (a - value * b) * inverse),
-        }
+        Self { value, derivative: self.zip(&other, |a, b| (a - value * b) * inverse) }
     }
 }
 
@@ -124,33 +117,87 @@ impl<T: Real, const N: usize> Neg for Dual<T, N> {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self { value: -self.value, derivative: self.derivative.map(|d| -d) }
+        Self { value: -self.value, derivative: self.map(|d| -d) }
     }
 }
 
 impl<T: Real, const N: usize> AddAssign for Dual<T, N> {
     #[inline]
     fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
+        self.value += other.value;
+        for (d, by) in self.derivative.iter_mut().zip(&other.derivative) {
+            *d += *by;
+        }
     }
 }
 
 impl<T: Real, const N: usize> MulAssign for Dual<T, N> {
     #[inline]
     fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
+        let (x, y) = (self.value, other.value);
+        self.value = x * y;
+        for (d, by) in self.derivative.iter_mut().zip(&other.derivative) {
+            *d = *d * y + x * *by;
+        }
     }
 }
 
 impl<T: Real, const N: usize> Real for Dual<T, N> {
+    type Plain = T;
+
     #[inline]
     fn from_f64(x: f64) -> Self {
         Self::constant(T::from_f64(x))
     }
 
     #[inline]
+    fn from_plain(x: T) -> Self {
+        Self::constant(x)
+    }
+
+    #[inline]
     fn value(self) -> f64 {
         self.value.value()
+    }
+
+    #[inline]
+    fn is_zero(&self) -> bool {
+        self.value.is_zero() && self.is_constant()
+    }
+
+    #[inline]
+    fn scale(self, factor: T) -> Self {
+        Self { value: self.value * factor, derivative: self.map(|d| d * factor) }
+    }
+
+    #[inline]
+    fn shift(self, by: T) -> Self {
+        Self { value: self.value + by, ..self }
+    }
+
+    #[inline]
+    fn add_scaled(&mut self, other: &Self, factor: T) {
+        self.value += other.value * factor;
+        for (d, by) in self.derivative.iter_mut().zip(&other.derivative) {
+            *d += *by * factor;
+        }
+    }
+
+    #[inline]
+    fn divide(self, numerator: T) -> Self {
+        let value = numerator / self.value;
+        let slope = -value / self.value;
+        Self { value, derivative: self.map(|d| d * slope) }
+    }
+
+    #[inline]
+    fn exponent_of(self, base: T) -> Self {
+        let value = base.powf(self.value);
+        if base.value() == 0.0 || self.is_constant() {
+            Self::constant(value)
+        } else {
+            self.chain(value, value * base.ln())
+        }
     }
 
     #[inline]
@@ -185,6 +232,9 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     fn phi(self, order: u8) -> Self {
         // phi_k' = phi_k - k phi_(k+1)
         let value = self.value.phi(order);
+        if self.is_constant() {
+            return Self::constant(value);
+        }
         let slope = value - T::from_f64(f64::from(order)) * self.value.phi(order + 1);
         self.chain(value, slope)
     }
@@ -201,9 +251,12 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
             let slope = if p.value.value() == 1.0 { T::one() } else { T::zero() };
             return self.chain(value, slope);
         }
-        let by_base = scaled(self.derivative, p.value * (value / self.value));
-        let by_exponent = scaled(p.derivative, value * self.value.ln());
-        Self { value, derivative: zip(by_base, &by_exponent, |a, b| a + b) }
+        let by_base = self.chain(value, p.value * (value / self.value));
+        if p.is_constant() {
+            return by_base;
+        }
+        let by_exponent = p.chain(value, value * self.value.ln());
+        Self { value, derivative: by_base.zip(&by_exponent, |a, b| a + b) }
     }
 
     #[inline]
@@ -226,6 +279,12 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     #[inline]
     fn cos(self) -> Self {
         self.chain(self.value.cos(), -self.value.sin())
+    }
+
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (self.chain(sin, cos), self.chain(cos, -sin))
     }
 
     #[inline]

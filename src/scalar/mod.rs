@@ -20,10 +20,27 @@ pub trait Real:
     + AddAssign
     + MulAssign
 {
+    /// What is never differentiated by: samples, constants, time.
+    type Plain: Real;
+
     /// A constant.
     fn from_f64(x: f64) -> Self;
+    /// A constant.
+    fn from_plain(x: Self::Plain) -> Self;
     /// The plain number, without what is carried along.
     fn value(self) -> f64;
+    /// Whether it is 0 and so is all that is carried along.
+    fn is_zero(&self) -> bool;
+    /// `a x`.
+    fn scale(self, factor: Self::Plain) -> Self;
+    /// `x + a`.
+    fn shift(self, by: Self::Plain) -> Self;
+    /// `x += a y`.
+    fn add_scaled(&mut self, other: &Self, factor: Self::Plain);
+    /// `a / x`.
+    fn divide(self, numerator: Self::Plain) -> Self;
+    /// `a^x` for `a >= 0`; at `a = 0` the derivative is taken as 0.
+    fn exponent_of(self, base: Self::Plain) -> Self;
     /// `|x|`, with derivative `sign(x)`.
     fn abs(self) -> Self;
     /// -1, 0 or 1; `sign(0) = 0`, unlike `signum`. A constant to the derivative.
@@ -46,6 +63,8 @@ pub trait Real:
     fn sin(self) -> Self;
     /// Cosine.
     fn cos(self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
     /// Arc tangent.
@@ -69,6 +88,8 @@ pub trait Real:
 macro_rules! primitive {
     ($float:ident: $($name:ident),+) => {
         impl Real for $float {
+            type Plain = Self;
+
             #[inline]
             #[allow(clippy::cast_possible_truncation)]
             fn from_f64(x: f64) -> Self {
@@ -76,8 +97,43 @@ macro_rules! primitive {
             }
 
             #[inline]
+            fn from_plain(x: Self) -> Self {
+                x
+            }
+
+            #[inline]
             fn value(self) -> f64 {
                 f64::from(self)
+            }
+
+            #[inline]
+            fn is_zero(&self) -> bool {
+                *self == 0.0
+            }
+
+            #[inline]
+            fn scale(self, factor: Self) -> Self {
+                self * factor
+            }
+
+            #[inline]
+            fn shift(self, by: Self) -> Self {
+                self + by
+            }
+
+            #[inline]
+            fn add_scaled(&mut self, other: &Self, factor: Self) {
+                *self += *other * factor;
+            }
+
+            #[inline]
+            fn divide(self, numerator: Self) -> Self {
+                numerator / self
+            }
+
+            #[inline]
+            fn exponent_of(self, base: Self) -> Self {
+                crate::math::$float::powf(base, self)
             }
 
             #[inline]
@@ -105,6 +161,11 @@ macro_rules! primitive {
             #[inline]
             fn phi(self, order: u8) -> Self {
                 crate::math::$float::phi(order, self)
+            }
+
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                crate::math::$float::sin_cos(self)
             }
 
             $(
