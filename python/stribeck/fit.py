@@ -14,7 +14,7 @@ from scipy.stats import t as student
 
 from stribeck.errors import FitError
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
-from stribeck.identify.figures import relative_residual, rms
+from stribeck.identify.figures import relative_residual, rms, torque_cutoff
 from stribeck.identify.held_out import held_out_prediction
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import ReducedProblem, Search
@@ -120,7 +120,7 @@ class Fit:
             "rmse": self.rmse,
             "rmse_held_out": self.rmse_held_out,
             "relative_residual": self.relative_residual,
-            "relative_residual_cutoff_hz": self.recording.cutoff_hz,
+            "relative_residual_cutoff_hz": torque_cutoff(self.recording),
             "unit": self.model.torque_unit,
             "starts": self.starts,
             "converged": self.converged,

@@ -29,6 +29,8 @@ from stribeck.recording import Recording
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
+#: An effect that brings this share of the best one's fall, and nothing beside it, is its like.
+ALIKE = 0.9
 
 
 @dataclass(frozen=True)
@@ -177,12 +179,16 @@ def _findings(
         return ()
     best = good[0]
     statistic = {t.effect: tie_statistic(best, t) for t in good}
-    tied = [best] + [
-        t
+    level = float(np.sum(before.held_out_residual[before.rows] ** 2))
+    same = {
+        t.effect
         for t in good[1:]
-        if statistic[t.effect] <= TIE and not adds_to(best, t, tried, least, seed)
-    ]
-    tied.sort(key=lambda t: (t.parameters, t.square))
+        if (statistic[t.effect] <= TIE or level - t.square >= ALIKE * (level - best.square))
+        and not adds_to(best, t, tried, least, seed)
+    }
+    tied = [best] + [t for t in good if t.effect in same]
+    # Of those within the standard error the simplest comes first.
+    tied.sort(key=lambda t: (statistic[t.effect] > TIE, t.parameters, t.square))
     ordered = tied + [t for t in good if t not in tied]
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
     total = sum(weights[t.effect] for t in tied)

@@ -16,12 +16,32 @@ def rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
 
 
+def torque_cutoff(recording: Recording) -> float | None:
+    """Cut-off of the filtered figure in Hz: ten times the band that holds the motion.
+
+    The band ends where 99 % of the velocity's power lies below. None where there is nothing to
+    filter: steady-state points, or a motion as fast as the sampling.
+    """
+    v = recording.velocity
+    if recording.averaged or v.size < 64 or recording.rate_hz <= 0:
+        return None
+    power = np.abs(np.fft.rfft(v - v.mean())) ** 2
+    total = np.cumsum(power)
+    if total[-1] <= 0:
+        return None
+    frequency = np.fft.rfftfreq(v.size, 1.0 / recording.rate_hz)
+    band = float(frequency[int(np.searchsorted(total, 0.99 * total[-1]))])
+    cutoff = 10.0 * max(band, recording.rate_hz / v.size)
+    return cutoff if cutoff < 0.4 * recording.rate_hz else None
+
+
 def zero_phase(recording: Recording, values: Array) -> Array:
-    """Low-pass without phase at the recording's cut-off; segments too short stay as they are."""
-    if recording.cutoff_hz is None or recording.rate_hz <= 2.2 * recording.cutoff_hz:
+    """Low-pass at `torque_cutoff` without phase; segments too short stay as they are."""
+    cutoff = torque_cutoff(recording)
+    if cutoff is None:
         return values.copy()
     filtered = values.copy()
-    sos = butter(4, recording.cutoff_hz, fs=recording.rate_hz, output="sos")
+    sos = butter(4, cutoff, fs=recording.rate_hz, output="sos")
     edges = np.flatnonzero(np.diff(recording.segment)) + 1
     for piece in np.split(np.arange(values.size), edges):
         if piece.size > 30:

@@ -30,12 +30,17 @@ class NormalEquations:
 
     @classmethod
     def of(
-        cls, jacobian: Array, residual: Array, group: NDArray[np.uint32] | None = None
+        cls,
+        jacobian: Array,
+        residual: Array,
+        group: NDArray[np.uint32] | None = None,
+        groups: int | None = None,
     ) -> NormalEquations:
         """Sum row by row; `group` gives each row's group (default: one group)."""
         if group is None:
             group = np.zeros(residual.size, dtype=np.uint32)
-        groups = int(group.max()) + 1 if group.size else 1
+        if groups is None:
+            groups = int(group.max()) + 1 if group.size else 1
         return cls(*_core.normal_equations(jacobian, residual, group, groups))
 
     def total(self) -> tuple[Array, Array]:

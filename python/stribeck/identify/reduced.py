@@ -144,6 +144,6 @@ class ReducedProblem:
         except nlopt.RoundoffLimited:
             # Raised at an optimum too, when no further fall can be resolved.
             best.converged, best.outcome = True, "converged (to rounding)"
-        except RuntimeError as error:
+        except nlopt.runtime_error as error:
             best.outcome = f"stopped by the optimizer ({error})"
         return best

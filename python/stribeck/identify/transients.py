@@ -11,14 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.identify.figures import zero_phase
+from stribeck.identify.normal import NormalEquations
 from stribeck.recording import Recording
 
 Array = NDArray[np.float64]
 
 #: Share of the rows that may be called transient; more than that is how the machine works.
 MOST = 0.12
+#: The recording is looked at in this many windows.
 WINDOWS = 60
-FACTOR = 4.0
+#: A window is wild if its error exceeds so many times the median window's, slow and raw.
+WILD_SLOW, WILD_RAW = 4.0, 3.0
 #: What happens more often than this is not a transient but something to be explained.
 STRETCHES = 3
 
@@ -60,31 +63,51 @@ def transient_rows(recording: Recording) -> NDArray[np.bool_]:
         return none
     columns = flexible_columns(recording)
     size = np.sqrt((columns[moving] ** 2).mean(axis=0))
-    columns = columns[:, size > 0] / size[size > 0]
+    columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
     target = recording.torque
     if recording.load_torque is not None:
         target = target - recording.load_torque
-    marked = none
     window = np.minimum(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
-    ).astype(np.intp)
+    ).astype(np.uint32)
+    count = np.bincount(window[moving], minlength=WINDOWS)
+    marked = none
     for _ in range(4):
-        kept = moving & ~marked
-        solution = np.linalg.lstsq(columns[kept], target[kept], rcond=1e-8)[0]
-        residual = np.where(moving, target - columns @ solution, 0.0)
-        filtered = zero_phase(recording, residual)
-        square = np.bincount(window[moving], filtered[moving] ** 2, WINDOWS)
-        count = np.bincount(window[moving], minlength=WINDOWS)
-        level = np.sqrt(square / np.maximum(count, 1))
-        wild = level > FACTOR * np.median(level)
+        residual = _left_out(columns, target, window, moving, moving & ~marked)
+        slow = zero_phase(recording, residual)
+        wild = np.zeros(WINDOWS, dtype=bool)
+        for values, factor in ((slow, WILD_SLOW), (residual, WILD_RAW)):
+            square = np.bincount(window[moving], values[moving] ** 2, WINDOWS)
+            level = np.sqrt(square / np.maximum(count, 1))
+            # Windows differ in what the joint does: a wild one stands out from the worst
+            # ordinary ones too.
+            ordinary = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
+            wild |= level > ordinary
         again = moving & wild[window]
         often = np.count_nonzero(np.diff(wild.astype(int), prepend=0) == 1) > STRETCHES
-        if not again.any() or often or again.sum() > MOST * moving.sum():
-            return marked
-        if np.array_equal(again, marked):
+        if often or again.sum() > MOST * moving.sum() or np.array_equal(again, marked):
             break
         marked = again
     return marked
+
+
+def _left_out(
+    columns: Array,
+    target: Array,
+    window: NDArray[np.uint32],
+    moving: NDArray[np.bool_],
+    kept: NDArray[np.bool_],
+) -> Array:
+    """Residual of each window by the fit to the other windows' `kept` rows; 0 at rest."""
+    sums = NormalEquations.of(columns[kept], target[kept], window[kept], WINDOWS)
+    matrix, vector = sums.total()
+    ridge = 1e-6 * kept.sum() * np.eye(columns.shape[1])
+    residual = np.zeros_like(target)
+    for w in range(WINDOWS):
+        rows = moving & (window == w)
+        left = np.linalg.solve(matrix - sums.matrix[w] + ridge, vector - sums.vector[w])
+        residual[rows] = target[rows] - columns[rows] @ left
+    return residual
 
 
 def stretches(recording: Recording, marked: NDArray[np.bool_]) -> list[tuple[float, float]]:

@@ -9,7 +9,7 @@ import math
 import textwrap
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from stribeck.diagnose import Diagnosis, Finding, Unexplained, Untestable
     from stribeck.fit import Estimate, Fit
     from stribeck.improve import Improvement
+    from stribeck.inspect import Inspection
     from stribeck.model import Model
     from stribeck.recording import Recording
 
@@ -581,3 +582,51 @@ def improvement_text(improvement: Improvement) -> str:
         untestable_text(improvement.untestable),
         notes_text(r.notes, final.notes),
     )
+
+
+def catalog_text(rows: Iterable[Mapping[str, Any]], last: str) -> str:
+    """Laws or effects, one paragraph each; `last` names the key that ends it."""
+    lines = []
+    for row in rows:
+        lines.append(f"{row['id']}: {row['title']}")
+        source = f"  [{row['source']}]" if "source" in row else f"  [{row['group']}]"
+        lines.append(paragraph(f"{row['formula']}{source}", 4, 2))
+        if "what" in row:
+            lines.append(paragraph(row["what"], 4))
+        names = ", ".join(
+            f"{p['name']} ({p['symbol']}, {unit_text(p['unit'])})" for p in row["parameters"]
+        )
+        lines.append(paragraph(f"parameters: {names}", 4, 2))
+        value = row[last]
+        said = value if isinstance(value, str) else listed(value)
+        lines.append(paragraph(f"{last}: {said}", 4, 2))
+    lines.append("In units, T stands for N m or N, X for rad or m.")
+    return "\n".join(lines)
+
+
+def inspection_text(inspection: Inspection) -> str:
+    """What a file holds, and what it can show."""
+    t = inspection.table
+    lines = [f"{Path(t.path).name}: {t.rows} rows, {t.runs} run{'s' * (t.runs != 1)}"]
+    if t.rate_hz:
+        lines[0] += f", {plain(t.rate_hz)} Hz"
+    if t.gaps:
+        lines[0] += f", {t.gaps} gap{'s' * (t.gaps != 1)}"
+    if t.joints:
+        lines.append(f"  joints: {', '.join(t.joints)}")
+    shown = dict(t.channels)
+    for r in inspection.recordings[:1]:
+        shown = {**r.columns, **shown}
+    rows = [["channel", "from", "unit", "min", "max"]]
+    rows += [
+        [name, c.source, c.unit, plain(c.minimum), plain(c.maximum)] for name, c in shown.items()
+    ]
+    lines += ["", table(rows, {3, 4})]
+    if inspection.problem is not None:
+        lines += ["", paragraph(f"Not readable as a recording yet: {inspection.problem}", 0)]
+        return "\n".join(lines)
+    for r in inspection.recordings:
+        lines += ["", paragraph(scored_sentence(r), 0)]
+    lines += ["", f"It can show: {listed(inspection.testable) or 'no effect'}."]
+    lines.append(untestable_text(inspection.untestable.values()))
+    return "\n".join(lines).rstrip()

@@ -1,0 +1,52 @@
+"""What there is to choose from: `models`, `effects`, and what a file holds: `inspect`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from stribeck.cli.common import echo_json, json_option, recording_options, say, seed_option
+from stribeck.inspect import inspect as inspect_file
+from stribeck.model import catalog
+from stribeck.report.text import catalog_text, inspection_text
+
+
+@click.command()
+@seed_option
+@json_option
+def models(seed: int, as_json: bool) -> None:
+    """List the friction laws: formula, source, parameters, the effects each captures."""
+    rows = list(catalog()["laws"].values())
+    if as_json:
+        echo_json({"models": rows})
+    else:
+        click.echo(catalog_text(rows, "captures"))
+
+
+@click.command()
+@seed_option
+@json_option
+def effects(seed: int, as_json: bool) -> None:
+    """List the effects that can be missing, and what each needs in the data."""
+    rows = list(catalog()["effects"].values())
+    if as_json:
+        echo_json({"effects": rows})
+    else:
+        click.echo(catalog_text(rows, "needs"))
+
+
+@click.command()
+@click.argument("data")
+@recording_options
+@seed_option
+@json_option
+def inspect(data: str, reading: dict[str, Any], seed: int, as_json: bool) -> None:
+    """Show what DATA holds, and which effects it can and cannot show."""
+    inspection = inspect_file(data, **reading)
+    for note in inspection.notes:
+        say(f"note: {note}")
+    if as_json:
+        echo_json(inspection.to_dict())
+    else:
+        click.echo(inspection_text(inspection))
