@@ -47,7 +47,7 @@ macro_rules! laws {
 
         impl<S: Real> Law<S> {
             /// The torque at one instant, taken apart.
-            #[inline]
+            #[inline(always)]
             pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
                 match self {
                     $(Self::$law(law) => law.split(sample),)+
@@ -93,6 +93,7 @@ macro_rules! effects {
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(missing_docs)]
         pub struct Effects<S> {
+            present: EffectSet,
             $(pub $id: Option<effect::$effect<S>>,)+
         }
 
@@ -101,10 +102,17 @@ macro_rules! effects {
             #[inline]
             pub fn read(set: EffectSet, mut next: impl FnMut(Presence) -> S) -> Self {
                 Self {
+                    present: set,
                     $($id: set
                         .contains(EffectId::$effect)
                         .then(|| effect::$effect::read(&mut next)),)+
                 }
+            }
+
+            /// Whether there is none.
+            #[inline]
+            pub fn is_empty(&self) -> bool {
+                self.present == EffectSet::NONE
             }
 
             /// Changes the split, each effect in its turn.

@@ -185,9 +185,14 @@ impl<S: Real> Composed<S> {
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
-        let mut split = self.law.split(sample);
-        self.effects.apply(&mut split, sample, &self.constants);
-        split
+        let split = self.law.split(sample);
+        if self.effects.is_empty() {
+            return split;
+        }
+        // A copy, so that a law alone need not pass through memory.
+        let mut altered = split;
+        self.effects.apply(&mut altered, sample, &self.constants);
+        altered
     }
 
     /// The torque in steady sliding, where dry friction acts along `sgn v` (T).

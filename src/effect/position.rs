@@ -60,25 +60,23 @@ impl<S: Real> FrictionEffect<S> for Position<S> {
         ];
         let stroke = (sample.position - constants.position_start) / constants.position_length;
         let half_turn = S::Plain::from_f64(core::f64::consts::PI) * stroke;
+        let mut basis = [S::Plain::zero(); 8];
         if constants.position_periodic.value() == 0.0 {
             // cos((j + 1) th) = 2 cos th cos(j th) - cos((j - 1) th)
             let cos = half_turn.cos();
             let (mut before, mut now) = (S::Plain::one(), cos);
-            for p in p {
-                split.coulomb.add_scaled(p, now);
+            for shape in &mut basis {
+                *shape = now;
                 (before, now) = (now, (cos + cos) * now - before);
             }
         } else {
-            let turn = half_turn + half_turn;
-            let (sin, cos) = turn.sin_cos();
+            let (sin, cos) = (half_turn + half_turn).sin_cos();
             let (mut c, mut s) = (cos, sin);
-            for pair in p.chunks_exact(2) {
-                if let [along_cos, along_sin] = *pair {
-                    split.coulomb.add_scaled(along_cos, c);
-                    split.coulomb.add_scaled(along_sin, s);
-                }
+            for pair in basis.chunks_exact_mut(2) {
+                pair.copy_from_slice(&[c, s]);
                 (c, s) = (c * cos - s * sin, s * cos + c * sin);
             }
         }
+        split.coulomb.add_sum(p, basis);
     }
 }

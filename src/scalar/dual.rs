@@ -16,14 +16,14 @@ pub struct Dual<T, const N: usize> {
 
 impl<T: Real, const N: usize> Dual<T, N> {
     /// A number that depends on nothing.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn constant(value: T) -> Self {
         Self { value, derivative: [T::zero(); N] }
     }
 
     /// The variable of direction `index`; a constant if there is no such direction.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn variable(value: T, index: usize) -> Self {
         let mut dual = Self::constant(value);
@@ -34,7 +34,7 @@ impl<T: Real, const N: usize> Dual<T, N> {
     }
 
     /// A function's value and slope at `self`. An infinite slope leaves constants constant.
-    #[inline]
+    #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
         let derivative = if slope.value().is_finite() {
             self.map(|d| slope * d)
@@ -45,33 +45,33 @@ impl<T: Real, const N: usize> Dual<T, N> {
     }
 
     /// Whether nothing it depends on is a variable.
-    #[inline]
+    #[inline(always)]
     fn is_constant(&self) -> bool {
         self.derivative.iter().all(Real::is_zero)
     }
 
     /// New derivatives, one from each: no temporary arrays, no branches in the loop.
-    #[inline]
+    #[inline(always)]
     fn map(&self, f: impl Fn(T) -> T) -> [T; N] {
         core::array::from_fn(|i| f(self.derivative[i]))
     }
 
     /// New derivatives, one from each pair.
-    #[inline]
+    #[inline(always)]
     fn zip(&self, other: &Self, f: impl Fn(T, T) -> T) -> [T; N] {
         core::array::from_fn(|i| f(self.derivative[i], other.derivative[i]))
     }
 }
 
 impl<T: Real, const N: usize> PartialEq for Dual<T, N> {
-    #[inline]
+    #[inline(always)]
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value
     }
 }
 
 impl<T: Real, const N: usize> PartialOrd for Dual<T, N> {
-    #[inline]
+    #[inline(always)]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
     }
@@ -79,7 +79,7 @@ impl<T: Real, const N: usize> PartialOrd for Dual<T, N> {
 
 impl<T: Real, const N: usize> Add for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self { value: self.value + other.value, derivative: self.zip(&other, |a, b| a + b) }
     }
@@ -87,7 +87,7 @@ impl<T: Real, const N: usize> Add for Dual<T, N> {
 
 impl<T: Real, const N: usize> Sub for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self { value: self.value - other.value, derivative: self.zip(&other, |a, b| a - b) }
     }
@@ -95,7 +95,7 @@ impl<T: Real, const N: usize> Sub for Dual<T, N> {
 
 impl<T: Real, const N: usize> Mul for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     #[allow(clippy::suspicious_arithmetic_impl)]
     fn mul(self, other: Self) -> Self {
         let (x, y) = (self.value, other.value);
@@ -105,7 +105,7 @@ impl<T: Real, const N: usize> Mul for Dual<T, N> {
 
 impl<T: Real, const N: usize> Div for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
         let inverse = T::one() / other.value;
@@ -115,14 +115,14 @@ impl<T: Real, const N: usize> Div for Dual<T, N> {
 
 impl<T: Real, const N: usize> Neg for Dual<T, N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { value: -self.value, derivative: self.map(|d| -d) }
     }
 }
 
 impl<T: Real, const N: usize> AddAssign for Dual<T, N> {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         self.value += other.value;
         for (d, by) in self.derivative.iter_mut().zip(&other.derivative) {
@@ -132,7 +132,7 @@ impl<T: Real, const N: usize> AddAssign for Dual<T, N> {
 }
 
 impl<T: Real, const N: usize> MulAssign for Dual<T, N> {
-    #[inline]
+    #[inline(always)]
     fn mul_assign(&mut self, other: Self) {
         let (x, y) = (self.value, other.value);
         self.value = x * y;
@@ -145,37 +145,37 @@ impl<T: Real, const N: usize> MulAssign for Dual<T, N> {
 impl<T: Real, const N: usize> Real for Dual<T, N> {
     type Plain = T;
 
-    #[inline]
+    #[inline(always)]
     fn from_f64(x: f64) -> Self {
         Self::constant(T::from_f64(x))
     }
 
-    #[inline]
+    #[inline(always)]
     fn from_plain(x: T) -> Self {
         Self::constant(x)
     }
 
-    #[inline]
+    #[inline(always)]
     fn value(self) -> f64 {
         self.value.value()
     }
 
-    #[inline]
+    #[inline(always)]
     fn is_zero(&self) -> bool {
         self.value.is_zero() && self.is_constant()
     }
 
-    #[inline]
+    #[inline(always)]
     fn scale(self, factor: T) -> Self {
         Self { value: self.value * factor, derivative: self.map(|d| d * factor) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn shift(self, by: T) -> Self {
         Self { value: self.value + by, ..self }
     }
 
-    #[inline]
+    #[inline(always)]
     fn add_scaled(&mut self, other: &Self, factor: T) {
         self.value += other.value * factor;
         for (d, by) in self.derivative.iter_mut().zip(&other.derivative) {
@@ -183,14 +183,26 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
+    fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [T; K]) {
+        for (other, factor) in others.into_iter().zip(factors) {
+            self.value += other.value * factor;
+        }
+        for (i, d) in self.derivative.iter_mut().enumerate() {
+            for (other, factor) in others.into_iter().zip(factors) {
+                *d += other.derivative[i] * factor;
+            }
+        }
+    }
+
+    #[inline(always)]
     fn divide(self, numerator: T) -> Self {
         let value = numerator / self.value;
         let slope = -value / self.value;
         Self { value, derivative: self.map(|d| d * slope) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn exponent_of(self, base: T) -> Self {
         let value = base.powf(self.value);
         if base.value() == 0.0 || self.is_constant() {
@@ -200,17 +212,17 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn abs(self) -> Self {
         self.chain(self.value.abs(), self.value.sign())
     }
 
-    #[inline]
+    #[inline(always)]
     fn sign(self) -> Self {
         Self::constant(self.value.sign())
     }
 
-    #[inline]
+    #[inline(always)]
     fn exp(self) -> Self {
         let value = self.value.exp();
         // e^(-x) outruns every power of x: 0 is the limit even where the exponent's own
@@ -218,7 +230,7 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
         if value.value() == 0.0 { Self::constant(value) } else { self.chain(value, value) }
     }
 
-    #[inline]
+    #[inline(always)]
     fn expm1(self) -> Self {
         let value = self.value.expm1();
         if value.value() == -1.0 {
@@ -228,7 +240,7 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn phi(self, order: u8) -> Self {
         // phi_k' = phi_k - k phi_(k+1)
         let value = self.value.phi(order);
@@ -239,61 +251,65 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
         self.chain(value, slope)
     }
 
-    #[inline]
+    #[inline(always)]
     fn ln(self) -> Self {
         self.chain(self.value.ln(), T::one() / self.value)
     }
 
-    #[inline]
+    #[inline(always)]
     fn powf(self, p: Self) -> Self {
         let value = self.value.powf(p.value);
         if self.value.value() == 0.0 {
             let slope = if p.value.value() == 1.0 { T::one() } else { T::zero() };
             return self.chain(value, slope);
         }
-        let by_base = self.chain(value, p.value * (value / self.value));
+        let by_base = p.value * (value / self.value);
         if p.is_constant() {
-            return by_base;
+            return self.chain(value, by_base);
         }
-        let by_exponent = p.chain(value, value * self.value.ln());
-        Self { value, derivative: by_base.zip(&by_exponent, |a, b| a + b) }
+        let by_exponent = value * self.value.ln();
+        if by_base.value().is_finite() && by_exponent.value().is_finite() {
+            let derivative = self.zip(&p, |a, b| by_base * a + by_exponent * b);
+            return Self { value, derivative };
+        }
+        self.chain(value, by_base) + p.chain(T::zero(), by_exponent)
     }
 
-    #[inline]
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let value = self.value.sqrt();
         self.chain(value, T::from_f64(0.5) / value)
     }
 
-    #[inline]
+    #[inline(always)]
     fn cbrt(self) -> Self {
         let value = self.value.cbrt();
         self.chain(value, T::one() / (T::from_f64(3.0) * value * value))
     }
 
-    #[inline]
+    #[inline(always)]
     fn sin(self) -> Self {
         self.chain(self.value.sin(), self.value.cos())
     }
 
-    #[inline]
+    #[inline(always)]
     fn cos(self) -> Self {
         self.chain(self.value.cos(), -self.value.sin())
     }
 
-    #[inline]
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         (self.chain(sin, cos), self.chain(cos, -sin))
     }
 
-    #[inline]
+    #[inline(always)]
     fn tanh(self) -> Self {
         let value = self.value.tanh();
         self.chain(value, T::one() - value * value)
     }
 
-    #[inline]
+    #[inline(always)]
     fn atan(self) -> Self {
         self.chain(self.value.atan(), T::one() / (T::one() + self.value * self.value))
     }

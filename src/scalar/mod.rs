@@ -37,6 +37,8 @@ pub trait Real:
     fn shift(self, by: Self::Plain) -> Self;
     /// `x += a y`.
     fn add_scaled(&mut self, other: &Self, factor: Self::Plain);
+    /// `x += sum_j a_j y_j`, in one pass.
+    fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [Self::Plain; K]);
     /// `a / x`.
     fn divide(self, numerator: Self::Plain) -> Self;
     /// `a^x` for `a >= 0`; at `a = 0` the derivative is taken as 0.
@@ -124,6 +126,13 @@ macro_rules! primitive {
             #[inline]
             fn add_scaled(&mut self, other: &Self, factor: Self) {
                 *self += *other * factor;
+            }
+
+            #[inline]
+            fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [Self; K]) {
+                for (other, factor) in others.into_iter().zip(factors) {
+                    *self += *other * factor;
+                }
             }
 
             #[inline]
