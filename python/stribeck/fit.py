@@ -16,6 +16,7 @@ from stribeck.errors import FitError
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import relative_residual, rms, torque_cutoff
 from stribeck.identify.held_out import held_out_prediction
+from stribeck.identify.polish import polish
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import ReducedProblem, Search
 from stribeck.identify.scaling import (
@@ -272,7 +273,11 @@ def _identify(
     start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)
     problem = Problem(recording, made, rows, load)
     reduced = ReducedProblem(problem, lower, upper)
-    found, used = _multi_start(reduced, start, starts, seed)
+    # What is known stays where it is at the start; only the rest is searched at random.
+    unknown = ~np.isfinite(known)
+    found, used = _multi_start(
+        reduced, start, unknown if unknown.any() else np.ones_like(unknown), starts, seed
+    )
     evaluations = reduced.evaluations
     if load is not None and _needs_own_load(made):
         for _ in range(8):
@@ -280,9 +285,11 @@ def _identify(
             assert renewed is not None
             moved = rms(renewed - load) / (rms(renewed) or 1.0)
             load = renewed
-            again = ReducedProblem(Problem(recording, made, rows, load), lower, upper)
-            found = again.search(found.values, 40, 1e-10)
-            evaluations += again.evaluations
+            values, square, count = polish(
+                Problem(recording, made, rows, load), found.values, lower, upper
+            )
+            found = replace(found, values=values, square=square)
+            evaluations += count
             if moved < 1e-5:
                 break
     return _Solution(
@@ -291,11 +298,18 @@ def _identify(
 
 
 def _multi_start(
-    reduced: ReducedProblem, start: Array, starts: int, seed: int
+    reduced: ReducedProblem,
+    start: Array,
+    varied: NDArray[np.bool_],
+    starts: int,
+    seed: int,
 ) -> tuple[Search, int]:
-    count = int(reduced.nonlinear.sum())
-    if count == 0:
+    """Search coarsely from many starts, then finish the best ones on all rows."""
+    if not reduced.nonlinear.any():
         return reduced.search(start, 1, 1e-10), 1
+    moved = varied & reduced.nonlinear
+    count = int(moved.sum())
+    starts = max(starts, 1) if count else 1
     problem = reduced.problem
     model = problem.model
     coarse_problem = (
@@ -304,15 +318,35 @@ def _multi_start(
     coarse = ReducedProblem(coarse_problem, reduced.lower, reduced.upper)
     rng = np.random.default_rng(seed)
     tried: list[Search] = []
-    for k in range(max(starts, 1)):
+    for k in range(starts):
         at = start.copy()
         if k > 0:
-            at[reduced.nonlinear] = reduced.decode(rng.uniform(size=count))
+            random = start.copy()
+            random[reduced.nonlinear] = reduced.decode(
+                rng.uniform(size=int(reduced.nonlinear.sum()))
+            )
+            at[moved] = random[moved]
         tried.append(coarse.search(at, 60, 1e-7))
     tried.sort(key=lambda search: search.square)
-    finished = [reduced.search(search.values, 60, 1e-11) for search in tried[:FINISHED]]
     reduced.evaluations += coarse.evaluations
-    return min(finished, key=lambda search: search.square), max(starts, 1)
+    finished = []
+    for search in _distinct(tried)[:FINISHED]:
+        completed = reduced.complete(search.values)
+        values, square, evaluations = polish(
+            problem, completed, reduced.lower, reduced.upper
+        )
+        reduced.evaluations += evaluations
+        finished.append(replace(search, values=values, square=square))
+    return min(finished, key=lambda search: search.square), starts
+
+
+def _distinct(searches: list[Search]) -> list[Search]:
+    """The searches that ended in different places, best first."""
+    kept: list[Search] = []
+    for search in searches:
+        if all(abs(search.square - other.square) > 1e-4 * other.square for other in kept):
+            kept.append(search)
+    return kept
 
 
 def on_recording(fitted: Fit, recording: Recording | None, seed: int = 0) -> Fit:

@@ -217,7 +217,7 @@ def _superfluous(steps: list[Step], least_fall: float, seed: int) -> str | None:
         without = fit(
             current.model.without_effect(effect),
             current.recording,
-            starts=4,
+            starts=1,
             seed=seed,
             transient=current.transient,
         )

@@ -68,7 +68,7 @@ def compare(
     recording = read_recording(data, reading)
     fits = []
     for argument in models:
-        say(f"{argument} ...")
+        say(f"note: {argument} ...")
         fits.append(model_fit(argument, recording, starts=starts, seed=seed, refit=False))
     comparison = compare_fits(fits, recording)
     if picture is not None:

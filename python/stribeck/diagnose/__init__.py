@@ -155,7 +155,7 @@ def diagnose(
         if passes(t, tried, least_fall) and _reported_fall(fitted, t)
         and not explained_by_shape(fitted, t, tried, least_fall)
     ]
-    good.sort(key=lambda t: t.square)
+    good.sort(key=lambda t: t.rank)
     best_fit = good[0].fit if good else fitted
     floor = noise_floor(best_fit)
     findings = _findings(fitted, good, tried, least_fall, floor, seed)
@@ -188,7 +188,7 @@ def _findings(
     }
     tied = [best] + [t for t in good if t.effect in same]
     # Of those within the standard error the simplest comes first.
-    tied.sort(key=lambda t: (statistic[t.effect] > TIE, t.parameters, t.square))
+    tied.sort(key=lambda t: (statistic[t.effect] > TIE, t.parameters, t.rank))
     ordered = tied + [t for t in good if t not in tied]
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
     total = sum(weights[t.effect] for t in tied)

@@ -16,6 +16,7 @@ from scipy.stats import f as fisher
 
 from stribeck.fit import Fit
 from stribeck.identify.covariance import batches, correlation_length
+from stribeck.identify.figures import bridged, rms, zero_phase
 
 Array = NDArray[np.float64]
 
@@ -30,12 +31,15 @@ class Evidence:
         Relative fall of the held-out RMSE, on the rows that are fitted to.
     everywhere : bool
         Whether the error falls without the block that gains most: not a single event.
+    fall_in_band : float
+        The same in the band of the motion, where friction acts and vibration does not.
     p_value : float
         Probability of added torque this large if noise were all there is to explain.
     """
 
     fall: float
     everywhere: bool
+    fall_in_band: float
     p_value: float
 
 
@@ -47,10 +51,13 @@ def evidence(before: Fit, after: Fit) -> Evidence:
     gain = np.bincount(r.block[rows], square_before - square_after)
     level = float(square_before.mean())
     fall = 1.0 - float(np.sqrt(square_after.mean() / level)) if level > 0 else 0.0
+    slow_before = zero_phase(r, bridged(r, before.held_out_residual))[rows]
+    slow_after = zero_phase(r, bridged(r, after.held_out_residual))[rows]
     added = (after.prediction - before.prediction)[rows]
     return Evidence(
         fall,
         bool(gain.sum() - gain.max() > 0),
+        1.0 - rms(slow_after) / (rms(slow_before) or 1.0),
         added_torque_test(
             added,
             after.residual[rows],

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
+from scipy.stats import linregress
 
 from stribeck.diagnose.shape import displacement_since_reversal
 from stribeck.fit import Fit
@@ -57,11 +58,18 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     gamma = (residual[index[pick]] - residual[other]) ** 2 / 2.0
     # The nearest half tells most about zero distance.
     near = gap <= np.median(gap)
-    weights = np.polyfit(gap[near], gamma[near], 1) if np.ptp(gap[near]) > 0 else None
-    at_zero = gamma[near].mean() if weights is None or weights[0] < 0 else weights[1]
-    if at_zero <= 0:
-        at_zero = gamma[near].mean()
-    return NoiseFloor(float(min(np.sqrt(at_zero), fit.rmse)))
+    return NoiseFloor(float(min(np.sqrt(_at_zero(gap[near], gamma[near])), fit.rmse)))
+
+
+def _at_zero(gap: Array, gamma: Array) -> float:
+    """`gamma` at zero gap: by a line where it clearly rises with the gap, else its mean."""
+    mean = float(gamma.mean())
+    if np.ptp(gap) == 0:
+        return mean
+    line = linregress(gap, gamma)
+    if line.slope > 3.0 * line.stderr and line.intercept > 0:
+        return float(line.intercept)
+    return mean
 
 
 def _features(fit: Fit) -> Array:

@@ -14,13 +14,14 @@ from stribeck.fit import Fit, fit, own_load
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import effect_constants
+from stribeck.model import catalog
 
 #: Starts of an effect's nonlinear parameters; the others start from the fit before.
 STARTS = 6
 #: A finding's probability of being chance, over all effects tried together.
 SIGNIFICANCE = 0.01
 #: Held-out errors within so many standard errors of their difference are a tie.
-TIE = 1.0
+TIE = 2.0
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,27 @@ class Trial:
     def parameters(self) -> int:
         """Number of parameters of the wider model."""
         return len(self.fit.model.names)
+
+    @property
+    def rank(self) -> float:
+        """What trials are ordered by, smallest first: the error left, raw and in the motion's band.
+
+        The sum of both logarithms: in white noise they agree; where vibration fills the raw
+        error, a cause that only follows the vibration does not outrank one that moves the joint.
+        """
+        falls = np.array([self.evidence.fall, self.evidence.fall_in_band])
+        return float(np.sum(np.log(np.maximum(1.0 - falls, 1e-12))))
+
+    @property
+    def is_implausible(self) -> bool:
+        """Whether the effect's size lies at the edge of what is plausible.
+
+        Its first parameter is its size (a height, a slope, a stiffness, a delay); at a bound the
+        fit has used the effect as a stand-in for something else.
+        """
+        row = catalog()["effects"][self.effect]
+        size = row["parameters"][0]["name"]
+        return size in self.fit.estimates and self.fit.estimates[size].at_bound
 
     @property
     def square(self) -> float:
@@ -72,7 +94,8 @@ def try_effect(before: Fit, effect: str, *, seed: int = 0) -> Trial | None:
 def passes(trial: Trial, tried: int, least: float) -> bool:
     """Whether a trial counts: it matters, not only once, and is not chance among `tried`."""
     e = trial.evidence
-    return e.fall >= least and e.everywhere and e.p_value * tried <= SIGNIFICANCE
+    counts = e.fall >= least and e.everywhere and e.fall_in_band > 0
+    return counts and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
 def tie_statistic(best: Trial, other: Trial) -> float:

@@ -131,13 +131,30 @@ class Problem:
         everything = self._stretch(0, self.recording.time.size)
         return self.model.core.torque(values, **everything) + self.known
 
-    def linearise(self, values: Array) -> tuple[Array, Array]:
-        """Residual (measured - predicted) on `rows` and derivative of the prediction: [m], [m, p]."""
+    def linearise(
+        self, values: Array, wanted: NDArray[np.intp] | None = None
+    ) -> tuple[Array, Array]:
+        """Residual (measured - predicted) on `rows`, and derivative of the prediction.
+
+        Parameters
+        ----------
+        wanted : int array [k]
+            Parameters to differentiate by; default: all.
+
+        Returns
+        -------
+        residual [m], jacobian [m, k]
+        """
+        chosen = None if wanted is None else wanted.tolist()
         if self.model.memoryless:
-            torque, jacobian = self.model.core.gradient(values, **self._row_channels)
+            torque, jacobian = self.model.core.gradient(
+                values, **self._row_channels, wanted=chosen
+            )
         else:
             start, stop = self.span or (0, self.recording.time.size)
-            torque, jacobian = self.model.core.gradient(values, **self._stretch(start, stop))
+            torque, jacobian = self.model.core.gradient(
+                values, **self._stretch(start, stop), wanted=chosen
+            )
             torque, jacobian = torque[self.rows - start], jacobian[self.rows - start]
         return self.target - self.known[self.rows] - torque, jacobian
 

@@ -83,8 +83,7 @@ class ReducedProblem:
         values = values.copy()
         if not self.linear.any():
             return values
-        residual, jacobian = self.problem.linearise(values)
-        columns = np.ascontiguousarray(jacobian[:, self.linear])
+        residual, columns = self.problem.linearise(values, np.flatnonzero(self.linear))
         without = residual + columns @ values[self.linear]
         matrix, vector = NormalEquations.of(columns, without).total()
         values[self.linear] = solve_bounded(
@@ -95,9 +94,9 @@ class ReducedProblem:
 
     def square_and_slope(self, values: Array) -> tuple[float, Array]:
         """Sum of squares, and its derivative with respect to the search coordinates."""
-        residual, jacobian = self.problem.linearise(values)
+        residual, jacobian = self.problem.linearise(values, np.flatnonzero(self.nonlinear))
         self.evaluations += 1
-        steep = -2.0 * (jacobian[:, self.nonlinear].T @ residual)
+        steep = -2.0 * (jacobian.T @ residual)
         return float(residual @ residual), steep * self._slope(values)
 
     def search(self, start: Array, most: int, tolerance: float) -> Search:

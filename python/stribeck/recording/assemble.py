@@ -9,7 +9,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from ..errors import RecordingError
-from .derive import Smoother, choose_cutoff
+from .derive import Smoother, choose_cutoff, motion_band
 from .recording import Column, Recording
 from .rows import (
     SIGMAS,
@@ -28,6 +28,8 @@ Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
 _MISSING_SHARE = 0.05
+#: A derived acceleration reaches up to so many times the band that holds the motion.
+BANDS = 20.0
 
 
 def require(prepared: Prepared) -> None:
@@ -452,8 +454,7 @@ def _sampled(
         cutoff = choose_cutoff(time, velocity, segment, 1)
         smoother = Smoother(time, segment, cutoff)
         velocity_smooth = smoother.smooth(velocity)
-        slope = smoother.smooth(velocity, 1)
-        origin = "velocity"
+        origin, derivative, source = "velocity", 1, velocity
     else:
         assert position is not None
         # The raw difference quotient of two samples, each with the noise of the position.
@@ -462,18 +463,23 @@ def _sampled(
         cutoff = choose_cutoff(time, position, segment, 2)
         smoother = Smoother(time, segment, cutoff)
         velocity = velocity_smooth = smoother.smooth(position, 1)
-        slope = smoother.smooth(position, 2)
-        origin = "position"
+        origin, derivative, source = "position", 2, position
         data.columns["velocity"] = make_column(
             "velocity", "position", f"{position_unit}/s", True, velocity
         )
         data.notes.append(_derived_note("velocity", "position", cutoff))
     if acceleration is None:
+        # Differentiation raises what lies above the motion, vibration that no rigid body
+        # follows: where the noise does not end the band earlier, the motion does.
+        band = motion_band(time, velocity, segment)
+        bands = [x for x in (cutoff, None if band is None else BANDS * band) if x is not None]
+        highest = min(bands, default=None)
+        slope = Smoother(time, segment, highest).smooth(source, derivative)
         acceleration = acceleration_smooth = slope
         data.columns["acceleration"] = make_column(
             "acceleration", origin, f"{position_unit}/s2", True, acceleration
         )
-        data.notes.append(_derived_note("acceleration", origin, cutoff))
+        data.notes.append(_derived_note("acceleration", origin, highest))
     else:
         acceleration_smooth = smoother.smooth(acceleration)
     position_smooth = None if position is None else smoother.smooth(position)

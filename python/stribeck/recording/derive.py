@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .rows import segment_slices
 
-__all__ = ["Smoother", "choose_cutoff"]
+__all__ = ["Smoother", "choose_cutoff", "motion_band"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -103,6 +103,28 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
         return None
     cutoff = _MARGIN * meeting
     return cutoff if cutoff < _HIGHEST * rate else None
+
+
+def motion_band(time: Floats, velocity: Floats, segment: Ints) -> float | None:
+    """Find the frequency [Hz] below which 99 % of a velocity's power lies; None if too short."""
+    total = 0.0
+    shares: list[tuple[Floats, Floats]] = []
+    for part in segment_slices(segment):
+        if part.stop - part.start < 64:
+            continue
+        grid, uniform = _grid(time[part])
+        x = velocity[part] if uniform else np.interp(grid, time[part], velocity[part])
+        spectrum = np.abs(np.fft.rfft(x - x.mean())) ** 2
+        frequency = np.fft.rfftfreq(len(x), float(grid[1] - grid[0]))
+        shares.append((frequency, spectrum))
+        total += float(spectrum.sum())
+    if total <= 0.0:
+        return None
+    frequency = np.concatenate([f for f, _ in shares])
+    spectrum = np.concatenate([s for _, s in shares])
+    order = np.argsort(frequency, kind="stable")
+    power = np.cumsum(spectrum[order])
+    return float(frequency[order][int(np.searchsorted(power, 0.99 * total))]) or None
 
 
 def _smooth(density: Floats) -> Floats:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stribeck.diagnose.words import physically
+from stribeck.identify.figures import torque_cutoff
 from stribeck.report.numbers import (
     DASH,
     MINUS,
@@ -202,7 +203,8 @@ def _errors_text(f: Fit) -> str:
             ("held-out error", f"{plain(f.rmse_held_out)} {unit}", held_out_meaning(r))
         )
     if f.relative_residual is not None:
-        below = f", both below {r.cutoff_hz:.3g} Hz" if r.cutoff_hz else ""
+        cutoff = torque_cutoff(r)
+        below = f", both below {cutoff:.3g} Hz" if cutoff else ""
         rows.append(
             ("relative residual", percent(f.relative_residual), f"held-out error / torque{below}")
         )
