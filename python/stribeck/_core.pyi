@@ -10,6 +10,7 @@ def catalog() -> dict[str, list[dict[str, Any]]]: ...
 def normal_equations(
     jacobian: ArrayLike, residual: ArrayLike, group: ArrayLike, groups: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
+
 @final
 class Model:
     def __new__(

@@ -332,9 +332,7 @@ def _multi_start(
     finished = []
     for search in _distinct(tried)[:FINISHED]:
         completed = reduced.complete(search.values)
-        values, square, evaluations = polish(
-            problem, completed, reduced.lower, reduced.upper
-        )
+        values, square, evaluations = polish(problem, completed, reduced.lower, reduced.upper)
         reduced.evaluations += evaluations
         finished.append(replace(search, values=values, square=square))
     return min(finished, key=lambda search: search.square), starts
@@ -444,7 +442,9 @@ def _finish(
     return Fit(
         model=replace(
             made,
-            bounds={n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper)},
+            bounds={
+                n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper, strict=True)
+            },
             box=operating_box(recording, load),
         ).with_values(values),
         recording=recording,
@@ -465,9 +465,7 @@ def _finish(
     )
 
 
-def _estimates(
-    problem: Problem, values: Array, lower: Array, upper: Array
-) -> dict[str, Estimate]:
+def _estimates(problem: Problem, values: Array, lower: Array, upper: Array) -> dict[str, Estimate]:
     residual, jacobian = problem.linearise(values)
     span = AT_BOUND * (upper - lower)
     at_bound = (values <= lower + span) | (values >= upper - span)

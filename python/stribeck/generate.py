@@ -218,6 +218,7 @@ def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> di
         "direction_viscous": 0.15 * b,
         "nonlinear_viscous_coefficient": 0.6 * b,
         "nonlinear_viscous_exponent": 2.0,
+        "nonlinear_viscous_saturation": 100.0 * joint.speed,
         "offset": 0.12 * c,
         "inertia": 0.4 * joint.inertia,
         "gravity_cos": 0.12 * joint.gravity,
@@ -322,9 +323,7 @@ def generate(
     fq, fv, fa = motion(inside)
     fload = load_at(inside, fq, fa)
     step = np.full(n * fine, 1.0 / (rate * fine))
-    friction = model.torque(
-        fv, fq, fa, _temperature(inside, seconds, warming), fload, dt=step
-    )
+    friction = model.torque(fv, fq, fa, _temperature(inside, seconds, warming), fload, dt=step)
     torque = (fload + friction)[fine - 1 :: fine]
 
     level = noise * joint.coulomb
@@ -347,9 +346,7 @@ def generate(
         "spec": "+".join((law, *hidden)),
         "law": law,
         "hidden": list(hidden),
-        "parameters": {
-            p.name: {"value": values[p.name], "unit": p.unit} for p in model.parameters
-        },
+        "parameters": {p.name: {"value": values[p.name], "unit": p.unit} for p in model.parameters},
         "constants": {name: constants[name] for name in model.core.constants},
         "noise_rms": level,
         "velocity_noise": sigma,

@@ -96,7 +96,7 @@ def inspect(path: str, *, joint: str | None = None, **options: Any) -> Inspectio
     table = scan(path, joint=joint, **options)
     if table.problem is not None:
         return Inspection(table, (), {}, table.problem)
-    names = [joint] if joint is not None else (list(table.joints) or [None])
+    names: list[str | None] = [joint] if joint is not None else [*table.joints] or [None]
     recordings = tuple(read(path, joint=name, **options) for name in names)
     answers = [untestable(r, _load(r)) for r in recordings]
     common = {

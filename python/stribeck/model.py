@@ -136,9 +136,7 @@ class Model:
                     f"load_torque), so effect {term!r} cannot be added"
                 )
         try:
-            return _core.Model(
-                self.law, list(self.effects + self.rigid_body), dict(self.constants)
-            )
+            return _core.Model(self.law, list(self.effects + self.rigid_body), dict(self.constants))
         except _core.ModelError as error:
             raise SpecError(str(error)) from None
 
@@ -322,7 +320,7 @@ def _channels(
     load_torque: ArrayLike | None,
     motor_torque: ArrayLike | None,
     dt: ArrayLike | None,
-) -> dict[str, Array | None]:
+) -> dict[str, Any]:
     speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
 
     def column(values: ArrayLike | None) -> Array | None:
@@ -341,9 +339,7 @@ def _channels(
     }
 
 
-def model(
-    spec: str, /, *, constants: Mapping[str, float] | None = None, **values: float
-) -> Model:
+def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **values: float) -> Model:
     """A model by its spec, with parameter values by physical name or by symbol.
 
     Examples

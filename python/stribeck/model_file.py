@@ -7,7 +7,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -62,12 +62,12 @@ class ModelFile:
             document.add("constants", _table({k: float(v) for k, v in m.constants.items()}))
         rows = tomlkit.table(is_super_table=True)
         for p, value in zip(m.parameters, m.values, strict=True):
-            lower, upper = m.bounds.get(p.name, (None, None))
+            bounds = m.bounds.get(p.name)
             row = {
                 "value": float(value),
                 "symbol": p.symbol,
                 "unit": p.unit,
-                "bounds": None if lower is None else [float(lower), float(upper)],
+                "bounds": None if bounds is None else [float(x) for x in bounds],
                 "stderr": self.stderr.get(p.name),
             }
             rows.add(p.name, _table({k: v for k, v in row.items() if v is not None}))
@@ -214,8 +214,6 @@ class _Reader:
                 bounds[p.name] = self._pair(row["bounds"], f"parameters.{p.name}", "bounds")
         fitted = data.get("fitted_on", {})
         self._known(fitted, FITTED_KEYS, "fitted_on")
-        from dataclasses import replace
-
         filled = replace(made, bounds=bounds).with_values(np.array(values))
         return ModelFile(filled, errors, fitted)
 
@@ -244,7 +242,5 @@ class _Reader:
     def _choice(self, data: Mapping[str, Any], key: str, options: tuple[str, ...]) -> str:
         value = str(data.get(key, options[0]))
         if value not in options:
-            raise self.stop(
-                f"{key} is {value!r}; known are {', '.join(options)}", key
-            )
+            raise self.stop(f"{key} is {value!r}; known are {', '.join(options)}", key)
         return value

@@ -9,8 +9,10 @@ parameters! {
     NonlinearViscous {
         /// Torque per speed at the reference speed.
         nonlinear_viscous_coefficient: "nc" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
-        /// Exponent of the speed; below 1 friction saturates, above 1 it steepens.
+        /// Exponent of the speed; below 1 friction flattens, above 1 it steepens.
         nonlinear_viscous_exponent: "n" ["1"] 0.15 .. 4.0, start 2.0, None, Nonlinear;
+        /// Speed about which the curve levels off; far above the motion it never does.
+        nonlinear_viscous_saturation: "vl" ["X/s"] 0.01 .. 50.0, start 10.0, Speed, Nonlinear;
     }
 }
 
@@ -21,7 +23,7 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
         title: "Nonlinear viscous friction",
         what: "The lubricant shears thin, churns or turns turbulent, so friction is not \
                proportional to speed.",
-        formula: "V + nc |v/vr|^n vr sgn v",
+        formula: "V + nc (|v/vr|/(1 + |v/vl|))^n vr sgn v",
         needs: "a wide range of speed",
         channels: &[],
         constants: &["reference_velocity"],
@@ -36,7 +38,12 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
         constants: &Constants<S::Plain>,
     ) {
         let (v, reference) = (sample.velocity, constants.reference_velocity);
-        let curve = self.nonlinear_viscous_exponent.exponent_of((v / reference).abs());
+        if v.value() == 0.0 {
+            return;
+        }
+        let levelling = S::one() + S::from_plain(v.abs()) / self.nonlinear_viscous_saturation;
+        let speed = S::from_plain((v / reference).abs()) / levelling;
+        let curve = speed.powf(self.nonlinear_viscous_exponent);
         let friction = self.nonlinear_viscous_coefficient * curve;
         split.rate.add_scaled(&friction, reference * v.sign());
     }

@@ -69,9 +69,7 @@ least_fall_option = click.option(
 _RECORDING_OPTIONS = [
     click.option("--joint", default=None, help="Which joint of a file that holds several."),
     click.option("--sidecar", type=click.Path(), default=None, help="Sidecar file (TOML)."),
-    click.option(
-        "--map", "maps", multiple=True, metavar="NAME=COLUMN", help="Use COLUMN as NAME."
-    ),
+    click.option("--map", "maps", multiple=True, metavar="NAME=COLUMN", help="Use COLUMN as NAME."),
     click.option(
         "--derive", "derives", multiple=True, metavar="NAME=EXPR", help="Make a column by formula."
     ),
@@ -133,9 +131,7 @@ def is_model_file(argument: str) -> bool:
     return argument.endswith(".toml") or Path(argument).is_file()
 
 
-def model_fit(
-    argument: str, recording: Recording, *, starts: int, seed: int, refit: bool
-) -> Fit:
+def model_fit(argument: str, recording: Recording, *, starts: int, seed: int, refit: bool) -> Fit:
     """The fit that a model argument means on a recording.
 
     A spec is fitted. A model file is evaluated as it is, or, with `refit`, taken as the start.

@@ -152,7 +152,8 @@ def diagnose(
     good = [
         t
         for t in trials
-        if passes(t, tried, least_fall) and _reported_fall(fitted, t)
+        if passes(t, tried, least_fall)
+        and _reported_fall(fitted, t)
         and not explained_by_shape(fitted, t, tried, least_fall)
     ]
     good.sort(key=lambda t: t.rank)

@@ -86,9 +86,7 @@ def added_torque_test(
     variance = float(np.sum((scores - scores.mean()) ** 2)) * count / (count - 1)
     if variance <= 0:
         return 0.0
-    return float(
-        fisher.sf(size**2 / variance / parameters, parameters, count - parameters)
-    )
+    return float(fisher.sf(size**2 / variance / parameters, parameters, count - parameters))
 
 
 @dataclass(frozen=True)

@@ -86,9 +86,7 @@ def _features(fit: Fit) -> Array:
         load[rows] if load is not None else None,
         np.sqrt(travel),
     ]
-    scaled = [
-        (c - c.mean()) / c.std() for c in channels if c is not None and c.std() > 1e-12
-    ]
+    scaled = [(c - c.mean()) / c.std() for c in channels if c is not None and c.std() > 1e-12]
     # Opposite directions are different states however slow.
     scaled.append(3.0 * np.sign(v))
     return np.column_stack(scaled)

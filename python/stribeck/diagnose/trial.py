@@ -75,9 +75,7 @@ def add_effect(before: Fit, effect: str, *, starts: int = STARTS, seed: int = 0)
     load = own_load(before.model, before.recording)
     constants = effect_constants(effect, before.recording, load)
     wider = before.model.with_effect(effect, constants)
-    return fit(
-        wider, before.recording, starts=starts, seed=seed, transient=before.transient
-    )
+    return fit(wider, before.recording, starts=starts, seed=seed, transient=before.transient)
 
 
 def try_effect(before: Fit, effect: str, *, seed: int = 0) -> Trial | None:

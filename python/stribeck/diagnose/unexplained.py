@@ -62,7 +62,5 @@ def unexplained(fit: Fit, floor: NoiseFloor) -> Unexplained:
             worst, level = name, ratio
     if share <= STRUCTURE:
         return Unexplained(share, None)
-    place = (
-        f"the error is {level:.2g} times the average {PLACES[worst]}" if worst else "everywhere"
-    )
+    place = f"the error is {level:.2g} times the average {PLACES[worst]}" if worst else "everywhere"
     return Unexplained(share, place)

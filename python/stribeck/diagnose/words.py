@@ -39,16 +39,19 @@ def _stribeck(before: Fit, after: Fit) -> str:
 
 def _nonlinear_viscous(before: Fit, after: Fit) -> str:
     m = after.model
-    power = m.value("nonlinear_viscous_exponent")
-    bends = "flattens" if power < 1 else "steepens"
     top = max(abs(x) for x in m.box["velocity"])
-    part = m.value("nonlinear_viscous_coefficient") * (
-        (top / m.constants["reference_velocity"]) ** power
-    ) * m.constants["reference_velocity"]  # fmt: skip
+    reference = m.constants["reference_velocity"]
+
+    def part(speed: float) -> float:
+        levelled = speed / reference / (1.0 + speed / m.value("nonlinear_viscous_saturation"))
+        power = levelled ** m.value("nonlinear_viscous_exponent")
+        return m.value("nonlinear_viscous_coefficient") * reference * power
+
+    bends = "flattens" if part(0.5 * top) > 0.5 * part(top) else "steepens"
     return (
-        f"the curve of friction against speed {bends}: a part that grows with speed to the power "
-        f"{number(power)} reaches {number(part)} {m.torque_unit} at {number(top)} "
-        f"{m.position_unit}/s"
+        f"the curve of friction against speed {bends}: the part that is not proportional to speed "
+        f"is {number(part(0.5 * top))} {m.torque_unit} at {number(0.5 * top)} and "
+        f"{number(part(top))} {m.torque_unit} at {number(top)} {m.position_unit}/s"
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,12 +51,14 @@ class Problem:
         return self.recording.torque[self.rows]
 
     @cached_property
-    def _all_channels(self) -> dict[str, Array | None]:
+    def _all_channels(self) -> dict[str, Any]:
         r = self.recording
         load = self.load if r.load_torque is None else r.load_torque
         return {
             "dt": r.dt,
-            "velocity": np.where(r.moving, r.velocity, self._denoised(r.velocity, r.velocity_smooth)),
+            "velocity": np.where(
+                r.moving, r.velocity, self._denoised(r.velocity, r.velocity_smooth)
+            ),
             "position": r.position,
             "acceleration": r.acceleration,
             "temperature": r.temperature,
@@ -79,7 +82,7 @@ class Problem:
         return mean
 
     @cached_property
-    def _row_channels(self) -> dict[str, Array | None]:
+    def _row_channels(self) -> dict[str, Any]:
         """The channels of `rows` alone, for models in which each sample stands by itself."""
         return {
             name: None if column is None else np.ascontiguousarray(column[self.rows])
@@ -96,27 +99,25 @@ class Problem:
         smooth = {
             # The direction is never in doubt on moving rows; smoothing must not turn it.
             "velocity": np.where(r.moving, np.copysign(velocity, r.velocity), velocity),
-            "position": self._denoised(r.position, r.position_smooth),
             "acceleration": self._denoised(r.acceleration, r.acceleration_smooth),
-            "load_torque": (
-                self._denoised(r.load_torque, r.load_torque_smooth)
-                if r.load_torque is not None
-                else self.load
-            ),
         }
-        return {name: column for name, column in smooth.items() if column is not None}
+        if r.position is not None and r.position_smooth is not None:
+            smooth["position"] = self._denoised(r.position, r.position_smooth)
+        if r.load_torque is not None and r.load_torque_smooth is not None:
+            smooth["load_torque"] = self._denoised(r.load_torque, r.load_torque_smooth)
+        elif self.load is not None:
+            smooth["load_torque"] = self.load
+        return smooth
 
-    def _denoised(self, measured: Array | None, smooth: Array | None) -> Array | None:
+    def _denoised(self, measured: Array, smooth: Array) -> Array:
         """`smooth` where it takes out noise alone, `measured` where it would bend the signal."""
-        if measured is None or smooth is None:
-            return measured
         r = self.recording
         sigma = noise_level(r.time, measured, r.segment)
         return np.where(np.abs(smooth - measured) <= 5.0 * sigma, smooth, measured)
 
-    def _stretch(self, start: int, stop: int) -> dict[str, object]:
+    def _stretch(self, start: int, stop: int) -> dict[str, Any]:
         """The channels of a contiguous stretch, for models that need what went before."""
-        delayed: dict[str, object] = {}
+        delayed: dict[str, Any] = {}
         if self._smooth is not None:
             smooth = {name: column[start:stop] for name, column in self._smooth.items()}
             delayed = {"smooth": smooth, "shift_load": self.recording.load_torque is not None}
@@ -147,9 +148,7 @@ class Problem:
         """
         chosen = None if wanted is None else wanted.tolist()
         if self.model.memoryless:
-            torque, jacobian = self.model.core.gradient(
-                values, **self._row_channels, wanted=chosen
-            )
+            torque, jacobian = self.model.core.gradient(values, **self._row_channels, wanted=chosen)
         else:
             start, stop = self.span or (0, self.recording.time.size)
             torque, jacobian = self.model.core.gradient(
@@ -161,8 +160,8 @@ class Problem:
     def thinned(self, most: int) -> Problem:
         """The same problem on at most `most` rows, evenly chosen."""
         step = -(-self.rows.size // most)
-        return self if step <= 1 else Problem(
-            self.recording, self.model, self.rows[::step], self.load
+        return (
+            self if step <= 1 else Problem(self.recording, self.model, self.rows[::step], self.load)
         )
 
     def window(self, most: int) -> Problem:

@@ -101,9 +101,7 @@ def rigid_body_terms(recording: Recording, effects: tuple[str, ...]) -> tuple[st
             continue
         if term == "inertia" and recording.acceleration is None:
             continue
-        if term == "gravity" and (
-            recording.joint_kind != "revolute" or recording.position is None
-        ):
+        if term == "gravity" and (recording.joint_kind != "revolute" or recording.position is None):
             continue
         terms.append(term)
     return tuple(terms)

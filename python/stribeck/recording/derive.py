@@ -108,7 +108,7 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
 def motion_band(time: Floats, velocity: Floats, segment: Ints) -> float | None:
     """Find the frequency [Hz] below which 99 % of a velocity's power lies; None if too short."""
     total = 0.0
-    shares: list[tuple[Floats, Floats]] = []
+    shares = []
     for part in segment_slices(segment):
         if part.stop - part.start < 64:
             continue

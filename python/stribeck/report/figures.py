@@ -352,9 +352,7 @@ def telling_window(improvement: Improvement) -> slice:
         return slice(0, n)
     duration = float(np.clip(0.1 * float(np.sum(r.dt)), 3.0, 12.0))
     length = min(max(round(duration * r.rate_hz), 20), n)
-    gain = np.where(
-        r.moving, improvement.base.residual**2 - improvement.final.residual**2, 0.0
-    )
+    gain = np.where(r.moving, improvement.base.residual**2 - improvement.final.residual**2, 0.0)
     sums = np.concatenate(([0.0], np.cumsum(gain)))
     total = sums[length:] - sums[:-length]
     # A window must not run across a gap.

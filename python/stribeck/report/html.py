@@ -124,24 +124,28 @@ def improvement_page(improvement: Improvement) -> str:
     picture = base64.b64encode(png_bytes(improvement_figure(improvement))).decode("ascii")
     floor = improvement.noise_floor
     largest = max([e for e in step_errors(improvement) if e is not None], default=1.0)
-    return _environment().get_template("improvement.html").render(
-        name=file_name(r),
-        summary=summary_sentence(improvement),
-        findings=_findings(improvement),
-        picture=picture,
-        steps=_steps(improvement),
-        unit=final.model.torque_unit,
-        floor=None if floor.value is None else plain(floor.value),
-        floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
-        floor_why=floor.why,
-        held_out=held_out_meaning(r),
-        stopped=STOPPED[improvement.stopped],
-        left=left_text(improvement.unexplained),
-        spec=final.model.spec,
-        parameters=parameter_rows(final.estimates.values()),
-        untestable=untestable_rows(improvement.untestable),
-        facts=_facts(r),
-        notes=list(dict.fromkeys([*r.notes, *final.notes])),
-        relative=None if final.relative_residual is None else percent(final.relative_residual),
-        version=__version__,
+    return (
+        _environment()
+        .get_template("improvement.html")
+        .render(
+            name=file_name(r),
+            summary=summary_sentence(improvement),
+            findings=_findings(improvement),
+            picture=picture,
+            steps=_steps(improvement),
+            unit=final.model.torque_unit,
+            floor=None if floor.value is None else plain(floor.value),
+            floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
+            floor_why=floor.why,
+            held_out=held_out_meaning(r),
+            stopped=STOPPED[improvement.stopped],
+            left=left_text(improvement.unexplained),
+            spec=final.model.spec,
+            parameters=parameter_rows(final.estimates.values()),
+            untestable=untestable_rows(improvement.untestable),
+            facts=_facts(r),
+            notes=list(dict.fromkeys([*r.notes, *final.notes])),
+            relative=None if final.relative_residual is None else percent(final.relative_residual),
+            version=__version__,
+        )
     )

@@ -177,8 +177,13 @@ def parameter_rows(estimates: Iterable[Estimate]) -> list[list[str]]:
         )
         rows.append(
             [
-                e.name, e.symbol, value, f"± {error}" if error else "", unit_text(e.unit),
-                relative, _flags(e),
+                e.name,
+                e.symbol,
+                value,
+                f"± {error}" if error else "",
+                unit_text(e.unit),
+                relative,
+                _flags(e),
             ]
         )
     return rows
@@ -199,9 +204,7 @@ def _errors_text(f: Fit) -> str:
     meaning = "root mean square over the rows that count"
     rows = [("error (RMSE)", f"{plain(f.rmse)} {unit}", meaning)]
     if f.rmse_held_out is not None:
-        rows.append(
-            ("held-out error", f"{plain(f.rmse_held_out)} {unit}", held_out_meaning(r))
-        )
+        rows.append(("held-out error", f"{plain(f.rmse_held_out)} {unit}", held_out_meaning(r)))
     if f.relative_residual is not None:
         cutoff = torque_cutoff(r)
         below = f", both below {cutoff:.3g} Hz" if cutoff else ""
@@ -351,9 +354,7 @@ def _regimes_text(comparison: Comparison) -> str:
     blocks = []
     for first in range(0, len(models), 3):
         part = models[first : first + 3]
-        tags = [
-            a.model if len(a.model) <= 16 else f"[{first + k}]" for k, a in enumerate(part, 1)
-        ]
+        tags = [a.model if len(a.model) <= 16 else f"[{first + k}]" for k, a in enumerate(part, 1)]
         heading = [f"RMSE (mean error) [{unit}]", "rows", *tags]
         rows = [heading]
         for index, regime in enumerate(part[0].regimes):

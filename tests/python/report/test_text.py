@@ -92,9 +92,7 @@ def test_effects_with_the_same_reason_stand_together() -> None:
         (0.001, 5.0, ("0.0", "5.0")),
     ],
 )
-def test_digits_follow_the_error(
-    value: float, error: float | None, shown: tuple[str, str]
-) -> None:
+def test_digits_follow_the_error(value: float, error: float | None, shown: tuple[str, str]) -> None:
     assert with_error(value, error) == shown
 
 

@@ -1,0 +1,75 @@
+"""Recordings made with numpy alone, so that a test never shares the product's formulas."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import stribeck as sb
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+Array = NDArray[np.float64]
+
+#: Coulomb friction in N m and viscous friction in N m s/rad of the joints made here.
+COULOMB, VISCOUS = 3.0, 1.2
+
+
+def ar1(rng: np.random.Generator, size: int, rho: float, rms: float) -> Array:
+    """Noise that remembers `rho` of itself from one sample to the next, with this RMS."""
+    white = rng.standard_normal(size + 500) * rms * np.sqrt(1.0 - rho**2)
+    return lfilter([1.0], [1.0, -rho], white)[500:]
+
+
+def motion(rows: int = 3000, rate: float = 100.0) -> tuple[Array, Array, Array, Array]:
+    """Time, position, velocity, acceleration of three sines that never repeat together."""
+    t = np.arange(rows) / rate
+    q, v, a = np.zeros(rows), np.zeros(rows), np.zeros(rows)
+    for size, frequency, phase in ((0.9, 0.21, 0.3), (0.25, 0.57, 1.1), (0.05, 1.34, 2.0)):
+        w = 2.0 * np.pi * frequency
+        q += size * np.sin(w * t + phase)
+        v += size * w * np.cos(w * t + phase)
+        a -= size * w**2 * np.sin(w * t + phase)
+    return t, q, v, a
+
+
+def joint(
+    extra: Array | float = 0.0,
+    *,
+    rows: int = 3000,
+    rate: float = 100.0,
+    seed: int = 1,
+    noise: float = 0.03,
+    rho: float = 0.0,
+    velocity_noise: float = 1e-4,
+) -> pl.DataFrame:
+    """A revolute joint with Coulomb and viscous friction, and `extra` torque.
+
+    The load torque is given: gravity of a payload that changes four times, and inertia.
+    """
+    rng = np.random.default_rng(seed)
+    t, q, v, a = motion(rows, rate)
+    payload = np.array([0.4, 1.0, 1.6, 0.7, 1.3])[np.minimum(np.arange(rows) * 5 // rows, 4)]
+    load = 6.0 * payload * np.sin(q + 0.4) + 0.3 * a
+    friction = COULOMB * np.sign(v) + VISCOUS * v
+    return pl.DataFrame(
+        {
+            "time": t,
+            "position": q,
+            "velocity": v + velocity_noise * rng.standard_normal(rows),
+            "acceleration": a,
+            "torque": load + friction + extra + ar1(rng, rows, rho, noise),
+            "load_torque": load,
+            "temperature": 30.0 - 12.0 * np.cos(2.0 * np.pi * t / t[-1]),
+        }
+    )
+
+
+def record(
+    folder: Path, frame: pl.DataFrame, name: str = "made", **options: object
+) -> sb.Recording:
+    """Write `frame` to a file of `folder` and read it as a revolute joint."""
+    path = folder / f"{name}.parquet"
+    frame.write_parquet(path)
+    return sb.read(path, **{"joint_kind": "revolute", **options})
