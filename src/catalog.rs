@@ -141,10 +141,11 @@ laws! { Coulomb, BittencourtA, Lugre, GantryMap }
 
 effects! {
     stribeck: Stribeck,
-    temperature_dry: TemperatureDry,
     load: Load,
     position: Position,
     direction: Direction,
+    // After all that dry friction depends on: temperature changes all of it alike.
+    temperature_dry: TemperatureDry,
     nonlinear_viscous: NonlinearViscous,
     temperature_viscous: TemperatureViscous,
     offset: Offset,

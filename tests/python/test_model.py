@@ -70,19 +70,13 @@ def test_torque_is_the_formula_of_each_law() -> None:
     np.testing.assert_allclose(sb.model("coulomb", a1=fv, a2=fc).torque(V), fv * V + fc * s)
     bittencourt = sb.model("bittencourt_a", a1=fc, a2=fs, a3=vs, a4=al, a5=fv)
     np.testing.assert_allclose(bittencourt.torque(V), (fc + fs * curve) * s + fv * V, rtol=1e-13)
-    gantry = sb.model("gantry_map")
-    by_name = {
-        "coulomb_friction": fc,
-        "static_friction": fs + fc,
-        "stribeck_velocity": vs,
-        "viscous_friction_forward": fv,
-        "viscous_friction_backward": 2 * fv,
-    }
-    if set(by_name) == set(gantry.names):
-        gantry = sb.model("gantry_map", **by_name)
-        slope = np.where(V > 0, fv, 2 * fv)
-        dry = fc + fs * np.exp(-((V / vs) ** 2))
-        np.testing.assert_allclose(gantry.torque(V), dry * s + slope * V, rtol=1e-13)
+    gantry = sb.model(
+        "gantry_map", coulomb_friction=fc, static_friction=fs + fc, stribeck_velocity=vs,
+        viscous_friction_forward=fv, viscous_friction_backward=2 * fv,
+    )  # fmt: skip
+    slope = np.where(V > 0, fv, 2 * fv)
+    dry = fc + fs * np.exp(-((V / vs) ** 2))
+    np.testing.assert_allclose(gantry.torque(V), dry * s + slope * V, rtol=1e-13)
 
 
 def test_at_rest_a_static_law_gives_nothing() -> None:

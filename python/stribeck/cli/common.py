@@ -115,7 +115,7 @@ def recording_options(command: F) -> F:
     decorated: Any = wrapper
     for option in reversed(_RECORDING_OPTIONS):
         decorated = option(decorated)
-    return decorated  # type: ignore[no-any-return]
+    return decorated
 
 
 def read_recording(path: str, reading: dict[str, Any]) -> Recording:
