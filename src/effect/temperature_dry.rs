@@ -11,7 +11,7 @@ parameters! {
         /// Relative fall of dry friction per kelvin at the reference temperature.
         temperature_dry_slope: "sd" ["1/K"] -0.1 .. 0.1, start 0.005, None, Nonlinear;
         /// How fast that fall levels off with temperature.
-        temperature_dry_curvature: "kd" ["1/K"] 0.0 .. 0.2, start 0.01, None, Nonlinear;
+        temperature_dry_curvature: "kd" ["1/K"] -0.1 .. 0.2, start 0.01, None, Nonlinear;
     }
 }
 
