@@ -425,6 +425,8 @@ def _finish(
     prediction = problem.predict(values)
     if not np.all(np.isfinite(prediction)):
         raise FitError(f"{made.spec} predicts torques that are not finite on {recording.path}")
+    if made.has_state:
+        _refuse_slack_bristle(problem)
     held_out, _ = held_out_prediction(problem, values, lower, upper)
     moving = recording.moving
     residual = recording.torque - held_out
@@ -463,6 +465,32 @@ def _finish(
         load=load,
         notes=notes,
     )
+
+
+def _refuse_slack_bristle(problem: Problem) -> None:
+    """A bristle needs a dry friction D > 0 wherever the joint has been; refuse it with the point.
+
+    Where D <= 0 the bristle's deflection has no bound (physics of the bristle: |z| <= D/s0).
+    """
+    recording, moving = problem.recording, problem.recording.moving
+    channels = {
+        name: column[moving]
+        for name in ("position", "acceleration", "temperature")
+        if (column := getattr(recording, name)) is not None
+    }
+    load = problem.load if recording.load_torque is None else recording.load_torque
+    if load is not None:
+        channels["load_torque"] = load[moving]
+    dry = problem.model.split(recording.velocity[moving], **channels)["dry"]
+    worst = int(np.argmin(dry))
+    if dry[worst] <= 0:
+        velocity = recording.velocity[moving][worst]
+        raise FitError(
+            f"{problem.model.spec} has a bristle, but its dry friction is {dry[worst]:.3g} "
+            f"{problem.model.torque_unit} at t = {recording.time[moving][worst]:.4g} s (velocity "
+            f"{velocity:.3g} {recording.position_unit}/s): leave the bristle or the effect that "
+            f"makes it negative out"
+        )
 
 
 def _estimates(problem: Problem, values: Array, lower: Array, upper: Array) -> dict[str, Estimate]:

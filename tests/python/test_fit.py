@@ -94,8 +94,10 @@ def test_rigid_body_is_identified_when_no_load_is_given(tmp_path: Path) -> None:
     inertia, cos, sin = 0.8, 5.0, -2.0
     rng = np.random.default_rng(5)
     torque = inertia * a + cos * np.cos(q) + sin * np.sin(q) + COULOMB * np.sign(v) + VISCOUS * v
-    frame = joint().drop("load_torque").with_columns(
-        torque=pl.Series(torque + 0.03 * rng.standard_normal(t.size))
+    frame = (
+        joint()
+        .drop("load_torque")
+        .with_columns(torque=pl.Series(torque + 0.03 * rng.standard_normal(t.size)))
     )
     recording = record(tmp_path, frame)
     fit = sb.fit("coulomb", recording)

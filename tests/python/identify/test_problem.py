@@ -1,0 +1,92 @@
+"""One model on one recording: target, rows, the slope that the search follows, the last steps."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.identify.polish import polish
+from stribeck.identify.problem import Problem
+from stribeck.identify.reduced import ReducedProblem
+from stribeck.identify.scaling import bounds, model_for
+from synthetic import joint, motion, record
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
+    """A joint with a Stribeck curve."""
+    v = motion()[2]
+    extra = 1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2))
+    return record(tmp_path_factory.mktemp("problem"), joint(extra))
+
+
+def problem(recording: sb.Recording, spec: str) -> tuple[Problem, np.ndarray, np.ndarray]:
+    """A model on all moving rows, and its bounds."""
+    made = model_for(spec, recording)
+    lower, upper, _ = bounds(made, recording)
+    return Problem(recording, made, np.flatnonzero(recording.moving)), lower, upper
+
+
+def test_target_is_the_torque_as_recorded(recording: sb.Recording) -> None:
+    p, _, _ = problem(recording, "coulomb+delay")
+    assert p.target.tobytes() == recording.torque[recording.moving].tobytes()
+    values = np.array([1.0, 2.0, 0.004])
+    residual, _ = p.linearise(values)
+    expected = recording.torque - p.predict(values)
+    np.testing.assert_allclose(residual, expected[recording.moving], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("spec", ["coulomb+stribeck+load", "coulomb+stribeck+presliding"])
+def test_slope_of_what_linear_parameters_leave(recording: sb.Recording, spec: str) -> None:
+    """The envelope theorem: partial derivatives at the solved linear parameters are enough."""
+    p, lower, upper = problem(recording, spec)
+    reduced = ReducedProblem(p, lower, upper)
+    u = np.full(int(reduced.nonlinear.sum()), 0.55)
+
+    def square(at: np.ndarray) -> float:
+        values = np.zeros(lower.size)
+        values[reduced.nonlinear] = reduced.decode(at)
+        return reduced.square_and_slope(reduced.complete(values))[0]
+
+    values = np.zeros(lower.size)
+    values[reduced.nonlinear] = reduced.decode(u)
+    _, slope = reduced.square_and_slope(reduced.complete(values))
+    for k in range(u.size):
+        step = np.zeros_like(u)
+        step[k] = 1e-5
+        numeric = (square(u + step) - square(u - step)) / 2e-5
+        assert slope[k] == pytest.approx(numeric, rel=1e-3, abs=1e-4 * np.abs(slope).max())
+
+
+def test_search_coordinates_round_trip(recording: sb.Recording) -> None:
+    p, lower, upper = problem(recording, "coulomb+stribeck+presliding+delay")
+    reduced = ReducedProblem(p, lower, upper)
+    u = np.random.default_rng(0).uniform(size=int(reduced.nonlinear.sum()))
+    values = np.zeros(lower.size)
+    values[reduced.nonlinear] = reduced.decode(u)
+    np.testing.assert_allclose(reduced.encode(values), u, atol=1e-12)
+    for end, bound in ((np.zeros_like(u), lower), (np.ones_like(u), upper)):
+        np.testing.assert_allclose(reduced.decode(end), bound[reduced.nonlinear], rtol=1e-12)
+
+
+def test_polish_never_goes_up_and_ends_at_a_minimum(recording: sb.Recording) -> None:
+    p, lower, upper = problem(recording, "coulomb+stribeck")
+    best = sb.fit("coulomb+stribeck", recording)
+    rng = np.random.default_rng(1)
+    for _ in range(5):
+        start = np.clip(best.model.values * np.exp(0.2 * rng.standard_normal(5)), lower, upper)
+        first, _ = p.linearise(start)
+        values, square, _ = polish(p, start, lower, upper)
+        assert square <= first @ first
+        assert np.all(values >= lower) and np.all(values <= upper)
+        assert np.sqrt(square / p.rows.size) == pytest.approx(best.rmse, rel=1e-6)
+
+
+def test_fewer_rows_are_spread_and_windows_are_where_it_turns(recording: sb.Recording) -> None:
+    p, _, _ = problem(recording, "coulomb+presliding")
+    thin = p.thinned(500)
+    assert thin.rows.size <= 500 and np.ptp(thin.rows) > 0.95 * recording.rows
+    assert p.thinned(10**6) is p
+    part = p.window(1000)
+    assert part.span is not None and part.span[1] - part.span[0] == 1000
+    assert part.rows.min() >= part.span[0] and part.rows.max() < part.span[1]

@@ -1,0 +1,78 @@
+"""Bounds, starts and constants follow the recording's size."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.identify.scaling import bounds, effect_constants, model_for, rigid_body_terms
+from stribeck.model import catalog
+from synthetic import joint, record
+
+
+def test_bounds_hold_the_start_and_scale_with_the_machine(
+    tmp_path: Path, plain: sb.Recording
+) -> None:
+    frame = joint()
+    larger = record(
+        tmp_path,
+        frame.with_columns(torque=frame["torque"] * 50.0, load_torque=frame["load_torque"] * 50.0),
+    )
+    for effect in catalog()["effects"]:
+        spec = f"coulomb+{effect}"
+        m = model_for(spec, plain)
+        lower, upper, start = bounds(m, plain)
+        assert np.all(lower <= start) and np.all(start <= upper) and np.all(lower < upper), spec
+        assert np.all(np.isfinite([*lower, *upper])), spec
+        big_lower, big_upper, _ = bounds(model_for(spec, larger), larger)
+        factor = np.array([50.0 if "N m" in p.unit or p.unit == "kg m2" else 1.0
+                           for p in m.parameters])  # fmt: skip
+        np.testing.assert_allclose(big_upper, factor * upper, rtol=1e-9, err_msg=spec)
+        np.testing.assert_allclose(big_lower, factor * lower, rtol=1e-9, err_msg=spec)
+
+
+def test_every_effect_gets_the_constants_it_names(plain: sb.Recording) -> None:
+    for effect, row in catalog()["effects"].items():
+        given = effect_constants(effect, plain)
+        assert set(given) == set(row["constants"]), effect
+        assert all(np.isfinite(x) for x in given.values())
+
+
+def test_constants_are_those_of_the_moving_rows(plain: sb.Recording) -> None:
+    moving = plain.moving
+    assert plain.temperature is not None and plain.position is not None
+    mean = effect_constants("temperature_dry", plain)["reference_temperature"]
+    assert mean == pytest.approx(plain.temperature[moving].mean())
+    tl = plain.load_torque[moving]
+    assert effect_constants("load", plain)["reference_load"] == pytest.approx(
+        np.sqrt(np.mean(tl**2))
+    )
+    q = plain.position[moving]
+    stroke = effect_constants("position", plain)
+    assert stroke["position_start"] == q.min() and stroke["position_periodic"] == 0.0
+    assert stroke["position_length"] == pytest.approx(np.ptp(q))
+
+
+def test_friction_of_many_turns_repeats_with_the_turn(tmp_path: Path) -> None:
+    frame = joint()
+    far = record(tmp_path, frame.with_columns(position=frame["position"] * 20.0))
+    stroke = effect_constants("position", far)
+    assert stroke["position_periodic"] == 1.0
+    assert stroke["position_length"] == pytest.approx(2.0 * np.pi)
+
+
+def test_rigid_body_is_identified_only_where_it_is_not_given(
+    tmp_path: Path, plain: sb.Recording
+) -> None:
+    assert rigid_body_terms(plain, ()) == ()
+    unknown = record(tmp_path, joint().drop("load_torque"))
+    assert rigid_body_terms(unknown, ()) == ("inertia", "gravity")
+    assert rigid_body_terms(unknown, ("gravity",)) == ("inertia",)
+
+
+def test_missing_channels_are_named(tmp_path: Path) -> None:
+    cold = record(tmp_path, joint(rows=400).drop("temperature"))
+    with pytest.raises(sb.FitError, match="--map temperature"):
+        model_for("coulomb+temperature_viscous", cold)
