@@ -69,10 +69,22 @@ def test_stribeck_curve_comes_back(curved: sb.Recording) -> None:
     assert fit.rmse == pytest.approx(0.03, rel=0.05)
 
 
-@pytest.mark.parametrize("seed", range(5))
-def test_any_seed_finds_the_optimum(curved: sb.Recording, seed: int) -> None:
-    best = sb.fit("coulomb+stribeck", curved, starts=20, seed=99)
-    assert sb.fit("coulomb+stribeck", curved, seed=seed).rmse <= best.rmse * (1.0 + 1e-6)
+def test_any_seed_finds_the_optimum(curved: sb.Recording) -> None:
+    """The starts of five seeds end where scipy ends from the truth."""
+    from scipy.optimize import least_squares
+
+    v = curved.velocity[curved.moving]
+    target = (curved.torque - curved.load_torque)[curved.moving]
+
+    def error(p: np.ndarray) -> np.ndarray:
+        curve = p[2] * np.exp(-((np.abs(v) / p[3]) ** p[4]))
+        return (p[1] + curve) * np.sign(v) + p[0] * v - target
+
+    best = least_squares(error, [VISCOUS, COULOMB, 2.0, 0.15, 1.5], xtol=1e-14, ftol=1e-14)
+    optimum = np.sqrt(2.0 * best.cost / v.size)
+    for seed in range(5):
+        found = sb.fit("coulomb+stribeck", curved, seed=seed).rmse
+        assert found == pytest.approx(optimum, rel=1e-7), seed
 
 
 def test_bristle_comes_back(tmp_path: Path) -> None:
@@ -173,8 +185,6 @@ def test_standard_errors_cover_under_noise_with_a_memory(tmp_path: Path) -> None
     fewest = int(binom.ppf(0.001, trials, 0.95))
     for name, count in held.items():
         assert count >= fewest, held
-    # Honest intervals are not endless ones either.
-    assert min(held.values()) < trials or max(held.values()) <= trials
 
 
 def test_linear_standard_errors_cover_under_noise_with_a_memory(tmp_path: Path) -> None:
@@ -260,9 +270,9 @@ print(json.dumps([f.model.values.tobytes().hex(), f.rmse.hex(), f.rmse_held_out.
 
 
 def test_number_of_threads_changes_nothing(tmp_path: Path) -> None:
-    v = motion(rows=6000)[2]
+    v = motion()[2]
     path = tmp_path / "made.parquet"
-    joint(stribeck_part(v), rows=6000).write_parquet(path)
+    joint(stribeck_part(v), rows=3000).write_parquet(path)
     answers = []
     for threads in ("1", "2"):
         names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "POLARS_MAX_THREADS",

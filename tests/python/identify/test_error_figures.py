@@ -38,8 +38,8 @@ def test_white_noise_weighs_less_than_its_size(plain: sb.Recording) -> None:
 
 
 def test_rest_is_bridged(tmp_path: Path) -> None:
-    frame = joint().with_columns()
-    recording = record(tmp_path, frame)
+    recording = record(tmp_path, joint(velocity_noise=0.01))
+    assert not recording.moving.all()
     values = np.where(recording.moving, 1.0, 1e6)
     assert np.all(bridged(recording, values) == 1.0)
 

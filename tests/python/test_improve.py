@@ -1,0 +1,125 @@
+"""The way from a base model to noise: its steps, its JSON, and what it never adds."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from synthetic import joint, motion, record
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
+    """A joint with a Stribeck curve and a load dependence."""
+    load, v = joint()["load_torque"].to_numpy(), motion()[2]
+    curve = 1.2 / (1.0 + (v / 0.12) ** 2)
+    frame = joint((curve + 0.06 * np.abs(load)) * np.sign(v), noise=0.05, rho=0.5)
+    return record(tmp_path_factory.mktemp("improve"), frame)
+
+
+@pytest.fixture(scope="module")
+def improvement(recording: sb.Recording) -> sb.Improvement:
+    """The whole way, once."""
+    return sb.improve("coulomb", recording)
+
+
+def test_both_causes_are_found_and_noise_is_left(improvement: sb.Improvement) -> None:
+    assert {step.finding.effect for step in improvement.steps} == {"stribeck", "load"}
+    assert improvement.final.rmse_held_out == pytest.approx(0.05, rel=0.05)
+    assert improvement.stopped == "noise_floor"
+
+
+def test_each_step_lowers_the_error(improvement: sb.Improvement) -> None:
+    steps = improvement.steps
+    for step in steps:
+        assert step.after.rmse < step.before.rmse
+        assert step.after.rmse_held_out < step.before.rmse_held_out
+    for one, next_one in pairwise(steps):
+        assert next_one.before is one.after
+    assert steps[0].before is improvement.base and steps[-1].after is improvement.final
+    # The same rows serve every step, and the target is never touched.
+    for step in steps:
+        assert np.array_equal(step.before.rows, step.after.rows)
+        assert step.after.recording is improvement.base.recording
+
+
+def test_no_error_is_below_the_noise(improvement: sb.Improvement) -> None:
+    """An RMSE below the noise would be a defect."""
+    assert improvement.final.rmse > 0.95 * 0.05
+    assert improvement.noise_floor.value is not None
+    assert improvement.noise_floor.value == pytest.approx(0.05, rel=0.1)
+
+
+def test_contract_keys(improvement: sb.Improvement) -> None:
+    answer = json.loads(json.dumps(improvement.to_dict()))
+    assert {"base", "noise_floor", "steps", "final", "stopped", "untestable", "unexplained",
+            "scored"} <= set(answer)  # fmt: skip
+    for step in answer["steps"]:
+        assert {"effect", "confidence", "rmse_before", "rmse_after", "rmse_held_out_before",
+                "rmse_held_out_after", "indistinguishable_from", "parameters"} <= set(step)  # fmt: skip
+    assert {"model", "rmse", "rmse_held_out", "relative_residual"} <= set(answer["final"])
+    assert answer["base"] == "coulomb" and answer["final"]["model"] == "coulomb+stribeck+load"
+    assert answer["stopped"] in ("noise_floor", "nothing_passes", "max_steps")
+    assert improvement.to_frame().height == 1 + len(improvement.steps)
+
+
+@pytest.mark.parametrize("seed", [21, 22])
+def test_an_effect_that_the_data_lacks_is_never_added(tmp_path: Path, seed: int) -> None:
+    """Only the base, and noise with a memory."""
+    frame = joint(seed=seed, noise=0.1, rho=0.9)
+    answer = sb.improve("coulomb", record(tmp_path, frame)).to_dict()
+    assert answer["steps"] == [] and answer["stopped"] == "noise_floor"
+    assert answer["final"]["model"] == "coulomb"
+
+
+def test_a_base_with_the_effects_needs_nothing(
+    recording: sb.Recording, improvement: sb.Improvement
+) -> None:
+    again = sb.improve(improvement.final.model, recording, starts=4)
+    assert again.steps == ()
+
+
+def test_fewest_steps_and_rejected_effects(recording: sb.Recording) -> None:
+    none = sb.improve("coulomb", recording, most_steps=0)
+    assert none.steps == () and none.stopped == "max_steps"
+    without = sb.improve("coulomb", recording, rejected=("load", "stribeck"), most_steps=1)
+    assert not {"load", "stribeck"} & {s.finding.effect for s in without.steps}
+
+
+def test_progress_is_told(tmp_path: Path, plain: sb.Recording) -> None:
+    told: list[str] = []
+    sb.improve("coulomb", plain, progress=told.append)
+    assert told and told[0] == "fitting coulomb"
+
+
+def test_seed_gives_the_same_bits(recording: sb.Recording, improvement: sb.Improvement) -> None:
+    again = sb.improve("coulomb", recording)
+    assert again.final.model.values.tobytes() == improvement.final.model.values.tobytes()
+    assert [s.finding.confidence for s in again.steps] == [
+        s.finding.confidence for s in improvement.steps
+    ]
+
+
+def test_add_refits_with_one_more_effect(recording: sb.Recording) -> None:
+    before = sb.fit("coulomb", recording)
+    after = sb.add(before, "load", recording)
+    assert after.model.spec == "coulomb+load" and after.rmse < before.rmse
+    addition = sb.Addition("load", before, after).to_dict()
+    assert {"model", "effect", "rmse_before", "rmse_after", "rmse_held_out_before",
+            "rmse_held_out_after", "parameters"} <= set(addition)  # fmt: skip
+    # A wider model never fits worse than the one it contains. A bristle contains none: it is
+    # carried by the mean velocity of a step, sgn v by the velocity at its end.
+    for effect in set(sb.effects()["id"]) - {"presliding"}:
+        assert sb.add(before, effect, starts=2).rmse <= before.rmse * (1.0 + 1e-9), effect
+
+
+def test_what_cannot_be_added_is_refused(recording: sb.Recording) -> None:
+    fit = sb.fit("coulomb+load", recording)
+    with pytest.raises(sb.SpecError, match="already"):
+        sb.add(fit, "load")
+    with pytest.raises(sb.SpecError, match="did you mean 'gravity'"):
+        sb.add(fit, "gravty")
