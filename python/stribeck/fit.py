@@ -32,11 +32,36 @@ from stribeck.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Rows that a start is searched on before the best ones are finished on all rows.
-SEARCH_ROWS = 4000
-SEARCH_SAMPLES = 12000
-#: Starts that are finished on all rows.
-FINISHED = 2
+
+@dataclass(frozen=True)
+class Effort:
+    """How thoroughly a model is fitted.
+
+    Attributes
+    ----------
+    rows, samples
+        Rows that a start is searched on before the best ones are finished on all rows, and the
+        length of the stretch where a model has a state.
+    evaluations
+        Most evaluations of one start.
+    finished
+        Starts that are finished on all rows, to the relative `tolerance` of the squared error.
+    exact
+        Whether held-out predictions evaluate the model at each refit, or its linearisation.
+    """
+
+    rows: int = 4000
+    samples: int = 12000
+    evaluations: int = 60
+    finished: int = 2
+    tolerance: float = 1e-10
+    exact: bool = True
+
+
+#: For a fit that is reported.
+THOROUGH = Effort()
+#: For one of many candidates.
+QUICK = Effort(rows=3000, samples=6000, evaluations=30, finished=1, tolerance=1e-6, exact=False)
 #: A bound counts as reached within this share of its range.
 AT_BOUND = 1e-6
 
@@ -174,6 +199,7 @@ def fit(
     starts: int = 20,
     seed: int = 0,
     transient: NDArray[np.bool_] | None = None,
+    effort: Effort = THOROUGH,
 ) -> Fit:
     """Identify the parameters of `spec` on `recording` by bounded least squares.
 
@@ -186,6 +212,10 @@ def fit(
         ``"coulomb+load"``, or a model; a model's values are the first start.
     starts, seed : int
         Random starts of the nonlinear parameters (review of 25 models, eqs 4-5: 20).
+    transient : bool array [n]
+        Rows that are scored but not fitted to; default: looked for.
+    effort : Effort
+        How thoroughly; the default is for results, `QUICK` for comparing candidates.
 
     Raises
     ------
@@ -203,11 +233,13 @@ def fit(
             f"{recording.path} has {rows.size} rows that move, {made.spec} needs at least "
             f"{fewest}: record more motion"
         )
-    made, load = _with_own_load(made, recording, rows, starts, seed)
-    solution = _identify(made, recording, rows, load, starts, seed)
+    made, load = _with_own_load(made, recording, rows, starts, seed, effort)
+    solution = _identify(made, recording, rows, load, starts, seed, effort)
     values, load = solution.values, solution.load
     made = made.with_values(values)
-    return _finish(made, recording, marked, rows, load, solution, time.perf_counter() - began)
+    return _finish(
+        made, recording, marked, rows, load, solution, effort, time.perf_counter() - began
+    )
 
 
 @dataclass
@@ -240,7 +272,12 @@ def _needs_own_load(model: Model) -> bool:
 
 
 def _with_own_load(
-    made: Model, recording: Recording, rows: NDArray[np.intp], starts: int, seed: int
+    made: Model,
+    recording: Recording,
+    rows: NDArray[np.intp],
+    starts: int,
+    seed: int,
+    effort: Effort,
 ) -> tuple[Model, Array | None]:
     """A first load torque from a fit without the effects that depend on it."""
     if not _needs_own_load(made):
@@ -250,7 +287,7 @@ def _with_own_load(
         if effect in plain.effects:
             plain = plain.without_effect(effect)
     if not np.all(np.isfinite(plain.values)):
-        solved = _identify(plain, recording, rows, None, min(starts, 4), seed)
+        solved = _identify(plain, recording, rows, None, min(starts, 4), seed, effort)
         plain = plain.with_values(solved.values)
     load = own_load(plain, recording)
     constants = dict(made.constants)
@@ -266,6 +303,7 @@ def _identify(
     load: Array | None,
     starts: int,
     seed: int,
+    effort: Effort,
 ) -> _Solution:
     """Best values; where friction depends on the identified rigid body, to a fixed point."""
     lower, upper, first = bounds(made, recording)
@@ -276,7 +314,7 @@ def _identify(
     # What is known stays where it is at the start; only the rest is searched at random.
     unknown = ~np.isfinite(known)
     found, used = _multi_start(
-        reduced, start, unknown if unknown.any() else np.ones_like(unknown), starts, seed
+        reduced, start, unknown if unknown.any() else np.ones_like(unknown), starts, seed, effort
     )
     evaluations = reduced.evaluations
     if load is not None and _needs_own_load(made):
@@ -303,6 +341,7 @@ def _multi_start(
     varied: NDArray[np.bool_],
     starts: int,
     seed: int,
+    effort: Effort,
 ) -> tuple[Search, int]:
     """Search coarsely from many starts, then finish the best ones on all rows."""
     if not reduced.nonlinear.any():
@@ -313,7 +352,7 @@ def _multi_start(
     problem = reduced.problem
     model = problem.model
     coarse_problem = (
-        problem.window(SEARCH_SAMPLES) if not model.memoryless else problem.thinned(SEARCH_ROWS)
+        problem.thinned(effort.rows) if model.memoryless else problem.window(effort.samples)
     )
     coarse = ReducedProblem(coarse_problem, reduced.lower, reduced.upper)
     rng = np.random.default_rng(seed)
@@ -326,13 +365,15 @@ def _multi_start(
                 rng.uniform(size=int(reduced.nonlinear.sum()))
             )
             at[moved] = random[moved]
-        tried.append(coarse.search(at, 60, 1e-7))
+        tried.append(coarse.search(at, effort.evaluations, 1e-7))
     tried.sort(key=lambda search: search.square)
     reduced.evaluations += coarse.evaluations
     finished = []
-    for search in _distinct(tried)[:FINISHED]:
+    for search in _distinct(tried)[: effort.finished]:
         completed = reduced.complete(search.values)
-        values, square, evaluations = polish(problem, completed, reduced.lower, reduced.upper)
+        values, square, evaluations = polish(
+            problem, completed, reduced.lower, reduced.upper, effort.tolerance
+        )
         reduced.evaluations += evaluations
         finished.append(replace(search, values=values, square=square))
     return min(finished, key=lambda search: search.square), starts
@@ -417,6 +458,7 @@ def _finish(
     rows: NDArray[np.intp],
     load: Array | None,
     solution: _Solution,
+    effort: Effort,
     seconds: float,
 ) -> Fit:
     problem = Problem(recording, made, rows, load)
@@ -427,7 +469,7 @@ def _finish(
         raise FitError(f"{made.spec} predicts torques that are not finite on {recording.path}")
     if made.has_state:
         _refuse_slack_bristle(problem)
-    held_out, _ = held_out_prediction(problem, values, lower, upper)
+    held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact)
     moving = recording.moving
     residual = recording.torque - held_out
     blocks = np.unique(recording.block[moving]).size

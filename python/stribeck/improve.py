@@ -20,6 +20,7 @@ from stribeck.diagnose import (
 from stribeck.diagnose.evidence import evidence
 from stribeck.diagnose.trial import SIGNIFICANCE, add_effect
 from stribeck.fit import Fit, fit, on_recording
+from stribeck.identify.figures import rms
 from stribeck.model import Model, check_effect
 from stribeck.recording import Recording
 
@@ -221,7 +222,8 @@ def _superfluous(steps: list[Step], least_fall: float, seed: int) -> str | None:
             seed=seed,
             transient=current.transient,
         )
-        found = evidence(without, current)
-        if found.fall < least_fall / 2 or found.p_value > SIGNIFICANCE:
+        rows = current.rows
+        rise = rms(without.residual[rows]) / rms(current.residual[rows]) - 1.0
+        if rise < least_fall / 2 or evidence(without, current).p_value > SIGNIFICANCE:
             return effect
     return None

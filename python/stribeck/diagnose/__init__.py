@@ -17,6 +17,7 @@ from stribeck.diagnose.trial import (
     adds_to,
     explained_by_shape,
     passes,
+    refined,
     tie_statistic,
     tie_weight,
     try_effect,
@@ -191,13 +192,20 @@ def _findings(
     # Of those within the standard error the simplest comes first.
     tied.sort(key=lambda t: (statistic[t.effect] > TIE, t.parameters, t.rank))
     ordered = tied + [t for t in good if t not in tied]
+    first = refined(ordered[0], before, seed)
+    if not (passes(first, tried, least) and _reported_fall(before, first)):
+        # What a quick fit promised does not stand up to a thorough one.
+        rest = [t for t in good if t.effect != first.effect]
+        return _findings(before, rest, tried, least, floor, seed)
+    ordered[0] = first
+    alike = [t.effect for t in tied]
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
-    total = sum(weights[t.effect] for t in tied)
+    total = sum(weights[effect] for effect in alike)
     made = []
     for t in ordered:
         chance = min(1.0, t.evidence.p_value * tried)
-        share = weights[t.effect] / (total if t in tied else total + weights[t.effect])
-        others = tuple(o.effect for o in tied if o is not t) if t in tied else ()
+        share = weights[t.effect] / (total if t.effect in alike else total + weights[t.effect])
+        others = tuple(o for o in alike if o != t.effect) if t.effect in alike else ()
         made.append(
             Finding(
                 effect=t.effect,

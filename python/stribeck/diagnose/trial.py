@@ -10,7 +10,7 @@ from scipy.stats import norm
 from stribeck.diagnose.evidence import Evidence, added_torque_test, difference, evidence
 from stribeck.diagnose.shape import flexible_columns
 from stribeck.errors import StribeckError
-from stribeck.fit import Fit, fit, own_load
+from stribeck.fit import QUICK, THOROUGH, Effort, Fit, fit, own_load
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import effect_constants
@@ -64,7 +64,14 @@ class Trial:
         return float(np.sum(self.fit.held_out_residual[self.fit.rows] ** 2))
 
 
-def add_effect(before: Fit, effect: str, *, starts: int = STARTS, seed: int = 0) -> Fit:
+def add_effect(
+    before: Fit,
+    effect: str,
+    *,
+    starts: int = STARTS,
+    seed: int = 0,
+    effort: Effort = THOROUGH,
+) -> Fit:
     """Refit `before`'s model with `effect` added, starting from what is known.
 
     Raises
@@ -75,18 +82,37 @@ def add_effect(before: Fit, effect: str, *, starts: int = STARTS, seed: int = 0)
     load = own_load(before.model, before.recording)
     constants = effect_constants(effect, before.recording, load)
     wider = before.model.with_effect(effect, constants)
-    return fit(wider, before.recording, starts=starts, seed=seed, transient=before.transient)
+    return fit(
+        wider,
+        before.recording,
+        starts=starts,
+        seed=seed,
+        transient=before.transient,
+        effort=effort,
+    )
 
 
 def try_effect(before: Fit, effect: str, *, seed: int = 0) -> Trial | None:
     """Try `effect`; None where the model cannot take it."""
     try:
-        after = add_effect(before, effect, seed=seed)
+        after = add_effect(before, effect, seed=seed, effort=QUICK)
     except StribeckError:
         return None
     if after.rmse_held_out is None or before.rmse_held_out is None:
         return None
     return Trial(effect, after, evidence(before, after))
+
+
+def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
+    """The same trial fitted thoroughly, from where it stands."""
+    after = fit(
+        trial.fit.model,
+        trial.fit.recording,
+        starts=1,
+        seed=seed,
+        transient=trial.fit.transient,
+    )
+    return Trial(trial.effect, after, evidence(before, after))
 
 
 def passes(trial: Trial, tried: int, least: float) -> bool:

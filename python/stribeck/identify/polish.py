@@ -11,12 +11,22 @@ from stribeck.identify.problem import Problem
 Array = NDArray[np.float64]
 
 MOST_ROUNDS = 25
-#: A relative fall of the squared error below this ends it.
 TOLERANCE = 1e-10
 
 
-def polish(problem: Problem, values: Array, lower: Array, upper: Array) -> tuple[Array, float, int]:
+def polish(
+    problem: Problem,
+    values: Array,
+    lower: Array,
+    upper: Array,
+    tolerance: float = TOLERANCE,
+) -> tuple[Array, float, int]:
     """Bring the sum of squares down from `values`, near a minimum, to that minimum.
+
+    Parameters
+    ----------
+    tolerance : float
+        A relative fall of the sum of squares below this ends it.
 
     Returns
     -------
@@ -38,7 +48,7 @@ def polish(problem: Problem, values: Array, lower: Array, upper: Array) -> tuple
             fall = square - new_square
             values, residual, jacobian, square = tried, new_residual, new_jacobian, new_square
             damping = 0.0 if damping < 1e-6 else damping / 10.0
-            if fall <= TOLERANCE * max(square, np.finfo(float).tiny):
+            if fall <= tolerance * max(square, np.finfo(float).tiny):
                 break
         else:
             damping = 1e-3 if damping == 0.0 else damping * 10.0
