@@ -89,11 +89,11 @@ def demo() -> None:
 def test() -> None:
     run("cargo", "test", "--quiet", "--locked")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
-    run(PYTHON, "-m", "pytest", "-q", "-m", "not slow", *sys.argv[2:])
+    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow", *sys.argv[2:])
 
 
 def slow() -> None:
-    run(PYTHON, "-m", "pytest", "-q", "-m", "slow", *sys.argv[2:])
+    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "slow", *sys.argv[2:])
 
 
 def check() -> None:
