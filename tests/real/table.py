@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -67,6 +68,19 @@ def main() -> None:
             f"{name} {p['value']:.4g} ± {p['stderr']:.2g} {p['unit']}"
             for name, p in fitted["parameters"].items()
         )
+    )
+    pulses = f"{DATA}/emps/emps_pulses.parquet"
+    with tempfile.TemporaryDirectory() as folder:
+        errors = {}
+        for spec in ("coulomb", "coulomb+direction"):
+            model = f"{folder}/model.toml"
+            stribeck("fit", f"{DATA}/emps/emps.parquet", *sidecar, "--model", spec, "-o", model)
+            other = ["--sidecar", "tests/sidecars/emps_pulses.sidecar.toml"]
+            compared = stribeck("compare", pulses, *other, model)["models"][0]
+            errors[spec] = compared["rmse_held_out"]
+    print(
+        "\nFitted on EMPS, error on its second file, with force pulses, never fitted to: "
+        + ", ".join(f"`{spec}` {error:.3g} N" for spec, error in errors.items())
     )
     print("\n```console")
     print("\n".join(commands))
