@@ -18,7 +18,7 @@ SPECS = ("coulomb", "coulomb+stribeck")
 @pytest.fixture(scope="module")
 def bent(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
     """A joint with a Stribeck curve, at rest for a while."""
-    t, q, v, a = motion()
+    t, _, v, _ = motion()
     frame = joint(1.5 * np.sign(v) * np.exp(-np.abs(v) / 0.1))
     still = pl.DataFrame({c: [frame[c][-1]] * 200 for c in frame.columns}).with_columns(
         velocity=pl.lit(0.0),

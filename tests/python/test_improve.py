@@ -60,7 +60,8 @@ def test_contract_keys(improvement: sb.Improvement) -> None:
             "scored"} <= set(answer)  # fmt: skip
     for step in answer["steps"]:
         assert {"effect", "confidence", "rmse_before", "rmse_after", "rmse_held_out_before",
-                "rmse_held_out_after", "indistinguishable_from", "parameters"} <= set(step)  # fmt: skip
+                "rmse_held_out_after", "indistinguishable_from",
+                "parameters"} <= set(step)  # fmt: skip
     assert {"model", "rmse", "rmse_held_out", "relative_residual"} <= set(answer["final"])
     assert answer["base"] == "coulomb" and answer["final"]["model"] == "coulomb+stribeck+load"
     assert answer["stopped"] in ("noise_floor", "nothing_passes", "max_steps")

@@ -101,7 +101,7 @@ def test_no_slow_motion(tmp_path: Path) -> None:
 def test_prismatic_joint_and_small_range(tmp_path: Path) -> None:
     found = answers(tmp_path, joint(), joint_kind="prismatic")
     assert set(found) == {"gravity"} and "offset" in found["gravity"]
-    t, q, v, a = motion()
+    _, q, v, a = motion()
     small = joint().with_columns(
         position=pl.Series(0.1 * q), velocity=pl.Series(0.1 * v), acceleration=pl.Series(0.1 * a)
     )
