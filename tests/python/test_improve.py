@@ -97,6 +97,7 @@ def test_progress_is_told(tmp_path: Path, plain: sb.Recording) -> None:
     assert told and told[0] == "fitting coulomb"
 
 
+@pytest.mark.slow
 def test_seed_gives_the_same_bits(recording: sb.Recording, improvement: sb.Improvement) -> None:
     again = sb.improve("coulomb", recording)
     assert again.final.model.values.tobytes() == improvement.final.model.values.tobytes()
