@@ -15,7 +15,7 @@ import numpy as np
 import tomlkit
 
 from stribeck.errors import ModelFileError, SpecError, nearest
-from stribeck.model import Model, parse_spec
+from stribeck.model import Model, law_ids, parse_spec
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -28,6 +28,7 @@ TOP_KEYS = {
     "constants", "parameters", "fitted_on", "box",
 }  # fmt: skip
 PARAMETER_KEYS = {"value", "symbol", "unit", "bounds", "stderr"}
+BOX_KEYS = {"velocity", "position", "acceleration", "temperature", "load_torque"}
 FITTED_KEYS = {"path", "sha256", "rows", "time_span", "rmse", "rmse_held_out"}
 
 
@@ -171,19 +172,26 @@ class _Reader:
                 f"schema {data.get('schema')!r} is not known here, {SCHEMA} is", "schema"
             )
         self._known(data, TOP_KEYS)
+        if not isinstance(data.get("law"), str):
+            raise ModelFileError(f"{self.path}: the key 'law' is missing, or not a name")
+        for key in ("constants", "parameters", "fitted_on", "box"):
+            if not isinstance(data.get(key, {}), dict):
+                raise self.stop(f"{key} is {data[key]!r}, a table is needed", key)
+        self._known(data.get("box", {}), BOX_KEYS, "[box]")
         try:
-            law, effects = parse_spec("+".join([str(data["law"]), *data.get("effects", [])]))
+            law, effects = parse_spec("+".join([data["law"], *self._names(data, "effects")]))
             made = Model(
                 law=law,
                 effects=effects,
                 constants=self._numbers(data.get("constants", {}), "constants"),
-                rigid_body=tuple(data.get("rigid_body", ())),
+                rigid_body=self._names(data, "rigid_body"),
                 torque_unit=self._choice(data, "torque_unit", ("N m", "N", "V", "%")),
                 position_unit=self._choice(data, "position_unit", ("rad", "m")),
                 box={k: self._pair(v, "box", k) for k, v in data.get("box", {}).items()},
             )
         except SpecError as error:
-            raise self.stop(str(error), "effects" if data.get("effects") else "law") from None
+            wrong_law = data["law"] not in law_ids()
+            raise self.stop(str(error), "law" if wrong_law else "effects") from None
         except KeyError as error:
             raise ModelFileError(f"{self.path}: the key {error} is missing") from None
         return self._with_parameters(made, data)
@@ -216,6 +224,12 @@ class _Reader:
         self._known(fitted, FITTED_KEYS, "fitted_on")
         filled = replace(made, bounds=bounds).with_values(np.array(values))
         return ModelFile(filled, errors, fitted)
+
+    def _names(self, data: Mapping[str, Any], key: str) -> tuple[str, ...]:
+        value = data.get(key, [])
+        if not isinstance(value, list) or not all(isinstance(name, str) for name in value):
+            raise self.stop(f"{key} is {value!r}, a list of names is needed", key)
+        return tuple(value)
 
     def _known(self, table: Mapping[str, Any], keys: set[str], *where: str) -> None:
         for key in table:
