@@ -79,12 +79,7 @@ class Problem:
         if r.position is not None and not r.columns["position"].derived:
             step = np.where(r.dt > 0, r.dt, np.inf)
             mean = np.where(r.dt > 0, (r.position - r.position[before]) / step, mean)
-        # Where the joint turns round within a step, the way since then is what the bristle
-        # follows: a stiff one has turned over by the end of the step.
-        turned = r.moving & (r.dt > 0) & (np.sign(mean) != np.sign(r.velocity))
-        change = np.where(turned, r.velocity - r.velocity[before], 1.0)
-        since = 0.5 * r.velocity**2 / np.where(change != 0, change, 1.0)
-        return np.where(turned & (np.sign(since) == np.sign(r.velocity)), since, mean)
+        return mean
 
     @cached_property
     def _row_channels(self) -> dict[str, Any]:
