@@ -16,7 +16,6 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "hidden"))
 
 import cases as hidden
 
-
 #: Cases in which the effect is named but the error does not reach the noise, and why.
 SHORT = {
     "temperature_dry-3-1501": "the curve over temperature bends twice, the fitted one once (1.051)",
