@@ -541,8 +541,7 @@ def _estimates(problem: Problem, values: Array, lower: Array, upper: Array) -> d
     at_bound = (values <= lower + span) | (values >= upper - span)
     shown = seen(jacobian, np.ones(values.size, dtype=bool))
     free = shown & ~at_bound
-    length = correlation_length(residual, problem.recording.segment[problem.rows])
-    batch = batches(problem.recording.segment[problem.rows], length)
+    batch = batches(residual.size, correlation_length(residual))
     covariance = sandwich(jacobian, residual, batch, free)
     quantile = float(student.ppf(0.975, max(int(batch.max()), 1)))
     made = {}

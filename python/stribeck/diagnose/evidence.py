@@ -61,15 +61,12 @@ def evidence(before: Fit, after: Fit) -> Evidence:
         added_torque_test(
             added,
             after.residual[rows],
-            r.segment[rows],
             len(after.model.names) - len(before.model.names),
         ),
     )
 
 
-def added_torque_test(
-    added: Array, residual: Array, segment: NDArray[np.intp], parameters: int
-) -> float:
+def added_torque_test(added: Array, residual: Array, parameters: int) -> float:
     """Probability that noise like `residual` alone makes `added` torque [m] this large.
 
     `added` is the best of a family with so many more `parameters`, nonlinear ones counted like
@@ -78,7 +75,7 @@ def added_torque_test(
     size = float(added @ added)
     if size <= 0 or parameters < 1:
         return 1.0
-    batch = batches(segment, correlation_length(residual, segment), fewest=20, most=200)
+    batch = batches(residual.size, correlation_length(residual), fewest=20, most=200)
     count = int(batch.max()) + 1
     if count <= parameters + 1:
         return 1.0
@@ -108,8 +105,7 @@ def difference(worse: Fit, better: Fit) -> Difference:
     """Compare two models that need not contain one another, on held-out rows."""
     rows = worse.rows
     change = worse.held_out_residual[rows] ** 2 - better.held_out_residual[rows] ** 2
-    segment = worse.recording.segment[rows]
-    batch = batches(segment, correlation_length(change, segment), fewest=20, most=100)
+    batch = batches(change.size, correlation_length(change), fewest=20, most=100)
     count = int(batch.max()) + 1
     sums = np.bincount(batch, change, count)
     error = float(np.sqrt(count) * sums.std(ddof=1)) if count > 2 else np.inf

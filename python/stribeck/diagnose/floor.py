@@ -37,14 +37,14 @@ def noise_floor(fit: Fit) -> NoiseFloor:
 
     The model takes out most of what varies, so that neighbours need not be very near.
     """
-    r, rows = fit.recording, fit.rows
+    rows = fit.rows
     residual = fit.residual[rows]
     if residual.size < FEWEST_PAIRS:
         return NoiseFloor(None, f"too few moving rows ({residual.size}) to compare repeats")
     features = _features(fit)
     step = -(-residual.size // 20000)
     index = np.arange(0, residual.size, step)
-    apart = max(4.0 * correlation_length(residual, r.segment[rows]), 20.0) / step
+    apart = max(4.0 * correlation_length(residual), 20.0) / step
     tree = cKDTree(features[index])
     distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1)
     far = np.abs(neighbour - np.arange(index.size)[:, None]) > apart

@@ -150,7 +150,6 @@ def explained_by_shape(before: Fit, trial: Trial, tried: int, least: float) -> b
     p_value = added_torque_test(
         residual_without - residual_along,
         residual_along,
-        before.recording.segment[before.rows],
         len(trial.fit.model.names) - len(before.model.names),
     )
     return fall < least / 2 or p_value * tried > SIGNIFICANCE

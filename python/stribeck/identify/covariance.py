@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-def correlation_length(residual: Array, segment: NDArray[np.intp]) -> float:
+def correlation_length(residual: Array) -> float:
     """Samples over which a residual remembers itself: 1 + 2 sum of autocorrelations.
 
     Sokal's automatic window: the sum stops at five times itself.
@@ -33,11 +33,11 @@ def correlation_length(residual: Array, segment: NDArray[np.intp]) -> float:
     return float(max(length, 1.0))
 
 
-def batches(
-    segment: NDArray[np.intp], length: float, fewest: int = 10, most: int = 200
-) -> NDArray[np.uint32]:
-    """Contiguous batches of equal size, well longer than the correlation `length`."""
-    size = segment.size
+def batches(size: int, length: float, fewest: int = 10, most: int = 200) -> NDArray[np.uint32]:
+    """Number each of `size` rows by contiguous batches, well longer than the correlation `length`.
+
+    Batches are of equal size; there are `fewest` to `most` of them.
+    """
     count = int(np.clip(size / max(4.0 * length, 1.0), fewest, most))
     count = min(count, size)
     return (np.arange(size) * count // max(size, 1)).astype(np.uint32)

@@ -20,11 +20,10 @@ def test_chance_is_called_chance(rho: float, memory: float) -> None:
     """A regressor that has nothing to do with the noise passes 5 % about once in twenty."""
     rng = np.random.default_rng([7, int(10 * rho), int(100 * memory)])
     size, found = 4000, 0
-    segment = np.zeros(size, dtype=np.int64)
     for _ in range(TRIALS):
         noise, x = ar1(rng, size, rho, 1.0), ar1(rng, size, memory, 1.0)
         added = x * (x @ noise) / (x @ x)
-        found += added_torque_test(added, noise - added, segment, 1) < 0.05
+        found += added_torque_test(added, noise - added, 1) < 0.05
     assert found <= binom.ppf(0.999, TRIALS, 0.05), found
     # It is not blind either.
     assert found >= binom.ppf(0.001, TRIALS, 0.01)
@@ -34,12 +33,11 @@ def test_chance_of_several_parameters() -> None:
     """The best of three regressors at once counts as three."""
     rng = np.random.default_rng(8)
     size, found = 4000, 0
-    segment = np.zeros(size, dtype=np.int64)
     for _ in range(TRIALS):
         noise = ar1(rng, size, 0.9, 1.0)
         x = np.column_stack([ar1(rng, size, 0.95, 1.0) for _ in range(3)])
         added = x @ np.linalg.lstsq(x, noise, rcond=None)[0]
-        found += added_torque_test(added, noise - added, segment, 3) < 0.05
+        found += added_torque_test(added, noise - added, 3) < 0.05
     assert found <= binom.ppf(0.999, TRIALS, 0.05), found
 
 
@@ -48,10 +46,9 @@ def test_a_cause_is_called_a_cause() -> None:
     noise, x = ar1(rng, 4000, 0.9, 1.0), ar1(rng, 4000, 0.95, 1.0)
     measured = noise + x
     added = x * (x @ measured) / (x @ x)
-    segment = np.zeros(4000, dtype=np.int64)
-    assert added_torque_test(added, measured - added, segment, 1) < 1e-6
-    assert added_torque_test(np.zeros(4000), noise, segment, 1) == 1.0
-    assert added_torque_test(added, measured - added, segment, 0) == 1.0
+    assert added_torque_test(added, measured - added, 1) < 1e-6
+    assert added_torque_test(np.zeros(4000), noise, 1) == 1.0
+    assert added_torque_test(added, measured - added, 0) == 1.0
 
 
 def test_evidence_of_a_real_effect_and_of_none(tmp_path: Path, plain: sb.Recording) -> None:
