@@ -340,10 +340,20 @@ def comparison_text(comparison: Comparison) -> str:
         f"{len(models)} model{'s' if len(models) > 1 else ''} on {file_name(r)}",
         paragraph(scored_sentence(r)),
         overview,
-        paragraph(f"Held-out: {held_out_meaning(r)}. {floor[0].upper()}{floor[1:]}.", 2),
+        paragraph(f"Held-out: {_compared(comparison)}. {floor[0].upper()}{floor[1:]}.", 2),
         _regimes_text(comparison),
         notes_text(r.notes, *(a.fit.notes for a in models)),
     )
+
+
+def _compared(comparison: Comparison) -> str:
+    """What "held out" means: specs are fitted here, model files are not."""
+    stored = [a.fit.starts == 0 for a in comparison.models]
+    file = "a model file is not fitted again, its error on data it was not fitted to counts"
+    if all(stored):
+        return file
+    fitted = held_out_meaning(comparison.recording)
+    return f"{fitted}; {file}" if any(stored) else fitted
 
 
 def _regimes_text(comparison: Comparison) -> str:
