@@ -279,13 +279,10 @@ def _with_own_load(
     seed: int,
     effort: Effort,
 ) -> tuple[Model, Array | None]:
-    """A first load torque from a fit without the effects that depend on it."""
+    """A first load torque from a fit without the effect that depends on it."""
     if not _needs_own_load(made):
         return made, None
-    plain = made
-    for effect in ("load",):
-        if effect in plain.effects:
-            plain = plain.without_effect(effect)
+    plain = made.without_effect("load")
     if not np.all(np.isfinite(plain.values)):
         solved = _identify(plain, recording, rows, None, min(starts, 4), seed, effort)
         plain = plain.with_values(solved.values)
