@@ -1,7 +1,7 @@
 //! The one list of laws and effects; everything else about them stands in their own files.
 
-use crate::bristle::Bristle;
 use crate::constants::Constants;
+use crate::dynamics::{Bristle, Interval, State, Step};
 use crate::effect::{self, FrictionEffect};
 use crate::law::{self, FrictionLaw};
 use crate::sample::{Sample, Split};
@@ -48,17 +48,26 @@ macro_rules! laws {
         impl<S: Real> Law<S> {
             /// The torque at one instant, taken apart.
             #[inline(always)]
-            pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
+            pub fn split(
+                &self,
+                sample: &Sample<S::Plain>,
+                constants: &Constants<S::Plain>,
+            ) -> Split<S> {
                 match self {
-                    $(Self::$law(law) => law.split(sample),)+
+                    $(Self::$law(law) => law.split(sample, constants),)+
                 }
             }
 
-            /// The bristle, if the law is dynamic.
+            /// Holds a sample for a while.
             #[inline]
-            pub fn bristle(&self) -> Option<Bristle<S>> {
+            pub fn step(
+                &self,
+                state: &mut State<S>,
+                split: &Split<S>,
+                interval: &Interval<S::Plain>,
+            ) -> Step<S> {
                 match self {
-                    $(Self::$law(law) => law.bristle(),)+
+                    $(Self::$law(law) => law.step(state, split, interval),)+
                 }
             }
         }

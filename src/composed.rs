@@ -2,13 +2,13 @@
 
 use core::fmt;
 
-use crate::bristle::{Bristle, BristleState, Step};
 use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
+use crate::dynamics::{Bristle, Interval, State, Step};
 use crate::error::ModelError;
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
-use crate::table::{Channel, ParameterInfo, Presence, Role};
+use crate::table::{Channel, ParameterInfo, Pole, Presence, Role};
 
 /// Which law, which effects, which constants. Displays as `law+effect+...`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +19,8 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// From ids; the order of effects does not matter.
+    /// From ids; the order of effects does not matter. A law of several elements takes their
+    /// number with it: `gms:8`.
     ///
     /// # Errors
     /// An id that is unknown, an effect named twice or one that the law already has.
@@ -27,7 +28,21 @@ impl Spec {
         law: &'a str,
         effects: impl IntoIterator<Item = &'a str>,
     ) -> Result<Self, ModelError<'a>> {
-        let law = catalog::law(law).ok_or(ModelError::UnknownLaw(law))?;
+        let (id, elements) = match law.split_once(':') {
+            Some((id, count)) => (id, Some(count)),
+            None => (law, None),
+        };
+        let unknown = ModelError::UnknownLaw(law);
+        let law = catalog::law(id).ok_or(unknown)?;
+        let mut constants = Constants::default();
+        if let Some(count) = elements {
+            let count = count.parse().map_err(|_| unknown)?;
+            if !law.info().constants.contains(&"elements")
+                || constants.set("elements", count) != Some(true)
+            {
+                return Err(unknown);
+            }
+        }
         let mut set = EffectSet::NONE;
         for id in effects {
             let effect = catalog::effect(id).ok_or(ModelError::UnknownEffect(id))?;
@@ -39,7 +54,7 @@ impl Spec {
             }
             set = set.with(effect);
         }
-        Ok(Self { law, effects: set, constants: Constants::default() })
+        Ok(Self { law, effects: set, constants })
     }
 
     /// Sets one constant.
@@ -66,12 +81,11 @@ impl Spec {
         self.effects
     }
 
-    /// The constants of its effects, in the order of the effects.
+    /// The constants of its law, then those of the effects in their order.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
-        self.effects
-            .iter()
-            .flat_map(|effect| effect.info().constants)
-            .filter_map(|&name| Some((name, self.constants.get(name)?)))
+        let law = self.law.info().constants.iter();
+        let effects = self.effects.iter().flat_map(|effect| effect.info().constants);
+        law.chain(effects).filter_map(|&name| Some((name, self.constants.get(name)?)))
     }
 
     /// Whether law or effects have the effect of this id.
@@ -80,9 +94,9 @@ impl Spec {
         self.law.info().captures.contains(&id) || self.effects.iter().any(|e| e.info().id == id)
     }
 
-    /// Whether the model has a bristle, and with it a state.
+    /// Whether the torque depends on what went before.
     #[must_use]
-    pub fn has_bristle(&self) -> bool {
+    pub fn has_state(&self) -> bool {
         self.has(EffectId::Presliding.info().id)
     }
 
@@ -90,7 +104,17 @@ impl Spec {
     pub fn channels(&self) -> impl Iterator<Item = Channel> + '_ {
         Channel::ALL.into_iter().filter(|channel| {
             *channel == Channel::Velocity
+                || self.law.info().channels.contains(channel)
                 || self.effects.iter().any(|effect| effect.info().channels.contains(channel))
+        })
+    }
+
+    /// The temperature at which the law has no limit, if there is one (degC).
+    #[must_use]
+    pub fn pole(&self) -> Option<f64> {
+        self.law.info().pole.map(|pole| match pole {
+            Pole::Zero => 0.0,
+            Pole::Base => self.constants.base_temperature,
         })
     }
 
@@ -112,8 +136,8 @@ impl Spec {
     pub fn is_linear(&self, parameter: &ParameterInfo) -> bool {
         match parameter.role {
             Role::Rate | Role::Additive => true,
-            Role::Dry => !self.has_bristle(),
-            Role::Nonlinear => false,
+            Role::Dry => !self.has_state(),
+            Role::Nonlinear | Role::Held => false,
         }
     }
 
@@ -139,8 +163,9 @@ impl Spec {
         };
         let law = self.law.read(&mut next);
         let effects = Effects::read(self.effects, &mut next);
-        let bristle = law.bristle().or_else(|| effects.bristle());
-        Ok(Composed { law, effects, bristle, constants: self.constants.cast() })
+        let bristle = effects.bristle();
+        let has_state = self.has_state();
+        Ok(Composed { law, effects, bristle, has_state, constants: self.constants.cast() })
     }
 
     fn includes(&self, presence: Presence) -> bool {
@@ -148,6 +173,7 @@ impl Spec {
             Presence::Always => true,
             Presence::WithStribeck => self.has(EffectId::Stribeck.info().id),
             Presence::WithoutOffset => !self.effects.contains(EffectId::Offset),
+            Presence::Element(number) => self.constants.elements >= f64::from(number),
         }
     }
 }
@@ -155,6 +181,12 @@ impl Spec {
 impl fmt::Display for Spec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.law.info().id)?;
+        let elements = self.constants.elements;
+        if self.law.info().constants.contains(&"elements")
+            && elements != Constants::default().elements
+        {
+            write!(f, ":{elements}")?;
+        }
         self.effects.iter().try_for_each(|effect| write!(f, "+{}", effect.info().id))
     }
 }
@@ -165,6 +197,7 @@ pub struct Composed<S: Real> {
     law: Law<S>,
     effects: Effects<S>,
     bristle: Option<Bristle<S>>,
+    has_state: bool,
     constants: Constants<S::Plain>,
 }
 
@@ -175,17 +208,17 @@ impl<S: Real> Composed<S> {
         &self.effects
     }
 
-    /// The bristle, if the model has one.
+    /// Whether the torque depends on what went before.
     #[must_use]
-    pub const fn bristle(&self) -> Option<&Bristle<S>> {
-        self.bristle.as_ref()
+    pub const fn has_state(&self) -> bool {
+        self.has_state
     }
 
     /// The torque at one instant, taken apart.
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
-        let split = self.law.split(sample);
+        let split = self.law.split(sample, &self.constants);
         if self.effects.is_empty() {
             return split;
         }
@@ -202,34 +235,19 @@ impl<S: Real> Composed<S> {
         self.split(sample).torque(sample.velocity.sign())
     }
 
-    /// Holds `sample` for `dt` (s); a model without a bristle has no use for `state` and `dt`.
+    /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.
     #[inline]
-    pub fn step(
-        &self,
-        state: &mut BristleState<S>,
-        sample: &Sample<S::Plain>,
-        dt: S::Plain,
-    ) -> Step<S> {
-        self.step_over(state, sample, sample.velocity, dt)
+    pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
+        self.over(state, &Interval { sample: *sample, velocity: sample.velocity, dt, mean: true })
     }
 
-    /// As [`step`](Self::step), with the velocity that carries the bristle given apart: the mean
-    /// over the step, where positions tell it, makes the step second order.
+    /// As [`step`](Self::step), over an interval.
     #[inline]
-    pub fn step_over(
-        &self,
-        state: &mut BristleState<S>,
-        sample: &Sample<S::Plain>,
-        mean_velocity: S::Plain,
-        dt: S::Plain,
-    ) -> Step<S> {
-        let split = self.split(sample);
+    pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
+        let split = self.split(&interval.sample);
         match &self.bristle {
-            Some(bristle) => bristle.step(state, &split, mean_velocity, dt),
-            None => {
-                let torque = split.torque(sample.velocity.sign());
-                Step { torque, mean_torque: torque }
-            }
+            Some(bristle) => bristle.over(&mut state.bristle, &split, interval),
+            None => self.law.step(state, &split, interval),
         }
     }
 }

@@ -1,11 +1,11 @@
-//! Fixed numbers of effects: chosen with the recording, kept with the model, never fitted.
+//! Fixed numbers of laws and effects: chosen with the recording, kept with the model, never fitted.
 
 use crate::scalar::Real;
 use crate::table::ConstantInfo;
 
 macro_rules! constants {
     ($(#[doc = $description:literal] $field:ident [$unit:literal] = $default:expr, $test:expr;)+) => {
-        /// Constants of a model; those of effects it does not have are ignored.
+        /// Constants of a model; those that neither its law nor its effects use are ignored.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Constants<S> {
             $(#[doc = $description] pub $field: S,)+
@@ -76,4 +76,16 @@ constants! {
     position_length ["X"] = core::f64::consts::TAU, |x| x > 0.0;
     /// 1 if friction repeats with the length, 0 if the length is the whole stroke.
     position_periodic ["1"] = 1.0, |x| x == 0.0 || x == 1.0;
+    /// Temperature from which a law counts; outside the data where it has a pole there.
+    base_temperature ["degC"] = 0.0, |_| true;
+    /// Speed over which a law smooths the sign of the velocity.
+    smoothing_velocity ["X/s"] = 0.01, |x| x > 0.0;
+    /// Exponent of the Stribeck curve of laws that do not identify it.
+    stribeck_exponent ["1"] = 1.3, |x| x > 0.0;
+    /// Largest speed of the motion.
+    largest_velocity ["X/s"] = 1.0, |x| x > 0.0;
+    /// Largest acceleration of the motion.
+    largest_acceleration ["X/s2"] = 1.0, |x| x > 0.0;
+    /// How many elements a law of several has.
+    elements ["1"] = 4.0, |x| (1.0..=16.0).contains(&x) && x % 1.0 == 0.0;
 }

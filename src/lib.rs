@@ -8,7 +8,7 @@
 //! | [`scalar`] | [`Real`](scalar::Real): `f32`, `f64`, [`Dual`](scalar::Dual) for gradients |
 //! | [`sample`] | what a law sees at one instant; the torque it gives, taken apart |
 //! | [`table`], [`constants`] | names, symbols, units, bounds |
-//! | [`bristle`] | the exact step around any split law |
+//! | [`dynamics`] | laws with a memory: states, each stepped exactly |
 //! | [`law`], [`effect`] | one file each: table and formula |
 //! | [`catalog`] | the list of laws and effects |
 //! | [`composed`], [`error`] | a law with its effects |
@@ -18,12 +18,12 @@
 //! The core has no allocation and no `std`; features only add modules.
 //!
 //! ```
-//! use stribeck::bristle::BristleState;
+//! use stribeck::dynamics::State;
 //! use stribeck::composed::Spec;
 //! use stribeck::sample::Sample;
 //!
 //! let model = Spec::new("coulomb", ["presliding"])?.with(&[0.5, 2.0, 1e4, 10.0])?;
-//! let mut state = BristleState::default();
+//! let mut state = State::default();
 //! let step = model.step(&mut state, &Sample::at(0.1), 0.01);
 //! // s0 z + s1 dz/dt + a1 v, the bristle almost at its steady deflection
 //! assert_eq!((step.torque * 1e3_f64).round(), 2043.0);
@@ -37,10 +37,10 @@ extern crate std;
 
 #[cfg(feature = "std")]
 pub mod batch;
-pub mod bristle;
 pub mod catalog;
 pub mod composed;
 pub mod constants;
+pub mod dynamics;
 pub mod effect;
 pub mod error;
 pub mod law;

@@ -12,17 +12,19 @@ pub enum Channel {
     Temperature,
     LoadTorque,
     MotorTorque,
+    ExternalTorque,
 }
 
 impl Channel {
     /// Every channel.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Velocity,
         Self::Position,
         Self::Acceleration,
         Self::Temperature,
         Self::LoadTorque,
         Self::MotorTorque,
+        Self::ExternalTorque,
     ];
 
     /// The name users write.
@@ -35,6 +37,7 @@ impl Channel {
             Self::Temperature => "temperature",
             Self::LoadTorque => "load_torque",
             Self::MotorTorque => "motor_torque",
+            Self::ExternalTorque => "external_torque",
         }
     }
 }
@@ -58,8 +61,20 @@ pub enum Scale {
     Stiffness,
     /// Torque over speed.
     Damping,
+    /// Torque over speed squared.
+    SquareDamping,
+    /// Torque over speed cubed.
+    CubicDamping,
+    /// Torque over the square root of speed.
+    RootDamping,
+    /// One over speed.
+    InverseSpeed,
+    /// One over torque.
+    InverseTorque,
     /// Torque over the largest |acceleration|.
     Inertia,
+    /// Torque over time: how fast a torque settles, in units of torque times speed over position.
+    TorqueRate,
     /// The median time step.
     SamplePeriod,
 }
@@ -74,7 +89,13 @@ impl Scale {
             Self::Torque => "torque",
             Self::Stiffness => "stiffness",
             Self::Damping => "damping",
+            Self::SquareDamping => "square_damping",
+            Self::CubicDamping => "cubic_damping",
+            Self::RootDamping => "root_damping",
+            Self::InverseSpeed => "inverse_speed",
+            Self::InverseTorque => "inverse_torque",
             Self::Inertia => "inertia",
+            Self::TorqueRate => "torque_rate",
             Self::SamplePeriod => "sample_period",
         }
     }
@@ -91,6 +112,8 @@ pub enum Role {
     Additive,
     /// Anything else.
     Nonlinear,
+    /// Kept at its start in a fit: other parameters carry what it does.
+    Held,
 }
 
 impl Role {
@@ -102,6 +125,7 @@ impl Role {
             Self::Rate => "rate",
             Self::Additive => "additive",
             Self::Nonlinear => "nonlinear",
+            Self::Held => "held",
         }
     }
 }
@@ -115,6 +139,8 @@ pub enum Presence {
     WithStribeck,
     /// Unless `offset` already explains it.
     WithoutOffset,
+    /// If the law has at least this many elements.
+    Element(u8),
 }
 
 /// One parameter. Units: `T` is the unit of torque or force, `X` that of position.
@@ -169,6 +195,15 @@ pub struct ConstantInfo {
     pub description: &'static str,
 }
 
+/// A temperature at which a law has no limit; it can be used on either side of it alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pole {
+    /// 0 degC.
+    Zero,
+    /// The constant `base_temperature`.
+    Base,
+}
+
 /// A friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawInfo {
@@ -182,6 +217,12 @@ pub struct LawInfo {
     pub formula: &'static str,
     /// Its parameters, in the order of the source.
     pub parameters: &'static [ParameterInfo],
+    /// Columns it reads besides the velocity.
+    pub channels: &'static [Channel],
+    /// Constants it uses.
+    pub constants: &'static [&'static str],
+    /// Temperature at which it has no limit, if there is one.
+    pub pole: Option<Pole>,
     /// Ids of the effects it has by itself.
     pub captures: &'static [&'static str],
 }

@@ -3,11 +3,11 @@
 mod common;
 
 use common::close;
-use stribeck::bristle::{Bristle, BristleState};
+use stribeck::dynamics::{Bristle, BristleState, State};
 use stribeck::sample::{Sample, Split};
 
 fn split(dry: f64) -> Split<f64> {
-    Split { coulomb: dry, height: 0.0, shape: 0.0, rate: 0.0, additive: 0.0 }
+    Split { coulomb: dry, ..Split::zero() }
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn single_precision_agrees_with_double() {
         let values = common::values(&spec);
         let single: Vec<f32> = values.iter().map(|&x| x as f32).collect();
         let (model, model32) = (spec.with(&values).unwrap(), spec.with(&single).unwrap());
-        let (mut state, mut state32) = (BristleState::default(), BristleState::default());
+        let (mut state, mut state32) = (State::default(), State::default());
         for v in [0.3, -0.02, 0.0, 0.7] {
             let sample = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v) };
             let sample32 = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v as f32) };

@@ -7,8 +7,8 @@
 mod common;
 
 use common::close;
-use stribeck::bristle::{Bristle, BristleState};
 use stribeck::composed::Spec;
+use stribeck::dynamics::{Bristle, BristleState, State};
 use stribeck::sample::{Sample, Split};
 use stribeck::scalar::Real;
 
@@ -44,6 +44,7 @@ fn all_static_effects_together() {
         temperature: 40.0,
         load_torque: -7.5,
         motor_torque: 0.0,
+        external_torque: 0.0,
     };
     let effects = [
         "gravity",
@@ -113,7 +114,7 @@ fn lugre_of_the_1995_paper() {
     // s0 = 1e5, s1 = 316.2, s2 = 0.4, Fc = 1, Fs = 1.5, vs = 1e-3, held at 1 mm/s for 5 ms.
     let spec = Spec::new("lugre", []).unwrap();
     let model = spec.with(&[1e5, 316.2, 0.4, 1.0, 1.5, 1e-3, 2.0]).unwrap();
-    let mut state = BristleState { z: 2e-6 };
+    let mut state = State::deflected(2e-6);
     let step = model.step(&mut state, &Sample::at(1e-3), 5e-3);
     close(step.torque, 0.71160483134668455, 1e-14);
     close(step.mean_torque, 0.59611178951080239, 1e-14);
@@ -122,7 +123,14 @@ fn lugre_of_the_1995_paper() {
 #[test]
 fn bristle_approaches_the_static_law() {
     let bristle = Bristle { stiffness: 1e4, damping: 30.0 };
-    let split = Split { coulomb: 2.0, height: 1.0, shape: 0.25, rate: -0.3, additive: 0.1 };
+    let split = Split {
+        coulomb: 2.0,
+        height: 1.0,
+        shape: 0.25,
+        rate: -0.3,
+        additive: 0.1,
+        ..Split::zero()
+    };
     let mut state = BristleState::default();
     let step = bristle.step(&mut state, &split, -0.5, 10.0);
     close(step.torque, split.torque(-1.0), 1e-14);

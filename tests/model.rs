@@ -2,9 +2,9 @@
 
 mod common;
 
-use stribeck::bristle::BristleState;
 use stribeck::catalog::{EffectId, LawId};
 use stribeck::composed::Spec;
+use stribeck::dynamics::State;
 use stribeck::sample::Sample;
 use stribeck::scalar::Dual;
 use stribeck::table::ParameterInfo;
@@ -83,7 +83,7 @@ fn laws_without_direction_are_odd() {
             continue;
         }
         let model = spec.with(&common::values(&spec)).unwrap();
-        let (mut forward, mut backward) = (BristleState::default(), BristleState::default());
+        let (mut forward, mut backward) = (State::default(), State::default());
         for v in [0.3, 0.01, 0.0, -0.2, 0.9] {
             let sample = |v| Sample { temperature: 33.0, load_torque: -3.0, ..Sample::at(v) };
             let there = model.step(&mut forward, &sample(v), 0.01).torque;
@@ -110,7 +110,7 @@ fn linear_parameters_have_no_second_derivative() {
                 .collect();
             let model = spec.with(&twice).unwrap();
             let constant = Dual::<f64, 1>::constant;
-            let mut state = BristleState::default();
+            let mut state = State::default();
             let mut curved = false;
             for v in [0.02, 0.1, -0.03] {
                 let mut sample = Sample::at(constant(v));

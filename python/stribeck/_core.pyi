@@ -28,7 +28,7 @@ class Model:
     @property
     def constants(self) -> dict[str, float]: ...
     @property
-    def has_bristle(self) -> bool: ...
+    def has_state(self) -> bool: ...
     @property
     def needs(self) -> list[str]: ...
     def parameters(self) -> list[dict[str, Any]]: ...
@@ -42,10 +42,13 @@ class Model:
         temperature: ArrayLike | None = None,
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
+        external_torque: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
         state: float = 0.0,
+        *,
+        single: bool = False,
     ) -> NDArray[np.float64]: ...
     def gradient(
         self,
@@ -57,6 +60,7 @@ class Model:
         temperature: ArrayLike | None = None,
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
+        external_torque: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
@@ -73,4 +77,5 @@ class Model:
         temperature: ArrayLike | None = None,
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
+        external_torque: ArrayLike | None = None,
     ) -> dict[str, NDArray[np.float64]]: ...

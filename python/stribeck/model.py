@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,8 @@ Array = NDArray[np.float64]
 
 #: Effects whose parameters are the rigid body's when it is identified with the friction.
 RIGID_BODY_EFFECTS = ("inertia", "gravity")
+#: Most elements of a law that has several.
+MOST_ELEMENTS = 16
 
 
 @lru_cache(maxsize=1)
@@ -58,15 +60,29 @@ def parse_spec(spec: str) -> tuple[str, tuple[str, ...]]:
     ('coulomb', ('stribeck', 'load'))
     """
     law, *effects = [word.strip() for word in spec.split("+")]
-    if law not in law_ids():
+    name, _, elements = law.partition(":")
+    if name not in law_ids():
         raise SpecError(
-            f"law {law!r} is unknown{nearest(law, law_ids())}; `stribeck models` lists them"
+            f"law {law!r} is unknown{nearest(name, law_ids())}; `stribeck models` lists them"
         )
+    if elements or law.endswith(":"):
+        _check_elements(law, name, elements)
     for effect in effects:
         check_effect(effect)
         if effects.count(effect) > 1:
             raise SpecError(f"effect {effect!r} is given twice in {spec!r}: leave one out")
     return law, tuple(sorted(effects, key=effect_ids().index))
+
+
+def _check_elements(law: str, name: str, elements: str) -> None:
+    """Refuse a number of elements that the law cannot have."""
+    if "elements" not in catalog()["laws"][name]["constants"]:
+        raise SpecError(f"law {name!r} has no elements to count: write {name}, not {law}")
+    if not elements.isdecimal() or not 1 <= int(elements) <= MOST_ELEMENTS:
+        raise SpecError(
+            f"law {law!r} asks for {elements!r} elements: give a number from 1 to {MOST_ELEMENTS}, "
+            f"as in {name}:4"
+        )
 
 
 @dataclass(frozen=True)
@@ -181,8 +197,8 @@ class Model:
 
     @property
     def has_state(self) -> bool:
-        """Whether the torque depends on the past motion (a bristle)."""
-        return bool(self.core.has_bristle)
+        """Whether the torque depends on the past motion."""
+        return bool(self.core.has_state)
 
     @property
     def memoryless(self) -> bool:
@@ -226,6 +242,9 @@ class Model:
         motor_torque: ArrayLike | None = None,
         dt: ArrayLike | None = None,
         state: float = 0.0,
+        *,
+        external_torque: ArrayLike | None = None,
+        precision: Literal["double", "single"] = "double",
     ) -> Array:
         """Friction torque of each sample, and identified rigid-body terms where there are any.
 
@@ -237,6 +256,11 @@ class Model:
         dt : float or array [n]
             Step to the previous sample in s, for models with a state: sample i is the torque at
             the end of a step with velocity[i] held. The state starts from `state`.
+        external_torque : array [n]
+            What the environment exerts on the joint, for the servo laws; default: minus the load
+            torque, which is right where nothing accelerates.
+        precision
+            ``"single"`` gives the bits of a controller that computes in 32 bits.
 
         Returns
         -------
@@ -244,11 +268,13 @@ class Model:
         """
         return self.core.torque(
             self._known_values(),
-            **_channels(
-                velocity, position, acceleration, temperature, load_torque, motor_torque, dt
+            **self._channels(
+                velocity, position, acceleration, temperature, load_torque, motor_torque,
+                external_torque, dt,
             ),
             state=state,
-        )
+            single=precision == "single",
+        )  # fmt: skip
 
     def gradient(
         self,
@@ -260,15 +286,18 @@ class Model:
         motor_torque: ArrayLike | None = None,
         dt: ArrayLike | None = None,
         state: float = 0.0,
+        *,
+        external_torque: ArrayLike | None = None,
     ) -> Array:
         """Derivative of `torque` with respect to the parameters, array [n, p]."""
         _, jacobian = self.core.gradient(
             self._known_values(),
-            **_channels(
-                velocity, position, acceleration, temperature, load_torque, motor_torque, dt
+            **self._channels(
+                velocity, position, acceleration, temperature, load_torque, motor_torque,
+                external_torque, dt,
             ),
             state=state,
-        )
+        )  # fmt: skip
         return jacobian
 
     def split(self, velocity: ArrayLike, **channels: ArrayLike | None) -> dict[str, Array]:
@@ -299,6 +328,38 @@ class Model:
         }
         return dict(self.core.split(self._known_values(), velocity=full, **filled))
 
+    def _channels(
+        self,
+        velocity: ArrayLike,
+        position: ArrayLike | None,
+        acceleration: ArrayLike | None,
+        temperature: ArrayLike | None,
+        load_torque: ArrayLike | None,
+        motor_torque: ArrayLike | None,
+        external_torque: ArrayLike | None,
+        dt: ArrayLike | None,
+    ) -> dict[str, Any]:
+        speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
+
+        def column(values: ArrayLike | None) -> Array | None:
+            if values is None:
+                return None
+            return np.ascontiguousarray(np.broadcast_to(values, speed.shape), dtype=np.float64)
+
+        external = column(external_torque)
+        if external is None and load_torque is not None and "external_torque" in self.core.needs:
+            external = -column(load_torque)
+        return {
+            "dt": np.zeros_like(speed) if dt is None else column(dt),
+            "velocity": speed,
+            "position": column(position),
+            "acceleration": column(acceleration),
+            "temperature": column(temperature),
+            "load_torque": column(load_torque),
+            "motor_torque": column(motor_torque),
+            "external_torque": external,
+        }
+
     def _known_values(self) -> Array:
         unknown = [n for n, v in zip(self.names, self.values, strict=True) if not np.isfinite(v)]
         if unknown:
@@ -310,33 +371,6 @@ class Model:
         from stribeck.model_file import ModelFile
 
         ModelFile(self).write(path)
-
-
-def _channels(
-    velocity: ArrayLike,
-    position: ArrayLike | None,
-    acceleration: ArrayLike | None,
-    temperature: ArrayLike | None,
-    load_torque: ArrayLike | None,
-    motor_torque: ArrayLike | None,
-    dt: ArrayLike | None,
-) -> dict[str, Any]:
-    speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
-
-    def column(values: ArrayLike | None) -> Array | None:
-        if values is None:
-            return None
-        return np.ascontiguousarray(np.broadcast_to(values, speed.shape), dtype=np.float64)
-
-    return {
-        "dt": np.zeros_like(speed) if dt is None else column(dt),
-        "velocity": speed,
-        "position": column(position),
-        "acceleration": column(acceleration),
-        "temperature": column(temperature),
-        "load_torque": column(load_torque),
-        "motor_torque": column(motor_torque),
-    }
 
 
 def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **values: float) -> Model:

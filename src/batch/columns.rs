@@ -5,6 +5,7 @@ use super::BatchError;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 use crate::sample::Sample;
+use crate::scalar::Real;
 use crate::table::Channel;
 
 /// Channels of a recording, one value a row; only the velocity is always needed.
@@ -17,6 +18,7 @@ pub struct Channels<'a> {
     pub temperature: Option<&'a [f64]>,
     pub load_torque: Option<&'a [f64]>,
     pub motor_torque: Option<&'a [f64]>,
+    pub external_torque: Option<&'a [f64]>,
 }
 
 impl<'a> Channels<'a> {
@@ -30,15 +32,16 @@ impl<'a> Channels<'a> {
             Channel::Temperature => self.temperature,
             Channel::LoadTorque => self.load_torque,
             Channel::MotorTorque => self.motor_torque,
+            Channel::ExternalTorque => self.external_torque,
         }
     }
 
     /// One row; what is not there is zero.
     #[inline]
-    pub(super) fn sample(&self, row: usize) -> Sample<f64> {
+    pub(super) fn sample<P: Real>(&self, row: usize) -> Sample<P> {
         let at = |column: Option<&[f64]>| match column.and_then(|c| c.get(row)) {
-            Some(&x) => x,
-            None => 0.0,
+            Some(&x) => P::from_f64(x),
+            None => P::zero(),
         };
         Sample {
             velocity: at(Some(self.velocity)),
@@ -47,6 +50,7 @@ impl<'a> Channels<'a> {
             temperature: at(self.temperature),
             load_torque: at(self.load_torque),
             motor_torque: at(self.motor_torque),
+            external_torque: at(self.external_torque),
         }
     }
 }
@@ -107,6 +111,7 @@ impl<'a> Columns<'a> {
             temperature: smooth.temperature.or(plain.temperature),
             load_torque: smooth.load_torque.or(plain.load_torque),
             motor_torque: smooth.motor_torque.or(plain.motor_torque),
+            external_torque: smooth.external_torque.or(plain.external_torque),
         }
     }
 
@@ -137,8 +142,14 @@ impl<'a> Columns<'a> {
                 whole(channel.name(), column, rows)?;
             }
         }
-        if let (true, Some(column)) = (spec.has_bristle(), self.mean_velocity) {
+        if let (true, Some(column)) = (spec.has_state(), self.mean_velocity) {
             whole("mean_velocity", column, rows)?;
+        }
+        if let (Some(pole), Some(temperature)) = (spec.pole(), self.channels.temperature) {
+            let below = temperature.iter().any(|&t| t <= pole);
+            if below && temperature.iter().any(|&t| t >= pole) {
+                return Err(BatchError::Pole { law: spec.law().info().id, pole });
+            }
         }
         if self.state.is_finite() { Ok(()) } else { Err(BatchError::State) }
     }
@@ -149,7 +160,7 @@ impl<'a> Columns<'a> {
         let count = self.channels.velocity.len();
         let steps = match self.dt {
             TimeStep::Unknown => {
-                if spec.has_bristle() || spec.effects().contains(EffectId::Delay) {
+                if spec.has_state() || spec.effects().contains(EffectId::Delay) {
                     return Err(BatchError::NoTimeStep);
                 }
                 vec![0.0; count]

@@ -1,6 +1,5 @@
 use core::fmt;
 
-use super::MAX_PARAMETERS;
 use crate::error::ModelError;
 use crate::table::Channel;
 
@@ -53,8 +52,13 @@ pub enum BatchError {
     },
     /// The state at the start is NaN or infinite.
     State,
-    /// More parameters than a gradient can be taken by.
-    TooManyParameters(usize),
+    /// Temperatures on both sides of one at which the law has no limit.
+    Pole {
+        /// Id of the law.
+        law: &'static str,
+        /// That temperature (degC).
+        pole: f64,
+    },
     /// A wanted parameter does not exist.
     Wanted {
         /// Its index.
@@ -95,9 +99,10 @@ impl fmt::Display for BatchError {
                 write!(f, "column '{column}' is not finite at row {row}")
             }
             Self::State => f.write_str("the state at the start is not finite"),
-            Self::TooManyParameters(given) => write!(
+            Self::Pole { law, pole } => write!(
                 f,
-                "a gradient has at most {MAX_PARAMETERS} parameters but {given} are wanted"
+                "law '{law}' has no limit at {pole} degC, which the temperatures touch or cross: \
+                 use data on one side of it"
             ),
             Self::Wanted { index, parameters } => {
                 write!(f, "parameter {index} is wanted but the model has {parameters}, from 0")

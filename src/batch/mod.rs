@@ -12,31 +12,53 @@ pub use normal::{NormalEquations, normal_equations};
 use std::vec;
 use std::vec::Vec;
 
-use crate::bristle::BristleState;
 use crate::composed::{Composed, Spec};
+use crate::dynamics::{Interval, State};
 use crate::scalar::{Dual, Real};
 use columns::Rows;
 
-/// The most parameters a gradient can be taken by.
-pub const MAX_PARAMETERS: usize = 32;
+/// Derivatives that are carried along in one pass over the rows.
+const MOST_AT_ONCE: usize = 16;
 
-/// The friction torque of every row (T): of a model with a bristle, at the end of the row's step.
+/// The friction torque of every row (T): of a model with a memory, at the end of the row's step.
 ///
 /// # Errors
 /// Columns that are missing, of unequal length or not finite; parameters that cannot be used.
 pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<f64>, BatchError> {
-    let model = spec.with(values)?;
+    torque_as::<f64>(spec, values, columns)
+}
+
+/// As [`torque`], computed in single precision throughout, as a controller without `f64` does. A
+/// delay, which no controller has, is carried out in double precision.
+///
+/// # Errors
+/// As [`torque`].
+pub fn torque_single(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+) -> Result<Vec<f64>, BatchError> {
+    torque_as::<f32>(spec, values, columns)
+}
+
+fn torque_as<S: Real<Plain = S>>(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+) -> Result<Vec<f64>, BatchError> {
+    let values: Vec<S> = values.iter().map(|&x| S::from_f64(x)).collect();
+    let model = spec.with(&values)?;
     let rows = columns.rows(spec)?;
     let run = |channels: Channels<'_>| {
         let mut torque = Vec::with_capacity(rows.count());
-        evaluate(&model, &rows, channels, columns, |t: &f64| torque.push(*t));
+        evaluate(&model, &rows, channels, columns, |t: &S| torque.push(t.value()));
         torque
     };
     let mut torque = run(columns.channels);
     if let Some(delay) = &model.effects().delay {
         let mut series = run(columns.smoothed());
         columns.add_load(&mut series);
-        delay::shift(&rows, delay.delay, &series, 1, &mut torque);
+        delay::shift(&rows, delay.delay.value(), &series, 1, &mut torque);
     }
     Ok(torque)
 }
@@ -45,8 +67,7 @@ pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<
 /// `values`, by default all of them) in that order, row by row.
 ///
 /// # Errors
-/// As [`torque`]; more than [`MAX_PARAMETERS`] derivatives, one that does not exist or is wanted
-/// twice.
+/// As [`torque`]; a derivative that does not exist or is wanted twice.
 pub fn gradient(
     spec: &Spec,
     values: &[f64],
@@ -61,19 +82,41 @@ pub fn gradient(
             &all
         }
     };
+    for (k, &index) in wanted.iter().enumerate() {
+        if wanted[..k].contains(&index) {
+            return Err(BatchError::WantedTwice(index));
+        }
+    }
+    if wanted.len() <= MOST_AT_ONCE {
+        return gradient_at_once(spec, values, columns, wanted);
+    }
+    let mut torque = Vec::new();
+    let mut jacobian = vec![0.0; columns.channels.velocity.len() * wanted.len()];
+    for (pass, some) in wanted.chunks(MOST_AT_ONCE).enumerate() {
+        let (same, part) = gradient_at_once(spec, values, columns, some)?;
+        torque = same;
+        let rows = jacobian.chunks_exact_mut(wanted.len());
+        for (row, part) in rows.zip(part.chunks_exact(some.len())) {
+            row[pass * MOST_AT_ONCE..][..some.len()].copy_from_slice(part);
+        }
+    }
+    Ok((torque, jacobian))
+}
+
+fn gradient_at_once(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    wanted: &[usize],
+) -> Result<(Vec<f64>, Vec<f64>), BatchError> {
     match wanted.len() {
         0 => gradient_along::<0>(spec, values, columns, wanted),
         1 => gradient_along::<1>(spec, values, columns, wanted),
         2 => gradient_along::<2>(spec, values, columns, wanted),
         3..=4 => gradient_along::<4>(spec, values, columns, wanted),
-        5..=6 => gradient_along::<6>(spec, values, columns, wanted),
-        7..=8 => gradient_along::<8>(spec, values, columns, wanted),
+        5..=8 => gradient_along::<8>(spec, values, columns, wanted),
         9..=12 => gradient_along::<12>(spec, values, columns, wanted),
-        13..=16 => gradient_along::<16>(spec, values, columns, wanted),
-        17..=20 => gradient_along::<20>(spec, values, columns, wanted),
-        21..=24 => gradient_along::<24>(spec, values, columns, wanted),
-        25..=MAX_PARAMETERS => gradient_along::<MAX_PARAMETERS>(spec, values, columns, wanted),
-        given => Err(BatchError::TooManyParameters(given)),
+        _ => gradient_along::<MOST_AT_ONCE>(spec, values, columns, wanted),
     }
 }
 
@@ -110,28 +153,33 @@ pub fn split(
 }
 
 /// Runs a model over rows; the state starts afresh with every segment.
-fn evaluate<S: Real<Plain = f64>>(
+fn evaluate<S: Real>(
     model: &Composed<S>,
     rows: &Rows,
     channels: Channels<'_>,
     columns: &Columns<'_>,
     mut sink: impl FnMut(&S),
 ) {
-    let Some(bristle) = model.bristle() else {
+    if !model.has_state() {
         for i in 0..rows.count() {
             sink(&model.static_torque(&channels.sample(i)));
         }
         return;
-    };
-    let fresh = BristleState { z: S::from_f64(columns.state) };
+    }
+    let fresh = State::deflected(S::from_f64(columns.state));
     let mut state = fresh;
     let carried = columns.mean_velocity.unwrap_or(channels.velocity);
     for (i, (&dt, &carried)) in rows.steps.iter().zip(carried).enumerate() {
         if rows.starts_at(i) {
             state = fresh;
         }
-        let split = model.split(&channels.sample(i));
-        sink(&bristle.step_to(&mut state, &split, carried, dt));
+        let interval = Interval {
+            sample: channels.sample(i),
+            velocity: S::Plain::from_f64(carried),
+            dt: S::Plain::from_f64(dt),
+            mean: false,
+        };
+        sink(&model.over(&mut state, &interval).torque);
     }
 }
 
@@ -144,9 +192,6 @@ fn gradient_along<const N: usize>(
     let mut variables: Vec<_> = values.iter().map(|&x| Dual::<f64, N>::constant(x)).collect();
     for (direction, &index) in wanted.iter().enumerate() {
         match variables.get_mut(index) {
-            _ if wanted[..direction].contains(&index) => {
-                return Err(BatchError::WantedTwice(index));
-            }
             Some(variable) => *variable = Dual::variable(variable.value, direction),
             None => return Err(BatchError::Wanted { index, parameters: values.len() }),
         }

@@ -29,8 +29,8 @@ pub use stribeck::Stribeck;
 pub use temperature_dry::TemperatureDry;
 pub use temperature_viscous::TemperatureViscous;
 
-use crate::bristle::Bristle;
 use crate::constants::Constants;
+use crate::dynamics::Bristle;
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters};

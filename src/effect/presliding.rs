@@ -1,5 +1,5 @@
 use super::FrictionEffect;
-use crate::bristle::Bristle;
+use crate::dynamics::Bristle;
 use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters, parameters};
 

@@ -41,7 +41,6 @@ impl<S: Real> FrictionEffect<S> for TemperatureDry<S> {
             self.temperature_dry_curvature,
             sample.temperature - constants.reference_temperature,
         );
-        split.coulomb *= factor;
-        split.height *= factor;
+        split.scale_dry(factor);
     }
 }

@@ -1,4 +1,5 @@
 use super::FrictionLaw;
+use crate::constants::Constants;
 use crate::sample::{Sample, Split, stribeck_curve};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -26,17 +27,20 @@ impl<S: Real> FrictionLaw<S> for BittencourtA<S> {
         source: "Bittencourt et al. 2012; UR5e review 2024/25, table 1",
         formula: "(a1 + a2 exp(-|v/a3|^a4)) sgn v + a5 v",
         parameters: Self::TABLE,
+        channels: &[],
+        constants: &[],
+        pole: None,
         captures: &["coulomb", "viscous", "stribeck"],
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
+    fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         Split {
             coulomb: self.coulomb_friction,
             height: self.stribeck_height,
             shape: stribeck_curve(sample.velocity, self.stribeck_velocity, self.stribeck_exponent),
             rate: self.viscous_friction.scale(sample.velocity),
-            additive: S::zero(),
+            ..Split::zero()
         }
     }
 }

@@ -1,4 +1,5 @@
 use super::FrictionLaw;
+use crate::constants::Constants;
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -20,17 +21,18 @@ impl<S: Real> FrictionLaw<S> for Coulomb<S> {
         source: "UR5e review 2024/25, table 1",
         formula: "a1 v + a2 sgn v",
         parameters: Self::TABLE,
+        channels: &[],
+        constants: &[],
+        pole: None,
         captures: &["coulomb", "viscous"],
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
+    fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         Split {
             coulomb: self.coulomb_friction,
-            height: S::zero(),
-            shape: S::zero(),
             rate: self.viscous_friction.scale(sample.velocity),
-            additive: S::zero(),
+            ..Split::zero()
         }
     }
 }

@@ -1,4 +1,5 @@
 use super::FrictionLaw;
+use crate::constants::Constants;
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -13,9 +14,9 @@ parameters! {
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
         /// Torque per speed while moving forward.
-        viscous_friction_forward: "s2+" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        viscous_friction_forward: "s2_plus" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Torque per speed while moving backward.
-        viscous_friction_backward: "s2-" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        viscous_friction_backward: "s2_minus" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
     }
 }
 
@@ -24,13 +25,16 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
         id: "gantry_map",
         title: "Static map of a gantry's ball screw",
         source: "Gantry (Valdiero group), eq 2",
-        formula: "(Fc + (Fs - Fc) exp(-(v/vs)^2)) sgn v + s2 v, s2 = s2+ for v > 0, s2- for v < 0",
+        formula: "(Fc + (Fs - Fc) exp(-(v/vs)^2)) sgn v + s2 v, s2 = s2_plus for v > 0, s2_minus for v < 0",
         parameters: Self::TABLE,
+        channels: &[],
+        constants: &[],
+        pole: None,
         captures: &["coulomb", "viscous", "stribeck", "direction"],
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
+    fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
         let ratio = self.stribeck_velocity.divide(v);
         let viscous = if v.value() > 0.0 {
@@ -43,7 +47,7 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
             height: self.static_friction - self.coulomb_friction,
             shape: (-(ratio * ratio)).exp(),
             rate: viscous.scale(v),
-            additive: S::zero(),
+            ..Split::zero()
         }
     }
 }

@@ -1,5 +1,6 @@
 use super::FrictionLaw;
-use crate::bristle::Bristle;
+use crate::constants::Constants;
+use crate::dynamics::{Bristle, Interval, State, Step};
 use crate::sample::{Sample, Split, stribeck_curve};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -31,22 +32,31 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
         source: "Canudas de Wit et al. 1995, eqs 4-6; UR5e review 2024/25, table 3",
         formula: "a1 z + a2 dz/dt + a3 v; dz/dt = v - a1 |v|/g z; g = a4 + (a5 - a4) exp(-|v/a6|^a7)",
         parameters: Self::TABLE,
+        channels: &[],
+        constants: &[],
+        pole: None,
         captures: &["coulomb", "viscous", "stribeck", "presliding"],
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
+    fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         Split {
             coulomb: self.coulomb_friction,
             height: self.static_friction - self.coulomb_friction,
             shape: stribeck_curve(sample.velocity, self.stribeck_velocity, self.stribeck_exponent),
             rate: self.viscous_friction.scale(sample.velocity),
-            additive: S::zero(),
+            ..Split::zero()
         }
     }
 
     #[inline]
-    fn bristle(&self) -> Option<Bristle<S>> {
-        Some(Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping })
+    fn step(
+        &self,
+        state: &mut State<S>,
+        split: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Step<S> {
+        let bristle = Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping };
+        bristle.over(&mut state.bristle, split, interval)
     }
 }

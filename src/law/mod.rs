@@ -12,7 +12,8 @@ pub use coulomb::Coulomb;
 pub use gantry_map::GantryMap;
 pub use lugre::Lugre;
 
-use crate::bristle::Bristle;
+use crate::constants::Constants;
+use crate::dynamics::{Interval, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters};
@@ -22,12 +23,20 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     /// The law's table.
     const INFO: LawInfo;
 
-    /// The torque at one instant, taken apart.
-    fn split(&self, sample: &Sample<S::Plain>) -> Split<S>;
+    /// The torque at one instant, taken apart: in steady sliding where the law has a memory.
+    fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S>;
 
-    /// The bristle, if the law is dynamic.
+    /// Holds a sample for a while. `split` is that of the sample, with what effects have added.
+    ///
+    /// A law whose `captures` name `presliding` has a memory and steps by itself; in all others
+    /// dry friction acts along the sign of the velocity.
     #[inline]
-    fn bristle(&self) -> Option<Bristle<S>> {
-        None
+    fn step(
+        &self,
+        _state: &mut State<S>,
+        split: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Step<S> {
+        Step::same(split.torque(interval.sample.velocity.sign()))
     }
 }

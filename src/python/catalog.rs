@@ -36,6 +36,8 @@ fn law<'py>(py: Python<'py>, info: &LawInfo) -> PyResult<Bound<'py, PyDict>> {
     row.set_item("source", info.source)?;
     row.set_item("formula", info.formula)?;
     row.set_item("parameters", parameters(py, info.parameters)?)?;
+    row.set_item("channels", info.channels.iter().map(|c| c.name()).collect::<Vec<_>>())?;
+    row.set_item("constants", info.constants.to_vec())?;
     row.set_item("captures", info.captures.to_vec())?;
     Ok(row)
 }

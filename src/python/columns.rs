@@ -37,6 +37,7 @@ pub(super) struct Arguments<'py> {
     pub temperature: Option<Array<'py>>,
     pub load_torque: Option<Array<'py>>,
     pub motor_torque: Option<Array<'py>>,
+    pub external_torque: Option<Array<'py>>,
     pub smooth: Option<BTreeMap<String, Array<'py>>>,
     pub shift_load: bool,
     pub mean_velocity: Option<Array<'py>>,
@@ -56,6 +57,7 @@ impl Arguments<'_> {
         let temperature = self.temperature.as_ref().map(contiguous);
         let load_torque = self.load_torque.as_ref().map(contiguous);
         let motor_torque = self.motor_torque.as_ref().map(contiguous);
+        let external_torque = self.external_torque.as_ref().map(contiguous);
         let mean_velocity = self.mean_velocity.as_ref().map(contiguous);
         let dt = match &self.dt {
             Some(Dt::Each(dt)) => Some(contiguous(dt)),
@@ -83,6 +85,7 @@ impl Arguments<'_> {
                 temperature: temperature.as_deref(),
                 load_torque: load_torque.as_deref(),
                 motor_torque: motor_torque.as_deref(),
+                external_torque: external_torque.as_deref(),
             },
             smooth: Channels {
                 velocity: smooth(Channel::Velocity).unwrap_or_default(),
@@ -91,6 +94,7 @@ impl Arguments<'_> {
                 temperature: smooth(Channel::Temperature),
                 load_torque: smooth(Channel::LoadTorque),
                 motor_torque: smooth(Channel::MotorTorque),
+                external_torque: smooth(Channel::ExternalTorque),
             },
             shift_load: self.shift_load,
             mean_velocity: mean_velocity.as_deref(),

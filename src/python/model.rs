@@ -50,16 +50,16 @@ impl Model {
         self.spec.to_string()
     }
 
-    /// The constants of its effects.
+    /// The constants of its law and effects.
     #[getter]
     fn constants(&self) -> BTreeMap<&'static str, f64> {
         self.spec.constants().collect()
     }
 
-    /// Whether it has a state, the deflection of a bristle.
+    /// Whether the torque depends on what went before.
     #[getter]
-    fn has_bristle(&self) -> bool {
-        self.spec.has_bristle()
+    fn has_state(&self) -> bool {
+        self.spec.has_state()
     }
 
     /// Columns it reads.
@@ -80,10 +80,11 @@ impl Model {
             .collect()
     }
 
-    /// Friction torque of every row; with a bristle, at the end of the row's step.
+    /// Friction torque of every row; with a memory, at the end of the row's step. `single` computes
+    /// in single precision throughout.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, smooth=None, shift_load=true,
-        mean_velocity=None, state=0.0))]
+        load_torque=None, motor_torque=None, external_torque=None, smooth=None, shift_load=true,
+        mean_velocity=None, state=0.0, *, single=false))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -96,10 +97,12 @@ impl Model {
         temperature: Option<Array<'py>>,
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
+        external_torque: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
         state: f64,
+        single: bool,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -110,21 +113,22 @@ impl Model {
             temperature,
             load_torque,
             motor_torque,
+            external_torque,
             smooth,
             shift_load,
             mean_velocity,
             state,
         };
-        let torque = arguments
-            .detached(py, |columns| batch::torque(&self.spec, &values, columns))?
-            .map_err(refuse)?;
+        let run = if single { batch::torque_single } else { batch::torque };
+        let torque =
+            arguments.detached(py, |columns| run(&self.spec, &values, columns))?.map_err(refuse)?;
         Ok(torque.into_pyarray(py))
     }
 
     /// Friction torque of every row and its derivatives by the `wanted` parameters (indices, by
     /// default all) in that order, one column each.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, smooth=None, shift_load=true,
+        load_torque=None, motor_torque=None, external_torque=None, smooth=None, shift_load=true,
         mean_velocity=None, state=0.0, *, wanted=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
@@ -138,6 +142,7 @@ impl Model {
         temperature: Option<Array<'py>>,
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
+        external_torque: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
@@ -153,6 +158,7 @@ impl Model {
             temperature,
             load_torque,
             motor_torque,
+            external_torque,
             smooth,
             shift_load,
             mean_velocity,
@@ -171,7 +177,7 @@ impl Model {
 
     /// Parts of the torque in steady sliding: dict of `dry`, `rate` and `additive`.
     #[pyo3(signature = (values, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None))]
+        load_torque=None, motor_torque=None, external_torque=None))]
     #[allow(clippy::too_many_arguments)]
     fn split<'py>(
         &self,
@@ -183,6 +189,7 @@ impl Model {
         temperature: Option<Array<'py>>,
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
+        external_torque: Option<Array<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -193,6 +200,7 @@ impl Model {
             temperature,
             load_torque,
             motor_torque,
+            external_torque,
             smooth: None,
             shift_load: true,
             mean_velocity: None,

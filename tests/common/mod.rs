@@ -51,6 +51,8 @@ pub struct Motion {
     pub acceleration: Vec<f64>,
     pub temperature: Vec<f64>,
     pub load_torque: Vec<f64>,
+    pub motor_torque: Vec<f64>,
+    pub external_torque: Vec<f64>,
 }
 
 #[allow(clippy::disallowed_methods)]
@@ -66,6 +68,8 @@ pub fn motion(rows: usize) -> Motion {
         acceleration: column(&|i| 2.5 * (3.1 * time(i)).cos()),
         temperature: column(&|i| 25.0 + 2.0 * time(i)),
         load_torque: column(&|i| 6.0 * (1.7 * time(i)).cos()),
+        motor_torque: column(&|i| 7.0 * (1.9 * time(i)).cos()),
+        external_torque: column(&|i| -5.0 * (1.7 * time(i)).cos()),
     }
 }
 
@@ -81,7 +85,8 @@ impl Motion {
                 acceleration: Some(&self.acceleration),
                 temperature: Some(&self.temperature),
                 load_torque: Some(&self.load_torque),
-                motor_torque: None,
+                motor_torque: Some(&self.motor_torque),
+                external_torque: Some(&self.external_torque),
             },
             ..Columns::default()
         }

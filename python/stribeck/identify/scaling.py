@@ -32,7 +32,13 @@ def scale_values(recording: Recording) -> dict[str, float]:
         "torque": torque,
         "stiffness": torque / position,
         "damping": torque / speed,
+        "square_damping": torque / speed**2,
+        "cubic_damping": torque / speed**3,
+        "root_damping": torque / math.sqrt(speed),
+        "inverse_speed": 1.0 / speed,
+        "inverse_torque": 1.0 / torque,
         "inertia": torque / acceleration,
+        "torque_rate": torque * speed / position,
         "sample_period": s["sample_period"] or 1.0,
     }
 

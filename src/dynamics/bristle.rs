@@ -4,6 +4,7 @@
 //! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution is
 //! `z+ = e^-x z + v dt phi_1(-x)`: stable and free of overshoot for every stiffness and step.
 
+use super::{Interval, Step};
 use crate::sample::Split;
 use crate::scalar::Real;
 
@@ -32,16 +33,21 @@ impl<S: Real> Default for BristleState<S> {
     }
 }
 
-/// What one step yields.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step<S> {
-    /// Torque at the end of the step (T).
-    pub torque: S,
-    /// Torque averaged over the step (T): times `v dt` it is the exact work.
-    pub mean_torque: S,
-}
-
 impl<S: Real> Bristle<S> {
+    /// Steps over `interval`.
+    #[inline]
+    pub fn over(
+        &self,
+        state: &mut BristleState<S>,
+        split: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Step<S> {
+        if interval.mean {
+            return self.step(state, split, interval.velocity, interval.dt);
+        }
+        Step::same(self.step_to(state, split, interval.velocity, interval.dt))
+    }
+
     /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
     ///
     /// At rest the deflection is kept. A magnitude `D <= 0` has no bristle; the limit
