@@ -1,0 +1,60 @@
+"""A plausible value for every parameter of every law and effect."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.generate.motion import Joint
+from stribeck.model import Model
+
+
+def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> dict[str, float]:
+    """A value for every parameter, from the joint's sizes and the catalog's starts."""
+    c, b = joint.coulomb, joint.viscous
+    scales = {
+        "none": 1.0,
+        "speed": joint.speed,
+        "torque": 2.0 * c,
+        "stiffness": c / joint.stroke,
+        "damping": b,
+        "inertia": joint.inertia,
+        "sample_period": 1.0,
+    }
+    own = {
+        "coulomb_friction": c,
+        "viscous_friction": b,
+        "static_friction": 1.5 * c,
+        "viscous_friction_forward": b,
+        "viscous_friction_backward": b,
+        "stribeck_height": 0.35 * c,
+        "stribeck_velocity": 0.05 * joint.speed,
+        "stribeck_exponent": 1.4,
+        "temperature_dry_slope": 0.012,
+        "temperature_dry_curvature": 0.01,
+        "temperature_viscous_slope": 0.03,
+        "temperature_viscous_curvature": 0.02,
+        "load_coulomb": 0.16,
+        "load_exponent": 1.0,
+        "load_stribeck": 0.0,
+        "direction_coulomb": 0.15 * c,
+        "direction_viscous": 0.15 * b,
+        "nonlinear_viscous_coefficient": 0.6 * b,
+        "nonlinear_viscous_exponent": 2.0,
+        "nonlinear_viscous_saturation": 100.0 * joint.speed,
+        "offset": 0.12 * c,
+        "inertia": 0.4 * joint.inertia,
+        "gravity_cos": 0.12 * joint.gravity,
+        "gravity_sin": 0.08 * joint.gravity,
+        "presliding_stiffness": 150.0 * c / joint.stroke,
+        "presliding_damping": 0.1 * b,
+        "bristle_stiffness": 300.0 * c / joint.stroke,
+        "bristle_damping": 0.1 * b,
+    }
+    values = {}
+    for p in model.parameters:
+        if p.name.startswith("position_"):
+            order = int(p.name.rsplit("_", 1)[1])
+            values[p.name] = float(0.22 * c * rng.uniform(-1.0, 1.0) / order)
+        else:
+            values[p.name] = float(own.get(p.name, p.start * scales[p.scale]))
+    return values
