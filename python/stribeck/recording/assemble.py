@@ -114,7 +114,9 @@ def _wanted(prepared: Prepared) -> list[str]:
     return wanted
 
 
-def build(prepared: Prepared, joint: str | None, rows: Ints) -> Recording:
+def build(
+    prepared: Prepared, joint: str | None, rows: Ints, *, standstill: bool = False
+) -> Recording:
     require(prepared)
     options = prepared.options
     path = prepared.source.path
@@ -163,7 +165,10 @@ def build(prepared: Prepared, joint: str | None, rows: Ints) -> Recording:
         data.notes.append(f"{rows_are} removed by where: {options.where}")
     if options.average:
         return _averaged(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
-    return _sampled(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
+    made = _sampled(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
+    if not (standstill or made.moving.any()):
+        raise _nothing_moves(made)
+    return made
 
 
 def make_column(name: str, source: str, unit: str, derived: bool, values: Floats) -> Column:
@@ -494,13 +499,6 @@ def _sampled(
     top = float(np.abs(velocity).max())
     threshold = max(SIGMAS * sigma, 1e-6 * top)
     moving = np.abs(velocity) > threshold
-    if not moving.any():
-        what = (
-            "velocity is zero throughout"
-            if top == 0.0
-            else (f"no row is faster than its own noise ({threshold:.3g} {position_unit}/s)")
-        )
-        raise RecordingError(f"{data.path}: nothing moves, {what}: give a recording with motion")
     block, count = held_out_blocks(dt, segment, run, typical)
     gaps = len(segment_slices(segment)) - len(run_names)
     return Recording(
@@ -519,6 +517,16 @@ def _sampled(
         rate_hz=1.0 / typical if typical > 0.0 else 0.0, gaps=gaps, rows_dropped=dropped,
         averaged=False, cutoff_hz=cutoff, motor=dict(data.prepared.options.motor),
     )  # fmt: skip
+
+
+def _nothing_moves(recording: Recording) -> RecordingError:
+    what = (
+        "velocity is zero throughout"
+        if not recording.velocity.any()
+        else f"no row is faster than its own noise ({recording.velocity_threshold:.3g} "
+        f"{recording.position_unit}/s)"
+    )
+    return RecordingError(f"{recording.path}: nothing moves, {what}: give a recording with motion")
 
 
 def _derived_note(name: str, source: str, cutoff: float | None) -> str:

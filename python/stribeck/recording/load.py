@@ -27,6 +27,7 @@ def read(
     derive: Pairs = (),
     where: str | None = None,
     average: str | None = None,
+    standstill: bool = False,
 ) -> Recording:
     """Read one joint of a recording.
 
@@ -54,6 +55,9 @@ def read(
         Condition on the columns; rows that fail it become gaps.
     average
         ``"run"``: one row per run, the median of each channel.
+    standstill
+        Take a recording in which no row is faster than its velocity noise: presliding, or passes
+        so slow that only a line through many samples shows them.
 
     Raises
     ------
@@ -67,7 +71,7 @@ def read(
     )  # fmt: skip
     prepared = prepare(str(path), options)
     name, rows = joint_rows(prepared, options.joint)
-    return build(prepared, name, rows)
+    return build(prepared, name, rows, standstill=standstill)
 
 
 def read_all(
