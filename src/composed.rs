@@ -172,6 +172,7 @@ impl Spec {
         match presence {
             Presence::Always => true,
             Presence::WithStribeck => self.has(EffectId::Stribeck.info().id),
+            Presence::WithLoad => self.effects.contains(EffectId::Load),
             Presence::WithoutOffset => !self.effects.contains(EffectId::Offset),
             Presence::Element(number) => self.constants.elements >= f64::from(number),
         }

@@ -53,8 +53,10 @@ pub struct Split<S> {
     pub coulomb: S,
     /// Height of the Stribeck curve above `coulomb` at rest (T).
     pub height: S,
-    /// The Stribeck curve `E(v)`: 1 at rest, falling to 0 with speed; 0 where there is none.
-    pub shape: S,
+    /// The Stribeck curve that `height` multiplies.
+    pub shape: StribeckCurve<S>,
+    /// Dry magnitude that the load adds (T).
+    pub load: S,
     /// Magnitude that dry friction with a smoothed sign tends to (T).
     pub smoothed_amplitude: S,
     /// Dry friction with a smoothed sign, the sign included (T).
@@ -74,7 +76,8 @@ impl<S: Real> Split<S> {
         Self {
             coulomb: zero,
             height: zero,
-            shape: zero,
+            shape: StribeckCurve::flat(),
+            load: zero,
             smoothed_amplitude: zero,
             smoothed_torque: zero,
             rate: zero,
@@ -86,33 +89,75 @@ impl<S: Real> Split<S> {
     #[inline]
     #[must_use]
     pub fn dry(&self) -> S {
-        self.coulomb + self.height * self.shape + self.smoothed_amplitude
+        self.sharp() + self.smoothed_amplitude
     }
 
-    /// Multiplies all dry friction.
+    /// Dry magnitude whose direction is the plain sign of the velocity (T).
     #[inline]
-    pub fn scale_dry(&mut self, factor: S) {
-        self.coulomb *= factor;
-        self.height *= factor;
-        self.smoothed_amplitude *= factor;
-        self.smoothed_torque *= factor;
+    fn sharp(&self) -> S {
+        self.coulomb + self.height * self.shape.value + self.load
     }
 
     /// The torque in steady sliding along `direction`, the sign of the velocity (T).
     #[inline]
     #[must_use]
     pub fn torque(&self, direction: S::Plain) -> S {
-        let sharp = (self.coulomb + self.height * self.shape).scale(direction);
-        sharp + self.smoothed_torque + self.rate + self.additive
+        self.sharp().scale(direction) + self.smoothed_torque + self.rate + self.additive
     }
 }
 
-/// The Stribeck curve `exp(-|v/vs|^alpha)`: 1 at rest, whatever the Stribeck velocity.
+/// A Stribeck curve `E = exp(-x)`, `x = |v/vs|^alpha`: 1 at rest, falling to 0 with speed.
+///
+/// Argument and exponent are kept, so that an effect can move the Stribeck velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StribeckCurve<S> {
+    /// `E`.
+    pub value: S,
+    /// `x`.
+    pub argument: S,
+    /// `alpha`.
+    pub exponent: S,
+}
+
+impl<S: Real> StribeckCurve<S> {
+    /// The curve with this argument, for a law that has a shorter way to it.
+    #[inline]
+    #[must_use]
+    pub fn of(argument: S, exponent: S) -> Self {
+        Self { value: (-argument).exp(), argument, exponent }
+    }
+
+    /// What a law without a Stribeck curve has.
+    #[inline]
+    #[must_use]
+    pub fn flat() -> Self {
+        Self { value: S::one(), argument: S::zero(), exponent: S::one() }
+    }
+
+    /// The curve with the Stribeck velocity multiplied by `factor`, whose sign does not matter.
+    #[inline]
+    #[must_use]
+    pub fn widened(&self, factor: S) -> Self {
+        let argument = self.argument.value();
+        if argument == 0.0 || !argument.is_finite() {
+            return *self;
+        }
+        Self::of(self.argument / factor.abs().powf(self.exponent), self.exponent)
+    }
+}
+
+/// The Stribeck curve at `velocity`: 1 at rest, whatever the Stribeck velocity.
 #[inline]
 #[must_use]
-pub fn stribeck_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S, exponent: S) -> S {
-    if velocity.value() == 0.0 {
-        return S::one();
-    }
-    (-stribeck_velocity.divide(velocity).abs().powf(exponent)).exp()
+pub fn stribeck_curve<S: Real>(
+    velocity: S::Plain,
+    stribeck_velocity: S,
+    exponent: S,
+) -> StribeckCurve<S> {
+    let argument = if velocity.value() == 0.0 {
+        S::zero()
+    } else {
+        stribeck_velocity.divide(velocity).abs().powf(exponent)
+    };
+    StribeckCurve::of(argument, exponent)
 }

@@ -137,6 +137,8 @@ pub enum Presence {
     Always,
     /// If law or effects have a Stribeck curve.
     WithStribeck,
+    /// If law or effects make dry friction depend on the load.
+    WithLoad,
     /// Unless `offset` already explains it.
     WithoutOffset,
     /// If the law has at least this many elements.

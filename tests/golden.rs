@@ -9,7 +9,7 @@ mod common;
 use common::close;
 use stribeck::composed::Spec;
 use stribeck::dynamics::{Bristle, BristleState, State};
-use stribeck::sample::{Sample, Split};
+use stribeck::sample::{Sample, Split, StribeckCurve};
 use stribeck::scalar::Real;
 
 fn at(law: &str, effects: &[&str], values: &[f64], sample: &Sample<f64>) -> f64 {
@@ -59,14 +59,14 @@ fn all_static_effects_together() {
     let values = [
         2.0, 5.0, // viscous, Coulomb
         3.0, 0.1, 1.5, // Stribeck
-        0.05, 1.3, 0.02, // load
+        0.05, 1.3, 0.02, 1.4, // load
         0.4, 0.3, // direction
-        0.01, 0.02, // temperature of the dry part
+        0.01, 0.02, 0.03, 0.05, 0.3, // temperature of the dry part
         1.5, 0.7, 2.0, // nonlinear viscous
         0.02, 0.03, // temperature of the viscous part
         0.8, 1.1, -0.6, // inertia, gravity
     ];
-    close(at("coulomb", &effects, &values, &sample), -4.121533847228693, 1e-14);
+    close(at("coulomb", &effects, &values, &sample), -4.839884568237191, 1e-14);
 }
 
 #[test]
@@ -126,7 +126,7 @@ fn bristle_approaches_the_static_law() {
     let split = Split {
         coulomb: 2.0,
         height: 1.0,
-        shape: 0.25,
+        shape: StribeckCurve { value: 0.25, ..StribeckCurve::flat() },
         rate: -0.3,
         additive: 0.1,
         ..Split::zero()

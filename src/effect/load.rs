@@ -13,6 +13,8 @@ parameters! {
         load_exponent: "lp" ["1"] 0.4 .. 2.5, start 1.0, None, Nonlinear;
         /// Height of the Stribeck curve per load, at the reference load.
         load_stribeck: "ls" ["1"] 0.0 .. 10.0, start 0.02, None, Dry, WithStribeck;
+        /// Stribeck velocity of that height over the one without load.
+        load_stribeck_ratio: "lv" ["1"] 0.1 .. 10.0, start 1.0, None, Nonlinear, WithStribeck;
     }
 }
 
@@ -22,7 +24,7 @@ impl<S: Real> FrictionEffect<S> for Load<S> {
         group: "friction",
         title: "Load",
         what: "The load presses teeth and bearings together, so dry friction grows with its size.",
-        formula: "D + (lc + ls E) |tl/tr|^lp tr",
+        formula: "D + (lc + ls exp(-|v/(lv vs)|^alpha)) |tl/tr|^lp tr",
         needs: "load varied independently of speed, with both signs of v tl",
         channels: &[Channel::LoadTorque],
         constants: &["reference_load"],
@@ -39,7 +41,10 @@ impl<S: Real> FrictionEffect<S> for Load<S> {
         let reference = constants.reference_load;
         let ratio = (sample.load_torque / reference).abs();
         let load = self.load_exponent.exponent_of(ratio).scale(reference);
-        split.coulomb += self.load_coulomb * load;
-        split.height += self.load_stribeck * load;
+        let mut share = self.load_coulomb;
+        if !self.load_stribeck.is_zero() {
+            share += self.load_stribeck * split.shape.widened(self.load_stribeck_ratio).value;
+        }
+        split.load += share * load;
     }
 }

@@ -1,6 +1,6 @@
 use super::FrictionLaw;
 use crate::constants::Constants;
-use crate::sample::{Sample, Split};
+use crate::sample::{Sample, Split, StribeckCurve};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
@@ -45,7 +45,7 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
         Split {
             coulomb: self.coulomb_friction,
             height: self.static_friction - self.coulomb_friction,
-            shape: (-(ratio * ratio)).exp(),
+            shape: StribeckCurve::of(ratio * ratio, S::from_f64(2.0)),
             rate: viscous.scale(v),
             ..Split::zero()
         }
