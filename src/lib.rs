@@ -8,6 +8,7 @@
 //! | [`scalar`] | [`Real`](scalar::Real): `f32`, `f64`, [`Dual`](scalar::Dual) for gradients |
 //! | [`sample`] | what a law sees at one instant; the torque it gives, taken apart |
 //! | [`table`], [`constants`] | names, symbols, units, bounds |
+//! | [`formula`] | friction terms that a user writes as text |
 //! | [`dynamics`] | laws with a memory: states, each stepped exactly |
 //! | [`law`], [`effect`] | one file each: table and formula |
 //! | [`catalog`] | the list of laws and effects |
@@ -43,6 +44,7 @@ pub mod constants;
 pub mod dynamics;
 pub mod effect;
 pub mod error;
+pub mod formula;
 pub mod law;
 mod math;
 #[cfg(feature = "python")]

@@ -1,0 +1,38 @@
+//! Friction terms that a user writes as text: `c1*v + c2*tanh(v/c3)*abs(load)`.
+//!
+//! The text becomes a [`Formula`]: a program of fixed size that only computes, nothing of it is
+//! ever executed as code. Every name that is neither a channel, a function nor `pi` is a
+//! parameter. The same program serves `f32`, `f64` and dual numbers.
+//!
+//! | module | what lives there |
+//! |---|---|
+//! | [`vocabulary`](Function) | channels, functions and constants by name |
+//! | `parser` | text to program |
+//! | [`program`](Operation) | operations in postfix order, and their evaluation |
+//! | [`terms`](TermKind) | which terms are dry, rate-dependent, additive |
+//! | `linear` | in which parameters the torque is linear |
+//!
+//! ```
+//! use stribeck::formula::{Formula, OwnTerms};
+//! use stribeck::sample::Sample;
+//!
+//! let (formula, names) = Formula::parse("c1*v + c2*tanh(v/c3)*abs(load)")?;
+//! assert_eq!(names.as_slice(), ["c1", "c2", "c3"]);
+//! let terms = OwnTerms::new(&formula, &[2.0, 0.5, 1e-3]);
+//! let sample = Sample { load_torque: -4.0, ..Sample::at(0.25) };
+//! assert_eq!(terms.split(&sample).torque(1.0), 2.5);
+//! # Ok::<(), stribeck::formula::FormulaError<'_>>(())
+//! ```
+
+mod error;
+mod linear;
+mod parser;
+mod program;
+mod terms;
+mod vocabulary;
+
+pub use error::{FormulaError, Reason};
+pub use parser::Names;
+pub use program::{MAX_CONSTANTS, MAX_DEPTH, MAX_OPERATIONS, MAX_PARAMETERS, Operation};
+pub use terms::{Formula, MAX_TERMS, OwnTerms, Term, TermKind};
+pub use vocabulary::Function;

@@ -1,0 +1,322 @@
+//! A formula taken apart into the terms of its sum, so that effects compose with it.
+
+use core::ops::Range;
+
+use super::error::{FormulaError, Reason};
+use super::linear::{ParameterSet, linear_parameters};
+use super::parser::{self, Names};
+use super::program::{MAX_PARAMETERS, Operation, Program, Replacement};
+use super::vocabulary::Function;
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{Channel, Role};
+
+/// The most terms of a formula.
+pub const MAX_TERMS: usize = 24;
+
+/// What a term is.
+///
+/// | a term is | where |
+/// |---|---|
+/// | dry | it has the factor `sgn(v)`, and the other factors do not vanish with `v` |
+/// | smoothed | it has the factor `tanh` or `atan` of a multiple of `v`, likewise |
+/// | rate | it is neither, and zero at `v = 0` |
+/// | additive | it is none of these |
+///
+/// A factor is found in products, in numerators and behind signs, not inside a bracketed sum; so
+/// `(c1 + c2*abs(v))*sgn(v)` is dry as a whole, and `c1*sgn(v) + c2*abs(v)*sgn(v)` is dry and
+/// rate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TermKind {
+    /// Dry friction along `sgn(v)`.
+    Dry,
+    /// Dry friction with a smoothed sign.
+    Smoothed,
+    /// Vanishes with the velocity.
+    Rate,
+    /// Does not care about motion.
+    Additive,
+}
+
+impl TermKind {
+    /// The name users read.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dry => "dry",
+            Self::Smoothed => "smoothed",
+            Self::Rate => "rate",
+            Self::Additive => "additive",
+        }
+    }
+}
+
+/// A term of the sum, as a part of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Term {
+    /// What it is.
+    pub kind: TermKind,
+    negative: bool,
+    part: (u8, u8),
+    direction: (u8, u8),
+}
+
+impl Term {
+    /// Whether it is subtracted.
+    #[must_use]
+    pub const fn is_negative(&self) -> bool {
+        self.negative
+    }
+
+    /// The operations that compute it.
+    #[must_use]
+    pub fn part(&self) -> Range<usize> {
+        range(self.part)
+    }
+
+    /// The operations that compute its factor `sgn(v)`, or the smoothed one; empty without any.
+    #[must_use]
+    pub fn direction(&self) -> Range<usize> {
+        range(self.direction)
+    }
+}
+
+fn range((first, end): (u8, u8)) -> Range<usize> {
+    usize::from(first)..usize::from(end)
+}
+
+/// A formula: its program, its terms, and in which parameters it is linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Formula {
+    program: Program,
+    terms: [Option<Term>; MAX_TERMS],
+    linear: ParameterSet,
+}
+
+impl Formula {
+    /// Parses a text.
+    ///
+    /// # Errors
+    /// What is wrong with the text, and where.
+    pub fn parse(text: &str) -> Result<(Self, Names<'_>), FormulaError<'_>> {
+        let (program, names) = parser::parse(text)?;
+        let mut formula = Self { program, terms: [None; MAX_TERMS], linear: 0 };
+        let length = program.operations().len();
+        if !formula.collect(length - 1, false) {
+            let reason = Reason::TooLarge("terms", MAX_TERMS);
+            return Err(FormulaError { position: 1, reason });
+        }
+        formula.linear = linear_parameters(&program);
+        Ok((formula, names))
+    }
+
+    /// The program.
+    #[must_use]
+    pub const fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// How many parameters it has.
+    #[must_use]
+    pub const fn parameter_count(&self) -> usize {
+        self.program.parameter_count
+    }
+
+    /// The terms, in order.
+    pub fn terms(&self) -> impl Iterator<Item = &Term> {
+        self.terms.iter().flatten()
+    }
+
+    /// Whether the formula reads a channel.
+    #[must_use]
+    pub fn reads(&self, channel: Channel) -> bool {
+        self.program.operations().contains(&Operation::Channel(channel))
+    }
+
+    /// How a parameter enters the torque.
+    #[must_use]
+    pub fn role(&self, parameter: usize) -> Role {
+        if parameter >= MAX_PARAMETERS || self.linear >> parameter & 1 == 0 {
+            return Role::Nonlinear;
+        }
+        let within = |kind| self.terms().any(|t| t.kind == kind && self.mentions(t, parameter));
+        if within(TermKind::Dry) || within(TermKind::Smoothed) {
+            Role::Dry
+        } else if within(TermKind::Additive) {
+            Role::Additive
+        } else {
+            Role::Rate
+        }
+    }
+
+    fn mentions(&self, term: &Term, parameter: usize) -> bool {
+        let operations = self.program.operations().get(term.part()).unwrap_or_default();
+        operations
+            .iter()
+            .any(|o| matches!(o, Operation::Parameter(i) if usize::from(*i) == parameter))
+    }
+
+    /// Collects the terms of the sum that ends at `last`; `false` if there are too many.
+    fn collect(&mut self, last: usize, negative: bool) -> bool {
+        let Some(&operation) = self.program.operations().get(last) else { return false };
+        match operation {
+            Operation::Add | Operation::Subtract => {
+                let before = self.program.part(last - 1).start - 1;
+                let minus = operation == Operation::Subtract;
+                self.collect(before, negative) && self.collect(last - 1, negative != minus)
+            }
+            Operation::Negate => self.collect(last - 1, !negative),
+            _ => {
+                let term = self.term(last, negative);
+                match (self.terms.iter_mut().find(|slot| slot.is_none()), term) {
+                    (Some(slot), Some(term)) => {
+                        *slot = Some(term);
+                        true
+                    }
+                    _ => false,
+                }
+            }
+        }
+    }
+
+    fn term(&self, last: usize, negative: bool) -> Option<Term> {
+        let part = self.program.part(last);
+        let sharp = self.factor(last, &|at| self.is_sign_of_velocity(at));
+        let smooth = || self.factor(last, &|at| self.smoothed_limit(at).is_some());
+        let direction = sharp.clone().or_else(smooth).filter(|factor| {
+            let without = Replacement { part: factor, by: 1.0 };
+            !self.vanishes(&part, Some(without))
+        });
+        let kind = match &direction {
+            Some(_) if direction == sharp => TermKind::Dry,
+            Some(_) => TermKind::Smoothed,
+            None if sharp.is_some() || self.vanishes(&part, None) => TermKind::Rate,
+            None => TermKind::Additive,
+        };
+        let small =
+            |r: Range<usize>| Some((u8::try_from(r.start).ok()?, u8::try_from(r.end).ok()?));
+        let direction = small(direction.unwrap_or_default())?;
+        Some(Term { kind, negative, part: small(part)?, direction })
+    }
+
+    /// The factor of a product that is wanted, as a part of the program.
+    fn factor(&self, last: usize, wanted: &dyn Fn(usize) -> bool) -> Option<Range<usize>> {
+        if wanted(last) {
+            return Some(self.program.part(last));
+        }
+        let before = |at: usize| self.program.part(at).start.checked_sub(1);
+        match self.program.operations().get(last)? {
+            Operation::Multiply => {
+                self.factor(before(last - 1)?, wanted).or_else(|| self.factor(last - 1, wanted))
+            }
+            Operation::Divide => self.factor(before(last - 1)?, wanted),
+            Operation::Negate => self.factor(last - 1, wanted),
+            _ => None,
+        }
+    }
+
+    fn is_velocity(&self, at: usize) -> bool {
+        self.program.operations().get(at) == Some(&Operation::Channel(Channel::Velocity))
+    }
+
+    fn is_sign_of_velocity(&self, last: usize) -> bool {
+        self.program.operations().get(last) == Some(&Operation::Call(Function::Sign))
+            && self.is_velocity(last - 1)
+    }
+
+    /// What a smoothed sign tends to with speed, if the function that ends at `last` is one.
+    fn smoothed_limit(&self, last: usize) -> Option<f64> {
+        let limit = match self.program.operations().get(last)? {
+            Operation::Call(Function::Tanh) => 1.0,
+            Operation::Call(Function::Atan) => core::f64::consts::FRAC_PI_2,
+            _ => return None,
+        };
+        self.factor(last - 1, &|at| self.is_velocity(at)).map(|_| limit)
+    }
+
+    /// Whether a part of the program is zero at rest: at made-up parameters and channels, which
+    /// no formula has reason to cancel.
+    fn vanishes(&self, part: &Range<usize>, replacement: Option<Replacement<'_>>) -> bool {
+        let parameters = core::array::from_fn(|i| 0.7312 + 0.1937 * f64::from(i as u8));
+        let rest = |sign: f64| Sample {
+            velocity: 0.0,
+            position: sign * 0.4271,
+            acceleration: sign * 1.3719,
+            temperature: 30.0 + sign * 8.8813,
+            load_torque: sign * 2.7193,
+            motor_torque: sign * 3.1871,
+            external_torque: sign * 1.9177,
+        };
+        [1.0, -1.0]
+            .iter()
+            .all(|&sign| self.program.evaluate(part, replacement, &parameters, &rest(sign)) == 0.0)
+    }
+}
+
+/// A formula with numbers for its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnTerms<S> {
+    formula: Formula,
+    parameters: [S; MAX_PARAMETERS],
+}
+
+impl<S: Real> OwnTerms<S> {
+    /// The formula with the parameters that `next` yields, in their order.
+    #[inline]
+    #[must_use]
+    pub fn read(formula: &Formula, mut next: impl FnMut() -> S) -> Self {
+        let count = formula.parameter_count();
+        let parameters = core::array::from_fn(|i| if i < count { next() } else { S::zero() });
+        Self { formula: *formula, parameters }
+    }
+
+    /// The formula with these parameters; what is missing is zero.
+    #[must_use]
+    pub fn new(formula: &Formula, parameters: &[S]) -> Self {
+        let mut parameters = parameters.iter().copied();
+        Self::read(formula, || parameters.next().unwrap_or_else(S::zero))
+    }
+
+    /// The torque at one instant, taken apart.
+    #[inline]
+    #[must_use]
+    pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
+        let mut split = Split::zero();
+        self.add_to(&mut split, sample);
+        split
+    }
+
+    /// Adds the terms to what is there.
+    #[inline]
+    pub fn add_to(&self, split: &mut Split<S>, sample: &Sample<S::Plain>) {
+        for term in self.formula.terms() {
+            let value = |by: Option<f64>| {
+                let direction = &term.direction();
+                let replacement = by.map(|by| Replacement { part: direction, by });
+                let program = &self.formula.program;
+                let value = program.evaluate(&term.part(), replacement, &self.parameters, sample);
+                if term.negative { -value } else { value }
+            };
+            match term.kind {
+                TermKind::Dry => split.coulomb += value(Some(1.0)),
+                TermKind::Smoothed => {
+                    split.smoothed_torque += value(None);
+                    split.smoothed_amplitude += value(Some(self.limit(term, sample)));
+                }
+                TermKind::Rate => split.rate += value(None),
+                TermKind::Additive => split.additive += value(None),
+            }
+        }
+    }
+
+    /// What the smoothed sign tends to as the speed grows forwards.
+    fn limit(&self, term: &Term, sample: &Sample<S::Plain>) -> f64 {
+        let direction = term.direction();
+        let last = direction.end.saturating_sub(1);
+        let forwards = Sample { velocity: S::Plain::one(), ..*sample };
+        let inside = direction.start..last;
+        let argument = self.formula.program.evaluate(&inside, None, &self.parameters, &forwards);
+        let limit = self.formula.smoothed_limit(last).unwrap_or_default();
+        if argument.value() < 0.0 { -limit } else { limit }
+    }
+}

@@ -1,0 +1,159 @@
+//! The words of a formula: channels, functions, constants.
+
+use crate::table::Channel;
+
+/// A function of one value, or of two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Function {
+    Sign,
+    Abs,
+    Exp,
+    Expm1,
+    Log,
+    Log10,
+    Sqrt,
+    Cbrt,
+    Sin,
+    Cos,
+    Tan,
+    Atan,
+    Tanh,
+    Power,
+    Minimum,
+    Maximum,
+}
+
+impl Function {
+    /// How many values it takes.
+    #[must_use]
+    pub const fn arity(self) -> usize {
+        match self {
+            Self::Power | Self::Minimum | Self::Maximum => 2,
+            _ => 1,
+        }
+    }
+
+    /// The name by which programs and messages call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        FUNCTIONS.iter().find(|(_, function)| *function == self).map_or("", |(name, _)| name)
+    }
+}
+
+/// Functions by name; the first name of each is its own.
+const FUNCTIONS: [(&str, Function); 20] = [
+    ("sgn", Function::Sign),
+    ("sign", Function::Sign),
+    ("abs", Function::Abs),
+    ("exp", Function::Exp),
+    ("expm1", Function::Expm1),
+    ("log", Function::Log),
+    ("ln", Function::Log),
+    ("log10", Function::Log10),
+    ("sqrt", Function::Sqrt),
+    ("cbrt", Function::Cbrt),
+    ("sin", Function::Sin),
+    ("cos", Function::Cos),
+    ("tan", Function::Tan),
+    ("atan", Function::Atan),
+    ("arctan", Function::Atan),
+    ("tanh", Function::Tanh),
+    ("pow", Function::Power),
+    ("min", Function::Minimum),
+    ("max", Function::Maximum),
+    ("power", Function::Power),
+];
+
+/// Channels by name; `load` is short for `load_torque`.
+const CHANNELS: [(&str, Channel); 15] = [
+    ("v", Channel::Velocity),
+    ("velocity", Channel::Velocity),
+    ("q", Channel::Position),
+    ("position", Channel::Position),
+    ("a", Channel::Acceleration),
+    ("acceleration", Channel::Acceleration),
+    ("T", Channel::Temperature),
+    ("temperature", Channel::Temperature),
+    ("tl", Channel::LoadTorque),
+    ("load", Channel::LoadTorque),
+    ("load_torque", Channel::LoadTorque),
+    ("tm", Channel::MotorTorque),
+    ("motor_torque", Channel::MotorTorque),
+    ("te", Channel::ExternalTorque),
+    ("external_torque", Channel::ExternalTorque),
+];
+
+/// What a name stands for.
+pub(super) enum Word {
+    Channel(Channel),
+    Function(Function),
+    Pi,
+    /// A parameter, or a slip of the pen.
+    Other,
+}
+
+pub(super) fn word(name: &str) -> Word {
+    if name == "pi" {
+        return Word::Pi;
+    }
+    let channel = CHANNELS.iter().find(|(word, _)| *word == name);
+    let function = FUNCTIONS.iter().find(|(word, _)| *word == name);
+    match (channel, function) {
+        (Some(&(_, channel)), _) => Word::Channel(channel),
+        (_, Some(&(_, function))) => Word::Function(function),
+        _ => Word::Other,
+    }
+}
+
+/// The function whose name is closest to a mistyped one.
+pub(super) fn nearest_function(name: &str) -> Option<&'static str> {
+    nearest(name, FUNCTIONS.iter().map(|(word, _)| *word), name.len() / 2)
+}
+
+/// The channel, function or constant that a parameter's name was probably meant to be: one that
+/// differs by case alone, or a long one with a letter or two wrong.
+pub(super) fn probably_meant(name: &str) -> Option<&'static str> {
+    let words = || CHANNELS.iter().map(|(word, _)| *word).chain(FUNCTIONS.iter().map(|w| w.0));
+    let same = words().chain(["pi"]).find(|word| word.eq_ignore_ascii_case(name));
+    if same.is_some() || name.len() < 4 {
+        return same;
+    }
+    let most = if name.len() < 7 { 1 } else { 2 };
+    nearest(name, words().filter(|word| word.len() >= 4), most)
+}
+
+fn nearest(
+    name: &str,
+    words: impl Iterator<Item = &'static str>,
+    most: usize,
+) -> Option<&'static str> {
+    let measured = words.filter_map(|word| Some((distance(name, word)?, word)));
+    measured.filter(|(d, _)| *d <= most).min_by_key(|(d, _)| *d).map(|(_, word)| word)
+}
+
+/// The longest name that is compared with others.
+const LONGEST: usize = 24;
+
+/// Letters to insert, delete or replace (Levenshtein 1966); `None` if a name is too long.
+fn distance(a: &str, b: &str) -> Option<usize> {
+    let mut row = [0; LONGEST + 1];
+    if a.len() > LONGEST || b.len() > LONGEST {
+        return None;
+    }
+    for (j, cell) in row.iter_mut().enumerate() {
+        *cell = j;
+    }
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        for (y, above) in b.bytes().zip(row.iter_mut().skip(1)) {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = *above;
+            left = replaced.min(left + 1).min(*above + 1);
+            *above = left;
+        }
+        row[0] = i + 1;
+    }
+    row.get(b.len()).copied()
+}
