@@ -42,8 +42,7 @@ class Problem:
     @cached_property
     def known(self) -> Array:
         """The part of the torque that is known beforehand: the load torque, where given."""
-        given = self.recording.load_torque
-        return np.zeros_like(self.recording.torque) if given is None else given
+        return self.recording.known_torque
 
     @cached_property
     def target(self) -> Array:
@@ -120,7 +119,7 @@ class Problem:
         delayed: dict[str, Any] = {}
         if self._smooth is not None:
             smooth = {name: column[start:stop] for name, column in self._smooth.items()}
-            delayed = {"smooth": smooth, "shift_load": self.recording.load_torque is not None}
+            delayed = {"smooth": smooth, "shift_load": self.recording.torque_holds_load}
         channels = {
             name: None if column is None else column[start:stop]
             for name, column in self._all_channels.items()

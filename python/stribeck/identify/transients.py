@@ -64,9 +64,7 @@ def transient_rows(recording: Recording) -> NDArray[np.bool_]:
     columns = flexible_columns(recording)
     size = np.sqrt((columns[moving] ** 2).mean(axis=0))
     columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
-    target = recording.torque
-    if recording.load_torque is not None:
-        target = target - recording.load_torque
+    target = recording.torque - recording.known_torque
     window = np.minimum(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
     ).astype(np.uint32)

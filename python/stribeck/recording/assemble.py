@@ -48,7 +48,7 @@ def require(prepared: Prepared) -> None:
         )
     if "torque" not in have and "friction_torque" not in have:
         if "current" in have:
-            if prepared.options.torque_constant is not None:
+            if prepared.options.knows_torque_constant:
                 return
             raise RecordingError(
                 f"{path}: there is a current ('{have['current'].source}') but no torque: give "
@@ -104,7 +104,8 @@ def _wanted(prepared: Prepared) -> list[str]:
         or not ("torque" in have and "load_torque" in have)
     )
     if direct:
-        return [*wanted, "friction_torque"]
+        # Friction may depend on the load, so a load that is recorded comes along.
+        return [*wanted, "friction_torque", *(c for c in ("load_torque",) if c in have)]
     if "torque" in have:
         wanted.append("torque")
     elif "current" in have:
@@ -422,19 +423,20 @@ def _maybe(values: Floats | None) -> Any:
 
 
 def _torque(data: _Channels) -> tuple[Floats, Floats | None]:
-    """Return the measured torque and the recorded load, zeros where friction was measured."""
+    """Return the measured torque and the recorded load; zeros where friction alone is known."""
     if "friction_torque" in data.values:
         friction = data.values["friction_torque"]
+        load = data.values.get("load_torque")
         data.notes.append(
             "friction was measured directly "
-            f"('{data.prepared.choices['friction_torque'].source}'): "
-            "it is the torque, and the load torque is zero"
+            f"('{data.prepared.choices['friction_torque'].source}'): it is the torque, "
+            + ("and the load torque is zero" if load is None else "of which the load is no part")
         )
         source = data.columns["friction_torque"]
         data.columns["torque"] = Column(
             "torque", source.source, source.unit, source.derived, source.minimum, source.maximum
         )
-        return friction, np.zeros_like(friction)
+        return friction, np.zeros_like(friction) if load is None else load
     return data.values["torque"], data.values.get("load_torque")
 
 

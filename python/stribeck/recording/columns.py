@@ -113,7 +113,6 @@ _CHANNEL_OF = {alias: channel for channel, aliases in _ALIASES.items() for alias
 _INSTEAD = {
     "torque": ("friction_torque",),
     "current": ("torque", "friction_torque"),
-    "load_torque": ("friction_torque",),
 }
 
 

@@ -48,7 +48,8 @@ class Recording:
     """One joint's measurements, checked, in SI units; arrays are read-only.
 
     `time` [s], `position` [rad or m], `velocity`, `acceleration`, `temperature` [degC], `torque` as
-    it was recorded and `load_torque` (None: not known, to be identified) in `torque_unit`. The
+    it was recorded and `load_torque` (None: not known, to be identified) in `torque_unit`; where
+    friction was measured directly, `torque` is the friction and the load no part of it. The
     ``*_smooth`` arrays are zero-phase low-passed at `cutoff_hz` on the same rows. `dt` [s] is the
     step to the previous sample, 0 where a segment (run, or stretch between gaps) starts. `moving`
     marks the scored rows, `block` the held-out blocks.
@@ -109,6 +110,18 @@ class Recording:
             f"{'s' if self.runs > 1 else ''}, {self.rate_hz:.4g} Hz, {self.joint_kind}, "
             f"{self.torque_unit}>"
         )
+
+    @property
+    def torque_holds_load(self) -> bool:
+        """Whether `torque` is friction and the recorded load together (bool)."""
+        return self.load_torque is not None and "friction_torque" not in self.columns
+
+    @property
+    def known_torque(self) -> Floats:
+        """The part of `torque` that is known beforehand, [n]: the load, where it is in there."""
+        if self.torque_holds_load and self.load_torque is not None:
+            return self.load_torque
+        return np.zeros_like(self.torque)
 
     def scored(self) -> dict[str, float]:
         """Return the ``scored`` object of the JSON output: rows, share, velocity_threshold."""
