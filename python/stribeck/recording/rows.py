@@ -18,6 +18,7 @@ Ints = NDArray[np.int64]
 
 GAP = 5.0  # a step longer than this many median steps starts a new segment
 SIGMAS = 5.0  # a row moves when its speed is above this many sigmas of velocity noise
+VISITS = 20  # a signal that takes each of its values this often on average is a list of settings
 BLOCKS = 10
 MANY_RUNS = 5  # from this many runs on, a held-out block is a whole run
 
@@ -122,7 +123,8 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
 
     Differences of order 2, 3, 4 ... remove ever more of the motion and leave the noise; the first
     order that agrees with the next within a tenth is taken, the smallest when none does. A
-    quantised signal has at least step/sqrt(12).
+    quantised signal has at least step/sqrt(12). A signal that keeps returning to a few values on
+    no grid (the speeds of a static friction curve) is a list of settings, which has no noise.
 
     Parameters
     ----------
@@ -131,6 +133,9 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
     quantum
         Known quantisation step; looked for when None.
     """
+    step = quantisation_step(value) if quantum is None else quantum
+    if step == 0.0 and np.unique(value).size * VISITS <= value.size:
+        return 0.0
     slices = segment_slices(segment)
     sigmas: list[float] = []
     for order in (2, 3, 4, 5):
@@ -143,7 +148,6 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
         if this > 0.0 and abs(this - following) <= 0.1 * this:
             sigma = min(this, following)
             break
-    step = quantisation_step(value) if quantum is None else quantum
     return float(max(sigma, step / np.sqrt(12.0)))
 
 
