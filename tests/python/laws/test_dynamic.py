@@ -1,0 +1,253 @@
+"""Laws with a memory against their differential equations and their exact steps."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import stribeck as sb
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from stribeck.model import law_ids
+
+from laws import dynamics, exact_steps
+from laws.dynamics import DYNAMIC, Motion
+from laws.exact_steps import EXACT
+from laws.points import draw, draw_constants, generator
+from laws.published import DYNAMIC_LAWS
+
+Array = NDArray[np.float64]
+
+DYNAMIC_IDS = [law for law in law_ids() if sb.model(law).has_state]
+
+#: Sizes of sets: laws of several elements with one, some and many.
+SPECS = [
+    spec
+    for law in DYNAMIC_IDS
+    for spec in ((f"{law}:1", f"{law}:4", f"{law}:16") if law in ("gms", "leuven") else (law,))
+]
+
+#: Deflection errors allowed, in multiples of max(D)/s0. The elastoplastic bristle has no closed
+#: form: a fixed number of Runge-Kutta stages steps it.
+DEFLECTION = {"elastoplastic": 1e-5}
+
+
+def allowed(spec: str) -> float:
+    return DEFLECTION.get(base(spec), 1e-8)
+
+
+def base(spec: str) -> str:
+    return spec.partition(":")[0]
+
+
+def parameter_sets(spec: str) -> dict[str, dict[str, float]]:
+    """Table 7 where it has the law, and three drawn sets that keep the dry friction positive."""
+    law = base(spec)
+    sets = {"table 7": DYNAMIC_LAWS[law]} if law in DYNAMIC_LAWS else {}
+    rng = generator(spec, "dynamic")
+    table = sb.model(spec).parameters
+    while len(sets) < 3 + (law in DYNAMIC_LAWS):
+        drawn = {p.symbol: draw(rng, p) for p in table}
+        if least_dry(spec, drawn) > 0.1:
+            sets[f"drawn {len(sets)}"] = drawn
+    return sets
+
+
+def least_dry(spec: str, parameters: dict[str, float]) -> float:
+    """The smallest dry magnitude over the motion of `steps`."""
+    motion, constants = steps(spec)
+    p = SimpleNamespace(**parameters)
+    return min(
+        DYNAMIC[base(spec)].dry(v, p, motion.inputs(k, constants))
+        for k, v in enumerate(motion.velocity.tolist())
+    )
+
+
+def steps(spec: str, count: int = 40) -> tuple[Motion, dict[str, float]]:
+    """Speeds and steps over five decades, reversals, rests, and the constants of the law."""
+    rng = generator(spec, "steps")
+    velocity = rng.choice([-1.0, 1.0], count) * 10 ** rng.uniform(-4, 0.5, count)
+    velocity[[5, 6, 12]] = 0.0
+    velocity[7:11] = np.abs(velocity[7:11])
+    others = {
+        "T": rng.uniform(20, 40, count),
+        "tl": rng.uniform(-20, 20, count),
+        "tm": rng.uniform(-20, 20, count),
+        "te": rng.uniform(-20, 20, count),
+        "a": rng.uniform(-5, 5, count),
+        "q": rng.uniform(-1, 1, count),
+    }
+    constants = draw_constants(rng, base(spec))
+    if ":" in spec:
+        constants["elements"] = float(spec.partition(":")[2])
+    return Motion(10 ** rng.uniform(-4, -1.5, count), velocity, others), constants
+
+
+def made(spec: str, parameters: dict[str, float], constants: dict[str, float]) -> sb.Model:
+    fixed = {name: x for name, x in constants.items() if name != "elements"}
+    return sb.model(spec, constants=fixed, **parameters)
+
+
+def columns(motion: Motion) -> dict[str, Array]:
+    """The motion as a model takes it."""
+    return {
+        "velocity": motion.velocity,
+        "dt": motion.dt,
+        "temperature": motion.others["T"],
+        "load_torque": motion.others["tl"],
+        "motor_torque": motion.others["tm"],
+        "external_torque": motion.others["te"],
+        "acceleration": motion.others["a"],
+        "position": motion.others["q"],
+    }
+
+
+def test_every_law_with_a_memory_has_a_reference() -> None:
+    missing = set(DYNAMIC_IDS) - set(DYNAMIC)
+    assert not missing, f"no reference for {sorted(missing)}: write it in laws/dynamics.py"
+
+
+@pytest.mark.parametrize("spec", SPECS)
+def test_steps_solve_the_differential_equation(spec: str) -> None:
+    motion, constants = steps(spec)
+    for name, parameters in parameter_sets(spec).items():
+        solved = dynamics.solve(DYNAMIC[base(spec)], parameters, motion, constants)
+        torque = made(spec, parameters, constants).torque(**columns(motion))
+        error = np.abs(torque - solved.torque) / solved.size
+        assert np.all(error <= allowed(spec)), (name, int(np.argmax(error)), np.max(error))
+
+
+@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) in EXACT])
+def test_steps_and_their_gradients_are_exact(spec: str) -> None:
+    """Against the solution at 50 digits: 1e-11 of the size of the torque, gradients 1e-9 of their
+    largest entry over the motion and of the torque per parameter."""
+    motion, constants = steps(spec)
+    for name, parameters in parameter_sets(spec).items():
+        model = made(spec, parameters, constants)
+        symbols = [p.symbol for p in model.parameters]
+        duals = exact_steps.solve(EXACT[base(spec)], parameters, motion, constants)
+        value, slope = exact_steps.as_arrays(duals, symbols)
+        size = np.max(np.abs(value)) + np.array([sensitivity(d, parameters) for d in duals])
+        error = np.abs(model.torque(**columns(motion)) - value) / size
+        assert np.all(error <= 1e-11), (name, int(np.argmax(error)), np.max(error))
+        given = np.abs([parameters[s] for s in symbols])
+        scale = np.max(np.abs(slope), axis=0) + np.max(size) / np.where(given > 0, given, np.inf)
+        wrong = np.abs(model.gradient(**columns(motion)) - slope) / (scale + 1e-290)
+        where = np.unravel_index(np.argmax(wrong), wrong.shape)
+        assert np.all(wrong <= 1e-9), (name, symbols[where[1]], where[0], np.max(wrong))
+
+
+def sensitivity(torque: exact_steps.Dual, parameters: dict[str, float]) -> float:
+    """sum |p df/dp|: what relative errors of the parameters do to the torque."""
+    return float(sum(abs(parameters[name] * d) for name, d in torque.slope.items()))
+
+
+@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) in EXACT])
+def test_the_references_agree(spec: str) -> None:
+    """Radau and the exact steps: neither shares a formula for the step with the other."""
+    motion, constants = steps(spec, count=15)
+    for parameters in parameter_sets(spec).values():
+        solved = dynamics.solve(DYNAMIC[base(spec)], parameters, motion, constants)
+        duals = exact_steps.solve(EXACT[base(spec)], parameters, motion, constants)
+        value, _ = exact_steps.as_arrays(duals, list(parameters))
+        assert np.max(np.abs(value - solved.torque) / solved.size) <= 1e-9
+
+
+#: Amplitude and frequency of the smooth motion: 0.05 rad at 1 Hz.
+AMPLITUDE, OMEGA = 0.05, 2 * np.pi
+DURATION, INSTANTS = 1.3, 500
+
+
+def smooth_torque(spec: str, parameters: dict[str, float], constants: dict[str, float]) -> Array:
+    """Radau over the continuous motion, at equal instants."""
+    law, p = DYNAMIC[base(spec)], SimpleNamespace(**parameters)
+
+    def inputs(t: float) -> SimpleNamespace:
+        acceleration = -AMPLITUDE * OMEGA**2 * np.sin(OMEGA * t)
+        return SimpleNamespace(**STILL, a=acceleration, **constants)
+
+    def velocity(t: float) -> float:
+        return float(AMPLITUDE * OMEGA * np.cos(OMEGA * t))
+
+    times = np.linspace(0, DURATION, INSTANTS + 1)[1:]
+    z = np.zeros(law.states(inputs(0.0)))
+    tolerance = 1e-9 * law.dry(velocity(0.0), p, inputs(0.0)) / law.stiffness(p)
+    solved = solve_ivp(
+        lambda t, z: law.rate(z, velocity(t), p, inputs(t)),
+        (0.0, DURATION), z, method="Radau", rtol=1e-11, atol=tolerance,
+        t_eval=times, max_step=0.02,
+    )  # fmt: skip
+    assert solved.success, solved.message
+    return np.array(
+        [
+            law.torque(z, law.rate(z, velocity(t), p, inputs(t)), velocity(t), p, inputs(t))
+            for t, z in zip(times, solved.y.T, strict=True)
+        ]
+    )
+
+
+STILL = {"T": 30.0, "tl": 8.0, "tm": 9.0, "te": -8.0, "q": 0.0}
+
+
+def sampled_torque(model: sb.Model, rows: int, *, mean: bool) -> Array:
+    """The core over the sampled motion, at the instants of `smooth_torque`."""
+    t = np.linspace(0, DURATION, rows + 1)
+    position = AMPLITUDE * np.sin(OMEGA * t)
+    velocity = AMPLITUDE * OMEGA * np.cos(OMEGA * t[1:])
+    dt = np.diff(t)
+    torque = model.core.torque(
+        model.values,
+        dt,
+        velocity,
+        acceleration=-(OMEGA**2) * position[1:],
+        position=np.zeros(rows),
+        mean_velocity=np.diff(position) / dt if mean else None,
+        **{
+            name: np.full(rows, STILL[letter])
+            for name, letter in {
+                "temperature": "T",
+                "load_torque": "tl",
+                "motor_torque": "tm",
+                "external_torque": "te",
+            }.items()
+        },
+    )
+    return torque[rows // INSTANTS - 1 :: rows // INSTANTS]
+
+
+#: Laws whose right-hand side switches: their events are solved step by step only.
+SMOOTH = [spec for spec in SPECS if base(spec) not in ("gms", "leuven")]
+
+
+@pytest.mark.parametrize("mean", [False, True], ids=["end of step", "mean velocity"])
+@pytest.mark.parametrize("spec", SMOOTH)
+def test_order_on_a_smooth_motion(spec: str, mean: bool) -> None:
+    """Halving the step halves the error; with the step's mean velocity it quarters it."""
+    _, constants = steps(spec)
+    for name, parameters in smooth_sets(spec).items():
+        model = made(spec, parameters, constants)
+        expected = smooth_torque(spec, parameters, constants)
+        errors = np.array(
+            [
+                np.sqrt(np.mean((sampled_torque(model, rows, mean=mean) - expected) ** 2))
+                for rows in (4000, 8000, 16000)
+            ]
+        )
+        order = np.log2(errors[:-1] / errors[1:])
+        least = 1.7 if mean else 0.9
+        assert np.all(order >= least), (name, errors.tolist(), order.tolist())
+
+
+def smooth_sets(spec: str) -> dict[str, dict[str, float]]:
+    """Parameters whose bristle the steps resolve."""
+    return {k: v for k, v in parameter_sets(spec).items() if pace(spec, v) * DURATION / 4000 < 0.3}
+
+
+def pace(spec: str, parameters: dict[str, float]) -> float:
+    """s0 v/D at the largest speed of the smooth motion (1/s)."""
+    _, constants = steps(spec)
+    p, v = SimpleNamespace(**parameters), AMPLITUDE * OMEGA
+    x = SimpleNamespace(**STILL, a=0.0, **constants)
+    law = DYNAMIC[base(spec)]
+    return law.stiffness(p) * v / law.dry(v, p, x)
