@@ -12,6 +12,7 @@ from stribeck.cli.catalog import effects, inspect, models
 from stribeck.cli.demo import demo
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
+from stribeck.cli.methods import points
 from stribeck.errors import StribeckError, nearest
 
 
@@ -41,6 +42,7 @@ def cli() -> None:
 
 for command in (demo, inspect, models, effects, fit, compare, diagnose, add, improve, generate):
     cli.add_command(command)
+cli.add_command(points)
 
 
 def main() -> None:

@@ -1,0 +1,33 @@
+"""What the methods' results look like on a terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from stribeck.report.numbers import plain, with_error
+from stribeck.report.text import file_name, notes_text, table
+
+if TYPE_CHECKING:
+    from stribeck.methods.steady import SteadyPoints
+
+
+def points_text(points: SteadyPoints) -> str:
+    """Steady-state friction points, one line each."""
+    r = points.recording
+    heading = ["point", "from [s]", f"velocity [{r.position_unit}/s]", "",
+               f"friction [{r.torque_unit}]", ""]  # fmt: skip
+    with_load = any(p.load_torque is not None for p in points.points)
+    with_temperature = any(p.temperature is not None for p in points.points)
+    heading += [f"load [{r.torque_unit}]"] * with_load + ["T [degC]"] * with_temperature
+    rows = [heading]
+    for k, p in enumerate(points.points, 1):
+        velocity, velocity_error = with_error(p.velocity, p.velocity_stderr)
+        friction, friction_error = with_error(p.friction_torque, p.friction_stderr)
+        row = [str(k), f"{p.start:.1f}", velocity, f"± {velocity_error}",
+               friction, f"± {friction_error}"]  # fmt: skip
+        row += [plain(p.load_torque or 0.0)] * with_load
+        row += [plain(p.temperature or 0.0)] * with_temperature
+        rows.append(row)
+    head = f"{len(points)} steady-state points by {points.method} from {file_name(r)}"
+    right = [0, 1, 2, 4, *range(6, len(heading))]
+    return "\n\n".join([head, table(rows, right=right), notes_text(r.notes, points.notes)])
