@@ -9,12 +9,13 @@ use crate::scalar::Real;
 use crate::table::{EffectInfo, LawInfo, Parameters, Presence};
 
 macro_rules! laws {
-    ($($law:ident),+ $(,)?) => {
+    ($($law:ident),+; $own:ident) => {
         /// Which law.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs)]
         pub enum LawId {
             $($law,)+
+            $own,
         }
 
         /// A law with its parameters.
@@ -22,10 +23,11 @@ macro_rules! laws {
         #[allow(missing_docs)]
         pub enum Law<S> {
             $($law(law::$law<S>),)+
+            $own(law::$own<S>),
         }
 
         impl LawId {
-            /// Every law.
+            /// Every law of the catalog: not the one that a formula writes.
             pub const ALL: &[Self] = &[$(Self::$law,)+];
 
             /// Its table.
@@ -33,6 +35,7 @@ macro_rules! laws {
             pub const fn info(self) -> &'static LawInfo {
                 match self {
                     $(Self::$law => const { &<law::$law<f64> as FrictionLaw<f64>>::INFO },)+
+                    Self::$own => const { &<law::$own<f64> as FrictionLaw<f64>>::INFO },
                 }
             }
 
@@ -41,6 +44,7 @@ macro_rules! laws {
             pub fn read<S: Real>(self, next: impl FnMut(Presence) -> S) -> Law<S> {
                 match self {
                     $(Self::$law => Law::$law(law::$law::read(next)),)+
+                    Self::$own => Law::$own(law::$own::read(next)),
                 }
             }
         }
@@ -55,6 +59,7 @@ macro_rules! laws {
             ) -> Split<S> {
                 match self {
                     $(Self::$law(law) => law.split(sample, constants),)+
+                    Self::$own(law) => law.split(sample, constants),
                 }
             }
 
@@ -68,6 +73,7 @@ macro_rules! laws {
             ) -> Step<S> {
                 match self {
                     $(Self::$law(law) => law.step(state, split, interval),)+
+                    Self::$own(law) => law.step(state, split, interval),
                 }
             }
         }
@@ -146,7 +152,7 @@ macro_rules! effects {
     };
 }
 
-laws! { Coulomb, BittencourtA, Lugre, GantryMap }
+laws! { Coulomb, BittencourtA, Lugre, GantryMap; ByFormula }
 
 effects! {
     stribeck: Stribeck,

@@ -6,14 +6,17 @@ use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Interval, State, Step};
 use crate::error::ModelError;
+use crate::formula::{Formula, OwnTerms};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, ParameterInfo, Pole, Presence, Role};
 
-/// Which law, which effects, which constants. Displays as `law+effect+...`.
+/// Which law, which terms by formula, which effects, which constants. Displays as
+/// `law+effect+...`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spec {
     law: LawId,
+    own: Option<Formula>,
     effects: EffectSet,
     constants: Constants<f64>,
 }
@@ -43,18 +46,35 @@ impl Spec {
                 return Err(unknown);
             }
         }
-        let mut set = EffectSet::NONE;
-        for id in effects {
-            let effect = catalog::effect(id).ok_or(ModelError::UnknownEffect(id))?;
-            if set.contains(effect) {
-                return Err(ModelError::Twice(effect));
-            }
-            if law.info().captures.contains(&id) {
-                return Err(ModelError::Captured(law, effect));
-            }
-            set = set.with(effect);
-        }
-        Ok(Self { law, effects: set, constants })
+        let effects = effects_of(law, effects)?;
+        Ok(Self { law, own: None, effects, constants })
+    }
+
+    /// A law by formula, with effects by their ids.
+    ///
+    /// # Errors
+    /// An effect that is unknown or named twice.
+    pub fn by_formula<'a>(
+        formula: &Formula,
+        effects: impl IntoIterator<Item = &'a str>,
+    ) -> Result<Self, ModelError<'a>> {
+        let law = LawId::ByFormula;
+        let effects = effects_of(law, effects)?;
+        Ok(Self { law, own: Some(*formula), effects, constants: Constants::default() })
+    }
+
+    /// Adds terms by formula to the law, before any effect acts. Their parameters come after those
+    /// of the law.
+    ///
+    /// # Errors
+    /// All terms by formula together are larger than a formula can be.
+    pub fn add_terms(&mut self, formula: &Formula) -> Result<(), ModelError<'static>> {
+        let joined = match &self.own {
+            Some(own) => own.plus(formula).map_err(ModelError::Formula)?,
+            None => *formula,
+        };
+        self.own = Some(joined);
+        Ok(())
     }
 
     /// Sets one constant.
@@ -73,6 +93,12 @@ impl Spec {
     #[must_use]
     pub const fn law(&self) -> LawId {
         self.law
+    }
+
+    /// The terms by formula, if there are any.
+    #[must_use]
+    pub const fn own(&self) -> Option<&Formula> {
+        self.own.as_ref()
     }
 
     /// The effects.
@@ -105,6 +131,7 @@ impl Spec {
         Channel::ALL.into_iter().filter(|channel| {
             *channel == Channel::Velocity
                 || self.law.info().channels.contains(channel)
+                || self.own.is_some_and(|own| own.reads(*channel))
                 || self.effects.iter().any(|effect| effect.info().channels.contains(channel))
         })
     }
@@ -118,11 +145,13 @@ impl Spec {
         })
     }
 
-    /// Its parameters: those of the law, then those of the effects in the order they act.
+    /// Its parameters: those of the law, those of the terms by formula, then those of the effects
+    /// in the order they act.
     pub fn parameters(&self) -> impl Iterator<Item = &'static ParameterInfo> + '_ {
         let law = self.law.info().parameters.iter();
+        let own = self.own.iter().flat_map(Formula::parameters);
         let effects = self.effects.iter().flat_map(|effect| effect.info().parameters);
-        law.chain(effects).filter(|parameter| self.includes(parameter.presence))
+        law.chain(own).chain(effects).filter(|parameter| self.includes(parameter.presence))
     }
 
     /// How many parameters it has.
@@ -162,10 +191,11 @@ impl Spec {
             value.unwrap_or_else(S::zero)
         };
         let law = self.law.read(&mut next);
+        let own = self.own.as_ref().map(|own| OwnTerms::read(own, || next(Presence::Always)));
         let effects = Effects::read(self.effects, &mut next);
         let bristle = effects.bristle();
         let has_state = self.has_state();
-        Ok(Composed { law, effects, bristle, has_state, constants: self.constants.cast() })
+        Ok(Composed { law, own, effects, bristle, has_state, constants: self.constants.cast() })
     }
 
     fn includes(&self, presence: Presence) -> bool {
@@ -182,6 +212,9 @@ impl Spec {
 impl fmt::Display for Spec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.law.info().id)?;
+        if self.own.is_some() && self.law != LawId::ByFormula {
+            write!(f, "+{}", LawId::ByFormula.info().id)?;
+        }
         let elements = self.constants.elements;
         if self.law.info().constants.contains(&"elements")
             && elements != Constants::default().elements
@@ -192,10 +225,28 @@ impl fmt::Display for Spec {
     }
 }
 
+/// The effects of these ids, none twice and none that the law has by itself.
+fn effects_of<'a>(
+    law: LawId,
+    ids: impl IntoIterator<Item = &'a str>,
+) -> Result<EffectSet, ModelError<'a>> {
+    ids.into_iter().try_fold(EffectSet::NONE, |set, id| {
+        let effect = catalog::effect(id).ok_or(ModelError::UnknownEffect(id))?;
+        if set.contains(effect) {
+            return Err(ModelError::Twice(effect));
+        }
+        if law.info().captures.contains(&id) {
+            return Err(ModelError::Captured(law, effect));
+        }
+        Ok(set.with(effect))
+    })
+}
+
 /// A law and its effects with numbers: immutable, its state is kept apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composed<S: Real> {
     law: Law<S>,
+    own: Option<OwnTerms<S>>,
     effects: Effects<S>,
     bristle: Option<Bristle<S>>,
     has_state: bool,
@@ -220,11 +271,14 @@ impl<S: Real> Composed<S> {
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
         let split = self.law.split(sample, &self.constants);
-        if self.effects.is_empty() {
+        if self.effects.is_empty() && self.own.is_none() {
             return split;
         }
         // A copy, so that a law alone need not pass through memory.
         let mut altered = split;
+        if let Some(own) = &self.own {
+            own.add_to(&mut altered, sample);
+        }
         self.effects.apply(&mut altered, sample, &self.constants);
         altered
     }

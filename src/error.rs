@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::catalog::{EffectId, LawId};
 use crate::constants::CONSTANTS;
+use crate::formula::FormulaError;
 
 /// Why a model cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub enum ModelError<'a> {
         /// How many were given.
         given: usize,
     },
+    /// A term by formula cannot be used.
+    Formula(FormulaError<'a>),
     /// The formula cannot be evaluated at this value.
     Value {
         /// Which parameter.
@@ -67,6 +70,7 @@ impl fmt::Display for ModelError<'_> {
             Self::Count { expected, given } => {
                 write!(f, "the model has {expected} parameters but {given} values were given")
             }
+            Self::Formula(error) => error.fmt(f),
             Self::Value { parameter, value } => {
                 write!(f, "parameter '{parameter}' cannot be {value}")
             }

@@ -118,6 +118,27 @@ impl Program {
         Some(value)
     }
 
+    /// The sum of two programs, the second with parameters of its own; `None` if it is too large.
+    pub(super) fn plus(&self, other: &Self) -> Option<Self> {
+        let mut sum = *self;
+        sum.parameter_count += other.parameter_count;
+        let shift = u8::try_from(self.parameter_count).ok()?;
+        for &operation in other.operations() {
+            let room = match operation {
+                Operation::Constant(index) => {
+                    sum.push_constant(*other.constants().get(usize::from(index))?)
+                }
+                Operation::Parameter(index) => sum.push(Operation::Parameter(index + shift)),
+                operation => sum.push(operation),
+            };
+            room.then_some(())?;
+        }
+        let fits = sum.push(Operation::Add)
+            && sum.parameter_count <= MAX_PARAMETERS
+            && sum.depth() <= MAX_DEPTH;
+        fits.then_some(sum)
+    }
+
     /// The operations that make the value which the one at `last` leaves, itself included.
     pub(super) fn part(&self, last: usize) -> Range<usize> {
         let mut open = 1;

@@ -5,11 +5,11 @@ use core::ops::Range;
 use super::error::{FormulaError, Reason};
 use super::linear::{ParameterSet, linear_parameters};
 use super::parser::{self, Names};
-use super::program::{MAX_PARAMETERS, Operation, Program, Replacement};
+use super::program::{MAX_OPERATIONS, MAX_PARAMETERS, Operation, Program, Replacement};
 use super::vocabulary::Function;
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
-use crate::table::{Channel, Role};
+use crate::table::{Channel, ParameterInfo, Presence, Role, Scale};
 
 /// The most terms of a formula.
 pub const MAX_TERMS: usize = 24;
@@ -100,14 +100,17 @@ impl Formula {
     /// What is wrong with the text, and where.
     pub fn parse(text: &str) -> Result<(Self, Names<'_>), FormulaError<'_>> {
         let (program, names) = parser::parse(text)?;
+        Ok((Self::of(program)?, names))
+    }
+
+    fn of(program: Program) -> Result<Self, FormulaError<'static>> {
         let mut formula = Self { program, terms: [None; MAX_TERMS], linear: 0 };
-        let length = program.operations().len();
-        if !formula.collect(length - 1, false) {
+        if !formula.collect(program.operations().len() - 1, false) {
             let reason = Reason::TooLarge("terms", MAX_TERMS);
             return Err(FormulaError { position: 1, reason });
         }
         formula.linear = linear_parameters(&program);
-        Ok((formula, names))
+        Ok(formula)
     }
 
     /// The program.
@@ -127,10 +130,28 @@ impl Formula {
         self.terms.iter().flatten()
     }
 
+    /// The sum of two formulas; the parameters of the second come after those of the first.
+    ///
+    /// # Errors
+    /// The sum is larger than a formula can be.
+    pub fn plus(&self, other: &Self) -> Result<Self, FormulaError<'static>> {
+        let program = self.program.plus(&other.program).ok_or(FormulaError {
+            position: 1,
+            reason: Reason::TooLarge("parameters and operations in all terms", MAX_OPERATIONS),
+        })?;
+        Self::of(program)
+    }
+
     /// Whether the formula reads a channel.
     #[must_use]
     pub fn reads(&self, channel: Channel) -> bool {
         self.program.operations().contains(&Operation::Channel(channel))
+    }
+
+    /// A row of a table for each parameter. They have the names `p1`, `p2` ... here: those that
+    /// the user gave are kept with the text.
+    pub fn parameters(&self) -> impl Iterator<Item = &'static ParameterInfo> + '_ {
+        (0..self.parameter_count()).filter_map(|i| slots(self.role(i)).get(i))
     }
 
     /// How a parameter enters the torque.
@@ -251,6 +272,43 @@ impl Formula {
             .iter()
             .all(|&sign| self.program.evaluate(part, replacement, &parameters, &rest(sign)) == 0.0)
     }
+}
+
+/// The table of parameters that all enter the torque alike: unbounded, without a unit.
+const fn slots(role: Role) -> &'static [ParameterInfo; MAX_PARAMETERS] {
+    match role {
+        Role::Dry => const { &table(Role::Dry) },
+        Role::Rate => const { &table(Role::Rate) },
+        Role::Additive => const { &table(Role::Additive) },
+        Role::Nonlinear | Role::Held => const { &table(Role::Nonlinear) },
+    }
+}
+
+const fn table(role: Role) -> [ParameterInfo; MAX_PARAMETERS] {
+    const NAMES: [&str; MAX_PARAMETERS] = [
+        "p1", "p2", "p3", "p4", "p5", "p6", "p7", "p8", "p9", "p10", "p11", "p12", "p13", "p14",
+        "p15", "p16",
+    ];
+    let unnamed = ParameterInfo {
+        name: "",
+        symbol: "",
+        unit: "1",
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+        start: 1.0,
+        scale: Scale::None,
+        role,
+        presence: Presence::Always,
+        description: "Parameter of a formula.",
+    };
+    let mut rows = [unnamed; MAX_PARAMETERS];
+    let mut i = 0;
+    while i < rows.len() {
+        rows[i].name = NAMES[i];
+        rows[i].symbol = NAMES[i];
+        i += 1;
+    }
+    rows
 }
 
 /// A formula with numbers for its parameters.

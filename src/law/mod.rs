@@ -3,11 +3,13 @@
 //! A new law is one file here and one row in [`crate::catalog`].
 
 mod bittencourt_a;
+mod by_formula;
 mod coulomb;
 mod gantry_map;
 mod lugre;
 
 pub use bittencourt_a::BittencourtA;
+pub use by_formula::ByFormula;
 pub use coulomb::Coulomb;
 pub use gantry_map::GantryMap;
 pub use lugre::Lugre;
