@@ -89,6 +89,9 @@ _RECORDING_OPTIONS = [
     click.option("--gear-ratio", type=float, default=None, help="Motor turns a joint turn."),
     click.option("--torque-constant", type=float, default=None, help="N m/A, for a current."),
     click.option("--inertia", type=float, default=None, help="Known inertia, kg m2 or kg."),
+    click.option("--km", type=float, default=None, help="Motor constant, N m/W^0.5 (energy)."),
+    click.option("--kb", type=float, default=None, help="Back-EMF constant, V s/rad (energy)."),
+    click.option("--kt", type=float, default=None, help="Torque constant, N m/A (energy)."),
 ]
 
 
@@ -109,6 +112,9 @@ def recording_options(command: F) -> F:
             "gear_ratio": given.pop("gear_ratio"),
             "torque_constant": given.pop("torque_constant"),
             "inertia": given.pop("inertia"),
+            "km": given.pop("km"),
+            "kb": given.pop("kb"),
+            "kt": given.pop("kt"),
         }
         return command(reading=reading, **given)
 

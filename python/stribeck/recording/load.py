@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
+from ..errors import RecordingError, nearest
 from .assemble import build
 from .options import Pairs, gather
 from .recording import Recording
-from .table import joint_rows, joints_of, prepare
+from .table import Prepared, joint_rows, joints_of, labels, prepare
 
 __all__ = ["read", "read_all"]
 
@@ -22,6 +24,9 @@ def read(
     gear_ratio: float | None = None,
     torque_constant: float | None = None,
     inertia: float | None = None,
+    km: float | None = None,
+    kb: float | None = None,
+    kt: float | None = None,
     unit: Pairs = (),
     map: Pairs = (),
     derive: Pairs = (),
@@ -45,6 +50,9 @@ def read(
         Joint-side torque = current [A] * torque_constant [N m/A] * gear_ratio.
     inertia
         Known inertia [kg m2] or mass [kg]: load torque = inertia * acceleration (+ gravity).
+    km, kb, kt
+        Motor constant [N m/W^0.5], back-EMF constant [V s/rad] and torque constant [N m/A] for the
+        electrical energy.
     unit
         ``"COLUMN=UNIT"`` texts: the unit of a column of the file.
     map
@@ -66,12 +74,12 @@ def read(
     """
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
-        torque_constant=torque_constant, inertia=inertia, unit=unit, map=map, derive=derive,
-        where=where, average=average,
+        torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
+        derive=derive, where=where, average=average,
     )  # fmt: skip
     prepared = prepare(str(path), options)
     name, rows = joint_rows(prepared, options.joint)
-    return build(prepared, name, rows, standstill=standstill)
+    return build(_of_joint(prepared, name), name, rows, standstill=standstill)
 
 
 def read_all(
@@ -83,6 +91,9 @@ def read_all(
     gear_ratio: float | None = None,
     torque_constant: float | None = None,
     inertia: float | None = None,
+    km: float | None = None,
+    kb: float | None = None,
+    kt: float | None = None,
     unit: Pairs = (),
     map: Pairs = (),
     derive: Pairs = (),
@@ -92,11 +103,34 @@ def read_all(
     """Read every joint of a recording, in order of appearance; see `read`."""
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
-        torque_constant=torque_constant, inertia=inertia, unit=unit, map=map, derive=derive,
-        where=where, average=average,
+        torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
+        derive=derive, where=where, average=average,
     )  # fmt: skip
     prepared = prepare(str(path), options)
     wanted: Iterable[str | None] = joints_of(prepared) or [None]
     if options.joint is not None:
         wanted = [options.joint]
-    return [build(prepared, *joint_rows(prepared, name)) for name in wanted]
+    return [build(_of_joint(prepared, name), *joint_rows(prepared, name)) for name in wanted]
+
+
+def _of_joint(prepared: Prepared, joint: str | None) -> Prepared:
+    """The table with what was said about one joint.
+
+    Raises
+    ------
+    RecordingError
+        When the sidecar speaks of a joint that the file does not have.
+    """
+    options, choice = prepared.options, prepared.choices.get("joint")
+    whole = prepared.source.table
+    if options.joints and choice is not None and choice.source in whole.columns:
+        # Of the whole file: --where may have left some joints out.
+        there = list(dict.fromkeys(labels(whole, choice.source)))
+        for name in options.joints:
+            if name not in there:
+                raise RecordingError(
+                    f"{options.sidecar}: [joints.{name}]: {prepared.source.path} has no such joint"
+                    f"{nearest(name, there) or '; it has ' + ', '.join(there)}"
+                )
+    # A current becomes a torque joint by joint, so each has its own choice of columns.
+    return replace(prepared, options=options.for_joint(joint), choices=dict(prepared.choices))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..errors import RecordingError, nearest
 from .columns import CHANNELS
 from .sidecar import Sidecar, find_sidecar, read_sidecar
 
-__all__ = ["Options", "gather"]
+__all__ = ["Mechanics", "Options", "gather"]
 
 _KINDS = {
     "revolute": "revolute", "rotary": "revolute", "rotational": "revolute", "r": "revolute",
@@ -22,22 +22,43 @@ Pairs = Sequence[str] | Mapping[str, str] | str
 
 
 @dataclass(frozen=True)
-class Options:
-    """Everything said about a recording."""
+class Mechanics:
+    """What was said about a joint's drive and rigid body."""
 
-    joint: str | None
-    joint_kind: str | None
     gear_ratio: float
     torque_constant: float | None
     screw_pitch: float | None
     terms: dict[str, float]  # rigid body: inertia, gravity_cos, gravity_sin, gravity
     motor: dict[str, float]
+
+
+@dataclass(frozen=True)
+class Options(Mechanics):
+    """Everything said about a recording."""
+
+    joint: str | None
+    joint_kind: str | None
     units: dict[str, str]
     maps: dict[str, str]
     derive: dict[str, str]
     where: str | None
     average: str | None
     sidecar: str | None
+    joints: dict[str, Mechanics] = field(default_factory=dict)  # where they differ by joint
+
+    @property
+    def knows_torque_constant(self) -> bool:
+        """Whether a current can be turned into a torque, whichever joint it is of."""
+        own = [joint.torque_constant for joint in self.joints.values()]
+        return self.torque_constant is not None or (bool(own) and None not in own)
+
+    def for_joint(self, joint: str | None) -> Options:
+        """What was said about one joint of a file that holds several."""
+        own = self if joint is None else self.joints.get(joint, self)
+        return replace(
+            self, gear_ratio=own.gear_ratio, torque_constant=own.torque_constant,
+            screw_pitch=own.screw_pitch, terms=own.terms, motor=own.motor, joints={},
+        )  # fmt: skip
 
 
 def _pairs(said: Pairs, flag: str, right: str, *, last: bool = False) -> dict[str, str]:
@@ -77,6 +98,9 @@ def gather(
     gear_ratio: float | None,
     torque_constant: float | None,
     inertia: float | None,
+    km: float | None,
+    kb: float | None,
+    kt: float | None,
     unit: Pairs,
     map: Pairs,
     derive: Pairs,
@@ -105,31 +129,19 @@ def gather(
             maps.pop(channel, None)
     if "effort_unit" in said.texts and "torque" not in units:
         units["torque"] = said.texts["effort_unit"]
-    ratio = _number(gear_ratio, "--gear-ratio", positive=False)
-    if ratio is None:
-        ratio = said.numbers.get("gear_ratio", 1.0)
-    if ratio == 0.0:
+    flags = {
+        "gear_ratio": _number(gear_ratio, "--gear-ratio", positive=False),
+        "torque_constant": _number(torque_constant, "--torque-constant", positive=True),
+        "inertia": _number(inertia, "--inertia", positive=False),
+        "km": _number(km, "--km", positive=True),
+        "kb": _number(kb, "--kb", positive=True),
+        "kt": _number(kt, "--kt", positive=True),
+    }
+    if flags["gear_ratio"] == 0.0:
         raise RecordingError("--gear-ratio 0: must not be zero")
-    constant = _number(torque_constant, "--torque-constant", positive=True)
-    if constant is None:
-        constant = said.numbers.get("torque_constant")
-    terms: dict[str, float] = {
-        key: said.numbers[key]
-        for key in ("inertia", "gravity_cos", "gravity_sin", "gravity")
-        if key in said.numbers
-    }
-    moved = _number(inertia, "--inertia", positive=False)
-    if moved is not None:
-        if moved < 0.0:
-            raise RecordingError(f"--inertia {inertia}: must not be negative")
-        terms["inertia"] = moved
-    motor: dict[str, float] = {
-        key: said.numbers[key] for key in ("km", "kb", "kt", "screw_pitch") if key in said.numbers
-    }
-    if ratio != 1.0:
-        motor["gear_ratio"] = ratio
-    if constant is not None:
-        motor["torque_constant"] = constant
+    if flags["inertia"] is not None and flags["inertia"] < 0.0:
+        raise RecordingError(f"--inertia {inertia}: must not be negative")
+    given = {name: value for name, value in flags.items() if value is not None}
     one_per = average if average is not None else said.texts.get("average")
     if one_per is not None and one_per != "run":
         raise RecordingError(f"--average {one_per}: only 'run' can be averaged over")
@@ -137,18 +149,38 @@ def gather(
         if channel not in CHANNELS:
             hint = nearest(channel, CHANNELS) or f"; the names are {', '.join(CHANNELS)}"
             raise RecordingError(f"--map {channel}={maps[channel]}: unknown name '{channel}'{hint}")
+    common = _mechanics({**said.numbers, **given})
     return Options(
+        gear_ratio=common.gear_ratio,
+        torque_constant=common.torque_constant,
+        screw_pitch=common.screw_pitch,
+        terms=common.terms,
+        motor=common.motor,
         joint=str(joint) if joint is not None else said.texts.get("joint"),
         joint_kind=kind,
-        gear_ratio=ratio,
-        torque_constant=constant,
-        screw_pitch=said.numbers.get("screw_pitch"),
-        terms=terms,
-        motor=motor,
         units=units,
         maps=maps,
         derive=formulas,
         where=where if where is not None else said.texts.get("where"),
         average=one_per,
         sidecar=said.path,
+        joints={
+            name: _mechanics({**said.numbers, **numbers, **given})
+            for name, numbers in said.joints.items()
+        },
+    )
+
+
+def _mechanics(numbers: Mapping[str, float]) -> Mechanics:
+    """Sort what was said by what it is about."""
+
+    def chosen(*names: str) -> dict[str, float]:
+        return {name: numbers[name] for name in names if name in numbers}
+
+    return Mechanics(
+        gear_ratio=numbers.get("gear_ratio", 1.0),
+        torque_constant=numbers.get("torque_constant"),
+        screw_pitch=numbers.get("screw_pitch"),
+        terms=chosen("inertia", "gravity_cos", "gravity_sin", "gravity"),
+        motor=chosen("km", "kb", "kt", "screw_pitch", "gear_ratio", "torque_constant"),
     )

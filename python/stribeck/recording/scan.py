@@ -85,6 +85,9 @@ def scan(
     gear_ratio: float | None = None,
     torque_constant: float | None = None,
     inertia: float | None = None,
+    km: float | None = None,
+    kb: float | None = None,
+    kt: float | None = None,
     unit: Pairs = (),
     map: Pairs = (),
     derive: Pairs = (),
@@ -94,8 +97,8 @@ def scan(
     """Look at a file without selecting a joint; see `read` for the options."""
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
-        torque_constant=torque_constant, inertia=inertia, unit=unit, map=map, derive=derive,
-        where=where, average=average,
+        torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
+        derive=derive, where=where, average=average,
     )  # fmt: skip
     problem: str | None = None
     prepared: Prepared | None

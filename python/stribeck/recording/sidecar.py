@@ -19,6 +19,7 @@ _NUMBERS = (
 )  # fmt: skip
 _TEXTS = ("kind", "joint_kind", "where", "average", "joint", "effort_unit", "note")
 _TABLES = ("units", "map", "derive")
+_JOINTS = "joints"  # [joints.NAME]: numbers of one joint of a file that holds several
 _POSITIVE = ("torque_constant", "screw_pitch", "kt", "km", "kb")
 
 
@@ -32,6 +33,7 @@ class Sidecar:
     units: dict[str, str] = field(default_factory=dict)
     map: dict[str, str] = field(default_factory=dict)
     derive: dict[str, str] = field(default_factory=dict)
+    joints: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
 def find_sidecar(path: str | Path) -> Path | None:
@@ -89,7 +91,7 @@ def read_sidecar(path: str | Path) -> Sidecar:
         said = _parse(text)
     except ValueError as error:
         raise RecordingError(f"{name}: is not TOML: {error}") from None
-    known = (*_TEXTS, *_NUMBERS, *_TABLES)
+    known = (*_TEXTS, *_NUMBERS, *_TABLES, _JOINTS)
     for key in said:
         if key not in known:
             hint = nearest(key, known) or f"; the keys are {', '.join(known)}"
@@ -98,28 +100,7 @@ def read_sidecar(path: str | Path) -> Sidecar:
         where = _line(text, "kind") if "kind" in said else "line 1"
         got = f"kind is {said['kind']!r}" if "kind" in said else "there is no kind"
         raise RecordingError(f'{name}, {where}: {got}: a sidecar needs kind = "recording"')
-    numbers: dict[str, float] = {}
-    for key in _NUMBERS:
-        if key not in said:
-            continue
-        value = said[key]
-        if (
-            isinstance(value, bool)
-            or not isinstance(value, (int, float))
-            or not math.isfinite(value)
-        ):
-            raise RecordingError(
-                f"{name}, {_line(text, key)}: {key} must be a finite number, not {value!r}"
-            )
-        if (key in _POSITIVE and value <= 0.0) or (key == "gear_ratio" and value == 0.0):
-            raise RecordingError(
-                f"{name}, {_line(text, key)}: {key} must be above zero, not {value!r}"
-            )
-        if key == "inertia" and value < 0.0:
-            raise RecordingError(
-                f"{name}, {_line(text, key)}: inertia must not be negative, it is {value!r}"
-            )
-        numbers[key] = float(value)
+    numbers = _numbers(name, text, said, None)
     texts: dict[str, str] = {}
     for key in _TEXTS:
         if key in said:
@@ -144,4 +125,57 @@ def read_sidecar(path: str | Path) -> Sidecar:
                     f"{value!r}"
                 )
         tables[key] = dict(table)
-    return Sidecar(name, numbers, texts, tables["units"], tables["map"], tables["derive"])
+    joints = _joints(name, text, said)
+    return Sidecar(name, numbers, texts, tables["units"], tables["map"], tables["derive"], joints)
+
+
+def _numbers(name: str, text: str, said: dict[str, Any], table: str | None) -> dict[str, float]:
+    """Check the numbers at the top of a sidecar, or in one of its tables."""
+    numbers: dict[str, float] = {}
+    for key in _NUMBERS:
+        if key not in said:
+            continue
+        value = said[key]
+        if (
+            isinstance(value, bool)
+            or not isinstance(value, (int, float))
+            or not math.isfinite(value)
+        ):
+            raise RecordingError(
+                f"{name}, {_line(text, key, table)}: {key} must be a finite number, not {value!r}"
+            )
+        if (key in _POSITIVE and value <= 0.0) or (key == "gear_ratio" and value == 0.0):
+            raise RecordingError(
+                f"{name}, {_line(text, key, table)}: {key} must be above zero, not {value!r}"
+            )
+        if key == "inertia" and value < 0.0:
+            raise RecordingError(
+                f"{name}, {_line(text, key, table)}: inertia must not be negative, it is {value!r}"
+            )
+        numbers[key] = float(value)
+    return numbers
+
+
+def _joints(name: str, text: str, said: dict[str, Any]) -> dict[str, dict[str, float]]:
+    """Check the tables ``[joints.NAME]``."""
+    tables = said.get(_JOINTS, {})
+    if not isinstance(tables, dict):
+        raise RecordingError(
+            f"{name}, {_line(text, _JOINTS)}: joints must be tables: write [joints.NAME]"
+        )
+    joints: dict[str, dict[str, float]] = {}
+    for joint, table in tables.items():
+        where = f"{_JOINTS}.{joint}"
+        if not isinstance(table, dict):
+            raise RecordingError(
+                f"{name}, {_line(text, joint, _JOINTS)}: {where} must be a table: write [{where}]"
+            )
+        for key in table:
+            if key not in _NUMBERS:
+                hint = nearest(key, _NUMBERS) or f"; the keys are {', '.join(_NUMBERS)}"
+                raise RecordingError(
+                    f"{name}, {_line(text, key, where)}: unknown key '{key}' of joint '{joint}'"
+                    f"{hint}"
+                )
+        joints[joint] = _numbers(name, text, table, where)
+    return joints

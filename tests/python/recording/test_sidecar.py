@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+import polars as pl
 import pytest
 from stribeck.errors import RecordingError
-from stribeck.recording import read
+from stribeck.recording import read, read_all
 
 GOOD = """kind = "recording"
 joint_kind = "revolute"
@@ -91,3 +92,43 @@ def test_screw(write, frame, tmp_path):
     assert (recording.joint_kind, recording.torque_unit) == ("prismatic", "N")
     np.testing.assert_allclose(recording.velocity, frame["velocity"].to_numpy() * per_rad)
     np.testing.assert_allclose(recording.torque, frame["torque"].to_numpy() / per_rad)
+
+
+@pytest.fixture
+def two_joints(write, frame):
+    """Two joints of a file that differ in their motors, recorded as currents."""
+    one = frame.drop("torque").with_columns(current=frame["torque"] / 6.0)
+    both = [one.with_columns(joint=pl.lit(name)) for name in ("large", "small")]
+    return write(pl.concat(both), "arm.parquet")
+
+
+def test_each_joint_has_its_own_numbers(two_joints, frame):
+    two_joints.with_name("arm.parquet.sidecar.toml").write_text(
+        'kind = "recording"\ngear_ratio = 50.0\n'
+        "[joints.large]\ntorque_constant = 0.12\nkm = 0.2\n"
+        "[joints.small]\ntorque_constant = 0.06\ngear_ratio = 100.0\n"
+    )
+    large, small = read_all(two_joints)
+    np.testing.assert_allclose(large.torque, frame["torque"].to_numpy(), rtol=1e-12)
+    np.testing.assert_allclose(small.torque, frame["torque"].to_numpy(), rtol=1e-12)
+    assert large.motor == {"km": 0.2, "gear_ratio": 50.0, "torque_constant": 0.12}
+    assert small.motor == {"gear_ratio": 100.0, "torque_constant": 0.06}
+    flagged = read(two_joints, joint="small", km=0.3, torque_constant=0.12)
+    assert flagged.motor["km"] == 0.3
+    np.testing.assert_allclose(flagged.torque, 2.0 * frame["torque"].to_numpy(), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("table", "sentence"),
+    [
+        ("[joints.larg]\nkm = 1.0", "has no such joint; did you mean 'large'"),
+        ("[joints.large]\nkmm = 1.0", "line 3: unknown key 'kmm' of joint 'large'; did you"),
+        ("[joints.large]\n\nkm = -1.0", "line 4: km must be above zero"),
+        ("[joints]\nlarge = 3", "line 3: joints.large must be a table"),
+        ("joints = 3", "line 2: joints must be tables"),
+    ],
+)
+def test_mistakes_of_one_joint_name_their_line(two_joints, table, sentence):
+    two_joints.with_name("arm.parquet.sidecar.toml").write_text(f'kind = "recording"\n{table}\n')
+    with pytest.raises(RecordingError, match=sentence):
+        read(two_joints, joint="large", torque_constant=0.1)
