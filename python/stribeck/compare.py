@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from stribeck.energy import electrical_energy
 from stribeck.fit import Fit, evaluate
 from stribeck.identify.figures import relative_residual, rms
 from stribeck.recording import Recording
@@ -234,16 +235,6 @@ def assess(fit: Fit) -> Assessment:
 
 
 def _energy(fit: Fit) -> dict[str, float] | None:
-    """Mechanical work of the motor over the scored rows, measured and modelled, J."""
-    r = fit.recording
-    if r.torque_unit not in ("N m", "N") or r.averaged:
-        return None
-    moving = r.moving
-    step = r.velocity[moving] * r.dt[moving]
-    measured = float(np.sum(r.torque[moving] * step))
-    modelled = float(np.sum(fit.prediction[moving] * step))
-    return {
-        "measured_J": measured,
-        "model_J": modelled,
-        "error_percent": 100.0 * (modelled - measured) / measured if measured else float("nan"),
-    }
+    """Electrical energy over the scored rows, measured and modelled; None where not known."""
+    energy = electrical_energy(fit.recording, fit.prediction)
+    return None if energy is None else energy.to_dict()

@@ -1,4 +1,4 @@
-"""`stribeck generate`: synthetic recordings with chosen hidden effects."""
+"""`stribeck generate`: synthetic recordings of one joint, or of a robot arm."""
 
 from __future__ import annotations
 
@@ -11,12 +11,17 @@ import polars as pl
 
 from stribeck.cli.common import check_output, echo_json, json_option, seed_option
 from stribeck.errors import SpecError
-from stribeck.generate import JOINTS, file_bytes, sidecar_text
+from stribeck.generate import JOINTS, RobotRecording, file_bytes, sidecar_text, write_robot
 from stribeck.generate import generate as make
+from stribeck.generate.ur5e import RATE, REPEATS, TESTS
 from stribeck.model_file import write_whole
 from stribeck.report.figures import write_bytes_whole
-from stribeck.report.numbers import plain
+from stribeck.report.numbers import listed, plain, thousands
 from stribeck.report.text import table, unit_text
+
+#: Options that belong to one of the two kinds of recording.
+OF_A_JOINT = ("effects", "law", "seconds", "noise", "warming", "joint_kind")
+OF_A_ROBOT = ("test", "repeats", "every")
 
 
 @click.command()
@@ -30,22 +35,42 @@ from stribeck.report.text import table, unit_text
 )  # fmt: skip
 @click.option("--law", default="coulomb", show_default=True, help="The friction law beneath.")
 @click.option("--seconds", default=120.0, show_default=True, help="Duration, s.")
-@click.option("--rate", default=200.0, show_default=True, help="Samples a second, Hz.")
+@click.option(
+    "--rate", type=float, default=None,
+    help=f"Samples a second, Hz. [default: 200; {RATE:g} with --robot]",
+)  # fmt: skip
 @click.option(
     "--noise", default=0.02, show_default=True,
     help="RMS of the torque noise as a share of Coulomb friction.",
 )  # fmt: skip
 @click.option("--warming", default=20.0, show_default=True, help="Warm-up of the joint, K.")
 @click.option("--joint-kind", default="revolute", show_default=True, type=click.Choice([*JOINTS]))
+@click.option(
+    "--robot", type=click.Choice(["ur5e"]), default=None,
+    help="An arm of six joints whose friction is none of the laws.",
+)  # fmt: skip
+@click.option(
+    "--test", type=click.Choice([str(t) for t in TESTS]), default="2", show_default=True,
+    help="The robot's motion: 1 trapezoidal speed, 2 quintic polynomials.",
+)  # fmt: skip
+@click.option(
+    "--repeats", type=int, default=None,
+    help=f"Cycles that the robot makes. [default: 1 of test 1, {REPEATS} of test 2]",
+)  # fmt: skip
+@click.option(
+    "--every", type=int, default=1, show_default=True,
+    help="Record one of so many cycles; the robot warms up in the others too.",
+)  # fmt: skip
 @seed_option
 @json_option
+@click.pass_context
 def generate(
-    output: str, effects: tuple[str, ...], law: str, seconds: float, rate: float, noise: float,
-    warming: float, joint_kind: str, seed: int, as_json: bool,
+    context: click.Context, /, output: str, robot: str | None, rate: float | None, seed: int,
+    as_json: bool, **sizes: Any,
 ) -> None:  # fmt: skip
-    """Make a synthetic recording with hidden effects.
+    """Make a synthetic recording: a joint with hidden effects, or a robot arm.
 
-    Beside the recording stand its sidecar (joint kind) and what is hidden in it (.truth.json).
+    Beside the recording stand its sidecar and what is hidden in it (.truth.json).
     """
     target = Path(output)
     if target.suffix.lower() not in (".parquet", ".csv"):
@@ -53,27 +78,68 @@ def generate(
     if seed < 0:
         raise SpecError(f"seed {seed} is negative: give 0 or more")
     check_output(output)
-    frame, truth = make(
-        effects, law=law, seed=seed, seconds=seconds, rate=rate, noise=noise,
-        joint_kind=joint_kind, warming=warming,
-    )  # fmt: skip
+    _refuse_strangers(context, robot)
+    if robot is None:
+        _generate_joint(target, sizes, 200.0 if rate is None else rate, seed, as_json)
+    else:
+        _generate_robot(target, sizes, RATE if rate is None else rate, seed, as_json)
+
+
+def _refuse_strangers(context: click.Context, robot: str | None) -> None:
+    """Refuse an option that the other kind of recording has."""
+    strangers = OF_A_ROBOT if robot is None else OF_A_JOINT
+    for option in context.command.params:
+        source = context.get_parameter_source(option.name or "")
+        if option.name in strangers and source is click.core.ParameterSource.COMMANDLINE:
+            flag = option.opts[0]
+            raise SpecError(
+                f"{flag} says nothing without --robot: add --robot ur5e or leave {flag} out"
+                if robot is None
+                else f"{flag} is for one joint, not for --robot {robot}: leave one of them out"
+            )
+
+
+def _generate_joint(
+    target: Path, sizes: dict[str, Any], rate: float, seed: int, as_json: bool
+) -> None:
+    own = {name: sizes[name] for name in OF_A_JOINT if name != "effects"}
+    frame, truth = make(sizes["effects"], rate=rate, seed=seed, **own)
+    write_bytes_whole(target, file_bytes(frame, target.suffix.lower()))
+    beside = _write_beside(target, truth, sidecar_text(truth))
+    if as_json:
+        echo_json({"path": str(target), **beside, "rows": frame.height, **truth})
+    else:
+        click.echo(_joint_text(target, beside["truth_path"], frame, truth))
+
+
+def _generate_robot(
+    target: Path, sizes: dict[str, Any], rate: float, seed: int, as_json: bool
+) -> None:
+    test, repeats = int(sizes["test"]), sizes["repeats"]
+    if repeats is None:
+        repeats = 1 if test == 1 else REPEATS
+    recording = RobotRecording(
+        test=test, seed=seed, repeats=repeats, every=sizes["every"], rate=rate
+    )
+    write_robot(recording, target)
+    truth = recording.truth()
+    beside = _write_beside(target, truth, recording.sidecar_text())
+    if as_json:
+        echo_json({"path": str(target), **beside, **truth})
+    else:
+        click.echo(_robot_text(target, beside["truth_path"], truth))
+
+
+def _write_beside(target: Path, truth: dict[str, Any], sidecar: str) -> dict[str, str]:
+    """Write truth and sidecar beside the recording; their paths."""
     truth_path = target.with_name(f"{target.name}.truth.json")
     sidecar_path = target.with_name(f"{target.name}.sidecar.toml")
-    write_bytes_whole(target, file_bytes(frame, target.suffix.lower()))
     write_whole(truth_path, json.dumps(truth, indent=2) + "\n")
-    write_whole(sidecar_path, sidecar_text(truth))
-    if as_json:
-        echo_json(
-            {
-                "path": str(target), "truth_path": str(truth_path),
-                "sidecar_path": str(sidecar_path), "rows": frame.height, **truth,
-            }
-        )  # fmt: skip
-    else:
-        click.echo(_text(target, truth_path, frame, truth))
+    write_whole(sidecar_path, sidecar)
+    return {"truth_path": str(truth_path), "sidecar_path": str(sidecar_path)}
 
 
-def _text(path: Path, truth_path: Path, frame: pl.DataFrame, truth: dict[str, Any]) -> str:
+def _joint_text(path: Path, truth_path: str, frame: pl.DataFrame, truth: dict[str, Any]) -> str:
     unit = truth["torque_unit"]
     rows = [["parameter", "value", "unit"]]
     rows += [
@@ -93,5 +159,23 @@ def _text(path: Path, truth_path: Path, frame: pl.DataFrame, truth: dict[str, An
             "",
             f"The truth is in {truth_path}. Now try:",
             f"  stribeck improve {path} --base {truth['law']}",
+        ]
+    )
+
+
+def _robot_text(path: Path, truth_path: str, truth: dict[str, Any]) -> str:
+    cycles = len(range(0, truth["repeats"], truth["every"]))
+    made = f"{truth['repeats']} cycle{'s' if truth['repeats'] > 1 else ''}"
+    motion = f"{truth['motion']}, {made} of {plain(truth['cycle_s'])} s, {cycles} recorded"
+    return "\n".join(
+        [
+            f"wrote {path}: {thousands(truth['rows'])} rows at {plain(truth['rate_hz'])} Hz",
+            "",
+            f"  joints: {listed(list(truth['joints']))}",
+            f"  motion: {motion}",
+            f"  friction: none of the laws; sizes, noise and motors are in {truth_path}",
+            "",
+            "Now try:",
+            f"  stribeck study {path} --output study",
         ]
     )

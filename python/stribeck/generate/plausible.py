@@ -36,6 +36,8 @@ def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> di
         "load_coulomb": 0.16,
         "load_exponent": 1.0,
         "load_stribeck": 0.0,
+        "quadrant_coulomb": 0.1,
+        "quadrant_viscous": 0.05 / joint.speed,
         "direction_coulomb": 0.15 * c,
         "direction_viscous": 0.15 * b,
         "nonlinear_viscous_coefficient": 0.6 * b,

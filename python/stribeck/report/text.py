@@ -306,7 +306,7 @@ def comparison_text(comparison: Comparison) -> str:
     heading = ["model", f"RMSE [{unit}]", "held-out", "rel. residual", "R²", "mean error"]
     with_energy = any(a.energy is not None for a in models)
     if with_energy:
-        heading.append("work error")
+        heading.append("energy error")
     rows = [heading]
     for a in models:
         row = [
