@@ -152,7 +152,10 @@ macro_rules! effects {
     };
 }
 
-laws! { Coulomb, BittencourtA, Lugre, GantryMap; ByFormula }
+laws! {
+    Coulomb, BittencourtA, Clochiatti, Dong, GazA, GazB, GrotjahnA, GrotjahnB, HaoA, IndriA,
+    Makkar, Shao, Wolf, Zhou, Lugre, GantryMap; ByFormula
+}
 
 effects! {
     stribeck: Stribeck,

@@ -203,7 +203,7 @@ impl Spec {
             Presence::Always => true,
             Presence::WithStribeck => self.has(EffectId::Stribeck.info().id),
             Presence::WithLoad => self.effects.contains(EffectId::Load),
-            Presence::WithoutOffset => !self.effects.contains(EffectId::Offset),
+            Presence::WithoutOffset => !self.has(EffectId::Offset.info().id),
             Presence::Element(number) => self.constants.elements >= f64::from(number),
         }
     }

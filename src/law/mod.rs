@@ -4,15 +4,36 @@
 
 mod bittencourt_a;
 mod by_formula;
+mod clochiatti;
 mod coulomb;
+mod curves;
+mod dong;
 mod gantry_map;
+mod gaz;
+mod grotjahn;
+mod hao;
+mod indri_a;
 mod lugre;
+mod makkar;
+mod shao;
+mod wolf;
+mod zhou;
 
 pub use bittencourt_a::BittencourtA;
 pub use by_formula::ByFormula;
+pub use clochiatti::Clochiatti;
 pub use coulomb::Coulomb;
+pub use dong::Dong;
 pub use gantry_map::GantryMap;
+pub use gaz::{GazA, GazB};
+pub use grotjahn::{GrotjahnA, GrotjahnB};
+pub use hao::HaoA;
+pub use indri_a::IndriA;
 pub use lugre::Lugre;
+pub use makkar::Makkar;
+pub use shao::Shao;
+pub use wolf::Wolf;
+pub use zhou::Zhou;
 
 use crate::constants::Constants;
 use crate::dynamics::{Interval, State, Step};

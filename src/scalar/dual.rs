@@ -233,11 +233,12 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     #[inline(always)]
     fn expm1(self) -> Self {
         let value = self.value.expm1();
-        if value.value() == -1.0 {
-            Self::constant(value)
-        } else {
-            self.chain(value, value + T::one())
+        // Far below zero value + 1 cancels.
+        if value.value() > -0.5 {
+            return self.chain(value, value + T::one());
         }
+        let slope = self.value.exp();
+        if slope.value() == 0.0 { Self::constant(value) } else { self.chain(value, slope) }
     }
 
     #[inline(always)]
@@ -306,7 +307,13 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     #[inline(always)]
     fn tanh(self) -> Self {
         let value = self.value.tanh();
-        self.chain(value, T::one() - value * value)
+        if value.value().abs() < 0.5 {
+            return self.chain(value, T::one() - value * value);
+        }
+        // Far from zero 1 - tanh^2 cancels: there 4 e/(1 + e)^2 with e = exp(-2 |x|).
+        let e = (T::from_f64(-2.0) * self.value.abs()).exp();
+        let whole = T::one() + e;
+        self.chain(value, T::from_f64(4.0) * e / (whole * whole))
     }
 
     #[inline(always)]

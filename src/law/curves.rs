@@ -1,0 +1,38 @@
+//! Curves that several laws are made of.
+
+use crate::scalar::Real;
+
+/// `|v|^p sgn v`, 0 at rest even where `p <= 0`.
+#[inline]
+pub fn signed_power<S: Real>(velocity: S::Plain, exponent: S) -> S {
+    if velocity.value() == 0.0 {
+        return S::zero();
+    }
+    let power = exponent.exponent_of(velocity.abs());
+    if power.value().is_finite() {
+        power.scale(velocity.sign())
+    } else {
+        // Beyond all numbers; finite, so that a coefficient of 0 still gives 0.
+        S::from_f64(1e30).scale(velocity.sign())
+    }
+}
+
+/// `(2/pi) atan(k v)`: the sign of the velocity, smoothed over `1/k`.
+#[inline]
+pub fn arctangent_sign<S: Real>(velocity: S::Plain, steepness: S) -> S {
+    steepness.scale(velocity).atan().scale(S::Plain::from_f64(core::f64::consts::FRAC_2_PI))
+}
+
+/// `1/(1 + exp(-x))`, without overflow on either side.
+#[inline]
+pub fn logistic<S: Real>(x: S) -> S {
+    let rest = (-x.abs()).exp();
+    let whole = rest.shift(S::Plain::one());
+    if x.value() < 0.0 { rest / whole } else { S::one() / whole }
+}
+
+/// `1 - exp(-x)`, without cancellation at small `x`.
+#[inline]
+pub fn saturation<S: Real>(x: S) -> S {
+    -(-x).expm1()
+}
