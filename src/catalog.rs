@@ -63,17 +63,19 @@ macro_rules! laws {
                 }
             }
 
-            /// Holds a sample for a while.
+            /// Steps over an interval, with the splits of what is held and of its end.
             #[inline]
             pub fn step(
                 &self,
                 state: &mut State<S>,
-                split: &Split<S>,
+                held: &Split<S>,
+                end: &Split<S>,
                 interval: &Interval<S::Plain>,
+                constants: &Constants<S::Plain>,
             ) -> Step<S> {
                 match self {
-                    $(Self::$law(law) => law.step(state, split, interval),)+
-                    Self::$own(law) => law.step(state, split, interval),
+                    $(Self::$law(law) => law.step(state, held, end, interval, constants),)+
+                    Self::$own(law) => law.step(state, held, end, interval, constants),
                 }
             }
         }
@@ -154,7 +156,7 @@ macro_rules! effects {
 
 laws! {
     Coulomb, BittencourtA, Clochiatti, Dong, GazA, GazB, GrotjahnA, GrotjahnB, HaoA, IndriA,
-    Makkar, Shao, Wolf, Zhou, Lugre, GantryMap; ByFormula
+    Makkar, Shao, Wolf, Zhou, Dahl, Lugre, IndriB, TadeseT, GantryMap; ByFormula
 }
 
 effects! {

@@ -293,16 +293,24 @@ impl<S: Real> Composed<S> {
     /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.
     #[inline]
     pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
-        self.over(state, &Interval { sample: *sample, velocity: sample.velocity, dt, mean: true })
+        self.over(state, &Interval { sample: *sample, held: None, dt, mean: true })
     }
 
     /// As [`step`](Self::step), over an interval.
     #[inline]
     pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
-        let split = self.split(&interval.sample);
+        let end = self.split(&interval.sample);
+        let other;
+        let held = match &interval.held {
+            Some(sample) => {
+                other = self.split(sample);
+                &other
+            }
+            None => &end,
+        };
         match &self.bristle {
-            Some(bristle) => bristle.over(&mut state.bristle, &split, interval),
-            None => self.law.step(state, &split, interval),
+            Some(bristle) => bristle.over(&mut state.bristle, held, &end, interval),
+            None => self.law.step(state, held, &end, interval, &self.constants),
         }
     }
 }

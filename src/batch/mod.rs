@@ -14,6 +14,7 @@ use std::vec::Vec;
 
 use crate::composed::{Composed, Spec};
 use crate::dynamics::{Interval, State};
+use crate::sample::Sample;
 use crate::scalar::{Dual, Real};
 use columns::Rows;
 
@@ -168,17 +169,17 @@ fn evaluate<S: Real>(
     }
     let fresh = State::deflected(S::from_f64(columns.state));
     let mut state = fresh;
-    let carried = columns.mean_velocity.unwrap_or(channels.velocity);
-    for (i, (&dt, &carried)) in rows.steps.iter().zip(carried).enumerate() {
-        if rows.starts_at(i) {
+    for (i, &dt) in rows.steps.iter().enumerate() {
+        let starts = rows.starts_at(i);
+        if starts {
             state = fresh;
         }
-        let interval = Interval {
-            sample: channels.sample(i),
-            velocity: S::Plain::from_f64(carried),
-            dt: S::Plain::from_f64(dt),
-            mean: false,
-        };
+        let sample = channels.sample(i);
+        let held = columns.mean_velocity.and_then(|mean| mean.get(i)).map(|&velocity| {
+            let before = if starts { sample } else { channels.sample(i - 1) };
+            Sample { velocity: S::Plain::from_f64(velocity), ..before.midway(&sample) }
+        });
+        let interval = Interval { sample, held, dt: S::Plain::from_f64(dt), mean: false };
         sink(&model.over(&mut state, &interval).torque);
     }
 }

@@ -4,12 +4,15 @@
 //! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution is
 //! `z+ = e^-x z + v dt phi_1(-x)`: stable and free of overshoot for every stiffness and step.
 
-use super::{Interval, Step};
+use super::{Interval, Step, later_rate};
 use crate::sample::Split;
 use crate::scalar::Real;
 
 /// Above this `x` the bristle has forgotten where it was: `e^-700 < 1e-304`.
 const SATURATED: f64 = 700.0;
+
+/// A bristle that settles faster than this (s) has settled in any step.
+const SHORTEST: f64 = 1e-12;
 
 /// Parameters of a bristle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,18 +37,29 @@ impl<S: Real> Default for BristleState<S> {
 }
 
 impl<S: Real> Bristle<S> {
-    /// Steps over `interval`.
+    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
+    /// the end, with which the torque is read.
     #[inline]
     pub fn over(
         &self,
         state: &mut BristleState<S>,
-        split: &Split<S>,
+        held: &Split<S>,
+        end: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
-        if interval.mean {
-            return self.step(state, split, interval.velocity, interval.dt);
+        let (velocity, dt) = (interval.velocity(), interval.dt);
+        let z = state.z;
+        let path = self.advance(state, held, velocity, dt);
+        let torque = if interval.held.is_some() {
+            let rate = self.end_rate(state.z, held, end, interval, &path);
+            self.stiffness * state.z + self.damping * rate + end.rate + end.additive
+        } else {
+            self.torque(state, end, &path)
+        };
+        if !interval.mean {
+            return Step::same(torque);
         }
-        Step::same(self.step_to(state, split, interval.velocity, interval.dt))
+        Step { torque, mean_torque: self.mean_torque(z, state, held, dt, &path) }
     }
 
     /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
@@ -61,34 +75,9 @@ impl<S: Real> Bristle<S> {
         dt: S::Plain,
     ) -> Step<S> {
         let z = state.z;
-        let (torque, path) = self.advance(state, split, velocity, dt);
-        let mean_torque = match path {
-            Path::Rest => torque,
-            Path::Saturated { dry, travel } if dt.value() > 0.0 => {
-                // The mean still holds the transient's area, (z - end)/x.
-                let area = (z - state.z) * (dry / travel);
-                let slip = (state.z - z).scale(S::Plain::one() / dt);
-                torque + self.stiffness * area + self.damping * slip
-            }
-            Path::Saturated { .. } => torque,
-            Path::Transient { y, phi, slip } => {
-                let mean = z + (y.phi(2) * slip).scale(dt);
-                self.stiffness * mean + self.damping * (phi * slip) + split.rate + split.additive
-            }
-        };
-        Step { torque, mean_torque }
-    }
-
-    /// As [`step`](Self::step), for the torque at the end of the step alone.
-    #[inline]
-    pub fn step_to(
-        &self,
-        state: &mut BristleState<S>,
-        split: &Split<S>,
-        velocity: S::Plain,
-        dt: S::Plain,
-    ) -> S {
-        self.advance(state, split, velocity, dt).0
+        let path = self.advance(state, split, velocity, dt);
+        let torque = self.torque(state, split, &path);
+        Step { torque, mean_torque: self.mean_torque(z, state, split, dt, &path) }
     }
 
     #[inline]
@@ -98,33 +87,97 @@ impl<S: Real> Bristle<S> {
         split: &Split<S>,
         velocity: S::Plain,
         dt: S::Plain,
-    ) -> (S, Path<S>) {
-        let s0 = self.stiffness;
+    ) -> Path<S> {
         let speed = velocity.abs();
         if speed.value() == 0.0 {
-            return (s0 * state.z + split.rate + split.additive, Path::Rest);
+            return Path::Rest;
         }
         let dry = split.dry();
         let dt = if dt.value() > 0.0 { dt } else { S::Plain::zero() };
-        let pull = s0.scale(speed);
-        if pull.value() * dt.value() >= SATURATED * dry.value() {
-            state.z = (dry / s0).scale(velocity.sign());
-            let torque = s0 * state.z + split.rate + split.additive;
-            return (torque, Path::Saturated { dry, travel: pull.scale(dt) });
+        let pull = self.stiffness.scale(speed);
+        if pull.value() * dt.value().max(SHORTEST) >= SATURATED * dry.value() {
+            if dt.value() > 0.0 {
+                state.z = (dry / self.stiffness).scale(velocity.sign());
+            }
+            return Path::Saturated { dry, travel: pull.scale(dt) };
         }
         // dz/dt decays exponentially, so it is carried forward rather than differenced.
         let pace = pull / dry;
         let y = pace.scale(-dt);
         let phi = y.phi(1);
-        let decay = (y * phi).shift(S::Plain::one());
         let slip = (-(pace * state.z)).shift(velocity);
         state.z.add_scaled(&(phi * slip), dt);
-        let torque = s0 * state.z + self.damping * (decay * slip) + split.rate + split.additive;
-        (torque, Path::Transient { y, phi, slip })
+        Path::Transient { y, phi, slip }
+    }
+
+    /// Torque at the end of the step, with the velocity that was held.
+    #[inline]
+    fn torque(&self, state: &BristleState<S>, split: &Split<S>, path: &Path<S>) -> S {
+        let elastic = self.stiffness * state.z;
+        match path {
+            Path::Rest | Path::Saturated { .. } => elastic + split.rate + split.additive,
+            Path::Transient { y, phi, slip } => {
+                let decay = (*y * *phi).shift(S::Plain::one());
+                elastic + self.damping * (decay * *slip) + split.rate + split.additive
+            }
+        }
+    }
+
+    /// `dz/dt` at the end of the step, where the velocity is that of the sample.
+    #[inline]
+    fn end_rate(
+        &self,
+        z: S,
+        held: &Split<S>,
+        end: &Split<S>,
+        interval: &Interval<S::Plain>,
+        path: &Path<S>,
+    ) -> S {
+        let slope = |velocity: S::Plain, split: &Split<S>| {
+            let pull = self.stiffness.scale(velocity.abs());
+            let dry = split.dry();
+            let settled = pull.value() * SHORTEST >= SATURATED * dry.value();
+            if settled { S::zero() } else { (-(pull / dry * z)).shift(velocity) }
+        };
+        let end_slope = || slope(interval.sample.velocity, end);
+        match path {
+            Path::Rest => end_slope(),
+            Path::Saturated { .. } => S::zero(),
+            Path::Transient { y, phi, slip } => {
+                let decay = (*y * *phi).shift(S::Plain::one());
+                later_rate(decay * *slip, end_slope() - slope(interval.velocity(), held), *y)
+            }
+        }
+    }
+
+    #[inline]
+    fn mean_torque(
+        &self,
+        before: S,
+        state: &BristleState<S>,
+        split: &Split<S>,
+        dt: S::Plain,
+        path: &Path<S>,
+    ) -> S {
+        let steady = split.rate + split.additive;
+        match path {
+            Path::Rest => self.stiffness * state.z + steady,
+            Path::Saturated { dry, travel } if dt.value() > 0.0 => {
+                // The mean still holds the transient's area, (z - end)/x.
+                let area = (before - state.z) * (*dry / *travel);
+                let slip = (state.z - before).scale(S::Plain::one() / dt);
+                self.stiffness * (state.z + area) + self.damping * slip + steady
+            }
+            Path::Saturated { .. } => self.stiffness * state.z + steady,
+            Path::Transient { y, phi, slip } => {
+                let mean = before + (y.phi(2) * *slip).scale(dt);
+                self.stiffness * mean + self.damping * (*phi * *slip) + steady
+            }
+        }
     }
 }
 
-/// How a step went, and what its mean takes from there.
+/// How a step went, and what is read from it.
 enum Path<S> {
     Rest,
     Saturated { dry: S, travel: S },

@@ -5,8 +5,12 @@
 //! around any static law.
 
 mod bristle;
+mod dahl;
+mod relaxation;
 
 pub use bristle::{Bristle, BristleState};
+pub use dahl::DahlBristle;
+pub use relaxation::Relaxation;
 
 use crate::sample::Sample;
 use crate::scalar::Real;
@@ -14,15 +18,38 @@ use crate::scalar::Real;
 /// A stretch of time over which a sample is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval<P> {
-    /// The sample that is held.
+    /// The sample at the end, at which the torque is read.
     pub sample: Sample<P>,
-    /// The velocity that carries the state (X/s): the sample's, or, where positions tell it, the
-    /// mean over the step, which makes the step second order.
-    pub velocity: P,
+    /// What is held instead, where it is known: the mean over the step, from positions say. It
+    /// carries the state, which makes the step second order.
+    pub held: Option<Sample<P>>,
     /// Length (s); with `dt <= 0` a state stays as it is.
     pub dt: P,
     /// Whether the mean torque is wanted too.
     pub mean: bool,
+}
+
+impl<P: Real> Interval<P> {
+    /// The sample that is held, which carries the state.
+    #[inline]
+    #[must_use]
+    pub fn carrier(&self) -> &Sample<P> {
+        self.held.as_ref().unwrap_or(&self.sample)
+    }
+
+    /// The velocity that is held (X/s).
+    #[inline]
+    #[must_use]
+    pub fn velocity(&self) -> P {
+        self.carrier().velocity
+    }
+
+    /// What the state goes through: `|v| dt` (X), and 0 where time does not pass.
+    #[inline]
+    #[must_use]
+    pub fn travel(&self) -> P {
+        if self.dt.value() > 0.0 { self.velocity().abs() * self.dt } else { P::zero() }
+    }
 }
 
 /// What one step yields.
@@ -64,4 +91,15 @@ impl<S: Real> Default for State<S> {
     fn default() -> Self {
         Self::deflected(S::zero())
     }
+}
+
+/// A state's rate at the end of a step over which another sample than that of the end was held.
+///
+/// `rate` is what the held sample leaves of it after a decay `e^y`, `change` what the sample at
+/// the end adds to it at the same state. Of that change, which builds up over the later half of the
+/// step, `phi_1(y/2)` has not decayed yet: all of it where the state is slow, and where it is stiff
+/// the rate at which its equilibrium moves.
+#[inline]
+pub(crate) fn later_rate<S: Real>(rate: S, change: S, y: S) -> S {
+    rate + change * y.scale(S::Plain::from_f64(0.5)).phi(1)
 }

@@ -7,7 +7,7 @@ parameters! {
     /// A bristle in place of the sign of the velocity.
     Presliding {
         /// Torque per deflection before sliding.
-        presliding_stiffness: "s0" ["T/X"] 0.5 .. 2e4, start 50.0, Stiffness, Nonlinear;
+        presliding_stiffness: "s0" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
         /// Torque per deflection rate.
         presliding_damping: "s1" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;
     }

@@ -9,7 +9,7 @@ parameters! {
     /// LuGre: a bristle around a Stribeck curve; the static level is the total.
     Lugre {
         /// Torque per deflection before sliding.
-        bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e4, start 50.0, Stiffness, Nonlinear;
+        bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
         /// Torque per deflection rate.
         bristle_damping: "a2" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;
         /// Torque per speed.
@@ -53,10 +53,12 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        split: &Split<S>,
+        held: &Split<S>,
+        end: &Split<S>,
         interval: &Interval<S::Plain>,
+        _: &Constants<S::Plain>,
     ) -> Step<S> {
         let bristle = Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping };
-        bristle.over(&mut state.bristle, split, interval)
+        bristle.over(&mut state.bristle, held, end, interval)
     }
 }

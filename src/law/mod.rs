@@ -7,15 +7,18 @@ mod by_formula;
 mod clochiatti;
 mod coulomb;
 mod curves;
+mod dahl;
 mod dong;
 mod gantry_map;
 mod gaz;
 mod grotjahn;
 mod hao;
 mod indri_a;
+mod indri_b;
 mod lugre;
 mod makkar;
 mod shao;
+mod tadese_t;
 mod wolf;
 mod zhou;
 
@@ -23,15 +26,18 @@ pub use bittencourt_a::BittencourtA;
 pub use by_formula::ByFormula;
 pub use clochiatti::Clochiatti;
 pub use coulomb::Coulomb;
+pub use dahl::Dahl;
 pub use dong::Dong;
 pub use gantry_map::GantryMap;
 pub use gaz::{GazA, GazB};
 pub use grotjahn::{GrotjahnA, GrotjahnB};
 pub use hao::HaoA;
 pub use indri_a::IndriA;
+pub use indri_b::IndriB;
 pub use lugre::Lugre;
 pub use makkar::Makkar;
 pub use shao::Shao;
+pub use tadese_t::TadeseT;
 pub use wolf::Wolf;
 pub use zhou::Zhou;
 
@@ -49,7 +55,8 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     /// The torque at one instant, taken apart: in steady sliding where the law has a memory.
     fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S>;
 
-    /// Holds a sample for a while. `split` is that of the sample, with what effects have added.
+    /// Steps over an interval. `held` is the split of what is held, `end` that of the sample at
+    /// the end, both with what effects have added.
     ///
     /// A law whose `captures` name `presliding` has a memory and steps by itself; in all others
     /// dry friction acts along the sign of the velocity.
@@ -57,9 +64,11 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     fn step(
         &self,
         _state: &mut State<S>,
-        split: &Split<S>,
+        _held: &Split<S>,
+        end: &Split<S>,
         interval: &Interval<S::Plain>,
+        _constants: &Constants<S::Plain>,
     ) -> Step<S> {
-        Step::same(split.torque(interval.sample.velocity.sign()))
+        Step::same(end.torque(interval.sample.velocity.sign()))
     }
 }

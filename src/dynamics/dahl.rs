@@ -1,0 +1,131 @@
+//! Dahl's bristle with any exponent, stepped exactly for a velocity held over the step.
+//!
+//! `dz/dt = v sgn(u) |u|^n` with `u = 1 - sgn(v) s0 z/D`, and `tf = s0 z + V + additive` (Dahl
+//! 1968). Over a travel `|v| dt`, with `k = s0 |v| dt/D`, `u` goes to `u e^-w` and the mean of `u`
+//! over the step is `u ln(1 + c)/c phi_1((n - 2) w)`, where
+//! `c = (n - 1) k |u|^(n-1)` and `w = ln(1 + c)/(n - 1)`: smooth in `n`, for `n = 1` (`w = k`) and
+//! `n = 2` too. For `n < 1` sliding begins within the step where `c <= -1`.
+
+use super::{BristleState, Interval, Step};
+use crate::sample::Split;
+use crate::scalar::Real;
+
+/// Above this `k` dry friction has vanished beside what the travel would have built up.
+const VANISHED: f64 = 1e30;
+
+/// Below this `k` nothing moves, and the slope of its logarithm is beyond all numbers.
+const STILL: f64 = 1e-290;
+
+/// Above this `c` the one in `1 + c` is lost.
+const FAR: f64 = 1e15;
+
+/// Parameters of Dahl's bristle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DahlBristle<S> {
+    /// Stiffness `s0` (T/X).
+    pub stiffness: S,
+    /// Exponent `n`: 1 approaches sliding exponentially, more takes longer, less gets there.
+    pub exponent: S,
+}
+
+impl<S: Real> DahlBristle<S> {
+    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
+    /// the end, with which the torque is read.
+    #[inline]
+    pub fn over(
+        &self,
+        state: &mut BristleState<S>,
+        held: &Split<S>,
+        end: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Step<S> {
+        let mean = self.advance(state, held, interval);
+        let torque = self.stiffness * state.z + end.rate + end.additive;
+        if !interval.mean {
+            return Step::same(torque);
+        }
+        Step { torque, mean_torque: self.stiffness * mean + held.rate + held.additive }
+    }
+
+    /// Moves the state and returns its mean over the step.
+    #[inline]
+    fn advance(
+        &self,
+        state: &mut BristleState<S>,
+        split: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> S {
+        let travel = interval.travel();
+        if travel.value() == 0.0 {
+            return state.z;
+        }
+        let before = state.z;
+        let dry = split.dry();
+        let pull = self.stiffness.scale(travel);
+        let target = (dry / self.stiffness).scale(interval.velocity().sign());
+        if pull.value() >= VANISHED * dry.value() {
+            state.z = target;
+            return target;
+        }
+        let gap = target - before;
+        let fall = self.fall((gap * self.stiffness / dry).abs(), pull / dry);
+        state.z += gap * fall.covered;
+        before + gap * fall.mean
+    }
+
+    /// How `u > 0` falls over a travel `k`.
+    #[inline]
+    fn fall(&self, u: S, k: S) -> Fall<S> {
+        let one = S::Plain::one();
+        if u.value() == 0.0 || !u.value().is_finite() {
+            return Fall { covered: S::one(), mean: S::one() };
+        }
+        if k.value() < STILL {
+            return Fall { covered: S::zero(), mean: S::zero() };
+        }
+        let excess = self.exponent.shift(-one);
+        let other = excess.shift(-one);
+        // ln(k u^(n-1)): the power itself may be beyond all numbers.
+        let pace = excess * u.ln() + k.ln();
+        let reach = pace.exp();
+        let c = excess * reach;
+        if c.value() <= -1.0 {
+            let area = S::one() / (other * reach);
+            return Fall { covered: S::one(), mean: area.shift(one) };
+        }
+        let (w, area) = if c.value() > FAR {
+            let w = (excess.ln() + pace) / excess;
+            let bend = other * w;
+            let growth = if bend.value() > 0.0 { bend } else { S::zero() };
+            (w, w * (-bend.abs()).phi(1) * (growth - pace).exp())
+        } else {
+            let slope = logarithm_ratio(c);
+            let w = reach * slope;
+            (w, slope * (other * w).phi(1))
+        };
+        Fall { covered: -(-w).expm1(), mean: (-area).shift(one) }
+    }
+}
+
+/// What share of the way to sliding is covered at the end of a step, and on average over it.
+struct Fall<S> {
+    covered: S,
+    mean: S,
+}
+
+/// `ln(1 + c)/c`, by the series of the inverse hyperbolic tangent where `c` is small.
+#[inline]
+fn logarithm_ratio<S: Real>(c: S) -> S {
+    let one = S::Plain::one();
+    if c.value().abs() > 0.2 {
+        return c.shift(one).ln() / c;
+    }
+    // ln(1 + c) = 2 artanh(s), s = c/(2 + c), s^2 < 0.0124.
+    let inverse = S::one() / c.shift(one + one);
+    let square = c * inverse * c * inverse;
+    let mut sum = S::zero();
+    for k in (0..9_u8).rev() {
+        sum = (sum * square).shift(one / S::Plain::from_f64(f64::from(2 * k + 1)));
+    }
+    (sum * inverse).scale(one + one)
+}

@@ -1,0 +1,62 @@
+//! A state that relaxes linearly along the travel, stepped exactly.
+
+use crate::scalar::Real;
+
+/// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
+const SETTLED: f64 = 700.0;
+
+/// Above this ratio of pull to hold a state is at its target wherever it is.
+const LOOSE: f64 = 1e30;
+
+/// `dz/ds = (target - z) pull/hold` along a travel `s`, with `pull >= 0`; a state without hold is
+/// at its target as soon as anything moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relaxation<S> {
+    /// Where the state tends to.
+    pub target: S,
+    /// What pulls it there.
+    pub pull: S,
+    /// What holds it back.
+    pub hold: S,
+}
+
+/// Where a travel leaves the state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relaxed<S> {
+    /// At the end of the travel.
+    pub end: S,
+    /// Averaged over the travel.
+    pub mean: S,
+    /// Minus `pull/hold s`: what is left of the way to the target is its exponential.
+    pub decay: S,
+}
+
+impl<S: Real> Relaxation<S> {
+    /// The state after a travel `>= 0`, from `z`.
+    #[inline]
+    #[must_use]
+    pub fn over(&self, z: S, travel: S::Plain) -> Relaxed<S> {
+        let pull = self.pull.scale(travel);
+        if pull.value() == 0.0 {
+            return Relaxed { end: z, mean: z, decay: S::zero() };
+        }
+        let way = self.target - z;
+        if pull.value() >= SETTLED * self.hold.value() {
+            let mean = self.target - way * (self.hold / pull);
+            return Relaxed { end: self.target, mean, decay: S::from_f64(-SETTLED) };
+        }
+        let decay = -(pull / self.hold);
+        let way = way * -decay;
+        Relaxed { end: z + way * decay.phi(1), mean: z + way * decay.phi(2), decay }
+    }
+
+    /// `dz/ds` at `z`.
+    #[inline]
+    #[must_use]
+    pub fn slope(&self, z: S) -> S {
+        if self.pull.value() >= LOOSE * self.hold.value() {
+            return S::zero();
+        }
+        (self.target - z) * (self.pull / self.hold)
+    }
+}

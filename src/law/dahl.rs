@@ -1,0 +1,51 @@
+use super::FrictionLaw;
+use crate::constants::Constants;
+use crate::dynamics::{DahlBristle, Interval, State, Step};
+use crate::sample::{Sample, Split};
+use crate::scalar::Real;
+use crate::table::{LawInfo, Parameters, parameters};
+
+parameters! {
+    /// Dahl: a deflection that approaches sliding along a power of what is left.
+    Dahl {
+        /// Torque per deflection before sliding.
+        bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
+        /// Dry friction in full sliding.
+        coulomb_friction: "a2" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        /// Exponent of the approach to sliding: 1 is exponential, more is slower.
+        dahl_exponent: "a3" ["1"] 0.1 .. 50.0, start 1.0, None, Nonlinear;
+    }
+}
+
+impl<S: Real> FrictionLaw<S> for Dahl<S> {
+    const INFO: LawInfo = LawInfo {
+        id: "dahl",
+        title: "Dahl",
+        source: "Dahl 1968; UR5e review 2024/25, table 3",
+        formula: "a1 z; dz/dt = v sgn(u) |u|^a3, u = 1 - sgn(v) a1 z/a2",
+        parameters: Self::TABLE,
+        channels: &[],
+        constants: &[],
+        pole: None,
+        captures: &["coulomb", "presliding"],
+    };
+
+    #[inline]
+    fn split(&self, _: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
+        Split { coulomb: self.coulomb_friction, ..Split::zero() }
+    }
+
+    #[inline]
+    fn step(
+        &self,
+        state: &mut State<S>,
+        held: &Split<S>,
+        end: &Split<S>,
+        interval: &Interval<S::Plain>,
+        _: &Constants<S::Plain>,
+    ) -> Step<S> {
+        let bristle =
+            DahlBristle { stiffness: self.bristle_stiffness, exponent: self.dahl_exponent };
+        bristle.over(&mut state.bristle, held, end, interval)
+    }
+}
