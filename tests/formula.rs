@@ -6,6 +6,8 @@
 mod common;
 
 use common::close;
+use stribeck::composed::Spec;
+use stribeck::dynamics::State;
 use stribeck::formula::{Formula, OwnTerms, TermKind};
 use stribeck::sample::Sample;
 use stribeck::scalar::{Dual, Real};
@@ -137,7 +139,7 @@ fn names_come_in_the_order_of_the_text() {
 fn a_law_written_out_is_the_law() {
     let text = "(a1 + a2*exp(-abs(v/a3)^a4))*sgn(v) + a5*v";
     let values = [0.8, 0.5, 0.07, 1.4, 0.3];
-    let law = stribeck::composed::Spec::new("bittencourt_a", []).unwrap().with(&values).unwrap();
+    let law = Spec::new("bittencourt_a", []).unwrap().with(&values).unwrap();
     for v in [-2.0, -0.07, -1e-9, 0.0, 0.03, 0.9] {
         close(torque(text, &values, &Sample::at(v)), law.static_torque(&Sample::at(v)), 1e-15);
     }
@@ -311,4 +313,53 @@ fn no_text_causes_a_panic() {
         }
     }
     assert!(understood > 1000, "only {understood} texts were formulas");
+}
+
+fn static_torque(spec: &Spec, values: &[f64]) -> f64 {
+    spec.with(values).unwrap().static_torque(&SAMPLE)
+}
+
+#[test]
+fn effects_act_on_a_law_by_formula() {
+    let law = parse("c1*v + c2*tanh(v/c3)");
+    let spec = Spec::by_formula(&law, ["offset", "temperature_dry"]).unwrap();
+    assert_eq!(spec.to_string(), "formula+temperature_dry+offset");
+    let names: Vec<_> = spec.parameters().map(|p| p.name).collect();
+    let effects = ["temperature_dry_slope", "temperature_dry_curvature", "offset"];
+    assert_eq!(names, [&["p1", "p2", "p3"], &effects[..]].concat());
+    let cold = static_torque(&spec, &[3.0, 2.0, 0.01, 0.0, 0.01, 0.5]);
+    assert_eq!(cold, 3.0 * -0.3 - 2.0 + 0.5);
+    let warm = static_torque(&spec, &[3.0, 2.0, 0.01, 0.05, 0.0, 0.5]);
+    close(warm, 3.0 * -0.3 - 2.0 * (1.0 - 0.05 * (31.0 - 25.0)) + 0.5, 1e-15);
+    assert_eq!(
+        Spec::by_formula(&law, ["offset", "offset"]).unwrap_err().to_string(),
+        "effect 'offset' is named twice"
+    );
+}
+
+#[test]
+fn presliding_puts_a_bristle_around_a_law_by_formula() {
+    let spec = Spec::by_formula(&parse("c1*v + c2*tanh(v/c3)"), ["presliding"]).unwrap();
+    let linear: Vec<_> = spec.parameters().map(|p| spec.is_linear(p)).collect();
+    assert_eq!(linear, [true, false, false, false, true]);
+    let model = spec.with(&[3.0, 2.0, 0.01, 50.0, 0.0]).unwrap();
+    let mut state = State::default();
+    let first = model.step(&mut state, &Sample::at(0.1), 1e-4).torque;
+    close(first, 50.0 * 0.1 * 1e-4 + 3.0 * 0.1, 1e-3);
+    let sliding = model.step(&mut state, &Sample::at(0.1), 20.0).torque;
+    close(sliding, 2.0 + 3.0 * 0.1, 1e-12);
+}
+
+#[test]
+fn terms_by_formula_join_any_law() {
+    let mut spec = Spec::new("coulomb", ["offset"]).unwrap();
+    spec.add_terms(&parse("c*abs(load)*sgn(v)")).unwrap();
+    spec.add_terms(&parse("2*d*v^2*sgn(v)")).unwrap();
+    assert_eq!(spec.to_string(), "coulomb+formula+offset");
+    assert!(spec.channels().any(|channel| channel == Channel::LoadTorque));
+    let values = [1.0, 2.0, 0.25, 0.5, 7.0];
+    close(static_torque(&spec, &values), -0.3 - 2.0 - 1.0 - 0.09 + 7.0, 1e-15);
+    let more = parse(&(0..15).map(|i| format!("c{i}*v")).collect::<Vec<_>>().join("+"));
+    let refused = spec.add_terms(&more).unwrap_err().to_string();
+    assert!(refused.starts_with("the formula is too long"), "{refused}");
 }

@@ -4,10 +4,12 @@ mod columns;
 mod delay;
 mod error;
 mod normal;
+mod triangle;
 
 pub use columns::{Channels, Columns, TimeStep};
 pub use error::BatchError;
 pub use normal::{NormalEquations, normal_equations};
+pub use triangle::{Triangle, triangle};
 
 use std::vec;
 use std::vec::Vec;

@@ -2,6 +2,7 @@
 
 mod catalog;
 mod columns;
+mod formula;
 mod model;
 mod normal;
 
@@ -29,7 +30,9 @@ mod _core {
     #[pymodule_export]
     use super::catalog::catalog;
     #[pymodule_export]
+    use super::formula::Formula;
+    #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
-    use super::normal::normal_equations;
+    use super::normal::{normal_equations, triangle};
 }

@@ -12,8 +12,10 @@ use super::columns::{Arguments, Array, Dt, contiguous};
 use super::{ModelError, refuse};
 use crate::batch;
 use crate::composed::Spec;
+use crate::formula::Formula;
 
-/// A friction law with effects. Which parameters it has is fixed; their values are arguments.
+/// A friction law with effects and terms by formula. Which parameters it has is fixed; their
+/// values are arguments.
 #[pyclass(frozen, module = "stribeck._core")]
 pub struct Model {
     spec: Spec,
@@ -22,10 +24,27 @@ pub struct Model {
 #[pymethods]
 impl Model {
     #[new]
-    #[pyo3(signature = (law, effects = Vec::new(), constants = BTreeMap::new()))]
+    #[pyo3(signature = (law, effects = Vec::new(), constants = BTreeMap::new(), own = Vec::new()))]
     #[allow(clippy::needless_pass_by_value)]
-    fn new(law: &str, effects: Vec<String>, constants: BTreeMap<String, f64>) -> PyResult<Self> {
-        let mut spec = Spec::new(law, effects.iter().map(String::as_str)).map_err(refuse)?;
+    fn new(
+        law: Option<&str>,
+        effects: Vec<String>,
+        constants: BTreeMap<String, f64>,
+        own: Vec<String>,
+    ) -> PyResult<Self> {
+        let mut own = own.iter().map(|text| Ok(Formula::parse(text).map_err(refuse)?.0));
+        let effects = effects.iter().map(String::as_str);
+        let mut spec = match law {
+            Some(law) => Spec::new(law, effects).map_err(refuse)?,
+            None => {
+                let missing = || ModelError::new_err("neither a law nor a formula is given");
+                let formula = own.next().unwrap_or_else(|| Err(missing()))?;
+                Spec::by_formula(&formula, effects).map_err(refuse)?
+            }
+        };
+        for formula in own {
+            spec.add_terms(&formula?).map_err(refuse)?;
+        }
         for (name, &value) in &constants {
             spec.set_constant(name, value).map_err(refuse)?;
         }
