@@ -12,7 +12,8 @@ from stribeck.cli.catalog import effects, inspect, models
 from stribeck.cli.demo import demo
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
-from stribeck.cli.methods import points
+from stribeck.cli.methods import arm, points
+from stribeck.cli.study import study
 from stribeck.errors import StribeckError, nearest
 
 
@@ -43,6 +44,8 @@ def cli() -> None:
 for command in (demo, inspect, models, effects, fit, compare, diagnose, add, improve, generate):
     cli.add_command(command)
 cli.add_command(points)
+cli.add_command(arm)
+cli.add_command(study)
 
 
 def main() -> None:

@@ -1,0 +1,140 @@
+"""Many laws on every joint of a recording, from many starts: the tables of the UR5e review.
+
+The review of 25 friction models (2024/25, sections 3 to 5) fits each law to each joint from twenty
+random starts, keeps the best, and compares the errors of friction torque, over all speeds and
+within 0.1 rad/s, and of the motors' electrical energy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from stribeck.errors import FitError, SpecError
+from stribeck.identify.scaling import model_for
+from stribeck.model_file import write_whole
+from stribeck.report.figures import save_figure
+from stribeck.study.assess import Entry, assess
+from stribeck.study.figures import error_figure, friction_figure
+from stribeck.study.plan import LOW_SPEED, REVIEW, STARTS, Group, Job, Plan, group_of, make_plan
+from stribeck.study.result import JointData, Study, Table, make_tables
+from stribeck.study.run import Stopped, run, worker_count
+from stribeck.study.store import Store
+from stribeck.study.trial import Trial
+
+#: Told after each fit: fits made now and before, and all there are.
+Progress = Callable[[int, int], None]
+
+
+def study(
+    path: str | Path,
+    output: str | Path,
+    laws: Sequence[str] = REVIEW,
+    *,
+    starts: int = STARTS,
+    seed: int = 0,
+    low_speed: float | None = None,
+    workers: int | None = 1,
+    progress: Progress | None = None,
+    **reading: Any,
+) -> Study:
+    """Fit `laws` to every joint of a recording from many starts, and compare them.
+
+    Parameters
+    ----------
+    path
+        The recording; `reading` are the options of `stribeck.read`. With ``joint`` that one alone.
+    output
+        Folder of the study. Every fit is written there as it ends; a second run with the same
+        arguments goes on from them.
+    laws
+        Specs; default: the 25 of the review.
+    starts
+        Of each law on each joint: the catalog's own and random ones (review: 20).
+    low_speed
+        What the tables call low speed, rad/s or m/s; default 0.1 rad/s or 0.01 m/s.
+    workers
+        Processes; None: one for each core. More than one needs the script's main module to be
+        importable (``if __name__ == "__main__":``). The results do not depend on it.
+
+    Raises
+    ------
+    StribeckError
+        A recording, law or folder that cannot be used.
+    Stopped
+        On Ctrl-C; what is done is saved.
+
+    Examples
+    --------
+    >>> study("ur5e.parquet", "ur5e.study", ["coulomb", "lugre"], starts=5)  # doctest: +SKIP
+    """
+    if low_speed is not None and not low_speed > 0.0:
+        raise SpecError(f"low speed {low_speed:g} must be above zero")
+    plan = make_plan(str(path), reading, laws, starts=starts, seed=seed)
+    store = Store(Path(output), plan)
+    todo = [job for job in plan.jobs if job not in store.trials]
+
+    def finished(trial: Trial) -> None:
+        store.add(trial)
+        if progress is not None:
+            progress(len(store.trials), len(plan.jobs))
+
+    try:
+        if todo:
+            run(plan, todo, finished, worker_count(workers))
+    finally:
+        store.close()
+    result = _result(plan, store, low_speed)
+    _write(result)
+    return result
+
+
+def _result(plan: Plan, store: Store, low_speed: float | None) -> Study:
+    """Figures of the best starts, joint by joint."""
+    by_law: dict[tuple[str | None, str], list[Trial]] = {}
+    for trial in store.ordered():
+        by_law.setdefault((trial.job.joint, trial.job.law), []).append(trial)
+    groups: dict[str, Group] = {}
+    entries: dict[str, dict[str | None, Entry]] = {law: {} for law in plan.laws}
+    joints: dict[str | None, JointData] = {}
+    for joint in plan.joints:
+        recording = plan.read(joint)
+        slow = LOW_SPEED[recording.joint_kind] if low_speed is None else low_speed
+        joints[joint] = JointData(
+            recording.rows, recording.scored(), recording.torque_unit,
+            f"{recording.position_unit}/s", slow,
+        )  # fmt: skip
+        for law in plan.laws:
+            trials = by_law.get((joint, law))
+            if trials is None:
+                continue
+            groups[law] = group_of(model_for(law, recording))
+            entry = assess(trials, recording, slow)
+            if entry is not None:
+                entries[law][joint] = entry
+    failed = tuple(t for t in store.ordered() if t.failure)
+    tables = make_tables(groups, entries)
+    if not tables:
+        raise FitError(f"{plan.path}: no fit could be made, the first says: {failed[0].failure}")
+    return Study(plan, store.folder, joints, tables, failed, store.frame())
+
+
+def _write(result: Study) -> None:
+    """Tables and pictures into the study's folder."""
+    folder = result.folder
+    write_whole(folder / "tables.csv", result.to_frame().write_csv())
+    write_whole(folder / "tables.txt", repr(result) + "\n")
+    for joint in result.joints:
+        if any(joint in row.entries for table in result.tables for row in table.rows):
+            name = "" if joint is None else f"_{_plain_name(joint)}"
+            save_figure(error_figure(result, joint), str(folder / f"errors{name}.png"))
+            save_figure(friction_figure(result, joint), str(folder / f"friction{name}.png"))
+
+
+def _plain_name(joint: str) -> str:
+    """A joint's name as part of a file name."""
+    return "".join(c if c.isalnum() or c in "-_" else "_" for c in joint)
+
+
+__all__ = ["REVIEW", "Job", "Plan", "Stopped", "Study", "Table", "Trial", "study"]

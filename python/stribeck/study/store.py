@@ -1,0 +1,223 @@
+"""The folder of a study: what it is of, and every fit as it is made.
+
+``manifest.json`` says what the study is of. ``fits.csv`` gets one line as each fit ends, so that
+nothing is lost when the study is stopped; at the end it is put in order, and the same rows are
+written to ``fits.parquet``.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+import stribeck
+from stribeck.errors import StribeckError
+from stribeck.model_file import write_whole
+from stribeck.report.figures import write_bytes_whole
+from stribeck.study.plan import Job, Plan
+from stribeck.study.trial import Trial
+
+MANIFEST = "manifest.json"
+FITS = "fits.csv"
+FIELDS = (
+    "joint", "law", "start", "rmse", "rmse_held_out", "converged", "outcome", "evaluations",
+    "seconds", "parameters", "constants", "rigid_body", "failure",
+)  # fmt: skip
+#: What must be the same for a study to go on, and how it is called.
+IDENTITY = {
+    "data": "recording",
+    "reading": "reading options",
+    "joints": "joints",
+    "laws": "laws",
+    "starts": "starts",
+    "seed": "seed",
+    "version": "version of stribeck",
+}
+
+
+class Store:
+    """The folder of one study.
+
+    Parameters
+    ----------
+    folder
+        Made where it does not exist.
+    plan
+        What the study is of.
+
+    Raises
+    ------
+    StribeckError
+        The folder holds another study or other files, or cannot be written to.
+    """
+
+    def __init__(self, folder: Path, plan: Plan) -> None:
+        self.folder = folder
+        self.trials: dict[Job, Trial] = {}
+        manifest = _manifest(plan)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            if (folder / MANIFEST).exists():
+                self._check(manifest)
+                self.trials = _read_fits(folder / FITS, set(plan.jobs))
+            elif any(folder.iterdir()):
+                raise StribeckError(
+                    f"{folder} is not empty and holds no study: give another --output"
+                )
+            else:
+                write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
+            self._rewrite()
+            self._log = (folder / FITS).open("a", encoding="utf-8", newline="")
+        except OSError as error:
+            raise StribeckError(
+                f"cannot write {folder}: {error.strerror or error}; give --output a folder that "
+                f"may be written to"
+            ) from None
+
+    def _check(self, manifest: dict[str, Any]) -> None:
+        path = self.folder / MANIFEST
+        try:
+            found = json.loads(path.read_text(encoding="utf-8"))
+        except ValueError:
+            raise StribeckError(
+                f"{path} is damaged: remove the folder, or give another --output"
+            ) from None
+        for key, name in IDENTITY.items():
+            if not isinstance(found, dict) or found.get(key) != manifest[key]:
+                theirs = _short(found.get(key) if isinstance(found, dict) else None)
+                said = f" ({theirs} there, {_short(manifest[key])} here)"
+                raise StribeckError(
+                    f"{self.folder} holds a study with another {name}"
+                    f"{said if len(said) < 60 else ''}: give another --output, or the same "
+                    f"arguments to go on with it"
+                )
+
+    def add(self, trial: Trial) -> None:
+        """Keep a fit; it is on disk when this returns."""
+        self.trials[trial.job] = trial
+        self._log.write(_lines([trial]))
+        self._log.flush()
+
+    def close(self) -> None:
+        """Put the fits in order and write them as Parquet too."""
+        self._log.close()
+        self._rewrite()
+        stream = io.BytesIO()
+        self.frame().write_parquet(stream)
+        write_bytes_whole(self.folder / "fits.parquet", stream.getvalue())
+
+    def _rewrite(self) -> None:
+        """Write the fits known in the order of joints, laws and starts."""
+        write_whole(self.folder / FITS, ",".join(FIELDS) + "\n" + _lines(self.ordered()))
+
+    def ordered(self) -> list[Trial]:
+        """The fits by joint, law and start, whichever order they were made in."""
+        return sorted(
+            self.trials.values(), key=lambda t: (t.job.joint or "", t.job.law, t.job.start)
+        )
+
+    def frame(self) -> pl.DataFrame:
+        """Every fit, one row each; parameters as a list of name and value."""
+        rows = [
+            {
+                "joint": t.job.joint, "law": t.job.law, "start": t.job.start, "rmse": t.rmse,
+                "rmse_held_out": t.rmse_held_out, "converged": t.converged, "outcome": t.outcome,
+                "evaluations": t.evaluations, "seconds": t.seconds,
+                "parameters": [{"name": n, "value": v} for n, v in t.parameters.items()],
+                "failure": t.failure,
+            }
+            for t in self.ordered()
+        ]  # fmt: skip
+        pairs = pl.List(pl.Struct({"name": pl.String, "value": pl.Float64}))
+        schema: dict[str, Any] = {
+            "joint": pl.String, "law": pl.String, "start": pl.Int64, "rmse": pl.Float64,
+            "rmse_held_out": pl.Float64, "converged": pl.Boolean, "outcome": pl.String,
+            "evaluations": pl.Int64, "seconds": pl.Float64, "parameters": pairs,
+            "failure": pl.String,
+        }  # fmt: skip
+        return pl.DataFrame(rows, schema=schema)
+
+
+def _manifest(plan: Plan) -> dict[str, Any]:
+    made = {
+        "kind": "study",
+        "path": str(plan.path),
+        "data": dict(plan.data),
+        "reading": {k: v for k, v in plan.reading.items() if v not in (None, (), [], {}, "")},
+        "joints": list(plan.joints),
+        "laws": list(plan.laws),
+        "starts": plan.starts,
+        "seed": plan.seed,
+        "version": stribeck.__version__,
+        "fits": len(plan.jobs),
+        "skipped": [{"joint": s.joint, "law": s.law, "why": s.why} for s in plan.skipped],
+    }
+    # As it reads back: tuples are lists in JSON.
+    return dict(json.loads(json.dumps(made, default=str)))
+
+
+def _short(value: object) -> str:
+    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def _lines(trials: Iterable[Trial]) -> str:
+    """Fits as lines of CSV; numbers read back with the same bits."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    for t in trials:
+        writer.writerow(
+            [
+                t.job.joint or "", t.job.law, t.job.start, _number(t.rmse),
+                _number(t.rmse_held_out), str(t.converged).lower(), t.outcome, t.evaluations,
+                repr(t.seconds), json.dumps(dict(t.parameters)), json.dumps(dict(t.constants)),
+                json.dumps(list(t.rigid_body)), t.failure,
+            ]
+        )  # fmt: skip
+    return stream.getvalue()
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None or not math.isfinite(value) else repr(value)
+
+
+def _read_fits(path: Path, wanted: set[Job]) -> dict[Job, Trial]:
+    """The fits made before; a line that was cut off in writing is left out and made again."""
+    if not path.exists():
+        return {}
+    text = path.read_text(encoding="utf-8")
+    whole = text[: text.rfind("\n") + 1]
+    trials: dict[Job, Trial] = {}
+    for row in csv.DictReader(io.StringIO(whole, newline="")):
+        try:
+            trial = _trial(row)
+        except (KeyError, TypeError, ValueError):
+            raise StribeckError(
+                f"{path} is damaged (after {len(trials)} fits): remove the folder, or give another "
+                f"--output"
+            ) from None
+        if trial.job in wanted:
+            trials[trial.job] = trial
+    return trials
+
+
+def _trial(row: dict[str, str]) -> Trial:
+    return Trial(
+        job=Job(row["joint"] or None, row["law"], int(row["start"])),
+        rmse=float(row["rmse"]) if row["rmse"] else None,
+        rmse_held_out=float(row["rmse_held_out"]) if row["rmse_held_out"] else None,
+        converged=row["converged"] == "true",
+        outcome=row["outcome"],
+        evaluations=int(row["evaluations"]),
+        seconds=float(row["seconds"]),
+        parameters=json.loads(row["parameters"]),
+        constants=json.loads(row["constants"]),
+        rigid_body=tuple(json.loads(row["rigid_body"])),
+        failure=row["failure"],
+    )
