@@ -1,4 +1,4 @@
-"""Identification as in the papers: `points`."""
+"""Identification as in the papers: `points`, `arm`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from stribeck.cli.common import (
     say,
     seed_option,
 )
-from stribeck.methods import Search, averaged_points, segment_points
+from stribeck.errors import RecordingError
+from stribeck.methods import Search, arm_fit, averaged_points, segment_points
 
 
 @click.command()
@@ -65,6 +66,55 @@ def points(
     if output is not None:
         made.write(output)
         say(f"wrote {output} and {output}.sidecar.toml")
+    if as_json:
+        echo_json(made.to_dict())
+    else:
+        click.echo(repr(made))
+
+
+@click.command()
+@click.argument("data")
+@click.option(
+    "--first-link-length", required=True, type=float,
+    help="From the first joint's axis to the second's, m.",
+)  # fmt: skip
+@click.option(
+    "--joints", nargs=2, default=("1", "2"), show_default=True, metavar="FIRST SECOND",
+    help="Names of the joints in DATA.",
+)  # fmt: skip
+@click.option(
+    "--slowest", default=0.05, show_default=True,
+    help="Share of the top speed below which a joint's rows are left out.",
+)  # fmt: skip
+@click.option("--plain", is_flag=True, help="Do not weight the joints by their errors.")
+@click.option(
+    "-o", "--output", default=None, metavar="NAME",
+    help="Write both joints' friction to NAME_joint_1.toml and NAME_joint_2.toml.",
+)  # fmt: skip
+@recording_options
+@seed_option
+@json_option
+def arm(
+    data: str, first_link_length: float, joints: tuple[str, str], slowest: float, plain: bool,
+    output: str | None, reading: dict[str, Any], seed: int, as_json: bool,
+) -> None:  # fmt: skip
+    """Identify inertia and friction of a planar two-joint arm together.
+
+    DATA holds angles and torques of both joints side by side (q_1, torque_1, q_2, torque_2), the
+    second angle relative to the first link. Indri et al., section 4.2: four inertial parameters,
+    and a cubic friction polynomial a joint; `--slowest 0 --plain` is the paper's least squares.
+    """
+    if reading["joint"] is not None:
+        raise RecordingError(f"--joint {reading['joint']}: an arm has two, name them with --joints")
+    check_output(output)
+    first, second = (read_recording(data, {**reading, "joint": name}) for name in joints)
+    made = arm_fit(
+        first, second, first_link_length=first_link_length, slowest=slowest, weighted=not plain
+    )
+    if output is not None:
+        for joint in (1, 2):
+            made.friction(joint).save(f"{output}_joint_{joint}.toml")
+            say(f"wrote {output}_joint_{joint}.toml")
     if as_json:
         echo_json(made.to_dict())
     else:

@@ -1,29 +1,41 @@
 """Identification as in the papers.
 
-=============== ================================================ ===========================
-what            how                                              source
-=============== ================================================ ===========================
-``fit``         root mean square, bounds, 20 random starts       UR5e review 2024/25, eqs 4-5
-``grid_fit``    linear regression inside a grid, absolute error  Bittencourt 2010, eqs 5-6
-=============== ================================================ ===========================
+=================== ================================================== ========================
+what                how                                                source
+=================== ================================================== ========================
+`stribeck.fit`      root mean square error, bounds, 20 random starts   UR5e review, eqs 4-5
+`grid_fit`          regression inside a grid, least absolute error     Bittencourt, eqs 5-6
+`averaged_points`   half the difference of forward and backward passes Bittencourt, eqs 3-4
+`segment_points`    means over constant-speed stretches                Gantry, section 3
+`arm_fit`           inertia and friction of a planar two-joint arm     Indri, section 4.2
+=================== ================================================== ========================
 
-`averaged_points` (Bittencourt 2010, eq 4) and `segment_points` (Gantry, section 3) turn a
-recording into steady-state friction points, on which a model is then fitted.
+`averaged_points` and `segment_points` turn a recording into steady-state friction points, on which
+a law is then fitted.
 """
 
 from __future__ import annotations
 
+from stribeck.methods.arm import ArmFit, arm_fit
 from stribeck.methods.averaging import averaged_points
+from stribeck.methods.grid import Axis, grid_fit
 from stribeck.methods.segments import segment_points
 from stribeck.methods.steady import SteadyPoint, SteadyPoints
 from stribeck.methods.stretches import Line, Search, constant_speed
+from stribeck.methods.trajectory import FOUR_HARMONICS, HarmonicTrajectory
 
 __all__ = [
+    "FOUR_HARMONICS",
+    "ArmFit",
+    "Axis",
+    "HarmonicTrajectory",
     "Line",
     "Search",
     "SteadyPoint",
     "SteadyPoints",
+    "arm_fit",
     "averaged_points",
     "constant_speed",
+    "grid_fit",
     "segment_points",
 ]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.report.numbers import plain, with_error
+from stribeck.report.numbers import percent, plain, with_error
 from stribeck.report.text import file_name, notes_text, table
 
 if TYPE_CHECKING:
+    from stribeck.methods.arm import ArmFit
     from stribeck.methods.steady import SteadyPoints
 
 
@@ -31,3 +33,22 @@ def points_text(points: SteadyPoints) -> str:
     head = f"{len(points)} steady-state points by {points.method} from {file_name(r)}"
     right = [0, 1, 2, 4, *range(6, len(heading))]
     return "\n\n".join([head, table(rows, right=right), notes_text(r.notes, points.notes)])
+
+
+def arm_text(arm: ArmFit) -> str:
+    """Inertia and friction of an arm, with what is left of the torques."""
+    rows = [["parameter", "symbol", "value", "error", "unit", "what it is"]]
+    for p in arm.parameters:
+        value, error = with_error(p.value, p.stderr)
+        rows.append([p.name, p.symbol, value, f"± {error}", p.unit, p.description])
+    errors = [
+        f"  joint {k}: torque error {percent(error)} of the measured torque (RMS, all rows), "
+        f"fitted to {used} rows"
+        for k, (error, used) in enumerate(zip(arm.relative_errors, arm.rows, strict=True), 1)
+    ]
+    head = (
+        f"planar two-joint arm from {Path(arm.recordings[0].path).name}, "
+        f"first link {plain(arm.first_link_length)} m"
+    )
+    notes = notes_text(arm.recordings[0].notes, arm.recordings[1].notes)
+    return "\n\n".join([head, table(rows, right=(2,)), "\n".join(errors), notes])
