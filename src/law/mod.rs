@@ -2,6 +2,7 @@
 //!
 //! A new law is one file here and one row in [`crate::catalog`].
 
+mod bam;
 mod bittencourt_a;
 mod by_formula;
 mod clochiatti;
@@ -22,6 +23,7 @@ mod tadese_t;
 mod wolf;
 mod zhou;
 
+pub use bam::{BamM1, BamM2, BamM3, BamM4, BamM5, BamM6};
 pub use bittencourt_a::BittencourtA;
 pub use by_formula::ByFormula;
 pub use clochiatti::Clochiatti;
