@@ -15,6 +15,9 @@ from stribeck.recording.rows import noise_level
 
 Array = NDArray[np.float64]
 
+#: Steady-state points, one a run, have slid for so long (s) that every state has settled.
+SETTLED = 1e9
+
 CHANNELS = ("position", "velocity", "acceleration", "temperature", "load_torque")
 
 
@@ -54,7 +57,7 @@ class Problem:
         r = self.recording
         load = self.load if r.load_torque is None else r.load_torque
         return {
-            "dt": r.dt,
+            "dt": np.full_like(r.velocity, SETTLED) if r.averaged else r.dt,
             "velocity": np.where(
                 r.moving, r.velocity, self._denoised(r.velocity, r.velocity_smooth)
             ),
@@ -73,6 +76,8 @@ class Problem:
         From positions where they were recorded: their differences do not gather velocity noise.
         """
         r = self.recording
+        if r.averaged:
+            return r.velocity
         before = np.concatenate([[0], np.arange(r.time.size - 1)])
         mean = 0.5 * (r.velocity + r.velocity[before])
         if r.position is not None and not r.columns["position"].derived:

@@ -95,8 +95,8 @@ class ArmFit:
         It is the law ``hao_a``, the polynomial of eq 10.
         """
         first = len(INERTIAL) + (joint - 1) * len(FRICTION)
-        values = self.values[first : first + len(FRICTION)]
-        return model("hao_a", **{f"a{k}": float(v) for k, v in enumerate(values, 1)})
+        a0, a1, a2, a3 = self.values[first : first + len(FRICTION)]
+        return model("hao_a", a1=a0, a2=a1, a3=a2, a4=a3)
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON of `stribeck arm`."""

@@ -119,7 +119,7 @@ def test_an_arm_whose_second_joint_stands_still_is_refused(tmp_path: Path) -> No
         sb.read(_written(tmp_path, frame), joint=k, joint_kind="revolute", standstill=True)
         for k in ("1", "2")
     )
-    with pytest.raises(FitError, match="does not show .*inertia_2"):
+    with pytest.raises(FitError, match=r"does not show .*inertia_2"):
         arm_fit(first, second, first_link_length=0.35)
 
 

@@ -51,6 +51,15 @@ def test_the_map_of_table_1_comes_back_in_both_directions(
         assert fit.model.value(name) == pytest.approx(value, rel=0.02), name
 
 
+def test_a_law_with_a_bristle_slides_at_steady_points(log: sb.Recording, tmp_path: Path) -> None:
+    segment_points(log).write(tmp_path / "points.csv")
+    fit = sb.fit("lugre", sb.read(tmp_path / "points.csv"))
+    # LuGre has one viscous coefficient for both directions; the rest of the map is the same.
+    assert fit.model.value("coulomb_friction") == pytest.approx(gantry.COULOMB, rel=0.03)
+    assert fit.model.value("static_friction") == pytest.approx(gantry.STATIC, rel=0.03)
+    assert gantry.FORWARD < fit.model.value("viscous_friction") < gantry.BACKWARD
+
+
 def test_points_lie_on_the_map_to_their_own_errors(log: sb.Recording) -> None:
     for point in segment_points(log).points:
         true = gantry.friction(point.velocity)
