@@ -156,8 +156,8 @@ macro_rules! effects {
 
 laws! {
     Coulomb, BittencourtA, Clochiatti, Dong, GazA, GazB, GrotjahnA, GrotjahnB, HaoA, IndriA,
-    Makkar, Shao, Wolf, Zhou, Dahl, Lugre, IndriB, TadeseT, GantryMap,
-    BamM1, BamM2, BamM3, BamM4, BamM5, BamM6; ByFormula
+    Makkar, Shao, Wolf, Zhou, BittencourtB, HaoB, Iskandar, Li, Madsen, Nevmerzhitskiy, Simoni,
+    Dahl, Lugre, IndriB, TadeseT, GantryMap, BamM1, BamM2, BamM3, BamM4, BamM5, BamM6; ByFormula
 }
 
 effects! {

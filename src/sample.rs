@@ -159,7 +159,9 @@ impl<S: Real> StribeckCurve<S> {
         if argument == 0.0 || !argument.is_finite() {
             return *self;
         }
-        Self::of(self.argument / factor.abs().powf(self.exponent), self.exponent)
+        // The inverse first: a power that underflows is 0, one that overflows leaves inf/inf.
+        let narrowed = factor.abs().divide(S::Plain::one()).powf(self.exponent);
+        Self::of(self.argument * narrowed, self.exponent)
     }
 }
 

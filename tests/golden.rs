@@ -1,8 +1,8 @@
 //! Formulas against values computed with mpmath at 50 digits, written out from the papers'
 //! equations and not from this code.
 
-// All the digits that mpmath printed.
-#![allow(clippy::excessive_precision)]
+// All the digits that mpmath printed; a printed 3.14 is no pi.
+#![allow(clippy::excessive_precision, clippy::approx_constant)]
 
 mod common;
 
@@ -25,6 +25,53 @@ fn laws_with_published_parameters() {
     close(at("bittencourt_a", &[], &printed, &Sample::at(0.3)), 14.877775406978362, 1e-13);
     let gantry = [20.0, 35.0, 0.1, 100.0, 120.0];
     close(at("gantry_map", &[], &gantry, &Sample::at(-0.05)), -37.682011746071073, 1e-15);
+}
+
+/// Table 7 of the UR5e review, at -0.3 rad/s, 34 degC and a load of -20 N m that drives the joint.
+#[rustfmt::skip]
+const REVIEW: &[(&str, &[f64], f64)] = &[
+    ("clochiatti", &[12.03, 10.84, 10.79], -14.399000000000000),
+    ("dong", &[10.45, 13.61, 16.34, 3.24, 16.34], -16.667933221348183),
+    ("gaz_a", &[10.54, -13.55, 26.89, 25.37, 0.02], -16.689910818867375),
+    ("gaz_b", &[71.87, 1.79, 0.01], -9.4445928489910893),
+    ("grotjahn_a", &[5.58, 3.14, 15.92], -15.471372565308139),
+    ("grotjahn_b", &[10.13, 3.01, 7.24, 22.65], -16.363669808496888),
+    ("hao_a", &[8.06, 22.66, -7.26, 1.24], -14.23808),
+    ("indri_a", &[6.03, 4.06, 899.76, 13.04, -0.98, 15.59], -15.419408659308404),
+    ("makkar", &[7.07, 0.84, -17.93, 4.04, 88486.0, 8.37], -15.365559412367266),
+    ("shao", &[10.25, 14.12, 33.75], -16.310060466866063),
+    ("wolf", &[306.24, -4.3, 44.35, 0.89, 18.29, 0.1], -15.533408480652411),
+    ("zhou", &[19.33, 0.58, -379.32, 264.32, 366.69, 5.5], -15.115285451188581),
+    ("bittencourt_b", &[-5.26, -0.04, 0.43, -3.72, 1887.0, 15.83, -0.07, -38.75, 77.72, 10.93, 169.3, 6.95], -19.650216872697092),
+    ("hao_b", &[8.16, 40.32, -25.34, 6.92, -0.02], -13.62168),
+    ("iskandar", &[0.05, 0.63, 1.77, -0.04, 8.11, -0.7, 0.01, 21.16, 0.19, -0.01, 0.18, 0.01, -0.0001], -9.9958720474690941),
+    ("li", &[-0.18, -0.82, 6.99, 0.06, 16.77, -0.06, 0.001, -0.008], -10.730813987360355),
+    ("madsen", &[6.36, 0.44, 2.99, -0.28, 40.68, 50.39, -30.75, 7.57], -15.27500292913228),
+    ("nevmerzhitskiy", &[4.26, -0.01, 20.4, -87.4, 309.89], -11.433540173105389),
+    ("simoni", &[10.09, 49.89, -31.35, 8.57, 0.81, -0.01], -15.38981965),
+];
+
+#[test]
+fn static_laws_of_the_review() {
+    let sample =
+        Sample { temperature: 34.0, load_torque: -20.0, motor_torque: 15.0, ..Sample::at(-0.3) };
+    for &(law, values, expected) in REVIEW {
+        let mut spec = Spec::new(law, []).unwrap();
+        spec.set_constant("base_temperature", 21.5).unwrap();
+        spec.set_constant("smoothing_velocity", 0.01).unwrap();
+        let model = spec.with(values).unwrap();
+        close(model.static_torque(&sample), expected, 2e-14);
+        close(model.static_torque(&Sample { velocity: 0.0, ..sample }), at_rest(law), 2e-14);
+    }
+}
+
+/// What friction is left at `v = 0`: none, but for the two laws with a constant.
+fn at_rest(law: &str) -> f64 {
+    match law {
+        "gaz_a" => 3.2346513139685619,
+        "li" => -0.18,
+        _ => 0.0,
+    }
 }
 
 #[test]

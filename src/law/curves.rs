@@ -1,5 +1,6 @@
 //! Curves that several laws are made of.
 
+use crate::sample::StribeckCurve;
 use crate::scalar::Real;
 
 /// `|v|^p sgn v`, 0 at rest even where `p <= 0`.
@@ -15,6 +16,12 @@ pub fn signed_power<S: Real>(velocity: S::Plain, exponent: S) -> S {
         // Beyond all numbers; finite, so that a coefficient of 0 still gives 0.
         S::from_f64(1e30).scale(velocity.sign())
     }
+}
+
+/// `sqrt(|v|) sgn v`.
+#[inline]
+pub fn signed_root<P: Real>(velocity: P) -> P {
+    velocity.abs().sqrt() * velocity.sign()
 }
 
 /// `(2/pi) atan(k v)`: the sign of the velocity, smoothed over `1/k`.
@@ -35,4 +42,18 @@ pub fn logistic<S: Real>(x: S) -> S {
 #[inline]
 pub fn saturation<S: Real>(x: S) -> S {
     -(-x).expm1()
+}
+
+/// The Stribeck curve `exp(-(v/vs)^2)`: 1 at rest, whatever the Stribeck velocity.
+#[inline]
+pub fn gaussian_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S) -> StribeckCurve<S> {
+    let ratio =
+        if velocity.value() == 0.0 { S::zero() } else { stribeck_velocity.divide(velocity) };
+    StribeckCurve::of(ratio * ratio, S::from_f64(2.0))
+}
+
+/// `a + b x + c x^2`.
+#[inline]
+pub fn quadratic<S: Real>([a, b, c]: [S; 3], x: S::Plain) -> S {
+    a + b.scale(x) + c.scale(x * x)
 }

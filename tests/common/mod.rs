@@ -37,6 +37,9 @@ pub fn values(spec: &Spec) -> Vec<f64> {
             "coulomb_friction" => 4.0,
             "static_friction" => 6.5,
             "delay" => 0.0037,
+            "root_friction_inverse_cube" => 9000.0,
+            "power_exponent_slope" => 0.003,
+            "power_exponent_square" => 2e-5,
             name if name.starts_with("position_") => 0.05 * (1.0 + i as f64 % 3.0),
             _ => p.start + 0.01 * (1.0 + i as f64 / 10.0),
         })
