@@ -163,6 +163,7 @@ laws! {
 effects! {
     stribeck: Stribeck,
     load: Load,
+    quadrant: Quadrant,
     position: Position,
     direction: Direction,
     // After all that dry friction depends on: temperature changes all of it alike.

@@ -244,6 +244,8 @@ pub struct EffectInfo {
     pub formula: &'static str,
     /// What a recording must contain to show it.
     pub needs: &'static str,
+    /// The simpler effect it contains: by itself it would be taken for that one.
+    pub beyond: Option<&'static str>,
     /// Columns it reads besides the velocity.
     pub channels: &'static [Channel],
     /// Constants it uses.

@@ -19,6 +19,7 @@ impl<S: Real> FrictionEffect<S> for Delay<S> {
         what: "Torque and motion channels are not simultaneous.",
         formula: "tf(t) + (tf + tl)(t - tau) - (tf + tl)(t)",
         needs: "accelerated motion",
+        beyond: None,
         channels: &[],
         constants: &[],
         parameters: Self::TABLE,

@@ -23,6 +23,7 @@ impl<S: Real> FrictionEffect<S> for Direction<S> {
                coefficients differ between them.",
         formula: "D + dc sgn v, V + dv |v|",
         needs: "motion in both directions",
+        beyond: None,
         channels: &[],
         constants: &[],
         parameters: Self::TABLE,

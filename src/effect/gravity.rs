@@ -22,6 +22,7 @@ impl<S: Real> FrictionEffect<S> for Gravity<S> {
         what: "Mass, centre of mass or zero angle used for the load torque are wrong.",
         formula: "tf + gc cos q + gs sin q",
         needs: "a range of position",
+        beyond: None,
         channels: &[Channel::Position],
         constants: &[],
         parameters: Self::TABLE,

@@ -20,6 +20,7 @@ impl<S: Real> FrictionEffect<S> for Inertia<S> {
         what: "The inertia used for the load torque is wrong, or none was used.",
         formula: "tf + J a",
         needs: "acceleration",
+        beyond: None,
         channels: &[Channel::Acceleration],
         constants: &[],
         parameters: Self::TABLE,

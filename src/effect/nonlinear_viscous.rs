@@ -25,6 +25,7 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
                proportional to speed.",
         formula: "V + nc (|v/vr|/(1 + |v/vl|))^n vr sgn v",
         needs: "a wide range of speed",
+        beyond: None,
         channels: &[],
         constants: &["reference_velocity"],
         parameters: Self::TABLE,

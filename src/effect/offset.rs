@@ -20,6 +20,7 @@ impl<S: Real> FrictionEffect<S> for Offset<S> {
         what: "The torque or current sensor has a zero error, or a constant torque was left out.",
         formula: "tf + t0",
         needs: "motion in both directions",
+        beyond: None,
         channels: &[],
         constants: &[],
         parameters: Self::TABLE,

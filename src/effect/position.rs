@@ -36,6 +36,7 @@ impl<S: Real> FrictionEffect<S> for Position<S> {
         formula: "D + sum_j pj b_j(q); b_j = cos(j pi (q - start)/length), or over a period cos, \
                   sin, cos 2, sin 2 ... of 2 pi (q - start)/length",
         needs: "repeated passes in both directions",
+        beyond: None,
         channels: &[Channel::Position],
         constants: &["position_start", "position_length", "position_periodic"],
         parameters: Self::TABLE,

@@ -25,6 +25,7 @@ impl<S: Real> FrictionEffect<S> for Stribeck<S> {
                at low speed.",
         formula: "D + dFs exp(-|v/vs|^alpha)",
         needs: "slow motion in both directions",
+        beyond: None,
         channels: &[],
         constants: &[],
         parameters: Self::TABLE,

@@ -31,6 +31,7 @@ impl<S: Real> FrictionEffect<S> for TemperatureDry<S> {
         formula: "D F, F = 1 + sd/kd (exp(-kd (T - T0)) - 1); in D, height (1 + sh (T - T0)), \
                   vs (1 + sw (T - T0)), what load adds (1 - sl + sl F)/F",
         needs: "a span of temperature",
+        beyond: None,
         channels: &[Channel::Temperature],
         constants: &["reference_temperature"],
         parameters: Self::TABLE,

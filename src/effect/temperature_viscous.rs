@@ -23,6 +23,7 @@ impl<S: Real> FrictionEffect<S> for TemperatureViscous<S> {
         what: "The lubricant thins as the joint warms, so viscous friction falls with temperature.",
         formula: "V (1 + sv/kv (exp(-kv (T - T0)) - 1))",
         needs: "a span of temperature",
+        beyond: None,
         channels: &[Channel::Temperature],
         constants: &["reference_temperature"],
         parameters: Self::TABLE,

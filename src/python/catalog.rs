@@ -50,6 +50,7 @@ fn effect<'py>(py: Python<'py>, info: &EffectInfo) -> PyResult<Bound<'py, PyDict
     row.set_item("what", info.what)?;
     row.set_item("formula", info.formula)?;
     row.set_item("needs", info.needs)?;
+    row.set_item("beyond", info.beyond)?;
     row.set_item("channels", info.channels.iter().map(|c| c.name()).collect::<Vec<_>>())?;
     row.set_item("constants", info.constants.to_vec())?;
     row.set_item("parameters", parameters(py, info.parameters)?)?;

@@ -25,7 +25,7 @@ from stribeck.diagnose.trial import (
 from stribeck.diagnose.unexplained import Unexplained, unexplained
 from stribeck.diagnose.words import where
 from stribeck.fit import Fit, on_recording, own_load
-from stribeck.model import effect_ids
+from stribeck.model import Model, catalog, effect_ids
 from stribeck.recording import Recording
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
@@ -146,7 +146,10 @@ def diagnose(
     candidates = [
         effect
         for effect in effect_ids()
-        if effect not in inside and effect not in cannot and effect not in rejected
+        if effect not in inside
+        and effect not in cannot
+        and effect not in rejected
+        and _simpler_is_there(effect, model)
     ]
     trials = [t for e in candidates if (t := try_effect(fitted, e, seed=seed)) is not None]
     tried = max(len(trials), 1)
@@ -165,6 +168,14 @@ def diagnose(
     verdict = "missing" if findings else ("unexplained" if left.is_structure else "none")
     shown = tuple(row for effect, row in cannot.items() if effect not in inside)
     return Diagnosis(fitted, floor, verdict, findings, shown, left)
+
+
+def _simpler_is_there(effect: str, model: Model) -> bool:
+    """Whether `model` has the simpler effect that `effect` contains, if there is one."""
+    tables = catalog()
+    simpler = tables["effects"][effect]["beyond"]
+    law = tables["laws"][model.law.partition(":")[0]]
+    return simpler is None or simpler in model.effects or simpler in law["captures"]
 
 
 def _reported_fall(before: Fit, trial: Trial) -> bool:

@@ -27,6 +27,8 @@ SLOW = 0.15
 SPEED_RATIO = 2.5
 #: Relative spread of the load (or of the inertia torque) that shows a dependence on it.
 LOAD_SPREAD = 0.1
+#: Share of rows that motoring and generating each need.
+QUADRANT_SHARE = 0.1
 #: Turns of direction needed to see what happens in them.
 REVERSALS = 4
 #: Range of a revolute joint in rad below which gravity cannot be told from an offset.
@@ -151,6 +153,25 @@ def _load(f: _Facts) -> Answer:
     return None
 
 
+def _quadrant(f: _Facts) -> Answer:
+    if (why := _load(f)) is not None:
+        return why
+    if f.recording.load_torque is None:
+        return (
+            "the load torque is identified together with the friction, and a common scale of "
+            "inertia and gravity equals a difference between the quadrants",
+            "give the load torque, or inertia and gravity from a weighing or a CAD model",
+        )
+    assert f.load is not None
+    motoring = float(np.mean(f.velocity * f.load[f.recording.moving] > 0))
+    if not QUADRANT_SHARE <= motoring <= 1.0 - QUADRANT_SHARE:
+        return (
+            f"the joint drives its load in {motoring:.0%} of the rows",
+            "lift and lower the same load at the same speeds",
+        )
+    return None
+
+
 def _temperature(f: _Facts) -> Answer:
     temperature = f.channel("temperature")
     if temperature is None:
@@ -232,6 +253,7 @@ CHECKS: dict[str, Callable[[_Facts], Answer]] = {
     "nonlinear_viscous": _nonlinear_viscous,
     "direction": _one_direction,
     "load": _load,
+    "quadrant": _quadrant,
     "temperature_viscous": _temperature,
     "temperature_dry": _temperature,
     "presliding": _presliding,

@@ -80,6 +80,22 @@ def _load(before: Fit, after: Fit) -> str:
     )
 
 
+def _quadrant(before: Fit, after: Fit) -> str:
+    m = after.model
+    low, high = m.box["load_torque"]
+    most = max(abs(low), abs(high))
+    speed = 0.5 * max(abs(x) for x in m.box["velocity"])
+    driving, driven = (
+        float(m.split(speed, load_torque=np.array([sign * most]))["dry"][0]) for sign in (1, -1)
+    )
+    more = "higher" if driving > driven else "lower"
+    return (
+        f"under {number(most)} {m.torque_unit} of load at {number(speed)} {m.position_unit}/s "
+        f"friction is {number(abs(driving - driven))} {m.torque_unit} {more} while the joint drives "
+        f"the load than while the load drives the joint"
+    )
+
+
 def _at_temperatures(after: Fit, part: str) -> tuple[float, float, float, float]:
     m = after.model
     cold, hot = m.box["temperature"]
@@ -172,6 +188,7 @@ SENTENCES: dict[str, Callable[[Fit, Fit], str]] = {
     "nonlinear_viscous": _nonlinear_viscous,
     "direction": _direction,
     "load": _load,
+    "quadrant": _quadrant,
     "temperature_viscous": _temperature("rate"),
     "temperature_dry": _temperature("dry"),
     "presliding": _presliding,

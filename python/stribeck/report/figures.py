@@ -51,6 +51,7 @@ TELLING = {
     "nonlinear_viscous": ("speed", True),
     "direction": ("velocity", False),
     "load": ("load", True),
+    "quadrant": ("load", True),
     "temperature_dry": ("temperature", True),
     "temperature_viscous": ("temperature", True),
     "position": ("position", True),
