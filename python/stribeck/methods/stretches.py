@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 #: Two lines count as better than one where they lower the sum of squares by so many residual
 #: variances: F(2, n) exceeds this by chance at one of 10^6 breaks.
 SIGNIFICANT = 30.0
+#: A residual whose squared differences sum to less than this share of its own squares is smooth.
+SMOOTH = 0.5
 #: Fewest rows on either side of a break.
 FEWEST = 4
 #: A joint moves where its speed is so many times the speed's standard error.
@@ -175,25 +177,32 @@ def _break(time: Array, position: Array, start: int, stop: int, search: Search) 
     """The row at which a second line begins; None where one line serves."""
     t = time[start:stop] - time[start:stop].mean()
     x = position[start:stop] - position[start:stop].mean()
-    size = t.size
     slope = float(t @ x) / float(t @ t)
-    one = float(((x - slope * t) ** 2).sum())
+    residual = x - slope * t
     left, slope_left = _growing_lines(t, x)
     right, slope_right = _growing_lines(t[::-1], x[::-1])
     # Entry k of each: the first k + 1 rows against the last n - k - 1.
     two = left[:-1] + right[::-1][1:]
-    allowed = slice(FEWEST - 1, size - FEWEST)
-    k = int(np.argmin(two[allowed])) + FEWEST - 1
+    k = int(np.argmin(two[FEWEST - 1 : t.size - FEWEST])) + FEWEST - 1
     first, second = slope_left[k], slope_right[::-1][k + 1]
-    variance = max(float(two[k]), 0.0) / max(size - 4, 1)
-    fastest = max(abs(first), abs(second))
-    differs = abs(first - second) > search.tolerance * fastest
-    better = one - two[k] > SIGNIFICANT * variance
-    # To and fro over many passes, no two lines are much better than one; neither says anything.
-    says_nothing = one > slope**2 * float(t @ t)
-    if (differs and better) or says_nothing:
-        return start + k + 1
-    return None
+    differs = abs(first - second) > search.tolerance * max(abs(first), abs(second))
+    fall = float(residual @ residual) - float(two[k])
+    better = fall > SIGNIFICANT * max(float(two[k]), 0.0) / max(t.size - 4, 1)
+    bent = _is_bent(residual, abs(slope) * float(np.sqrt(t @ t)), search)
+    return start + k + 1 if (differs and better) or bent else None
+
+
+def _is_bent(residual: Array, spread: float, search: Search) -> bool:
+    """Whether a line misses a change of speed that two lines would miss too.
+
+    So it is with many passes to and fro, and with a speed that rises and falls again. The latter,
+    by the share p of the speed, bends the position by 0.39 p of the line's own spread; what is
+    left is then smooth, where noise is rough (von Neumann's ratio is near 2).
+    """
+    square = float(residual @ residual)
+    rough = float((np.diff(residual) ** 2).sum())
+    much = square > (0.39 * search.tolerance * spread) ** 2
+    return square > spread**2 or (much and rough < SMOOTH * square)
 
 
 def _growing_lines(t: Array, x: Array) -> tuple[Array, Array]:
