@@ -160,9 +160,13 @@ impl Spec {
         self.parameters().count()
     }
 
-    /// Whether the torque is linear in a parameter, all nonlinear ones held.
+    /// Whether the torque is linear in a parameter, all nonlinear ones held. Where friction depends
+    /// on the motor torque, which itself follows from it, it is not.
     #[must_use]
     pub fn is_linear(&self, parameter: &ParameterInfo) -> bool {
+        if self.channels().any(|channel| channel == Channel::MotorTorque) {
+            return false;
+        }
         match parameter.role {
             Role::Rate | Role::Additive => true,
             Role::Dry => !self.has_state(),

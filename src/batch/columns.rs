@@ -2,6 +2,7 @@ use std::vec;
 use std::vec::Vec;
 
 use super::BatchError;
+use super::balance::Balance;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 use crate::sample::Sample;
@@ -78,7 +79,8 @@ pub struct Columns<'a> {
     /// Interpolating noise would average it, and a delay win where there is none.
     pub smooth: Channels<'a>,
     /// Whether a delay shifts the load torque too: yes where the target is motor torque minus
-    /// load torque, no where the load is a term of the model already or friction was measured.
+    /// load torque, no where the load is a term of the model already or friction was measured. So
+    /// does the balance of a law that depends on the motor torque count it.
     pub shift_load: bool,
     /// Mean velocity over each row's step, which carries a bristle; else the row's velocity is
     /// held over the step. From position differences it does not gather velocity noise.
@@ -132,10 +134,14 @@ impl<'a> Columns<'a> {
         let delayed = spec.effects().contains(EffectId::Delay);
         for channel in Channel::ALL {
             let read = spec.channels().any(|c| c == channel);
-            let shifted = delayed && self.shift_load && channel == Channel::LoadTorque;
+            let added = channel == Channel::LoadTorque
+                && self.shift_load
+                && (delayed || Balance::solves(spec, &self.channels));
             match self.channels.get(channel) {
-                Some(column) if read || shifted => whole(channel.name(), column, rows)?,
-                None if read => return Err(BatchError::Missing(channel)),
+                Some(column) if read || added => whole(channel.name(), column, rows)?,
+                None if read && !Balance::provides(spec, channel, self) => {
+                    return Err(BatchError::Missing(channel));
+                }
                 _ => {}
             }
             if let (true, Some(column)) = (delayed, self.smooth.get(channel)) {

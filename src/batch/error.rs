@@ -59,6 +59,11 @@ pub enum BatchError {
         /// That temperature (degC).
         pole: f64,
     },
+    /// No motor torque balances a row.
+    SelfLocking {
+        /// Row, counted from 0.
+        row: usize,
+    },
     /// A wanted parameter does not exist.
     Wanted {
         /// Its index.
@@ -103,6 +108,12 @@ impl fmt::Display for BatchError {
                 f,
                 "law '{law}' has no limit at {pole} degC, which the temperatures touch or cross: \
                  use data on one side of it"
+            ),
+            Self::SelfLocking { row } => write!(
+                f,
+                "no motor torque moves the joint at row {row}: its friction grows as fast as the \
+                 motor torque (self-locking); give the column 'motor_torque' or less friction per \
+                 load"
             ),
             Self::Wanted { index, parameters } => {
                 write!(f, "parameter {index} is wanted but the model has {parameters}, from 0")

@@ -1,5 +1,6 @@
 //! Whole recordings: a model over columns, its gradient, its parts.
 
+mod balance;
 mod columns;
 mod delay;
 mod error;
@@ -18,6 +19,7 @@ use crate::composed::{Composed, Spec};
 use crate::dynamics::{Interval, State};
 use crate::sample::Sample;
 use crate::scalar::{Dual, Real};
+use balance::Balance;
 use columns::Rows;
 
 /// Derivatives that are carried along in one pass over the rows.
@@ -49,17 +51,25 @@ fn torque_as<S: Real<Plain = S>>(
     values: &[f64],
     columns: &Columns<'_>,
 ) -> Result<Vec<f64>, BatchError> {
-    let values: Vec<S> = values.iter().map(|&x| S::from_f64(x)).collect();
-    let model = spec.with(&values)?;
+    let numbers: Vec<S> = values.iter().map(|&x| S::from_f64(x)).collect();
+    let model = spec.with(&numbers)?;
     let rows = columns.rows(spec)?;
-    let run = |channels: Channels<'_>| {
+    let run = |channels: Channels<'_>| -> Result<Vec<f64>, BatchError> {
+        let balance = Balance::of(spec, values, columns, &channels)?;
+        let channels = balance.as_ref().map_or(channels, |balance| balance.complete(channels));
         let mut torque = Vec::with_capacity(rows.count());
         evaluate(&model, &rows, channels, columns, |t: &S| torque.push(t.value()));
-        torque
+        if let Some(balance) = &balance {
+            if let Some(row) = balance.locked() {
+                return Err(BatchError::SelfLocking { row });
+            }
+            balance.settle(&mut torque);
+        }
+        Ok(torque)
     };
-    let mut torque = run(columns.channels);
+    let mut torque = run(columns.channels)?;
     if let Some(delay) = &model.effects().delay {
-        let mut series = run(columns.smoothed());
+        let mut series = run(columns.smoothed())?;
         columns.add_load(&mut series);
         delay::shift(&rows, delay.delay.value(), &series, 1, &mut torque);
     }
@@ -146,8 +156,10 @@ pub fn split(
     let model = spec.with(values)?;
     columns.check(spec)?;
     let mut parts = SplitColumns::default();
-    for i in 0..columns.channels.velocity.len() {
-        let split = model.split(&columns.channels.sample(i));
+    let balance = Balance::of(spec, values, columns, &columns.channels)?;
+    let channels = balance.as_ref().map_or(columns.channels, |b| b.complete(columns.channels));
+    for i in 0..channels.velocity.len() {
+        let split = model.split(&channels.sample(i));
         parts.dry.push(split.dry());
         parts.rate.push(split.rate);
         parts.additive.push(split.additive);
@@ -202,7 +214,9 @@ fn gradient_along<const N: usize>(
     let model = spec.with(&variables)?;
     let rows = columns.rows(spec)?;
     let width = wanted.len();
-    let run = |channels: Channels<'_>| {
+    let run = |channels: Channels<'_>| -> Result<_, BatchError> {
+        let balance = Balance::of(spec, values, columns, &channels)?;
+        let channels = balance.as_ref().map_or(channels, |balance| balance.complete(channels));
         let mut torque = Vec::with_capacity(rows.count());
         let mut jacobian = vec![0.0; rows.count() * width];
         let mut slopes = jacobian.chunks_exact_mut(width.max(1));
@@ -213,11 +227,15 @@ fn gradient_along<const N: usize>(
                 *slope = d + 0.0;
             }
         });
-        (torque, jacobian)
+        if let Some(balance) = &balance {
+            balance.settle(&mut torque);
+            balance.settle_slopes(spec, &channels, wanted, &mut jacobian);
+        }
+        Ok((torque, jacobian))
     };
-    let (mut torque, mut jacobian) = run(columns.channels);
+    let (mut torque, mut jacobian) = run(columns.channels)?;
     if let Some(delay) = &model.effects().delay {
-        let (mut shifted, slopes) = run(columns.smoothed());
+        let (mut shifted, slopes) = run(columns.smoothed())?;
         columns.add_load(&mut shifted);
         let tau = delay.delay.value;
         let by_delay = delay::shift(&rows, tau, &shifted, 1, &mut torque);

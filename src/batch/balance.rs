@@ -1,0 +1,343 @@
+//! The loads of a law that depends on the motor torque, where the recording does not give them.
+//!
+//! A fit predicts the motor torque, so that friction which depends on it must not read the
+//! measured one. It follows from the balance `tm = tl + tf(te, tm, v)`, row by row, `tl` being the
+//! load torque and the model's own inertia and gravity. Where friction grows by less than the motor
+//! torque does, `d tf/d tm < 1`, there is exactly one solution. Two other cases exist:
+//!
+//! - Friction jumps with the motor torque (`bam_m6` where both ends of the gearbox carry the same)
+//!   and the balance lies within the jump: the motor torque stays at the jump, friction is what
+//!   balances it.
+//! - Friction grows as fast as the motor torque: the joint is self-locking, no motor torque moves
+//!   it and there is no solution. [`torque`](super::torque) refuses such a row. A
+//!   [`gradient`](super::gradient), which a search may ask for at any parameters, goes on with the
+//!   friction at `tm = tl` times [`MOST_AMPLIFIED`]: where the exact solution ends as the slope
+//!   approaches `1 - 1/MOST_AMPLIFIED`, and far from any measurement.
+//!
+//! Derivatives are those of the implicit function: what a parameter does to friction at fixed loads,
+//! times `1/(1 - d tf/d tm)`. Without an `external_torque`, the environment's torque is minus the
+//! model's own gravity, and moves with its parameters.
+
+use std::vec::Vec;
+
+use super::columns::{Channels, Columns};
+use super::error::BatchError;
+use crate::catalog::EffectId;
+use crate::composed::{Composed, Spec};
+use crate::math;
+use crate::sample::Sample;
+use crate::scalar::{Dual, Real};
+use crate::table::Channel;
+
+/// How much the balance may amplify friction that is there at `tm = tl`; a joint in which it would be
+/// more counts as self-locking.
+const MOST_AMPLIFIED: f64 = 100.0;
+/// Steps by Newton's rule before the bracket is halved alone.
+const NEWTON_STEPS: usize = 20;
+/// Steps altogether: halving the widest bracket down to rounding takes fewer.
+const MOST_STEPS: usize = 120;
+/// How often a bracket is widened: friction that jumps up takes one, self-locking all.
+const MOST_WIDENED: usize = 3;
+/// Rounding errors of a balance, relative to the torques in it.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// What is left where large terms cancel; more at the end of a bracket is a jump.
+const SETTLED: f64 = 1e-9;
+
+/// Derivatives by motor torque and external torque.
+type Slopes = Dual<f64, 2>;
+/// A model whose parameters are constants while its samples carry [`Slopes`].
+type Model = Composed<Dual<Slopes, 0>>;
+
+/// Loads that complete the channels, and how the torque answers to what they depend on.
+pub(super) struct Balance {
+    motor: Vec<f64>,
+    external: Vec<f64>,
+    rows: Vec<Row>,
+    /// Whether the external torque follows from the model's own gravity.
+    own_gravity: bool,
+}
+
+/// How the balance of one row ends, and what it makes of the torque at the loads it names.
+#[derive(Clone, Copy)]
+struct Row {
+    outcome: Outcome,
+    /// What multiplies the derivative by a parameter at fixed loads.
+    gain: f64,
+    /// Derivative by the external torque.
+    by_external: f64,
+}
+
+/// How a balance ends.
+#[derive(Clone, Copy)]
+enum Outcome {
+    /// There is a solution.
+    Settled,
+    /// The motor torque stays where friction jumps, and this is the friction.
+    Jump(f64),
+    /// No motor torque moves the joint.
+    Locked,
+}
+
+impl Balance {
+    /// The loads that the model reads and `channels` lack; `None` if they lack none.
+    pub(super) fn of(
+        spec: &Spec,
+        values: &[f64],
+        columns: &Columns<'_>,
+        channels: &Channels<'_>,
+    ) -> Result<Option<Self>, BatchError> {
+        let solve = Self::solves(spec, channels);
+        let own_gravity = is_lacking(spec, channels, Channel::ExternalTorque);
+        if !solve && !own_gravity {
+            return Ok(None);
+        }
+        let values: Vec<_> = values.iter().map(|&x| Dual::from_f64(x)).collect();
+        let model: Model = spec.with(&values)?;
+        let load = channels.load_torque.filter(|_| columns.shift_load);
+        let count = channels.velocity.len();
+        let mut balance = Self {
+            motor: Vec::with_capacity(count),
+            external: Vec::with_capacity(count),
+            rows: Vec::with_capacity(count),
+            own_gravity,
+        };
+        for i in 0..count {
+            let mut sample = channels.sample::<Slopes>(i);
+            if own_gravity {
+                sample.external_torque = -own_gravity_at(&model, sample.position);
+            }
+            sample.external_torque = Dual::variable(sample.external_torque.value, 1);
+            let load = load.and_then(|load| load.get(i)).copied().unwrap_or(0.0);
+            let row = OneRow { model: &model, sample, load };
+            let (motor, settled) = if solve {
+                row.solve()
+            } else {
+                let given = row.at(sample.motor_torque.value);
+                (given.motor, given.ending(Outcome::Settled, 1.0))
+            };
+            balance.motor.push(motor);
+            balance.external.push(sample.external_torque.value);
+            balance.rows.push(settled);
+        }
+        Ok(Some(balance))
+    }
+
+    /// Whether the motor torque has to be solved for.
+    pub(super) fn solves(spec: &Spec, channels: &Channels<'_>) -> bool {
+        is_lacking(spec, channels, Channel::MotorTorque)
+    }
+
+    /// Whether the model can do without this channel, which it reads.
+    pub(super) fn provides(spec: &Spec, channel: Channel, columns: &Columns<'_>) -> bool {
+        let own = |effect| spec.effects().contains(effect);
+        match channel {
+            Channel::MotorTorque => {
+                let load = columns.channels.load_torque.is_some();
+                !spec.has_state() && (load || own(EffectId::Inertia) || own(EffectId::Gravity))
+            }
+            Channel::ExternalTorque => own(EffectId::Gravity),
+            _ => false,
+        }
+    }
+
+    /// The channels with all loads.
+    pub(super) fn complete<'a>(&'a self, channels: Channels<'a>) -> Channels<'a> {
+        Channels {
+            motor_torque: Some(&self.motor),
+            external_torque: Some(&self.external),
+            ..channels
+        }
+    }
+
+    /// The first row that no motor torque moves.
+    pub(super) fn locked(&self) -> Option<usize> {
+        self.rows.iter().position(|row| matches!(row.outcome, Outcome::Locked))
+    }
+
+    /// Turns torques at fixed loads into those of the balance.
+    pub(super) fn settle(&self, torque: &mut [f64]) {
+        for (torque, row) in torque.iter_mut().zip(&self.rows) {
+            match row.outcome {
+                Outcome::Settled => {}
+                Outcome::Jump(settled) => *torque = settled,
+                Outcome::Locked => *torque *= MOST_AMPLIFIED,
+            }
+        }
+    }
+
+    /// Turns derivatives at fixed loads by the `wanted` parameters into those of the balance.
+    pub(super) fn settle_slopes(
+        &self,
+        spec: &Spec,
+        channels: &Channels<'_>,
+        wanted: &[usize],
+        jacobian: &mut [f64],
+    ) {
+        if wanted.is_empty() {
+            return;
+        }
+        let names: Vec<_> = wanted
+            .iter()
+            .map(|&index| spec.parameters().nth(index).map_or("", |info| info.name))
+            .collect();
+        let rows = jacobian.chunks_exact_mut(wanted.len()).zip(&self.rows);
+        for (i, (slopes, row)) in rows.enumerate() {
+            let (sin, cos) = math::f64::sin_cos(channels.sample::<f64>(i).position);
+            for (slope, name) in slopes.iter_mut().zip(&names) {
+                *slope *= row.gain;
+                *slope -= match *name {
+                    "gravity_cos" if self.own_gravity => row.by_external * cos,
+                    "gravity_sin" if self.own_gravity => row.by_external * sin,
+                    _ => 0.0,
+                };
+            }
+        }
+    }
+}
+
+/// Whether the model reads a channel that is not there.
+fn is_lacking(spec: &Spec, channels: &Channels<'_>, channel: Channel) -> bool {
+    channels.get(channel).is_none() && spec.channels().any(|read| read == channel)
+}
+
+/// Gravity torque of the model at `position` (T).
+fn own_gravity_at(model: &Model, position: Slopes) -> Slopes {
+    let (sin, cos) = position.sin_cos();
+    match &model.effects().gravity {
+        Some(gravity) => gravity.gravity_cos.value * cos + gravity.gravity_sin.value * sin,
+        None => Slopes::zero(),
+    }
+}
+
+/// What the balance of one row is about.
+struct OneRow<'m> {
+    model: &'m Model,
+    sample: Sample<Slopes>,
+    load: f64,
+}
+
+/// The balance at some motor torque.
+struct Imbalance {
+    motor: f64,
+    /// Friction and the model's own rigid body (T).
+    torque: f64,
+    /// `tl + tf - tm` (T).
+    excess: f64,
+    by_motor: f64,
+    by_external: f64,
+}
+
+impl Imbalance {
+    /// Whether only rounding is left.
+    fn is_settled(&self) -> bool {
+        self.excess.abs() <= ROUNDING * (self.torque.abs() + self.motor.abs())
+    }
+
+    /// The row that ends here, all that moves the torque at fixed loads amplified by `gain`.
+    fn ending(&self, outcome: Outcome, gain: f64) -> Row {
+        Row { outcome, gain, by_external: gain * self.by_external }
+    }
+
+    /// How much more the motor torque must rise than what it has to overcome.
+    fn amplification(&self) -> f64 {
+        1.0 / (1.0 - self.by_motor).max(1.0 / MOST_AMPLIFIED)
+    }
+}
+
+impl OneRow<'_> {
+    fn at(&self, motor: f64) -> Imbalance {
+        let sample = Sample { motor_torque: Dual::variable(motor, 0), ..self.sample };
+        let torque = self.model.static_torque(&sample).value;
+        let [by_motor, by_external] = torque.derivative;
+        let torque = torque.value;
+        Imbalance { motor, torque, excess: self.load + torque - motor, by_motor, by_external }
+    }
+
+    /// Newton's rule within a bracket.
+    ///
+    /// The excess falls with the motor torque by at least `1/MOST_AMPLIFIED` of it unless friction
+    /// jumps up or the joint is self-locking, so that an excess tells how far away the solution
+    /// can be.
+    fn solve(&self) -> (f64, Row) {
+        let unloaded = self.at(self.load);
+        let first = self.at(self.load + unloaded.torque);
+        let mut bracket = Bracket::from(&first);
+        let mut tried = first;
+        for step in 0..MOST_STEPS {
+            if tried.is_settled() || !tried.excess.is_finite() || bracket.is_closed(self.load) {
+                break;
+            }
+            let newton = tried.motor + tried.amplification() * tried.excess;
+            let next = if step < NEWTON_STEPS && bracket.contains(newton) {
+                newton
+            } else {
+                bracket.next()
+            };
+            tried = self.at(next);
+            bracket.narrow(&tried);
+            if bracket.widened > MOST_WIDENED {
+                return (unloaded.motor, unloaded.ending(Outcome::Locked, MOST_AMPLIFIED));
+            }
+        }
+        let is_jump = tried.excess.abs() > SETTLED * (tried.torque.abs() + tried.motor.abs());
+        let row = if is_jump {
+            self.jump(tried.motor)
+        } else {
+            tried.ending(Outcome::Settled, tried.amplification())
+        };
+        (tried.motor, row)
+    }
+
+    /// A jump lies where both ends of the gearbox carry the same, and moves with the external
+    /// torque, or where the motor torque changes its sign.
+    fn jump(&self, motor: f64) -> Row {
+        let external = self.sample.external_torque.value;
+        let opposed = (motor + external).abs() <= 4.0 * ROUNDING * external.abs();
+        let by_external = if opposed { -1.0 } else { 0.0 };
+        Row { outcome: Outcome::Jump(motor - self.load), gain: 0.0, by_external }
+    }
+}
+
+/// Motor torques between which the excess changes its sign, once that is known.
+struct Bracket {
+    /// Here the excess has the sign it had first.
+    near: f64,
+    /// Here it has not, or has not been seen yet.
+    far: f64,
+    sign: f64,
+    is_seen: bool,
+    widened: usize,
+}
+
+impl Bracket {
+    fn from(first: &Imbalance) -> Self {
+        let far = first.motor + MOST_AMPLIFIED * first.excess;
+        Self { near: first.motor, far, sign: first.excess, is_seen: false, widened: 0 }
+    }
+
+    fn contains(&self, motor: f64) -> bool {
+        (motor - self.near) * (motor - self.far) < 0.0
+    }
+
+    /// Where to look next if nothing better is known.
+    fn next(&self) -> f64 {
+        if self.is_seen { 0.5 * (self.near + self.far) } else { self.far }
+    }
+
+    fn narrow(&mut self, tried: &Imbalance) {
+        if tried.excess * self.sign <= 0.0 {
+            (self.far, self.is_seen) = (tried.motor, true);
+            return;
+        }
+        self.near = tried.motor;
+        if !self.is_seen && tried.motor == self.far {
+            self.far += MOST_AMPLIFIED * tried.excess;
+            self.widened += 1;
+        }
+    }
+
+    fn is_closed(&self, load: f64) -> bool {
+        let size = self.near.abs() + self.far.abs() + load.abs();
+        self.is_seen && (self.far - self.near).abs() <= ROUNDING * size
+    }
+}
