@@ -74,6 +74,43 @@ fn at_rest(law: &str) -> f64 {
     }
 }
 
+/// Indri et al., table 1, joint 1: forward, then backward.
+const DIRECT_DRIVE: &[f64] = &[
+    40.854, -32.454, -31.233, -0.76, -0.262, 0.19, 0.17, -46.473, 53.873, 55.738, -0.293, 0.177,
+    0.14, 0.15,
+];
+
+/// Coulomb, static, viscous, Stribeck velocity for each pair of signs.
+const FOUR: &[f64] =
+    &[4.0, 6.0, 1.0, 0.2, 3.5, 5.0, 1.1, 0.3, 4.2, 6.5, 0.9, 0.25, 3.2, 5.5, 1.2, 0.15];
+
+/// Values of the parameters (M0 and M* as published), velocity, acceleration, torque.
+#[rustfmt::skip]
+const OTHERS: &[(&str, &[f64], f64, f64, f64)] = &[
+    ("m0", &[0.049, 0.0844, 0.0005, 6.5], 8.0, 1.0, 0.075775675606618726),
+    ("m1", &[0.0304, 0.0232, 0.035, 0.128, 9.07, 0.0004], -8.0, 1.0, -0.071950148527865416),
+    ("m_star", &[0.0304, 0.0232, 0.128, 9.07, -0.0244, 0.00169, -25.0, 1.0, 0.000129, 0.00131, 21.0], 8.0, 1.0, 0.084150062969560809),
+    ("indri_static", DIRECT_DRIVE, 0.4, 1.0, 8.2916581113626806),
+    ("indri_static", DIRECT_DRIVE, -0.1, 1.0, -6.9901644446731213),
+    ("karahan_karci", FOUR, 0.2, 1.0, 4.9357588823428846),
+    ("karahan_karci", FOUR, 0.2, -1.0, 4.6817705826449319),
+    ("karahan_karci", FOUR, -0.2, -1.0, -5.5927725752990117),
+    ("karahan_karci", FOUR, -0.2, 1.0, -3.828730625433952),
+];
+
+#[test]
+fn static_laws_of_the_other_papers() {
+    for &(law, values, velocity, acceleration, expected) in OTHERS {
+        let sample =
+            Sample { acceleration, temperature: 40.0, load_torque: -0.3, ..Sample::at(velocity) };
+        close(at(law, &[], values, &sample), expected, 2e-14);
+    }
+    // Steady motion counts as accelerating, either way.
+    let steady = |velocity| at("karahan_karci", &[], FOUR, &Sample::at(velocity));
+    close(steady(0.2), 4.9357588823428846, 1e-15);
+    close(steady(-0.2), -5.5927725752990117, 1e-15);
+}
+
 #[test]
 fn static_amplitude_of_lugre_is_the_total() {
     let lugre = [1e5, 0.0, 0.0, 1.0, 1.5, 0.1, 2.0];

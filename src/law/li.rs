@@ -22,7 +22,8 @@ parameters! {
         /// What temperature adds to it.
         root_friction_slope: "a6" ["T (s/X)^(1/2)/K"] -5.0 .. 5.0, start 0.0, RootDamping, Rate;
         /// What the inverse cube of temperature adds to it.
-        root_friction_inverse_cube: "a7" ["T (s/X)^(1/2) K3"] -1e6 .. 1e6, start 0.0, RootDamping, Rate;
+        root_friction_inverse_cube: "a7" ["T (s/X)^(1/2) K3"]
+            -1e6 .. 1e6, start 0.0, RootDamping, Rate;
         /// Dry friction per square of the load.
         load_square: "a8" ["1/T"] 0.0 .. 10.0, start 0.01, InverseTorque, Dry;
     }

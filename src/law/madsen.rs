@@ -17,7 +17,8 @@ parameters! {
         /// Torque per root of speed and kelvin above the base temperature.
         root_friction_slope: "a4" ["T (s/X)^(1/2)/K"] -5.0 .. 5.0, start 0.0, RootDamping, Rate;
         /// Torque per root of speed times the cube of the kelvins above the base temperature.
-        root_friction_inverse_cube: "a5" ["T (s/X)^(1/2) K3"] -1e6 .. 1e6, start 0.0, RootDamping, Rate;
+        root_friction_inverse_cube: "a5" ["T (s/X)^(1/2) K3"]
+            -1e6 .. 1e6, start 0.0, RootDamping, Rate;
         /// Torque per speed.
         viscous_friction: "a6" ["T s/X"] 0.0 .. 20.0, start 0.1, Damping, Rate;
         /// Torque per square of speed.

@@ -3,6 +3,7 @@
 //! A new law is one file here and one row in [`crate::catalog`].
 
 mod bam;
+mod bittencourt_2010;
 mod bittencourt_a;
 mod bittencourt_b;
 mod by_formula;
@@ -17,7 +18,9 @@ mod grotjahn;
 mod hao;
 mod indri_a;
 mod indri_b;
+mod indri_static;
 mod iskandar;
+mod karahan_karci;
 mod li;
 mod lugre;
 mod madsen;
@@ -29,6 +32,7 @@ mod wolf;
 mod zhou;
 
 pub use bam::{BamM1, BamM2, BamM3, BamM4, BamM5, BamM6};
+pub use bittencourt_2010::{M0, M1};
 pub use bittencourt_a::BittencourtA;
 pub use bittencourt_b::{BittencourtB, MStar};
 pub use by_formula::ByFormula;
@@ -42,7 +46,9 @@ pub use grotjahn::{GrotjahnA, GrotjahnB};
 pub use hao::{HaoA, HaoB, Simoni};
 pub use indri_a::IndriA;
 pub use indri_b::IndriB;
+pub use indri_static::IndriStatic;
 pub use iskandar::Iskandar;
+pub use karahan_karci::KarahanKarci;
 pub use li::Li;
 pub use lugre::Lugre;
 pub use madsen::Madsen;
