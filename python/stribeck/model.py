@@ -101,6 +101,7 @@ class Parameter:
     start: float
     scale: str
     linear: bool
+    role: str
     description: str
 
 
@@ -174,6 +175,7 @@ class Model:
                 start=row["start"],
                 scale=row["scale"],
                 linear=row["linear"],
+                role=row["role"],
                 description=row["description"],
             )
             for row in self.core.parameters()
