@@ -20,6 +20,7 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.methods import Method, method_options
 from stribeck.compare import compare as compare_fits
 from stribeck.diagnose import diagnose as diagnose_fit
 from stribeck.improve import Addition
@@ -32,17 +33,22 @@ from stribeck.model_file import read_model_file
 @click.argument("data")
 @click.option("--model", "spec", required=True, help="LAW[+effect...] or a model file to start.")
 @output_option
+@method_options
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def fit(
-    data: str, spec: str, output: str | None, starts: int, reading: dict[str, Any], seed: int,
-    as_json: bool,
+    data: str, spec: str, output: str | None, method: Method, starts: int,
+    reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Identify a model's parameters on DATA."""
     check_output(output)
-    fitted = model_fit(spec, read_recording(data, reading), starts=starts, seed=seed, refit=True)
+    recording = read_recording(data, reading)
+    if method.name == "rms":
+        fitted = model_fit(spec, recording, starts=starts, seed=seed, refit=True)
+    else:
+        fitted = method.fit(spec, recording)
     if output is not None:
         save_fit(fitted, output)
     if as_json:

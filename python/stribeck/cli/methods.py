@@ -1,22 +1,84 @@
-"""Identification as in the papers: `points`, `arm`."""
+"""Identification as in the papers: `points`, `arm`, and the ways in which `fit` identifies."""
 
 from __future__ import annotations
 
-from typing import Any
+import functools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
 
 import click
 
 from stribeck.cli.common import (
     check_output,
     echo_json,
+    is_model_file,
     json_option,
     read_recording,
     recording_options,
     say,
     seed_option,
 )
-from stribeck.errors import RecordingError
-from stribeck.methods import Search, arm_fit, averaged_points, segment_points
+from stribeck.errors import RecordingError, SpecError
+from stribeck.fit import Fit
+from stribeck.methods import Axis, Search, arm_fit, averaged_points, grid_fit, segment_points
+from stribeck.model_file import read_model_file
+from stribeck.recording import Recording
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True)
+class Method:
+    """How `stribeck fit` identifies; `rms` is the fit of every other command too."""
+
+    name: str
+    grid: Mapping[str, Axis]
+
+    def fit(self, spec: str, recording: Recording) -> Fit:
+        """Identify `spec`, or the law of a model file, by a method other than `rms`."""
+        model = read_model_file(spec).model if is_model_file(spec) else spec
+        return grid_fit(model, recording, grid=self.grid)
+
+
+def method_options(command: F) -> F:
+    """Add the options that say how a model is identified; the command gets them as `method`."""
+
+    @functools.wraps(command)
+    def wrapper(**given: Any) -> Any:
+        method = Method(given.pop("method"), _axes(given.pop("grid")))
+        if method.grid and method.name != "grid":
+            raise SpecError("--grid says where --method grid looks: give both, or neither")
+        return command(method=method, **given)
+
+    decorated: Any = wrapper
+    for option in (
+        click.option(
+            "--grid", multiple=True, metavar="NAME=FROM:TO:COUNT",
+            help="grid: values of a nonlinear parameter; default: its bounds.",
+        ),
+        click.option(
+            "--method", type=click.Choice(["rms", "grid"]), default="rms", show_default=True,
+            help="rms: least RMS error in bounds from random starts (UR5e review, eqs 4-5). "
+            "grid: linear regression in a grid of the nonlinear parameters, least absolute error "
+            "(Bittencourt 2010, eqs 5-6).",
+        ),
+    ):  # fmt: skip
+        decorated = option(decorated)
+    return decorated
+
+
+def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
+    """Axes of ``NAME=FROM:TO:COUNT`` texts."""
+    axes = {}
+    for text in said:
+        name, _, numbers = text.partition("=")
+        try:
+            lower, upper, count = numbers.split(":")
+            axes[name.strip()] = Axis(float(lower), float(upper), int(count))
+        except ValueError:
+            raise SpecError(f"--grid {text}: write --grid NAME=FROM:TO:COUNT") from None
+    return axes
 
 
 @click.command()

@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 WEIGHINGS = 5
 #: Name, symbol, unit and meaning of the parameters, in the order of eq 12.
 INERTIAL = (
-    ("inertia_1", "Gamma_1z + m2 l1^2", "kg m2", "link 1, with link 2's mass at its end"),
+    ("inertia_1", "Gamma_1z + m2 l1^2", "kg m2", "link 1, with link 2 at its end"),
     ("moment_2x", "m2 s_2x", "kg m", "link 2, first moment along it"),
     ("moment_2y", "m2 s_2y", "kg m", "link 2, first moment across it"),
     ("inertia_2", "Gamma_2z", "kg m2", "link 2, about its joint"),
