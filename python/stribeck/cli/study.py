@@ -113,7 +113,7 @@ class _Bar:
         now = time.monotonic()
         if self._began is None:
             self._began = now, self.done
-        if now - self._said < SECONDS_BETWEEN_LINES:
+        if now - self._said < SECONDS_BETWEEN_LINES or self.done == self.total:
             return
         self._said = now
         began, before = self._began

@@ -65,7 +65,7 @@ def error_figure(study: Study, joint: str | None) -> Figure:
     rows = _of_joint(study, joint)
     data = study.joints[joint]
     quantity = torque_name(data.torque_unit)
-    figure = _figure(10.5, 1.9 + 0.27 * len(rows))
+    figure = _figure(10.5, 2.2 + 0.27 * len(rows))
     both: Any = figure.subplots(1, 2, sharey=True)
     slow = f"|v| < {plain(data.low_speed, 2)} {data.velocity_unit}"
     spreads = [
@@ -82,6 +82,10 @@ def error_figure(study: Study, joint: str | None) -> Figure:
         axes.set_xlabel(f"{quantity} error, measured {MINUS} modelled [{data.torque_unit}]")
     both[0].set_yticks(at, [law for _, law, _ in rows])
     both[0].set_ylim(max(at) + 0.7, min(at) - 0.7)
+    figure.supxlabel(
+        "line: median; box: middle half of the rows; whiskers: to the last row within 1.5 boxes",
+        fontsize=8, color=MEASURED,
+    )  # fmt: skip
     used = [group for group in COLOURS if any(group == g for g, _, _ in rows)]
     figure.legend(
         handles=[

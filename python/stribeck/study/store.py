@@ -30,15 +30,15 @@ FIELDS = (
     "joint", "law", "start", "rmse", "rmse_held_out", "converged", "outcome", "evaluations",
     "seconds", "parameters", "constants", "rigid_body", "failure",
 )  # fmt: skip
-#: What must be the same for a study to go on, and how it is called.
+#: What must be the same for a study to go on, and how to say that it is not.
 IDENTITY = {
-    "data": "recording",
-    "reading": "reading options",
-    "joints": "joints",
-    "laws": "laws",
-    "starts": "starts",
-    "seed": "seed",
-    "version": "version of stribeck",
+    "data": "of another recording or sidecar",
+    "reading": "of a recording read with other options",
+    "joints": "of other joints",
+    "laws": "of other laws",
+    "starts": "with another number of starts",
+    "seed": "with another seed",
+    "version": "made by another version of stribeck",
 }
 
 
@@ -89,14 +89,11 @@ class Store:
             raise StribeckError(
                 f"{path} is damaged: remove the folder, or give another --output"
             ) from None
-        for key, name in IDENTITY.items():
+        for key, difference in IDENTITY.items():
             if not isinstance(found, dict) or found.get(key) != manifest[key]:
-                theirs = _short(found.get(key) if isinstance(found, dict) else None)
-                said = f" ({theirs} there, {_short(manifest[key])} here)"
                 raise StribeckError(
-                    f"{self.folder} holds a study with another {name}"
-                    f"{said if len(said) < 60 else ''}: give another --output, or the same "
-                    f"arguments to go on with it"
+                    f"{self.folder} holds a study {difference}{_differs(found, manifest, key)}: "
+                    f"give another --output, or the same arguments to go on with it"
                 )
 
     def add(self, trial: Trial) -> None:
@@ -163,8 +160,11 @@ def _manifest(plan: Plan) -> dict[str, Any]:
     return dict(json.loads(json.dumps(made, default=str)))
 
 
-def _short(value: object) -> str:
-    return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
+def _differs(found: Any, manifest: dict[str, Any], key: str) -> str:
+    """``(3 there, 5 here)`` for numbers and versions; other things are too long to say."""
+    theirs = found.get(key) if isinstance(found, dict) else None
+    ours = manifest[key]
+    return f" ({theirs} there, {ours} here)" if isinstance(ours, int | str) else ""
 
 
 def _lines(trials: Iterable[Trial]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -66,14 +67,15 @@ def _error_tables(study: Study, each: Table) -> list[str]:
         (f"the same at low speed, |v| < {' or '.join(lows)} [{names}]", True),
     ):
         lines += [f"  {title}"] if not lines else ["", f"  {title}"]
-        per_block = max(1, (WIDTH - 20) // 16)
+        blocks = -(-len(joints) // ((WIDTH - 20) // 16))
+        per_block = -(-len(joints) // blocks)
         for at in range(0, len(joints), per_block):
-            lines += ["", _block(each.rows, joints[at : at + per_block], low)]
+            lines += ["", _block(study, each.rows, joints[at : at + per_block], low)]
     return lines
 
 
-def _block(rows: Sequence[Row], joints: Sequence[str | None], low: bool) -> str:
-    heading = ["law", *("mean ± std" if j is None else str(j) for j in joints)]
+def _block(study: Study, rows: Sequence[Row], joints: Sequence[str | None], low: bool) -> str:
+    heading = ["law", *(f"mean {PLUS_MINUS} std" if j is None else j for j in joints)]
     cells = [heading]
     for row in rows:
         line = [row.law]
@@ -82,24 +84,17 @@ def _block(rows: Sequence[Row], joints: Sequence[str | None], low: bool) -> str:
             if entry is None:
                 line.append("skipped")
             else:
-                digits = _digits(rows, joint)
-                line.append(spread_text(entry.low_speed if low else entry.whole, digits))
+                spread = entry.low_speed if low else entry.whole
+                line.append(spread_text(spread, _digits(study, joint)))
         cells.append(line)
     return table(cells, right=range(1, len(heading)))
 
 
-def _digits(rows: Sequence[Row], joint: str | None) -> int:
-    """Decimals that show the smallest error of a joint with three digits."""
-    errors = [row.entries[joint].whole.std for row in rows if joint in row.entries]
+def _digits(study: Study, joint: str | None) -> int:
+    """Decimals that show the smallest error of a joint with three digits, in all its tables."""
+    errors = [entry.whole.std for _, _, of, entry in study.entries() if of == joint]
     smallest = min((e for e in errors if e > 0.0), default=1.0)
-    return max(0, min(6, 3 - len(f"{smallest:.0f}") if smallest >= 1.0 else _after(smallest)))
-
-
-def _after(value: float) -> int:
-    digits = 2
-    while value < 0.1 and digits < 6:
-        value, digits = value * 10.0, digits + 1
-    return digits + 1
+    return min(max(2 - math.floor(math.log10(smallest)), 0), 6)
 
 
 def _energy_table(each: Table) -> list[str]:
@@ -127,13 +122,7 @@ def energy_cells(energy: Energy) -> list[str]:
 def _notes(study: Study) -> list[str]:
     lines: list[str] = []
     if study.skipped:
-        lines.append("Skipped:")
-        by_reason: dict[str, list[str]] = {}
-        for s in study.skipped:
-            where = s.law if s.joint is None else f"{s.law} on {s.joint}"
-            reason = s.why.replace(s.law, "the law", 1)
-            by_reason.setdefault(reason, []).append(where)
-        lines += [paragraph(f"{listed(laws)}: {why}") for why, laws in by_reason.items()]
+        lines += ["Skipped:", *_skipped(study)]
     if study.failed:
         lines.append(f"Fits that could not be made: {len(study.failed)}")
         seen: dict[tuple[str | None, str], int] = {}
@@ -152,3 +141,20 @@ def _notes(study: Study) -> list[str]:
         )  # fmt: skip
     lines.append(f"All fits, tables and pictures are in {study.folder}")
     return lines
+
+
+def _skipped(study: Study) -> list[str]:
+    """Laws that were not fitted, those with the same reason together."""
+    joints: dict[tuple[str, str], list[str | None]] = {}
+    for s in study.skipped:
+        reason = s.why.replace(s.law, "the law", 1)
+        joints.setdefault((reason, s.law), []).append(s.joint)
+    laws: dict[str, list[str]] = {}
+    for (reason, law), on in joints.items():
+        everywhere = len(on) == len(study.joints)
+        laws.setdefault(reason, []).append(law if everywhere else f"{law} on {_joints(on)}")
+    return [paragraph(f"{listed(of)}: {reason}", hang=2) for reason, of in laws.items()]
+
+
+def _joints(names: Sequence[str | None]) -> str:
+    return listed([name for name in names if name is not None])
