@@ -157,7 +157,7 @@ macro_rules! effects {
 laws! {
     Coulomb, BittencourtA, Clochiatti, Dong, GazA, GazB, GrotjahnA, GrotjahnB, HaoA, IndriA,
     Makkar, Shao, Wolf, Zhou, BittencourtB, HaoB, Iskandar, Li, Madsen, Nevmerzhitskiy, Simoni,
-    Dahl, Lugre, IndriB, TadeseT, GantryMap, IndriStatic, M0, M1, MStar, KarahanKarci, BamM1,
+    Dahl, Lugre, IndriB, TadeseT, TadeseFull, Xiao, GantryMap, IndriStatic, M0, M1, MStar, KarahanKarci, BamM1,
     BamM2, BamM3, BamM4, BamM5, BamM6; ByFormula
 }
 

@@ -39,6 +39,20 @@ impl<S: Real> Sample<S> {
         }
     }
 
+    /// The quadrant of velocity and load torque; at rest or without load there is none.
+    #[inline]
+    #[must_use]
+    pub fn quadrant(&self) -> Option<Quadrant> {
+        let (v, tl) = (self.velocity.value(), self.load_torque.value());
+        match (v > 0.0, tl > 0.0) {
+            _ if v == 0.0 || tl == 0.0 => None,
+            (true, true) => Some(Quadrant::First),
+            (false, true) => Some(Quadrant::Second),
+            (false, false) => Some(Quadrant::Third),
+            (true, false) => Some(Quadrant::Fourth),
+        }
+    }
+
     /// Halfway between two samples.
     #[inline]
     #[must_use]
@@ -55,6 +69,19 @@ impl<S: Real> Sample<S> {
             external_torque: mean(self.external_torque, other.external_torque),
         }
     }
+}
+
+/// Which way a joint moves and which way it is loaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quadrant {
+    /// Forward against the load: motoring.
+    First,
+    /// Backward with a positive load: generating.
+    Second,
+    /// Backward against the load: motoring.
+    Third,
+    /// Forward with a negative load: generating.
+    Fourth,
 }
 
 /// A friction torque taken apart: dry friction times the direction of motion, a rate-dependent

@@ -4,7 +4,7 @@
 //! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution is
 //! `z+ = e^-x z + v dt phi_1(-x)`: stable and free of overshoot for every stiffness and step.
 
-use super::{Interval, Step, later_rate};
+use super::{Interval, Step, following};
 use crate::sample::Split;
 use crate::scalar::Real;
 
@@ -48,10 +48,12 @@ impl<S: Real> Bristle<S> {
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
         let (velocity, dt) = (interval.velocity(), interval.dt);
-        let z = state.z;
+        let before = state.z;
         let path = self.advance(state, held, velocity, dt);
         let torque = if interval.held.is_some() {
-            let rate = self.end_rate(state.z, held, end, interval, &path);
+            let moved = (end.dry() - held.dry()) / self.stiffness;
+            state.z += moved.scale(velocity.sign()) * path.following();
+            let rate = self.rate(state.z, end, interval.sample.velocity);
             self.stiffness * state.z + self.damping * rate + end.rate + end.additive
         } else {
             self.torque(state, end, &path)
@@ -59,7 +61,7 @@ impl<S: Real> Bristle<S> {
         if !interval.mean {
             return Step::same(torque);
         }
-        Step { torque, mean_torque: self.mean_torque(z, state, held, dt, &path) }
+        Step { torque, mean_torque: self.mean_torque(before, state, held, dt, &path) }
     }
 
     /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
@@ -74,10 +76,10 @@ impl<S: Real> Bristle<S> {
         velocity: S::Plain,
         dt: S::Plain,
     ) -> Step<S> {
-        let z = state.z;
+        let before = state.z;
         let path = self.advance(state, split, velocity, dt);
         let torque = self.torque(state, split, &path);
-        Step { torque, mean_torque: self.mean_torque(z, state, split, dt, &path) }
+        Step { torque, mean_torque: self.mean_torque(before, state, split, dt, &path) }
     }
 
     #[inline]
@@ -123,31 +125,15 @@ impl<S: Real> Bristle<S> {
         }
     }
 
-    /// `dz/dt` at the end of the step, where the velocity is that of the sample.
+    /// `dz/dt` at `z`; 0 of a bristle that has settled at once.
     #[inline]
-    fn end_rate(
-        &self,
-        z: S,
-        held: &Split<S>,
-        end: &Split<S>,
-        interval: &Interval<S::Plain>,
-        path: &Path<S>,
-    ) -> S {
-        let slope = |velocity: S::Plain, split: &Split<S>| {
-            let pull = self.stiffness.scale(velocity.abs());
-            let dry = split.dry();
-            let settled = pull.value() * SHORTEST >= SATURATED * dry.value();
-            if settled { S::zero() } else { (-(pull / dry * z)).shift(velocity) }
-        };
-        let end_slope = || slope(interval.sample.velocity, end);
-        match path {
-            Path::Rest => end_slope(),
-            Path::Saturated { .. } => S::zero(),
-            Path::Transient { y, phi, slip } => {
-                let decay = (*y * *phi).shift(S::Plain::one());
-                later_rate(decay * *slip, end_slope() - slope(interval.velocity(), held), *y)
-            }
+    fn rate(&self, z: S, split: &Split<S>, velocity: S::Plain) -> S {
+        let pull = self.stiffness.scale(velocity.abs());
+        let dry = split.dry();
+        if pull.value() * SHORTEST >= SATURATED * dry.value() {
+            return S::zero();
         }
+        (-(pull / dry * z)).shift(velocity)
     }
 
     #[inline]
@@ -182,4 +168,16 @@ enum Path<S> {
     Rest,
     Saturated { dry: S, travel: S },
     Transient { y: S, phi: S, slip: S },
+}
+
+impl<S: Real> Path<S> {
+    /// How far the deflection has followed where it tends to.
+    #[inline]
+    fn following(&self) -> S {
+        match self {
+            Self::Rest => S::zero(),
+            Self::Saturated { .. } => S::one(),
+            Self::Transient { y, phi, .. } => following(*y, *phi),
+        }
+    }
 }

@@ -6,7 +6,7 @@
 //! `c = (n - 1) k |u|^(n-1)` and `w = ln(1 + c)/(n - 1)`: smooth in `n`, for `n = 1` (`w = k`) and
 //! `n = 2` too. For `n < 1` sliding begins within the step where `c <= -1`.
 
-use super::{BristleState, Interval, Step};
+use super::{BristleState, Interval, Step, following};
 use crate::sample::Split;
 use crate::scalar::Real;
 
@@ -39,7 +39,11 @@ impl<S: Real> DahlBristle<S> {
         end: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
-        let mean = self.advance(state, held, interval);
+        let Slid { mean, following } = self.advance(state, held, interval);
+        if interval.held.is_some() {
+            let moved = (end.dry() - held.dry()) / self.stiffness;
+            state.z += moved.scale(interval.velocity().sign()) * following;
+        }
         let torque = self.stiffness * state.z + end.rate + end.additive;
         if !interval.mean {
             return Step::same(torque);
@@ -47,17 +51,17 @@ impl<S: Real> DahlBristle<S> {
         Step { torque, mean_torque: self.stiffness * mean + held.rate + held.additive }
     }
 
-    /// Moves the state and returns its mean over the step.
+    /// Moves the state.
     #[inline]
     fn advance(
         &self,
         state: &mut BristleState<S>,
         split: &Split<S>,
         interval: &Interval<S::Plain>,
-    ) -> S {
+    ) -> Slid<S> {
         let travel = interval.travel();
         if travel.value() == 0.0 {
-            return state.z;
+            return Slid { mean: state.z, following: S::zero() };
         }
         let before = state.z;
         let dry = split.dry();
@@ -65,12 +69,12 @@ impl<S: Real> DahlBristle<S> {
         let target = (dry / self.stiffness).scale(interval.velocity().sign());
         if pull.value() >= VANISHED * dry.value() {
             state.z = target;
-            return target;
+            return Slid { mean: target, following: S::one() };
         }
         let gap = target - before;
         let fall = self.fall((gap * self.stiffness / dry).abs(), pull / dry);
         state.z += gap * fall.covered;
-        before + gap * fall.mean
+        Slid { mean: before + gap * fall.mean, following: fall.following }
     }
 
     /// How `u > 0` falls over a travel `k`.
@@ -78,10 +82,11 @@ impl<S: Real> DahlBristle<S> {
     fn fall(&self, u: S, k: S) -> Fall<S> {
         let one = S::Plain::one();
         if u.value() == 0.0 || !u.value().is_finite() {
-            return Fall { covered: S::one(), mean: S::one() };
+            return Fall::at_once(S::one());
         }
         if k.value() < STILL {
-            return Fall { covered: S::zero(), mean: S::zero() };
+            let zero = S::zero();
+            return Fall { covered: zero, mean: zero, following: zero };
         }
         let excess = self.exponent.shift(-one);
         let other = excess.shift(-one);
@@ -91,7 +96,7 @@ impl<S: Real> DahlBristle<S> {
         let c = excess * reach;
         if c.value() <= -1.0 {
             let area = S::one() / (other * reach);
-            return Fall { covered: S::one(), mean: area.shift(one) };
+            return Fall::at_once(area.shift(one));
         }
         let (w, area) = if c.value() > FAR {
             let w = (excess.ln() + pace) / excess;
@@ -103,14 +108,30 @@ impl<S: Real> DahlBristle<S> {
             let w = reach * slope;
             (w, slope * (other * w).phi(1))
         };
-        Fall { covered: -(-w).expm1(), mean: (-area).shift(one) }
+        let y = -w;
+        Fall { covered: -y.expm1(), mean: (-area).shift(one), following: following(y, y.phi(1)) }
     }
+}
+
+/// How a step went: the mean deflection, and how far it has followed where it tends to.
+struct Slid<S> {
+    mean: S,
+    following: S,
 }
 
 /// What share of the way to sliding is covered at the end of a step, and on average over it.
 struct Fall<S> {
     covered: S,
     mean: S,
+    following: S,
+}
+
+impl<S: Real> Fall<S> {
+    /// Sliding begins within the step.
+    #[inline]
+    fn at_once(mean: S) -> Self {
+        Self { covered: S::one(), mean, following: S::one() }
+    }
 }
 
 /// `ln(1 + c)/c`, by the series of the inverse hyperbolic tangent where `c` is small.

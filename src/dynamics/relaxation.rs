@@ -1,5 +1,6 @@
 //! A state that relaxes linearly along the travel, stepped exactly.
 
+use super::following;
 use crate::scalar::Real;
 
 /// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
@@ -58,5 +59,15 @@ impl<S: Real> Relaxation<S> {
             return S::zero();
         }
         (self.target - z) * (self.pull / self.hold)
+    }
+}
+
+impl<S: Real> Relaxed<S> {
+    /// How far the state has followed a target that moved from the one that was held to the one at
+    /// the end.
+    #[inline]
+    #[must_use]
+    pub fn following(&self) -> S {
+        following(self.decay, self.decay.phi(1))
     }
 }

@@ -1,6 +1,7 @@
 use super::FrictionLaw;
+use super::curves::arctangent_sign;
 use crate::constants::Constants;
-use crate::dynamics::{Interval, Relaxation, State, Step, later_rate};
+use crate::dynamics::{Interval, Relaxation, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
@@ -35,7 +36,7 @@ impl<S: Real> IndriB<S> {
     /// `(2/pi) atan(a5 v)`.
     #[inline]
     fn smooth_sign(&self, velocity: S::Plain) -> S {
-        two_over_pi(self.sign_steepness.scale(velocity).atan())
+        arctangent_sign(velocity, self.sign_steepness)
     }
 
     /// The bristle along the travel: `dz/d(|v| t)` relaxes to `S0 g/a1` at the rate `a1 |S0|/g`.
@@ -108,23 +109,25 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
         let before = state.bristle.z;
         let relaxation = self.relaxation(carrier.velocity, held);
         let relaxed = relaxation.over(before, travel);
-        state.bristle.z = relaxed.end;
+        let mut z = relaxed.end;
+        let mut reading = relaxation;
+        if interval.held.is_some() {
+            reading = self.relaxation(sample.velocity, end);
+            let along = carrier.velocity.sign() * sample.velocity.sign();
+            z += (reading.target.scale(along) - relaxation.target) * relaxed.following();
+        }
+        state.bristle.z = z;
 
-        let mut torque = self.bristle_stiffness * relaxed.end + end.rate + end.additive;
+        let mut torque = self.bristle_stiffness * z + end.rate + end.additive;
         if sample.velocity.value() != 0.0 {
-            let mut slope = relaxation.slope(relaxed.end);
-            if interval.held.is_some() {
-                let own = self.relaxation(sample.velocity, end).slope(relaxed.end);
-                slope = later_rate(slope, own - slope, relaxed.decay);
-            }
-            torque += self.damping(sample, constants) * slope;
+            torque += self.damping(sample, constants) * reading.slope(z);
         }
         if !interval.mean {
             return Step::same(torque);
         }
         let mut mean_torque = self.bristle_stiffness * relaxed.mean + held.rate + held.additive;
         if travel.value() > 0.0 {
-            let slope = (relaxed.end - before).scale(S::Plain::one() / travel);
+            let slope = (z - before).scale(S::Plain::one() / travel);
             mean_torque += self.damping(carrier, constants) * slope;
         }
         Step { torque, mean_torque }

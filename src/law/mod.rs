@@ -27,8 +27,10 @@ mod madsen;
 mod makkar;
 mod nevmerzhitskiy;
 mod shao;
+mod tadese_full;
 mod tadese_t;
 mod wolf;
+mod xiao;
 mod zhou;
 
 pub use bam::{BamM1, BamM2, BamM3, BamM4, BamM5, BamM6};
@@ -55,8 +57,10 @@ pub use madsen::Madsen;
 pub use makkar::Makkar;
 pub use nevmerzhitskiy::Nevmerzhitskiy;
 pub use shao::Shao;
+pub use tadese_full::TadeseFull;
 pub use tadese_t::TadeseT;
 pub use wolf::Wolf;
+pub use xiao::Xiao;
 pub use zhou::Zhou;
 
 use crate::constants::Constants;

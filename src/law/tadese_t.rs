@@ -1,7 +1,8 @@
 use super::FrictionLaw;
+use super::curves::{gaussian_curve, saturation};
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Interval, State, Step};
-use crate::sample::{Sample, Split, StribeckCurve};
+use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
@@ -44,8 +45,8 @@ impl<S: Real> TadeseT<S> {
         let level = at(self.viscous_level, self.viscous_level_slope);
         let rise = at(self.viscous_rise, self.viscous_rise_slope);
         let exponent = at(self.viscous_exponent, self.viscous_exponent_slope);
-        let fall = (-rise.scale(velocity).abs().powf(exponent)).expm1();
-        -(level * fall).scale(velocity.sign())
+        let reach = rise.scale(velocity).abs().powf(exponent);
+        (level * saturation(reach)).scale(velocity.sign())
     }
 }
 
@@ -72,11 +73,10 @@ impl<S: Real> FrictionLaw<S> for TadeseT<S> {
 
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
-        let ratio = self.stribeck_velocity.divide(sample.velocity);
         Split {
             coulomb: self.coulomb_friction,
             height: self.static_friction - self.coulomb_friction,
-            shape: StribeckCurve::of(ratio * ratio, S::from_f64(2.0)),
+            shape: gaussian_curve(sample.velocity, self.stribeck_velocity),
             rate: self.viscous(sample.velocity, sample.temperature),
             ..Split::zero()
         }
