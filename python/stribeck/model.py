@@ -207,6 +207,11 @@ class Model:
         """Whether each sample's torque depends on that sample alone."""
         return not self.has_state and "delay" not in self.effects
 
+    def has(self, effect: str) -> bool:
+        """Whether the law has this effect by itself, or it was added."""
+        law = catalog()["laws"].get(self.law.partition(":")[0], {})
+        return effect in self.effects or effect in law.get("captures", ())
+
     def value(self, name: str) -> float:
         """The value of one parameter, by name."""
         return float(self.values[self.names.index(name)])

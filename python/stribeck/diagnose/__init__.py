@@ -20,6 +20,7 @@ from stribeck.diagnose.trial import (
     refined,
     tie_statistic,
     tie_weight,
+    try_beyond,
     try_effect,
 )
 from stribeck.diagnose.unexplained import Unexplained, unexplained
@@ -146,13 +147,17 @@ def diagnose(
     candidates = [
         effect
         for effect in effect_ids()
-        if effect not in inside
-        and effect not in cannot
-        and effect not in rejected
-        and _simpler_is_there(effect, model)
+        if effect not in inside and effect not in cannot and effect not in rejected
     ]
-    trials = [t for e in candidates if (t := try_effect(fitted, e, seed=seed)) is not None]
+    alone = [e for e in candidates if _contained(e, model) is None]
+    trials = [t for e in alone if (t := try_effect(fitted, e, seed=seed)) is not None]
     tried = max(len(trials), 1)
+    for effect in candidates:
+        simpler = next((t for t in trials if t.effect == _contained(effect, model)), None)
+        if simpler is not None and passes(simpler, tried, least_fall):
+            beyond = try_beyond(simpler, effect, fitted, seed=seed)
+            if beyond is not None and passes(beyond[0], tried, least_fall):
+                trials.append(beyond[1])
     good = [
         t
         for t in trials
@@ -170,12 +175,10 @@ def diagnose(
     return Diagnosis(fitted, floor, verdict, findings, shown, left)
 
 
-def _simpler_is_there(effect: str, model: Model) -> bool:
-    """Whether `model` has the simpler effect that `effect` contains, if there is one."""
-    tables = catalog()
-    simpler = tables["effects"][effect]["beyond"]
-    law = tables["laws"][model.law.partition(":")[0]]
-    return simpler is None or simpler in model.effects or simpler in law["captures"]
+def _contained(effect: str, model: Model) -> str | None:
+    """The simpler effect that `effect` contains and `model` lacks, if there is one."""
+    simpler: str | None = catalog()["effects"][effect]["beyond"]
+    return None if simpler is None or model.has(simpler) else simpler
 
 
 def _reported_fall(before: Fit, trial: Trial) -> bool:

@@ -80,8 +80,11 @@ def add_effect(
         The effect is in the model already, or needs a channel that is not there.
     """
     load = own_load(before.model, before.recording)
-    constants = effect_constants(effect, before.recording, load)
-    wider = before.model.with_effect(effect, constants)
+    wider = before.model
+    simpler = catalog()["effects"][effect]["beyond"]
+    for one in (simpler, effect):
+        if one == effect or (one is not None and not wider.has(one)):
+            wider = wider.with_effect(one, effect_constants(one, before.recording, load))
     return fit(
         wider,
         before.recording,
@@ -101,6 +104,22 @@ def try_effect(before: Fit, effect: str, *, seed: int = 0) -> Trial | None:
     if after.rmse_held_out is None or before.rmse_held_out is None:
         return None
     return Trial(effect, after, evidence(before, after))
+
+
+def try_beyond(
+    simpler: Trial, effect: str, before: Fit, *, seed: int = 0
+) -> tuple[Trial, Trial] | None:
+    """Try `effect` on top of the simpler one that it contains.
+
+    Returns
+    -------
+    What it adds beyond the simpler one, and what both together add to `before`; None where the
+    model cannot take it.
+    """
+    beyond = try_effect(simpler.fit, effect, seed=seed)
+    if beyond is None:
+        return None
+    return beyond, Trial(effect, beyond.fit, evidence(before, beyond.fit))
 
 
 def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:

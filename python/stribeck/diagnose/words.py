@@ -91,8 +91,8 @@ def _quadrant(before: Fit, after: Fit) -> str:
     more = "higher" if driving > driven else "lower"
     return (
         f"under {number(most)} {m.torque_unit} of load at {number(speed)} {m.position_unit}/s "
-        f"friction is {number(abs(driving - driven))} {m.torque_unit} {more} while the joint drives "
-        f"the load than while the load drives the joint"
+        f"friction is {number(abs(driving - driven))} {m.torque_unit} {more} while the joint "
+        f"drives the load than while the load drives the joint"
     )
 
 
