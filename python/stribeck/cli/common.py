@@ -89,6 +89,14 @@ _RECORDING_OPTIONS = [
     click.option("--gear-ratio", type=float, default=None, help="Motor turns a joint turn."),
     click.option("--torque-constant", type=float, default=None, help="N m/A, for a current."),
     click.option("--inertia", type=float, default=None, help="Known inertia, kg m2 or kg."),
+    click.option(
+        "--drive", type=click.Choice(["voltage"]), default=None,
+        help="The effort is the voltage on a DC motor.",
+    ),
+    click.option(
+        "--hold-out", default=None, metavar="COLUMN[=VALUE]",
+        help="Hold out by the values of a column of the file, not by time or run.",
+    ),
     click.option("--km", type=float, default=None, help="Motor constant, N m/W^0.5 (energy)."),
     click.option("--kb", type=float, default=None, help="Back-EMF constant, V s/rad (energy)."),
     click.option("--kt", type=float, default=None, help="Torque constant, N m/A (energy)."),
@@ -112,6 +120,8 @@ def recording_options(command: F) -> F:
             "gear_ratio": given.pop("gear_ratio"),
             "torque_constant": given.pop("torque_constant"),
             "inertia": given.pop("inertia"),
+            "drive": given.pop("drive"),
+            "hold_out": given.pop("hold_out"),
             "km": given.pop("km"),
             "kb": given.pop("kb"),
             "kt": given.pop("kt"),

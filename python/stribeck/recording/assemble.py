@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from ..errors import RecordingError
 from .derive import Smoother, choose_cutoff, motion_band
+from .drive import natural_unit, with_drive
+from .hold_out import with_hold_out
 from .recording import Column, Recording
 from .rows import (
     SIGMAS,
@@ -103,6 +105,9 @@ def _wanted(prepared: Prepared) -> list[str]:
         "friction_torque" in prepared.options.maps
         or not ("torque" in have and "load_torque" in have)
     )
+    wanted += [c for c in ("external_torque",) if c in have]
+    if prepared.options.drive is not None and "enabled" in have:
+        wanted.append("enabled")
     if direct:
         # Friction may depend on the load, so a load that is recorded comes along.
         return [*wanted, "friction_torque", *(c for c in ("load_torque",) if c in have)]
@@ -149,8 +154,10 @@ def build(
     velocity_unit, acceleration_unit = f"{position_unit}/s", f"{position_unit}/s2"
     units = {
         "time": "s", "position": position_unit, "velocity": velocity_unit,
-        "acceleration": acceleration_unit, "temperature": "degC", "current": "A",
+        "acceleration": acceleration_unit, "temperature": "degC", "current": "A", "enabled": "1",
     }  # fmt: skip
+    if options.drive is not None:
+        units.update(dict.fromkeys(("load_torque", "external_torque"), natural_unit(kind)))
     for channel, values in data.values.items():
         choice = prepared.choices[channel]
         data.columns[channel] = make_column(
@@ -165,11 +172,15 @@ def build(
         rows_are = "1 row" if count == 1 else f"{count} rows"
         data.notes.append(f"{rows_are} removed by where: {options.where}")
     if options.average:
-        return _averaged(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
+        made = _averaged(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
+        return with_drive(made, prepared, data.values)
     made = _sampled(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
     if not (standstill or made.moving.any()):
         raise _nothing_moves(made)
-    return made
+    made = with_drive(made, prepared, data.values)
+    if options.hold_out is None:
+        return made
+    return with_hold_out(made, prepared, data.rows, options.hold_out)
 
 
 def make_column(name: str, source: str, unit: str, derived: bool, values: Floats) -> Column:
@@ -379,7 +390,8 @@ def _kinds(data: _Channels) -> tuple[str, str, str]:
             "--unit COLUMN=Nm"
         )
     load_unit = data.units.get("load_torque", "")
-    if "load_torque" in data.values and load_unit and load_unit != unit and not screw:
+    same = screw or data.prepared.options.drive is not None
+    if "load_torque" in data.values and load_unit and load_unit != unit and not same:
         raise RecordingError(
             f"{data.path}: load_torque is in {load_unit} but torque in {unit}: bring both to one "
             "unit"
@@ -492,11 +504,12 @@ def _sampled(
     position_smooth = None if position is None else smoother.smooth(position)
     torque, load = _torque(data)
     load_smooth = None if load is None else smoother.smooth(load)
+    load_unit = torque_unit if data.prepared.options.drive is None else natural_unit(kind)
     if load is None:
-        load = _load(data, position, acceleration, torque_unit, smooth=False)
+        load = _load(data, position, acceleration, load_unit, smooth=False)
         if load is not None:
             load_smooth = _load(
-                data, position_smooth, acceleration_smooth, torque_unit, smooth=True
+                data, position_smooth, acceleration_smooth, load_unit, smooth=True
             )
     top = float(np.abs(velocity).max())
     threshold = max(SIGMAS * sigma, 1e-6 * top)

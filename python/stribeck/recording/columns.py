@@ -30,8 +30,10 @@ CHANNELS: dict[str, tuple[str, ...]] = {
     "torque": _EFFORT,
     "current": ("current",),
     "load_torque": _EFFORT,
+    "external_torque": _EFFORT,
     "friction_torque": _EFFORT,
     "temperature": ("temperature",),
+    "enabled": (),
     "joint": (),
     "run": (),
 }
@@ -95,6 +97,7 @@ _ALIASES: dict[str, tuple[str, ...]] = {
     ),
     "current": ("current", "i", "motorcurrent", "iq", "actualcurrent", "jointcurrent"),
     "load_torque": ("loadtorque", "tl", "tauload", "load", "tload", "loadforce"),
+    "external_torque": ("externaltorque", "te", "tauext", "tauexternal"),
     "friction_torque": (
         "frictiontorque",
         "tf",
@@ -104,6 +107,7 @@ _ALIASES: dict[str, tuple[str, ...]] = {
         "friction",
     ),
     "temperature": ("temperature", "temp", "jointtemperature", "motortemperature"),
+    "enabled": ("enabled", "torqueenable", "torqueenabled", "motorenabled", "driveenabled"),
     "joint": ("joint", "jointname", "jointid", "axis"),
     "run": ("run", "runid", "trial", "repetition"),
 }

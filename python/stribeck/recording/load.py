@@ -32,6 +32,8 @@ def read(
     derive: Pairs = (),
     where: str | None = None,
     average: str | None = None,
+    drive: str | None = None,
+    hold_out: str | None = None,
     standstill: bool = False,
 ) -> Recording:
     """Read one joint of a recording.
@@ -63,6 +65,12 @@ def read(
         Condition on the columns; rows that fail it become gaps.
     average
         ``"run"``: one row per run, the median of each channel.
+    drive
+        ``"voltage"``: the effort is the mean voltage on a DC motor. The load torque must then be
+        known, by rigid-body terms or a column; a column `enabled` says where the motor is on.
+    hold_out
+        ``"COLUMN"``: held-out blocks are the rows that share a value of this column of the file,
+        whichever runs they are in; ``"COLUMN=VALUE"``: of them, this one alone counts.
     standstill
         Take a recording in which no row is faster than its velocity noise: presliding, or passes
         so slow that only a line through many samples shows them.
@@ -75,7 +83,7 @@ def read(
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
         torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
-        derive=derive, where=where, average=average,
+        derive=derive, where=where, average=average, drive=drive, hold_out=hold_out,
     )  # fmt: skip
     prepared = prepare(str(path), options)
     name, rows = joint_rows(prepared, options.joint)
@@ -99,12 +107,14 @@ def read_all(
     derive: Pairs = (),
     where: str | None = None,
     average: str | None = None,
+    drive: str | None = None,
+    hold_out: str | None = None,
 ) -> list[Recording]:
     """Read every joint of a recording, in order of appearance; see `read`."""
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
         torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
-        derive=derive, where=where, average=average,
+        derive=derive, where=where, average=average, drive=drive, hold_out=hold_out,
     )  # fmt: skip
     prepared = prepare(str(path), options)
     wanted: Iterable[str | None] = joints_of(prepared) or [None]

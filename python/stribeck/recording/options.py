@@ -11,12 +11,15 @@ from ..errors import RecordingError, nearest
 from .columns import CHANNELS
 from .sidecar import Sidecar, find_sidecar, read_sidecar
 
-__all__ = ["Mechanics", "Options", "gather"]
+__all__ = ["DRIVES", "Mechanics", "Options", "gather"]
 
 _KINDS = {
     "revolute": "revolute", "rotary": "revolute", "rotational": "revolute", "r": "revolute",
     "prismatic": "prismatic", "linear": "prismatic", "p": "prismatic",
 }  # fmt: skip
+
+#: What `torque` may be of a motor that is not driven by its torque or current.
+DRIVES = ("voltage",)
 
 Pairs = Sequence[str] | Mapping[str, str] | str
 
@@ -44,6 +47,8 @@ class Options(Mechanics):
     where: str | None
     average: str | None
     sidecar: str | None
+    drive: str | None = None
+    hold_out: str | None = None
     joints: dict[str, Mechanics] = field(default_factory=dict)  # where they differ by joint
 
     @property
@@ -106,6 +111,8 @@ def gather(
     derive: Pairs,
     where: str | None,
     average: str | None,
+    drive: str | None = None,
+    hold_out: str | None = None,
 ) -> Options:
     """Join the flags with the sidecar; a flag wins over what the sidecar says."""
     beside = sidecar if sidecar is not None else find_sidecar(path)
@@ -145,6 +152,10 @@ def gather(
     one_per = average if average is not None else said.texts.get("average")
     if one_per is not None and one_per != "run":
         raise RecordingError(f"--average {one_per}: only 'run' can be averaged over")
+    driven = drive if drive is not None else said.texts.get("drive")
+    if driven not in (None, *DRIVES):
+        source = "--drive" if drive is not None else f"{said.path}: drive"
+        raise RecordingError(f"{source} {driven}: unknown drive; it is {', '.join(DRIVES)}")
     for channel in maps:
         if channel not in CHANNELS:
             hint = nearest(channel, CHANNELS) or f"; the names are {', '.join(CHANNELS)}"
@@ -164,6 +175,8 @@ def gather(
         where=where if where is not None else said.texts.get("where"),
         average=one_per,
         sidecar=said.path,
+        drive=driven,
+        hold_out=hold_out,
         joints={
             name: _mechanics({**said.numbers, **numbers, **given})
             for name, numbers in said.joints.items()

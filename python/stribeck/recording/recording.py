@@ -49,10 +49,14 @@ class Recording:
 
     `time` [s], `position` [rad or m], `velocity`, `acceleration`, `temperature` [degC], `torque` as
     it was recorded and `load_torque` (None: not known, to be identified) in `torque_unit`; where
-    friction was measured directly, `torque` is the friction and the load no part of it. The
+    friction was measured directly, `torque` is the friction and the load no part of it. With a
+    `drive` (``"voltage"``) `torque` is what drives the motor, in its own unit, and all loads are in
+    N m or N; `enabled` marks the rows where it does. `external_torque` is what the environment
+    exerts on the joint (None: not known). The
     ``*_smooth`` arrays are zero-phase low-passed at `cutoff_hz` on the same rows. `dt` [s] is the
     step to the previous sample, 0 where a segment (run, or stretch between gaps) starts. `moving`
-    marks the scored rows, `block` the held-out blocks.
+    marks the scored rows, `block` the held-out blocks, `counted` the rows of which the held-out
+    error counts (None: all).
     """
 
     path: str
@@ -89,6 +93,10 @@ class Recording:
     averaged: bool
     cutoff_hz: float | None
     motor: dict[str, float] = field(default_factory=dict)
+    external_torque: Floats | None = None
+    drive: str | None = None
+    enabled: Bools | None = None
+    counted: Bools | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -114,7 +122,8 @@ class Recording:
     @property
     def torque_holds_load(self) -> bool:
         """Whether `torque` is friction and the recorded load together (bool)."""
-        return self.load_torque is not None and "friction_torque" not in self.columns
+        direct = "friction_torque" in self.columns
+        return self.load_torque is not None and not direct and self.drive is None
 
     @property
     def known_torque(self) -> Floats:
@@ -153,15 +162,18 @@ class Recording:
     def scales(self) -> dict[str, float]:
         """Return typical sizes for scaling parameters, each in the channel's unit.
 
-        speed (99.9th percentile over moving rows), torque (rms over moving rows), position
+        speed (99.9th percentile over moving rows), torque (rms over moving rows; with a drive, of
+        the load), effort (rms of `torque` over moving rows, whatever it is), position
         (excursion), acceleration (99th percentile of the smooth one), sample_period (median step),
         temperature (span). A channel that is absent has scale 0.
         """
         moving = self.moving if self.moving.any() else np.ones(len(self.moving), dtype=bool)
         steps = self.dt[self.dt > 0.0]
+        seen = self.torque if self.drive is None or self.load_torque is None else self.load_torque
         return {
             "speed": float(np.percentile(np.abs(self.velocity[moving]), 99.9)),
-            "torque": float(np.sqrt(np.mean(self.torque[moving] ** 2))),
+            "torque": float(np.sqrt(np.mean(seen[moving] ** 2))),
+            "effort": float(np.sqrt(np.mean(self.torque[moving] ** 2))),
             "position": float(np.ptp(self.position)) if self.position is not None else 0.0,
             "acceleration": float(np.percentile(np.abs(self.acceleration_smooth), 99.0)),
             "sample_period": float(np.median(steps)) if steps.size else 0.0,

@@ -93,12 +93,14 @@ def scan(
     derive: Pairs = (),
     where: str | None = None,
     average: str | None = None,
+    drive: str | None = None,
+    hold_out: str | None = None,
 ) -> Table:
     """Look at a file without selecting a joint; see `read` for the options."""
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
         torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
-        derive=derive, where=where, average=average,
+        derive=derive, where=where, average=average, drive=drive, hold_out=hold_out,
     )  # fmt: skip
     problem: str | None = None
     prepared: Prepared | None
