@@ -1,0 +1,89 @@
+"""One start: where it sets out, where it ends, and what a failure leaves."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.errors import FitError
+from stribeck.identify.scaling import bounds, model_for
+from stribeck.study import trial as trial_module
+from stribeck.study.plan import Job
+from stribeck.study.trial import run_trial, start_model
+from synthetic import joint, motion, record
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
+    """A joint with a Stribeck curve."""
+    v = motion(1500)[2]
+    bent = 1.5 * np.sign(v) * np.exp(-((v / 0.1) ** 2))
+    return record(tmp_path_factory.mktemp("trial"), joint(bent, rows=1500))
+
+
+def none_marked(recording: sb.Recording) -> np.ndarray:
+    return np.zeros(recording.rows, dtype=bool)
+
+
+def test_the_first_start_is_the_catalogs(recording: sb.Recording) -> None:
+    model = model_for("bittencourt_a", recording)
+    _, _, first = bounds(model, recording)
+    made = start_model("bittencourt_a", recording, 0, seed=7)
+    nonlinear = np.array([not p.linear for p in model.parameters])
+    np.testing.assert_array_equal(made.values[nonlinear], first[nonlinear])
+    assert np.isnan(made.values[~nonlinear]).all()
+
+
+def test_random_starts_fill_the_bounds_and_come_from_the_seed(recording: sb.Recording) -> None:
+    model = model_for("bittencourt_a", recording)
+    lower, upper, _ = bounds(model, recording)
+    k = model.names.index("stribeck_velocity")
+
+    def speeds(seed: int) -> np.ndarray:
+        return np.array(
+            [start_model("bittencourt_a", recording, n, seed).values[k] for n in range(1, 201)]
+        )
+
+    drawn = speeds(0)
+    assert drawn.min() >= lower[k] and drawn.max() <= upper[k]
+    share = np.log(drawn / lower[k]) / np.log(upper[k] / lower[k])
+    # Evenly by the logarithm: four sigmas of the mean of 200 uniform numbers.
+    assert abs(share.mean() - 0.5) < 4.0 * np.sqrt(1.0 / 12.0 / 200.0)
+    assert np.array_equal(drawn, speeds(0)) and not np.array_equal(drawn, speeds(1))
+
+
+def test_the_best_of_the_starts_is_what_fit_finds(recording: sb.Recording) -> None:
+    trials = [
+        run_trial(Job(None, "bittencourt_a", k), recording, none_marked(recording), 0)
+        for k in range(6)
+    ]
+    best = min(trials, key=lambda t: t.rmse)
+    fitted = sb.fit("bittencourt_a", recording, starts=6)
+    assert best.rmse == pytest.approx(fitted.rmse, rel=1e-3)
+    # The held-out figure is that of the linearised refits.
+    assert best.rmse_held_out == pytest.approx(fitted.rmse_held_out, rel=0.02)
+    again = sb.evaluate(best.model(recording), recording)
+    assert again.rmse == pytest.approx(best.rmse, rel=1e-12)
+
+
+def test_a_fit_that_fails_is_said_and_not_raised(
+    recording: sb.Recording, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise FitError("the bristle is slack at t = 3 s")
+
+    monkeypatch.setattr(trial_module, "fit", refuse)
+    made = run_trial(Job(None, "lugre", 4), recording, none_marked(recording), 0)
+    assert made.rmse is None and not made.converged
+    assert made.failure == "the bristle is slack at t = 3 s"
+
+
+def test_a_defect_in_one_fit_is_listed_with_its_kind(
+    recording: sb.Recording, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def break_down(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("float division by zero")
+
+    monkeypatch.setattr(trial_module, "fit", break_down)
+    made = run_trial(Job(None, "lugre", 4), recording, none_marked(recording), 0)
+    assert "unexpected ZeroDivisionError" in made.failure and "report it" in made.failure
