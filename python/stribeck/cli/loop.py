@@ -48,7 +48,7 @@ def fit(
     if method.name == "rms":
         fitted = model_fit(spec, recording, starts=starts, seed=seed, refit=True)
     else:
-        fitted = method.fit(spec, recording)
+        fitted = method.fit(spec, recording, reading, starts=starts, seed=seed)
     if output is not None:
         save_fit(fitted, output)
     if as_json:

@@ -21,7 +21,15 @@ from stribeck.cli.common import (
 )
 from stribeck.errors import RecordingError, SpecError
 from stribeck.fit import Fit
-from stribeck.methods import Axis, Search, arm_fit, averaged_points, grid_fit, segment_points
+from stribeck.methods import (
+    Axis,
+    Search,
+    arm_fit,
+    averaged_points,
+    grid_fit,
+    segment_points,
+    three_step_fit,
+)
 from stribeck.model_file import read_model_file
 from stribeck.recording import Recording
 
@@ -34,11 +42,32 @@ class Method:
 
     name: str
     grid: Mapping[str, Axis]
+    loaded: str | None
+    presliding: str | None
 
-    def fit(self, spec: str, recording: Recording) -> Fit:
+    def __post_init__(self) -> None:
+        if self.grid and self.name != "grid":
+            raise SpecError("--grid says where --method grid looks: give both, or neither")
+        given = [self.loaded is not None, self.presliding is not None]
+        if any(given) and self.name != "three_step":
+            raise SpecError("--loaded and --presliding go with --method three_step: give it too")
+        if not all(given) and self.name == "three_step":
+            raise SpecError(
+                "--method three_step needs three recordings: DATA without load, --loaded FILE and "
+                "--presliding FILE"
+            )
+
+    def fit(
+        self, spec: str, recording: Recording, reading: dict[str, Any], *, starts: int, seed: int
+    ) -> Fit:
         """Identify `spec`, or the law of a model file, by a method other than `rms`."""
         model = read_model_file(spec).model if is_model_file(spec) else spec
-        return grid_fit(model, recording, grid=self.grid)
+        if self.loaded is None or self.presliding is None:
+            return grid_fit(model, recording, grid=self.grid)
+        loaded = read_recording(self.loaded, reading)
+        slow = {**reading, "average": None, "standstill": True}
+        presliding = read_recording(self.presliding, slow)
+        return three_step_fit(model, recording, loaded, presliding, starts=starts, seed=seed)
 
 
 def method_options(command: F) -> F:
@@ -46,26 +75,42 @@ def method_options(command: F) -> F:
 
     @functools.wraps(command)
     def wrapper(**given: Any) -> Any:
-        method = Method(given.pop("method"), _axes(given.pop("grid")))
-        if method.grid and method.name != "grid":
-            raise SpecError("--grid says where --method grid looks: give both, or neither")
+        method = Method(
+            name=given.pop("method"),
+            grid=_axes(given.pop("grid")),
+            loaded=given.pop("loaded"),
+            presliding=given.pop("presliding"),
+        )
         return command(method=method, **given)
 
     decorated: Any = wrapper
-    for option in (
-        click.option(
-            "--grid", multiple=True, metavar="NAME=FROM:TO:COUNT",
-            help="grid: values of a nonlinear parameter; default: its bounds.",
-        ),
-        click.option(
-            "--method", type=click.Choice(["rms", "grid"]), default="rms", show_default=True,
-            help="rms: least RMS error in bounds from random starts (UR5e review, eqs 4-5). "
-            "grid: linear regression in a grid of the nonlinear parameters, least absolute error "
-            "(Bittencourt 2010, eqs 5-6).",
-        ),
-    ):  # fmt: skip
+    for option in reversed(_METHOD_OPTIONS):
         decorated = option(decorated)
     return decorated
+
+
+_METHOD_OPTIONS = [
+    click.option(
+        "--method", type=click.Choice(["rms", "grid", "three_step"]), default="rms",
+        show_default=True,
+        help="rms: least RMS error in bounds from random starts (UR5e review, eqs 4-5). grid: "
+        "linear regression in a grid of the nonlinear parameters, least absolute error "
+        "(Bittencourt 2010, eqs 5-6). three_step: temperature from DATA, then load, then "
+        "presliding (Tadese 2021, section V).",
+    ),
+    click.option(
+        "--grid", multiple=True, metavar="NAME=FROM:TO:COUNT",
+        help="grid: values of a nonlinear parameter; default: its bounds.",
+    ),
+    click.option(
+        "--loaded", default=None, metavar="FILE",
+        help="three_step: steady-state points under load; DATA holds those without.",
+    ),
+    click.option(
+        "--presliding", default=None, metavar="FILE",
+        help="three_step: position under a slow torque below the Coulomb friction.",
+    ),
+]  # fmt: skip
 
 
 def _axes(said: tuple[str, ...]) -> dict[str, Axis]:

@@ -1,0 +1,338 @@
+"""Three experiments, one after another: temperature, load, presliding.
+
+Tadese et al. 2021, section V-A. Without load, constant speeds at several temperatures give dry and
+viscous friction (eqs 13, 20). With load, what these leave is fitted, each quadrant of speed and
+load by itself (eq 15). Last, presliding gives stiffness and damping of the bristle.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.stats import norm
+
+from stribeck.errors import FitError
+from stribeck.fit import Estimate, Fit, evaluate, operating_box
+from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
+from stribeck.identify.figures import rms
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import bounds, model_for
+from stribeck.methods.presliding import Presliding
+from stribeck.model import Model
+from stribeck.recording import Recording
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+#: A parameter acts on steady friction if its slope times its value exceeds this share of it.
+ACTS = 1e-9
+#: Sums of squares that differ by less are equal.
+TIE = 1.0 + 1e-6
+
+
+@dataclass(frozen=True)
+class Step:
+    """One of the three experiments.
+
+    Attributes
+    ----------
+    name
+        What it identifies.
+    data
+        Path of its recording.
+    parameters
+        Names of the parameters that it gave.
+    rows
+        Rows that were fitted to.
+    rmse
+        Of what is left on them, in the unit of torque.
+    """
+
+    name: str
+    data: str
+    parameters: tuple[str, ...]
+    rows: int
+    rmse: float
+
+
+@dataclass(frozen=True, repr=False)
+class ThreeStepFit(Fit):
+    """A fit whose parameters come from three recordings; its errors are those of the loaded one."""
+
+    steps: tuple[Step, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck fit`, and the three steps."""
+        steps = [{**vars(step), "parameters": list(step.parameters)} for step in self.steps]
+        return {**super().to_dict(), "steps": steps}
+
+
+def three_step_fit(
+    spec: str | Model,
+    no_load: Recording,
+    loaded: Recording,
+    presliding: Recording,
+    *,
+    damping_velocity: float = 0.001,
+    starts: int = 10,
+    seed: int = 0,
+) -> ThreeStepFit:
+    """Identify a law with temperature, load and bristle in three steps.
+
+    Which parameters a step gives follows from the law: the first those that act on steady friction
+    without load, the second those that act with it, the third stiffness and damping.
+
+    Parameters
+    ----------
+    spec : str or Model
+        ``"tadese_full"``, or another law and effects with load and bristle.
+    no_load, loaded : Recording
+        Steady-state points (`stribeck.methods.segment_points`): over the temperatures, and over
+        the loads.
+    presliding : Recording
+        Position and torque while a slow torque below the Coulomb friction swings the joint, read
+        with ``standstill=True``. Its longest stretch without a gap is used.
+    damping_velocity : float
+        Speed at which the bristle's damping has fallen to 1/e, rad/s or m/s, where the law has one:
+        it is chosen and not identified, 0.001 rad/s by the paper (section IV).
+    starts, seed : int
+        Random starts of the nonlinear parameters in the first two steps.
+
+    Returns
+    -------
+    ThreeStepFit
+        `steps` tells the error that each step reached. Standard errors are those of a parameter's
+        own step: what a step before it left open is not in them.
+
+    Raises
+    ------
+    FitError
+        A law that leaves a step without parameters; recordings that are not steady-state points;
+        too few rows; a presliding log without position.
+
+    Examples
+    --------
+    >>> fit = three_step_fit("tadese_full", sb.read("temperature.csv"), sb.read("load.csv"),
+    ...                      sb.read("presliding.csv", standstill=True))
+    """
+    began = time.perf_counter()
+    made = model_for(spec, loaded)
+    warm, heavy = _steady(no_load, made), _steady(loaded, made)
+    search = _Search(made, loaded, starts, seed)
+    if "damping_velocity" in made.names:
+        search.start[made.names.index("damping_velocity")] = damping_velocity
+    first, second, third = _groups(warm, heavy, search)
+    values = search.solve(heavy, search.solve(warm, search.start, first), second)
+    slow = Presliding(presliding, made, *_bristle(made, third))
+    values, first_torque = slow.fit(values)
+    # The simplex knows no bounds: where it ended lies inside.
+    lower, upper = np.minimum(search.lower, values), np.maximum(search.upper, values)
+    made = replace(
+        made,
+        bounds={n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper, strict=True)},
+        box=operating_box(loaded, None),
+    ).with_values(values)
+    steps = (
+        _step("speed and temperature", warm, values, first),
+        _step("load", heavy, values, second),
+        Step(
+            "presliding", presliding.path, tuple(made.names[k] for k in slow.searched),
+            slow.target.size, rms(slow.target - slow.predict(values, first_torque)),
+        ),
+    )  # fmt: skip
+    errors = _standard_errors(warm, values, first) | _standard_errors(heavy, values, second)
+    return _as_fit(made, loaded, errors, steps, time.perf_counter() - began)
+
+
+def _steady(recording: Recording, made: Model) -> Problem:
+    """`made` on steady-state points, whose bristle has settled.
+
+    Raises
+    ------
+    FitError
+        Where the recording is none of points, or has too few.
+    """
+    if not recording.averaged:
+        raise FitError(
+            f"{recording.path} does not hold steady-state points: make them with `stribeck points "
+            f"{recording.path} --method segments --bins 10 -o points.csv`"
+        )
+    return Problem(recording, model_for(made, recording), np.flatnonzero(recording.moving))
+
+
+class _Search:
+    """Least squares of some parameters while the others stay, from several starts.
+
+    The paper uses Levenberg's and Marquardt's method; this is its trust-region form with bounds.
+    """
+
+    def __init__(self, made: Model, recording: Recording, starts: int, seed: int) -> None:
+        self.lower, self.upper, usual = bounds(made, recording)
+        known = np.where(np.isfinite(made.values), made.values, usual)
+        self.start = np.clip(known, self.lower, self.upper)
+        self.nonlinear = np.array([not p.linear for p in made.parameters])
+        self.starts = starts
+        self.random = np.random.default_rng(seed)
+
+    def solve(self, problem: Problem, values: Array, free: Indices) -> Array:
+        """`values` with the parameters `free` at their least sum of squares."""
+        if problem.rows.size < free.size + 2:
+            raise FitError(
+                f"{problem.recording.path} has {problem.rows.size} points that move, and "
+                f"{free.size} parameters are to come from them: record more speeds"
+            )
+        found = [self._from(problem, values, free, k) for k in range(max(self.starts, 1))]
+        least = min(square for square, _ in found)
+        if not np.isfinite(least):
+            raise FitError(f"{problem.model.spec} is not finite on {problem.recording.path}")
+        # Of equals the first, from the usual start: some laws do not tell a sign.
+        return next(reached for square, reached in found if square <= TIE * least)
+
+    def _from(self, problem: Problem, values: Array, free: Indices, k: int) -> tuple[float, Array]:
+        """Sum of squares and values reached from the k-th start; the first is the usual one."""
+        values = values.copy()
+        drawn = self.random.uniform(size=values.size)
+        if k > 0:
+            here = free[self.nonlinear[free]]
+            values[here] = self.between(drawn)[here]
+
+        def residual(x: Array) -> Array:
+            values[free] = x
+            return problem.linearise(values, free)[0]
+
+        def slope(x: Array) -> Array:
+            values[free] = x
+            return -problem.linearise(values, free)[1]
+
+        found = least_squares(
+            residual, values[free], slope, x_scale="jac",
+            bounds=(self.lower[free], self.upper[free]),
+        )  # fmt: skip
+        values[free] = found.x
+        return float(found.cost), values
+
+    def between(self, share: Array) -> Array:
+        """Values at `share` of the way from lower to upper bound, in logarithms if positive."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            geometric = self.lower * (self.upper / self.lower) ** share
+        straight = self.lower + share * (self.upper - self.lower)
+        return np.where(self.lower > 0, geometric, straight)
+
+
+def _groups(warm: Problem, heavy: Problem, search: _Search) -> tuple[Indices, Indices, Indices]:
+    """Parameters of the three steps, by what they act on.
+
+    Raises
+    ------
+    FitError
+        Where a step is left without any.
+    """
+    made = warm.model
+    # Neither a bound nor zero, where a parameter that acts may seem not to.
+    values = search.between(np.full(search.start.size, 0.6))
+    unloaded, loaded = _acting(warm, values), _acting(heavy, values)
+    groups = (
+        np.flatnonzero(unloaded),
+        np.flatnonzero(loaded & ~unloaded),
+        np.flatnonzero(~loaded & ~unloaded),
+    )
+    missing = [
+        what
+        for what, group in zip(("steady friction", "the load", "a bristle"), groups, strict=True)
+        if not group.size
+    ]
+    if missing:
+        raise FitError(
+            f"{made.spec} has no parameter of {missing[0]}, and three steps need all of them: take "
+            f"tadese_full, or add the effects load and presliding"
+        )
+    return groups
+
+
+def _acting(problem: Problem, values: Array) -> NDArray[np.bool_]:
+    """Which parameters act on the torque of the problem's rows, bool array [p]."""
+    _, jacobian = problem.linearise(values)
+    size = np.abs(jacobian * values).max(axis=0)
+    return size > ACTS * np.abs(problem.target).max()
+
+
+def _bristle(made: Model, third: Indices) -> tuple[int, int]:
+    """Places of the bristle's stiffness and damping among the parameters.
+
+    Raises
+    ------
+    FitError
+        Where the law has another kind of state.
+    """
+    places = []
+    for kind in ("_stiffness", "_damping"):
+        found = [int(k) for k in third if made.names[k].endswith(kind)]
+        if len(found) != 1:
+            raise FitError(
+                f"{made.spec} has no bristle with one stiffness and one damping, which the third "
+                f"step identifies: take tadese_full, or add the effect presliding"
+            )
+        places.append(found[0])
+    return places[0], places[1]
+
+
+def _step(name: str, problem: Problem, values: Array, free: Indices) -> Step:
+    residual, _ = problem.linearise(values, free)
+    names = tuple(problem.model.names[k] for k in free)
+    return Step(name, problem.recording.path, names, problem.rows.size, rms(residual))
+
+
+def _standard_errors(problem: Problem, values: Array, free: Indices) -> dict[int, float]:
+    """Standard errors of the parameters `free`, by place; those that the rows show."""
+    residual, jacobian = problem.linearise(values)
+    chosen = np.zeros(values.size, dtype=bool)
+    chosen[free] = True
+    shown = seen(jacobian, chosen)
+    batch = batches(residual.size, correlation_length(residual))
+    variance = np.diag(sandwich(jacobian, residual, batch, shown))
+    return {int(k): float(np.sqrt(variance[k])) for k in np.flatnonzero(shown)}
+
+
+def _as_fit(
+    made: Model, loaded: Recording, errors: dict[int, float], steps: Sequence[Step], seconds: float
+) -> ThreeStepFit:
+    fitted = evaluate(made, loaded)
+    reach = float(norm.ppf(0.975))
+    estimates = {
+        p.name: Estimate(
+            name=p.name,
+            symbol=p.symbol,
+            value=float(value),
+            unit=p.unit,
+            stderr=errors.get(k),
+            ci95=(value - reach * errors[k], value + reach * errors[k]) if k in errors else None,
+            at_bound=k in errors and bool(min(value - low, high - value) <= 1e-6 * (high - low)),
+            identifiable=k in errors or p.name in steps[-1].parameters,
+            lower=low,
+            upper=high,
+        )
+        for k, (p, value) in enumerate(zip(made.parameters, made.values, strict=True))
+        for low, high in [made.bounds[p.name]]
+    }
+    unit = made.torque_unit
+    notes = [
+        f"step {k}, {step.name}: RMSE {step.rmse:.4g} {unit} over {step.rows} rows of {step.data}"
+        for k, step in enumerate(steps, 1)
+    ]
+    known = {f.name: getattr(fitted, f.name) for f in fields(Fit)}
+    changed = {
+        "estimates": estimates,
+        "rmse_held_out": None,
+        "relative_residual": None,
+        "outcome": "three steps",
+        "seconds": seconds,
+        "notes": (*notes, *fitted.notes),
+        "starts": 1,
+    }
+    return ThreeStepFit(**{**known, **changed}, steps=tuple(steps))
