@@ -138,7 +138,7 @@ def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
 )  # fmt: skip
 @click.option(
     "--bins", default=1, show_default=True,
-    help="averaging: points a pair of passes, each over a share of the positions.",
+    help="Points a pass (or pair of them), each over an equal share of it.",
 )  # fmt: skip
 @click.option(
     "--tolerance", default=Search.tolerance, show_default=True,
@@ -169,7 +169,7 @@ def points(
     if method == "averaging":
         made = averaged_points(recording, bins=bins, search=search)
     else:
-        made = segment_points(recording, search=search)
+        made = segment_points(recording, bins=bins, search=search)
     if output is not None:
         made.write(output)
         say(f"wrote {output} and {output}.sidecar.toml")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.errors import FitError
-from stribeck.methods.segments import constant_stretches
+from stribeck.methods.segments import check_bins, constant_stretches
 from stribeck.methods.steady import SteadyPoint, SteadyPoints, checked_points, mean_of
 from stribeck.methods.stretches import Line, Search
 from stribeck.recording import Recording
@@ -67,9 +67,8 @@ def averaged_points(
     >>> points = averaged_points(sb.read("joint2.parquet"), bins=10)
     >>> points.write("points.csv")  # then: stribeck fit points.csv --model m1 --method grid
     """
+    check_bins(bins)
     search = search or Search()
-    if bins < 1:
-        raise FitError(f"--bins {bins} is out of range: give 1 or more points a pair of passes")
     lines = constant_stretches(recording, search)
     pairs = list(_pairs(lines, recording.time, search))
     if not pairs:

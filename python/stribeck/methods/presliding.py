@@ -107,7 +107,7 @@ class Presliding:
         deflection = first_torque / values[self.stiffness]
         return self.model.core.torque(values, **self._channels, state=deflection)
 
-    def fit(self, values: Array) -> tuple[Array, float]:
+    def fit(self, values: Array) -> tuple[Array, float, int]:
         """Search stiffness and damping from the slope of torque over position.
 
         The bristle's first deflection is not recorded: the torque it bears is searched too.
@@ -116,6 +116,13 @@ class Presliding:
         -------
         values : array [p]
         first_torque : float
+            In the unit of torque.
+        evaluations : int
+
+        Raises
+        ------
+        FitError
+            No position; a torque that does not rise with it; a search that does not settle.
         """
         values = values.copy()
         stiffness, damping = self._first_guess()
@@ -143,7 +150,7 @@ class Presliding:
                 f"{self.recording.path}: the presliding search did not settle ({found.message}): "
                 f"record a slower torque that swings closer to the Coulomb friction"
             )
-        return place(found.x)
+        return *place(found.x), int(found.nfev)
 
     def _first_guess(self) -> tuple[float, float]:
         """Stiffness and damping that the torque's slope over position suggests."""

@@ -6,13 +6,19 @@ set where the speed is constant, and its slope goes with the force into the stat
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import numpy as np
+
 from stribeck.errors import FitError
 from stribeck.methods.steady import SteadyPoint, SteadyPoints, checked_points, mean_of
 from stribeck.methods.stretches import Line, Search, constant_speed
 from stribeck.recording import Recording
 
 
-def segment_points(recording: Recording, *, search: Search | None = None) -> SteadyPoints:
+def segment_points(
+    recording: Recording, *, bins: int = 1, search: Search | None = None
+) -> SteadyPoints:
     """Turn a displacement log into steady-state friction points.
 
     The friction of a point is the mean torque over the stretch, less the mean load torque where
@@ -22,13 +28,15 @@ def segment_points(recording: Recording, *, search: Search | None = None) -> Ste
     ----------
     recording : Recording
         With a measured position; its velocity is not used.
+    bins : int
+        Points a stretch, each over an equal share of its rows: where the load changes along it.
     search : Search, optional
         What counts as constant speed.
 
     Returns
     -------
     SteadyPoints
-        One a stretch, in the order of time.
+        In the order of time.
 
     Raises
     ------
@@ -40,6 +48,7 @@ def segment_points(recording: Recording, *, search: Search | None = None) -> Ste
     >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))
     >>> points.write("points.csv")  # then: stribeck fit points.csv --model gantry_map
     """
+    check_bins(bins)
     lines = constant_stretches(recording, search or Search())
     notes: tuple[str, ...] = ()
     if recording.load_torque is None:
@@ -47,8 +56,19 @@ def segment_points(recording: Recording, *, search: Search | None = None) -> Ste
             "all of the mean torque is taken as friction: the recording gives no load torque; "
             "with gravity use the averaging of forward and backward passes",
         )
-    points = [_point(recording, line) for line in lines]
+    points = [point for line in lines for point in _points(recording, line, bins)]
     return checked_points(points, recording, "segments", notes)
+
+
+def check_bins(bins: int) -> None:
+    """Refuse a number of points that a pass cannot give.
+
+    Raises
+    ------
+    FitError
+    """
+    if bins < 1:
+        raise FitError(f"--bins {bins} is out of range: give 1 or more points a pass")
 
 
 def constant_stretches(recording: Recording, search: Search) -> list[Line]:
@@ -75,20 +95,21 @@ def constant_stretches(recording: Recording, search: Search) -> list[Line]:
     return lines
 
 
-def _point(recording: Recording, line: Line) -> SteadyPoint:
-    rows = slice(line.start, line.stop)
-    load = None if recording.load_torque is None else recording.load_torque[rows]
-    friction = recording.torque[rows] if load is None else recording.torque[rows] - load
-    mean, stderr = mean_of(friction)
-    temperature = recording.temperature
-    return SteadyPoint(
-        start=float(recording.time[line.start]),
-        stop=float(recording.time[line.stop - 1]),
-        rows=line.rows,
-        velocity=line.velocity,
-        velocity_stderr=line.stderr,
-        friction_torque=mean,
-        friction_stderr=stderr,
-        load_torque=None if load is None else float(load.mean()),
-        temperature=None if temperature is None else float(temperature[rows].mean()),
-    )
+def _points(recording: Recording, line: Line, bins: int) -> Iterator[SteadyPoint]:
+    """Points of a stretch, one a share of its rows."""
+    for rows in np.array_split(np.arange(line.start, line.stop), min(bins, line.rows)):
+        load = None if recording.load_torque is None else recording.load_torque[rows]
+        friction = recording.torque[rows] if load is None else recording.torque[rows] - load
+        mean, stderr = mean_of(friction)
+        temperature = recording.temperature
+        yield SteadyPoint(
+            start=float(recording.time[rows[0]]),
+            stop=float(recording.time[rows[-1]]),
+            rows=rows.size,
+            velocity=line.velocity,
+            velocity_stderr=line.stderr,
+            friction_torque=mean,
+            friction_stderr=stderr,
+            load_torque=None if load is None else float(load.mean()),
+            temperature=None if temperature is None else float(temperature[rows].mean()),
+        )

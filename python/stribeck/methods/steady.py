@@ -54,7 +54,8 @@ class SteadyPoints:
 
     Examples
     --------
-    >>> points = sb.segment_points(sb.read("log.csv", joint_kind="prismatic"))
+    >>> from stribeck.methods import segment_points
+    >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))
     >>> points.write("points.csv")
     >>> sb.fit("gantry_map", sb.read("points.csv"))
     """

@@ -130,7 +130,7 @@ def three_step_fit(
     first, second, third = _groups(warm, heavy, search)
     values = search.solve(heavy, search.solve(warm, search.start, first), second)
     slow = Presliding(presliding, made, *_bristle(made, third))
-    values, first_torque = slow.fit(values)
+    values, first_torque, evaluations = slow.fit(values)
     # The simplex knows no bounds: where it ended lies inside.
     lower, upper = np.minimum(search.lower, values), np.maximum(search.upper, values)
     made = replace(
@@ -147,7 +147,13 @@ def three_step_fit(
         ),
     )  # fmt: skip
     errors = _standard_errors(warm, values, first) | _standard_errors(heavy, values, second)
-    return _as_fit(made, loaded, errors, steps, time.perf_counter() - began)
+    fitted = _as_fit(made, loaded, errors, steps)
+    return replace(
+        fitted,
+        starts=search.starts,
+        evaluations=search.evaluations + evaluations,
+        seconds=time.perf_counter() - began,
+    )
 
 
 def _steady(recording: Recording, made: Model) -> Problem:
@@ -177,7 +183,8 @@ class _Search:
         known = np.where(np.isfinite(made.values), made.values, usual)
         self.start = np.clip(known, self.lower, self.upper)
         self.nonlinear = np.array([not p.linear for p in made.parameters])
-        self.starts = starts
+        self.starts = max(starts, 1)
+        self.evaluations = 0
         self.random = np.random.default_rng(seed)
 
     def solve(self, problem: Problem, values: Array, free: Indices) -> Array:
@@ -187,7 +194,7 @@ class _Search:
                 f"{problem.recording.path} has {problem.rows.size} points that move, and "
                 f"{free.size} parameters are to come from them: record more speeds"
             )
-        found = [self._from(problem, values, free, k) for k in range(max(self.starts, 1))]
+        found = [self._from(problem, values, free, k) for k in range(self.starts)]
         least = min(square for square, _ in found)
         if not np.isfinite(least):
             raise FitError(f"{problem.model.spec} is not finite on {problem.recording.path}")
@@ -215,6 +222,7 @@ class _Search:
             bounds=(self.lower[free], self.upper[free]),
         )  # fmt: skip
         values[free] = found.x
+        self.evaluations += int(found.nfev)
         return float(found.cost), values
 
     def between(self, share: Array) -> Array:
@@ -300,7 +308,7 @@ def _standard_errors(problem: Problem, values: Array, free: Indices) -> dict[int
 
 
 def _as_fit(
-    made: Model, loaded: Recording, errors: dict[int, float], steps: Sequence[Step], seconds: float
+    made: Model, loaded: Recording, errors: dict[int, float], steps: Sequence[Step]
 ) -> ThreeStepFit:
     fitted = evaluate(made, loaded)
     reach = float(norm.ppf(0.975))
@@ -331,8 +339,6 @@ def _as_fit(
         "rmse_held_out": None,
         "relative_residual": None,
         "outcome": "three steps",
-        "seconds": seconds,
         "notes": (*notes, *fitted.notes),
-        "starts": 1,
     }
     return ThreeStepFit(**{**known, **changed}, steps=tuple(steps))

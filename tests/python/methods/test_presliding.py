@@ -40,7 +40,7 @@ def test_table_2_comes_back(tmp_path: Path, joint: int) -> None:
     stiffness, damping = indy.BRISTLES[joint - 1]
     recording = read(tmp_path, indy.presliding_log((stiffness, damping)))
     slow = bristle(recording)
-    values, first_torque = slow.fit(slow.model.values)
+    values, first_torque, _ = slow.fit(slow.model.values)
     assert values[slow.stiffness] == pytest.approx(stiffness, rel=0.01)
     assert values[slow.damping] == pytest.approx(damping, rel=0.05)
     residual = slow.target - slow.predict(values, first_torque)
@@ -59,7 +59,7 @@ def test_the_bristle_need_not_start_without_deflection(tmp_path: Path) -> None:
     frame = indy.presliding_log()
     later = frame[frame.height // 7 :].with_columns(pl.col("position") + 1.0)
     slow = bristle(read(tmp_path, later))
-    values, first_torque = slow.fit(slow.model.values)
+    values, first_torque, _ = slow.fit(slow.model.values)
     assert values[slow.stiffness] == pytest.approx(indy.JOINT_2[0], rel=0.01)
     assert first_torque == pytest.approx(later["torque"][:20].mean(), abs=0.5)
 

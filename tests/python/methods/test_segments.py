@@ -82,6 +82,20 @@ def test_a_known_load_is_taken_off_and_kept(tmp_path: Path) -> None:
     assert again.torque - again.load_torque == pytest.approx(points.friction_torque)
 
 
+def test_bins_follow_a_load_that_changes_along_a_pass(tmp_path: Path) -> None:
+    frame = gantry.displacement_log([0.05, 0.1])
+    load = 4000.0 * pl.col("position")
+    frame = frame.with_columns(torque=pl.col("torque") + load, load_torque=load)
+    points = segment_points(read(tmp_path, frame), bins=5)
+    assert len(points) == 20
+    forward = [p for p in points.points[:5] if p.load_torque is not None]
+    assert np.all(np.diff([p.load_torque for p in forward]) > 100.0)
+    for point in points.points:
+        assert point.friction_torque == pytest.approx(gantry.friction(point.velocity), rel=2e-3)
+    with pytest.raises(FitError, match="--bins 0"):
+        segment_points(read(tmp_path, frame), bins=0)
+
+
 def test_motion_without_constant_speed_is_refused(tmp_path: Path) -> None:
     time = np.arange(0.0, 10.0, 0.005)
     frame = pl.DataFrame(
