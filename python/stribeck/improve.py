@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
 import polars as pl
 
 from stribeck.diagnose import (
@@ -16,9 +17,11 @@ from stribeck.diagnose import (
     Unexplained,
     Untestable,
     diagnose,
+    share_of_unexplained,
 )
 from stribeck.diagnose.evidence import evidence
-from stribeck.diagnose.trial import SIGNIFICANCE, add_effect
+from stribeck.diagnose.trial import SIGNIFICANCE, STARTS, add_effect
+from stribeck.diagnose.words import where
 from stribeck.fit import Fit, fit, on_recording
 from stribeck.identify.figures import rms
 from stribeck.model import Model, check_effect
@@ -170,8 +173,8 @@ def improve(
 ) -> Improvement:
     """Diagnose and add until nothing passes the test.
 
-    An effect that a later one makes superfluous is dropped, and the way is walked again
-    without it.
+    An effect that a later one makes superfluous is dropped; the others are fitted again in
+    their turn.
 
     Parameters
     ----------
@@ -194,9 +197,10 @@ def improve(
         current = finding.fit
         idle = _superfluous(steps, least_fall, seed)
         if idle is not None:
-            progress(f"{idle} is no longer needed: going back without it")
+            progress(f"{idle} is no longer needed: walking the way again without it")
             dropped.add(idle)
-            steps, current = [], first
+            steps = _without(idle, steps, found.noise_floor, seed)
+            current = steps[-1].after
     stopped = "nothing_passes"
     if found.findings:
         stopped = "max_steps"
@@ -206,6 +210,28 @@ def improve(
         first, tuple(steps), current, found.noise_floor, stopped, found.untestable,
         found.unexplained, found,
     )  # fmt: skip
+
+
+def _without(idle: str, steps: list[Step], floor: NoiseFloor, seed: int) -> list[Step]:
+    """The same way without one effect: each of the others is refitted in its turn."""
+    walked: list[Step] = []
+    current = steps[0].before
+    for step in steps:
+        effect = step.finding.effect
+        if effect == idle:
+            continue
+        after = add_effect(current, effect, starts=STARTS, seed=seed)
+        finding = replace(
+            step.finding,
+            rmse_held_out_before=float(current.rmse_held_out or np.nan),
+            rmse_held_out_after=float(after.rmse_held_out or np.nan),
+            share_of_unexplained=share_of_unexplained(current, after, floor),
+            where=where(effect, current, after),
+            fit=after,
+        )
+        walked.append(Step(finding, current, after))
+        current = after
+    return walked
 
 
 def _superfluous(steps: list[Step], least_fall: float, seed: int) -> str | None:
