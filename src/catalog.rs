@@ -1,7 +1,7 @@
 //! The one list of laws and effects; everything else about them stands in their own files.
 
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, State, Step};
+use crate::dynamics::{Bristle, Interval, Memory, State, Step};
 use crate::effect::{self, FrictionEffect};
 use crate::law::{self, FrictionLaw};
 use crate::sample::{Sample, Split};
@@ -36,6 +36,15 @@ macro_rules! laws {
                 match self {
                     $(Self::$law => const { &<law::$law<f64> as FrictionLaw<f64>>::INFO },)+
                     Self::$own => const { &<law::$own<f64> as FrictionLaw<f64>>::INFO },
+                }
+            }
+
+            /// What its state consists of, if it has a memory.
+            #[must_use]
+            pub const fn memory(self) -> Memory {
+                match self {
+                    $(Self::$law => <law::$law<f64> as FrictionLaw<f64>>::MEMORY,)+
+                    Self::$own => <law::$own<f64> as FrictionLaw<f64>>::MEMORY,
                 }
             }
 
@@ -157,8 +166,8 @@ macro_rules! effects {
 laws! {
     Coulomb, BittencourtA, Clochiatti, Dong, GazA, GazB, GrotjahnA, GrotjahnB, HaoA, IndriA,
     Makkar, Shao, Wolf, Zhou, BittencourtB, HaoB, Iskandar, Li, Madsen, Nevmerzhitskiy, Simoni,
-    Dahl, Lugre, IndriB, TadeseT, TadeseFull, Xiao, GantryMap, IndriStatic, M0, M1, MStar, KarahanKarci, BamM1,
-    BamM2, BamM3, BamM4, BamM5, BamM6; ByFormula
+    Dahl, Lugre, IndriB, TadeseT, TadeseFull, Xiao, BlimanSorine, Elastoplastic, Leuven, Gms,
+    GantryMap, IndriStatic, M0, M1, MStar, KarahanKarci, BamM1, BamM2, BamM3, BamM4, BamM5, BamM6; ByFormula
 }
 
 effects! {

@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, State, Step};
+use crate::dynamics::{Bristle, Interval, Memory, State, Step};
 use crate::error::ModelError;
 use crate::formula::{Formula, OwnTerms};
 use crate::sample::{Sample, Split};
@@ -126,6 +126,17 @@ impl Spec {
         self.has(EffectId::Presliding.info().id)
     }
 
+    /// What its state consists of.
+    #[must_use]
+    pub fn memory(&self) -> Memory {
+        match self.law.memory() {
+            _ if !self.has_state() => Memory::None,
+            _ if self.effects.contains(EffectId::Presliding) => Memory::Deflection,
+            Memory::Elements => Memory::Forces(self.constants.element_count()),
+            memory => memory,
+        }
+    }
+
     /// Columns it reads.
     pub fn channels(&self) -> impl Iterator<Item = Channel> + '_ {
         Channel::ALL.into_iter().filter(|channel| {
@@ -198,8 +209,8 @@ impl Spec {
         let own = self.own.as_ref().map(|own| OwnTerms::read(own, || next(Presence::Always)));
         let effects = Effects::read(self.effects, &mut next);
         let bristle = effects.bristle();
-        let has_state = self.has_state();
-        Ok(Composed { law, own, effects, bristle, has_state, constants: self.constants.cast() })
+        let memory = self.memory();
+        Ok(Composed { law, own, effects, bristle, memory, constants: self.constants.cast() })
     }
 
     fn includes(&self, presence: Presence) -> bool {
@@ -253,7 +264,7 @@ pub struct Composed<S: Real> {
     own: Option<OwnTerms<S>>,
     effects: Effects<S>,
     bristle: Option<Bristle<S>>,
-    has_state: bool,
+    memory: Memory,
     constants: Constants<S::Plain>,
 }
 
@@ -267,7 +278,13 @@ impl<S: Real> Composed<S> {
     /// Whether the torque depends on what went before.
     #[must_use]
     pub const fn has_state(&self) -> bool {
-        self.has_state
+        !matches!(self.memory, Memory::None)
+    }
+
+    /// What its state consists of.
+    #[must_use]
+    pub const fn memory(&self) -> Memory {
+        self.memory
     }
 
     /// The torque at one instant, taken apart.

@@ -89,3 +89,13 @@ constants! {
     /// How many elements a law of several has.
     elements ["1"] = 4.0, |x| (1.0..=16.0).contains(&x) && x % 1.0 == 0.0;
 }
+
+impl<S: Real> Constants<S> {
+    /// How many elements a law of several has.
+    #[inline]
+    #[must_use]
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    pub fn element_count(&self) -> usize {
+        self.elements.value() as usize
+    }
+}

@@ -55,6 +55,8 @@ pub enum Scale {
     None,
     /// Largest |velocity| of the recording.
     Speed,
+    /// Largest excursion in position.
+    Position,
     /// Size of the torque.
     Torque,
     /// Torque over the largest excursion in position.
@@ -86,6 +88,7 @@ impl Scale {
         match self {
             Self::None => "none",
             Self::Speed => "speed",
+            Self::Position => "position",
             Self::Torque => "torque",
             Self::Stiffness => "stiffness",
             Self::Damping => "damping",

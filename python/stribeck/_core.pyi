@@ -48,6 +48,8 @@ class Model:
     @property
     def has_state(self) -> bool: ...
     @property
+    def state_size(self) -> int: ...
+    @property
     def needs(self) -> list[str]: ...
     def parameters(self) -> list[dict[str, Any]]: ...
     def torque(
@@ -64,7 +66,7 @@ class Model:
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
-        state: float = 0.0,
+        state: float | ArrayLike | None = None,
         *,
         single: bool = False,
     ) -> NDArray[np.float64]: ...
@@ -82,7 +84,7 @@ class Model:
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
-        state: float = 0.0,
+        state: float | ArrayLike | None = None,
         *,
         wanted: Sequence[int] | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...

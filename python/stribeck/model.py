@@ -248,7 +248,7 @@ class Model:
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
         dt: ArrayLike | None = None,
-        state: float = 0.0,
+        state: float | ArrayLike = 0.0,
         *,
         external_torque: ArrayLike | None = None,
         precision: Literal["double", "single"] = "double",
@@ -262,7 +262,11 @@ class Model:
             one of them raises when it is missing.
         dt : float or array [n]
             Step to the previous sample in s, for models with a state: sample i is the torque at
-            the end of a step with velocity[i] held. The state starts from `state`.
+            the end of a step with velocity[i] held.
+        state : float or array [state_size]
+            State at the start: the deflection of a bristle in rad or m; of gms and leuven the
+            force of each element, of bliman_sorine the fast and the slow force, in N m or N. The
+            default is a joint without tension.
         external_torque : array [n]
             What the environment exerts on the joint, for the servo laws; default: minus the load
             torque, which is right where nothing accelerates.
@@ -292,7 +296,7 @@ class Model:
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
         dt: ArrayLike | None = None,
-        state: float = 0.0,
+        state: float | ArrayLike = 0.0,
         *,
         external_torque: ArrayLike | None = None,
     ) -> Array:

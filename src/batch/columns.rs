@@ -5,6 +5,7 @@ use super::BatchError;
 use super::balance::Balance;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
+use crate::dynamics::{Memory, State};
 use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::table::Channel;
@@ -85,8 +86,9 @@ pub struct Columns<'a> {
     /// Mean velocity over each row's step, which carries a bristle; else the row's velocity is
     /// held over the step. From position differences it does not gather velocity noise.
     pub mean_velocity: Option<&'a [f64]>,
-    /// Deflection of a bristle at the start of every segment (X).
-    pub state: f64,
+    /// State at the start of every segment, as the model's [`Memory`] says: the deflection of a
+    /// bristle (X) or the forces of the elements (T). Empty for a joint without tension.
+    pub state: &'a [f64],
 }
 
 impl Default for Columns<'_> {
@@ -97,7 +99,7 @@ impl Default for Columns<'_> {
             smooth: Channels::default(),
             shift_load: true,
             mean_velocity: None,
-            state: 0.0,
+            state: &[],
         }
     }
 }
@@ -157,7 +159,22 @@ impl<'a> Columns<'a> {
                 return Err(BatchError::Pole { law: spec.law().info().id, pole });
             }
         }
-        if self.state.is_finite() { Ok(()) } else { Err(BatchError::State) }
+        let memory = spec.memory();
+        if !self.state.is_empty() && self.state.len() != memory.size() {
+            return Err(BatchError::StateLength { memory, given: self.state.len() });
+        }
+        let finite = self.state.iter().all(|x| x.is_finite());
+        if finite { Ok(()) } else { Err(BatchError::State) }
+    }
+
+    /// The state at the start of every segment; columns that were checked.
+    pub(super) fn start<S: Real>(&self, memory: Memory) -> State<S> {
+        let mut given = self.state.iter().map(|&x| S::from_f64(x));
+        match memory {
+            Memory::None => State::default(),
+            Memory::Deflection => given.next().map_or_else(State::default, State::deflected),
+            Memory::Forces(_) | Memory::Elements => State::tensioned(given),
+        }
     }
 
     /// Checks the columns and prepares the time axis.

@@ -1,5 +1,6 @@
 use core::fmt;
 
+use crate::dynamics::Memory;
 use crate::error::ModelError;
 use crate::table::Channel;
 
@@ -52,6 +53,13 @@ pub enum BatchError {
     },
     /// The state at the start is NaN or infinite.
     State,
+    /// The state at the start has another size than the model's.
+    StateLength {
+        /// What the model's state consists of.
+        memory: Memory,
+        /// How many values were given.
+        given: usize,
+    },
     /// Temperatures on both sides of one at which the law has no limit.
     Pole {
         /// Id of the law.
@@ -104,6 +112,16 @@ impl fmt::Display for BatchError {
                 write!(f, "column '{column}' is not finite at row {row}")
             }
             Self::State => f.write_str("the state at the start is not finite"),
+            Self::StateLength { memory: Memory::None, .. } => {
+                f.write_str("the model has no memory: leave its state out")
+            }
+            Self::StateLength { memory, given } => {
+                let (size, what) = match memory {
+                    Memory::Deflection => (1, "the deflection of its bristle"),
+                    _ => (memory.size(), "one force an element"),
+                };
+                write!(f, "values of the state: {given}, but the model takes {size}, {what}")
+            }
             Self::Pole { law, pole } => write!(
                 f,
                 "law '{law}' has no limit at {pole} degC, which the temperatures touch or cross: \

@@ -16,7 +16,7 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::composed::{Composed, Spec};
-use crate::dynamics::{Interval, State};
+use crate::dynamics::Interval;
 use crate::sample::Sample;
 use crate::scalar::{Dual, Real};
 use balance::Balance;
@@ -181,7 +181,7 @@ fn evaluate<S: Real>(
         }
         return;
     }
-    let fresh = State::deflected(S::from_f64(columns.state));
+    let fresh = columns.start(model.memory());
     let mut state = fresh;
     for (i, &dt) in rows.steps.iter().enumerate() {
         let starts = rows.starts_at(i);

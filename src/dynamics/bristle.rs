@@ -4,12 +4,9 @@
 //! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution is
 //! `z+ = e^-x z + v dt phi_1(-x)`: stable and free of overshoot for every stiffness and step.
 
-use super::{Interval, Step, following};
+use super::{Interval, SATURATED, Step, following};
 use crate::sample::Split;
 use crate::scalar::Real;
-
-/// Above this `x` the bristle has forgotten where it was: `e^-700 < 1e-304`.
-const SATURATED: f64 = 700.0;
 
 /// A bristle that settles faster than this (s) has settled in any step.
 const SHORTEST: f64 = 1e-12;

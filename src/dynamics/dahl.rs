@@ -6,7 +6,7 @@
 //! `c = (n - 1) k |u|^(n-1)` and `w = ln(1 + c)/(n - 1)`: smooth in `n`, for `n = 1` (`w = k`) and
 //! `n = 2` too. For `n < 1` sliding begins within the step where `c <= -1`.
 
-use super::{BristleState, Interval, Step, following};
+use super::{BristleState, Interval, Step, following, logarithm_ratio};
 use crate::sample::Split;
 use crate::scalar::Real;
 
@@ -132,21 +132,4 @@ impl<S: Real> Fall<S> {
     fn at_once(mean: S) -> Self {
         Self { covered: S::one(), mean, following: S::one() }
     }
-}
-
-/// `ln(1 + c)/c`, by the series of the inverse hyperbolic tangent where `c` is small.
-#[inline]
-fn logarithm_ratio<S: Real>(c: S) -> S {
-    let one = S::Plain::one();
-    if c.value().abs() > 0.2 {
-        return c.shift(one).ln() / c;
-    }
-    // ln(1 + c) = 2 artanh(s), s = c/(2 + c), s^2 < 0.0124.
-    let inverse = S::one() / c.shift(one + one);
-    let square = c * inverse * c * inverse;
-    let mut sum = S::zero();
-    for k in (0..9_u8).rev() {
-        sum = (sum * square).shift(one / S::Plain::from_f64(f64::from(2 * k + 1)));
-    }
-    (sum * inverse).scale(one + one)
 }

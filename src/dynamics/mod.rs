@@ -6,14 +6,25 @@
 
 mod bristle;
 mod dahl;
+mod elastoplastic;
+mod elements;
+mod leuven;
+mod maxwell_slip;
 mod relaxation;
 
 pub use bristle::{Bristle, BristleState};
 pub use dahl::DahlBristle;
+pub use elastoplastic::ElastoplasticBristle;
+pub use elements::{Elements, MOST_ELEMENTS};
+pub use leuven::LeuvenBristle;
+pub use maxwell_slip::MaxwellSlip;
 pub use relaxation::Relaxation;
 
 use crate::sample::Sample;
 use crate::scalar::Real;
+
+/// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
+const SATURATED: f64 = 700.0;
 
 /// A stretch of time over which a sample is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,11 +82,39 @@ impl<S: Real> Step<S> {
     }
 }
 
+/// What the state of a model consists of, in the order in which a start value gives it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Memory {
+    /// Nothing.
+    None,
+    /// The deflection of one bristle (X).
+    Deflection,
+    /// The forces of so many elements in parallel (T).
+    Forces(usize),
+    /// The force of each of the law's elements (T).
+    Elements,
+}
+
+impl Memory {
+    /// How many numbers the state has.
+    #[must_use]
+    pub const fn size(self) -> usize {
+        match self {
+            Self::None => 0,
+            Self::Deflection => 1,
+            Self::Forces(count) => count,
+            Self::Elements => MOST_ELEMENTS,
+        }
+    }
+}
+
 /// State of any model, kept apart from its parameters: each kind of law uses its own part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<S> {
     /// Deflection of a bristle.
     pub bristle: BristleState<S>,
+    /// Forces of elements in parallel.
+    pub elements: Elements<S>,
 }
 
 impl<S: Real> State<S> {
@@ -83,7 +122,17 @@ impl<S: Real> State<S> {
     #[inline]
     #[must_use]
     pub fn deflected(z: S) -> Self {
-        Self { bristle: BristleState { z } }
+        Self { bristle: BristleState { z }, elements: Elements::default() }
+    }
+
+    /// The state of elements that stick with these forces (T).
+    #[must_use]
+    pub fn tensioned(forces: impl IntoIterator<Item = S>) -> Self {
+        let mut state = Self::default();
+        for (own, force) in state.elements.force.iter_mut().zip(forces) {
+            *own = force;
+        }
+        state
     }
 }
 
@@ -103,4 +152,21 @@ impl<S: Real> Default for State<S> {
 pub(crate) fn following<S: Real>(y: S, phi: S) -> S {
     let two = S::Plain::from_f64(2.0);
     (y.shift(-two) * phi).shift(two)
+}
+
+/// `ln(1 + c)/c`, by the series of the inverse hyperbolic tangent where `c` is small.
+#[inline]
+fn logarithm_ratio<S: Real>(c: S) -> S {
+    let one = S::Plain::one();
+    if c.value().abs() > 0.2 {
+        return c.shift(one).ln() / c;
+    }
+    // ln(1 + c) = 2 artanh(s), s = c/(2 + c), s^2 < 0.0124.
+    let inverse = S::one() / c.shift(one + one);
+    let square = c * inverse * c * inverse;
+    let mut sum = S::zero();
+    for k in (0..9_u8).rev() {
+        sum = (sum * square).shift(one / S::Plain::from_f64(f64::from(2 * k + 1)));
+    }
+    (sum * inverse).scale(one + one)
 }

@@ -1,10 +1,7 @@
 //! A state that relaxes linearly along the travel, stepped exactly.
 
-use super::following;
+use super::{SATURATED, following};
 use crate::scalar::Real;
-
-/// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
-const SETTLED: f64 = 700.0;
 
 /// Above this ratio of pull to hold a state is at its target wherever it is.
 const LOOSE: f64 = 1e30;
@@ -42,9 +39,9 @@ impl<S: Real> Relaxation<S> {
             return Relaxed { end: z, mean: z, decay: S::zero() };
         }
         let way = self.target - z;
-        if pull.value() >= SETTLED * self.hold.value() {
+        if pull.value() >= SATURATED * self.hold.value() {
             let mean = self.target - way * (self.hold / pull);
-            return Relaxed { end: self.target, mean, decay: S::from_f64(-SETTLED) };
+            return Relaxed { end: self.target, mean, decay: S::from_f64(-SATURATED) };
         }
         let decay = -(pull / self.hold);
         let way = way * -decay;

@@ -6,14 +6,18 @@ mod bam;
 mod bittencourt_2010;
 mod bittencourt_a;
 mod bittencourt_b;
+mod bliman_sorine;
 mod by_formula;
 mod clochiatti;
 mod coulomb;
 mod curves;
 mod dahl;
 mod dong;
+mod elastoplastic;
+mod elements;
 mod gantry_map;
 mod gaz;
+mod gms;
 mod grotjahn;
 mod hao;
 mod indri_a;
@@ -21,6 +25,7 @@ mod indri_b;
 mod indri_static;
 mod iskandar;
 mod karahan_karci;
+mod leuven;
 mod li;
 mod lugre;
 mod madsen;
@@ -37,13 +42,16 @@ pub use bam::{BamM1, BamM2, BamM3, BamM4, BamM5, BamM6};
 pub use bittencourt_2010::{M0, M1};
 pub use bittencourt_a::BittencourtA;
 pub use bittencourt_b::{BittencourtB, MStar};
+pub use bliman_sorine::BlimanSorine;
 pub use by_formula::ByFormula;
 pub use clochiatti::Clochiatti;
 pub use coulomb::Coulomb;
 pub use dahl::Dahl;
 pub use dong::Dong;
+pub use elastoplastic::Elastoplastic;
 pub use gantry_map::GantryMap;
 pub use gaz::{GazA, GazB};
+pub use gms::Gms;
 pub use grotjahn::{GrotjahnA, GrotjahnB};
 pub use hao::{HaoA, HaoB, Simoni};
 pub use indri_a::IndriA;
@@ -51,6 +59,7 @@ pub use indri_b::IndriB;
 pub use indri_static::IndriStatic;
 pub use iskandar::Iskandar;
 pub use karahan_karci::KarahanKarci;
+pub use leuven::Leuven;
 pub use li::Li;
 pub use lugre::Lugre;
 pub use madsen::Madsen;
@@ -64,7 +73,7 @@ pub use xiao::Xiao;
 pub use zhou::Zhou;
 
 use crate::constants::Constants;
-use crate::dynamics::{Interval, State, Step};
+use crate::dynamics::{Interval, Memory, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters};
@@ -73,6 +82,9 @@ use crate::table::{LawInfo, Parameters};
 pub trait FrictionLaw<S: Real>: Parameters<S> {
     /// The law's table.
     const INFO: LawInfo;
+
+    /// What the state of a law with a memory consists of.
+    const MEMORY: Memory = Memory::Deflection;
 
     /// The torque at one instant, taken apart: in steady sliding where the law has a memory.
     fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S>;

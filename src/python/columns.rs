@@ -2,6 +2,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::format;
 use std::string::String;
+use std::vec;
 
 use numpy::{AllowTypeChange, PyArrayLike1};
 use pyo3::prelude::*;
@@ -28,6 +29,24 @@ pub(super) enum Dt<'py> {
     Each(Array<'py>),
 }
 
+/// A state at the start: one number, or one a part.
+#[derive(FromPyObject)]
+pub(super) enum Start<'py> {
+    Single(f64),
+    Each(Array<'py>),
+}
+
+impl Start<'_> {
+    /// The numbers; none of a joint without tension, which fits every model.
+    fn values(&self) -> Cow<'_, [f64]> {
+        match self {
+            Self::Single(z) if *z == 0.0 => Cow::Borrowed(&[]),
+            Self::Single(z) => Cow::Owned(vec![*z]),
+            Self::Each(values) => contiguous(values),
+        }
+    }
+}
+
 /// The arguments that `torque`, `gradient` and `split` share.
 pub(super) struct Arguments<'py> {
     pub dt: Option<Dt<'py>>,
@@ -41,7 +60,7 @@ pub(super) struct Arguments<'py> {
     pub smooth: Option<BTreeMap<String, Array<'py>>>,
     pub shift_load: bool,
     pub mean_velocity: Option<Array<'py>>,
-    pub state: f64,
+    pub state: Option<Start<'py>>,
 }
 
 impl Arguments<'_> {
@@ -59,6 +78,7 @@ impl Arguments<'_> {
         let motor_torque = self.motor_torque.as_ref().map(contiguous);
         let external_torque = self.external_torque.as_ref().map(contiguous);
         let mean_velocity = self.mean_velocity.as_ref().map(contiguous);
+        let state = self.state.as_ref().map(Start::values).unwrap_or_default();
         let dt = match &self.dt {
             Some(Dt::Each(dt)) => Some(contiguous(dt)),
             _ => None,
@@ -98,7 +118,7 @@ impl Arguments<'_> {
             },
             shift_load: self.shift_load,
             mean_velocity: mean_velocity.as_deref(),
-            state: self.state,
+            state: &state,
         };
         Ok(py.detach(|| work(&columns)))
     }

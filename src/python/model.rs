@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::catalog::parameter;
-use super::columns::{Arguments, Array, Dt, contiguous};
+use super::columns::{Arguments, Array, Dt, Start, contiguous};
 use super::{ModelError, refuse};
 use crate::batch;
 use crate::composed::Spec;
@@ -81,6 +81,12 @@ impl Model {
         self.spec.has_state()
     }
 
+    /// How many numbers its state has.
+    #[getter]
+    fn state_size(&self) -> usize {
+        self.spec.memory().size()
+    }
+
     /// Columns it reads.
     #[getter]
     fn needs(&self) -> Vec<&'static str> {
@@ -103,7 +109,7 @@ impl Model {
     /// in single precision throughout.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, smooth=None, shift_load=true,
-        mean_velocity=None, state=0.0, *, single=false))]
+        mean_velocity=None, state=None, *, single=false))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -120,7 +126,7 @@ impl Model {
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
-        state: f64,
+        state: Option<Start<'py>>,
         single: bool,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let values = contiguous(&values);
@@ -148,7 +154,7 @@ impl Model {
     /// default all) in that order, one column each.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, smooth=None, shift_load=true,
-        mean_velocity=None, state=0.0, *, wanted=None))]
+        mean_velocity=None, state=None, *, wanted=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -165,7 +171,7 @@ impl Model {
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
-        state: f64,
+        state: Option<Start<'py>>,
         wanted: Option<Vec<usize>>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let values = contiguous(&values);
@@ -223,7 +229,7 @@ impl Model {
             smooth: None,
             shift_load: true,
             mean_velocity: None,
-            state: 0.0,
+            state: None,
         };
         let parts = arguments
             .detached(py, |columns| batch::split(&self.spec, &values, columns))?

@@ -29,6 +29,7 @@ def scale_values(recording: Recording) -> dict[str, float]:
     return {
         "none": 1.0,
         "speed": speed,
+        "position": position,
         "torque": torque,
         "stiffness": torque / position,
         "damping": torque / speed,

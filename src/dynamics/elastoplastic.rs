@@ -1,0 +1,201 @@
+//! The elastoplastic model, stepped for a velocity held over the step.
+//!
+//! `dz/dt = v (1 - a s0 z sgn v/D)`, `tf = s0 z + s1 dz/dt + V + additive` (Dupont et al. 2002, eqs
+//! 8-14). In units of the deflection in full sliding, `x = s0 z sgn v/D`, a bristle is elastic
+//! (`a = 0`) up to `b`, slides (`a = 1`) from 1 on, and in between, with `1 - x = (1 - b) p`,
+//! `a = cos^2(pi p/2)`. The ends are exact. In between `ln p` falls at a rate between 1 and
+//! `1 + 1.14/(1 - b)` along the travel `s0 |v| t/D`; sixteen Runge-Kutta steps of fourth order in that
+//! variable are stable for every travel and leave an error below `6e-6 D/s0` for `b <= 0.99`.
+
+use super::{BristleState, Interval, Step, following};
+use crate::sample::Split;
+use crate::scalar::Real;
+
+/// Runge-Kutta steps of fourth order in the transition.
+const STEPS: u8 = 16;
+
+/// Above this travel in units of `D/s0` dry friction has vanished.
+const VANISHED: f64 = 1e30;
+
+/// Below this `p` sliding is exponential to the last digit.
+const SLIDING: f64 = 1e-8;
+
+/// Nodes and weights of the Gauss-Legendre rule of twelve points on -1 .. 1, the upper half.
+const GAUSS: [(f64, f64); 6] = [
+    (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
+    (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
+    (0.587_317_954_286_617_5, 0.203_167_426_723_065_92),
+    (0.769_902_674_194_304_7, 0.160_078_328_543_346_23),
+    (0.904_117_256_370_474_9, 0.106_939_325_995_318_43),
+    (0.981_560_634_246_719_3, 0.047_175_336_386_511_83),
+];
+
+/// Parameters of an elastoplastic bristle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElastoplasticBristle<S> {
+    /// Stiffness `s0` (T/X).
+    pub stiffness: S,
+    /// Damping `s1` (T s/X).
+    pub damping: S,
+    /// Share `b` of the deflection in full sliding up to which the bristle is elastic.
+    pub breakaway: S,
+}
+
+impl<S: Real> ElastoplasticBristle<S> {
+    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
+    /// the end, with which the torque is read.
+    #[inline]
+    pub fn over(
+        &self,
+        state: &mut BristleState<S>,
+        held: &Split<S>,
+        end: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Step<S> {
+        let before = state.z;
+        let glide = self.advance(state, held, interval);
+        if interval.held.is_some() {
+            let moved = (end.dry() - held.dry()) / self.stiffness;
+            state.z += moved.scale(interval.velocity().sign()) * glide.following;
+        }
+        let velocity = interval.sample.velocity;
+        let rate = self.slope(state.z, end, velocity).scale(velocity);
+        let torque = self.stiffness * state.z + self.damping * rate + end.rate + end.additive;
+        if !interval.mean {
+            return Step::same(torque);
+        }
+        let mut mean_torque = self.stiffness * glide.mean + held.rate + held.additive;
+        if interval.dt.value() > 0.0 {
+            mean_torque += self.damping * (state.z - before).scale(S::Plain::one() / interval.dt);
+        }
+        Step { torque, mean_torque }
+    }
+
+    /// `b`; nothing is elastic beyond full sliding.
+    #[inline]
+    fn breakaway(&self) -> S {
+        if self.breakaway.value() < 1.0 { self.breakaway } else { S::one() }
+    }
+
+    /// `dz/dt` over `v`.
+    #[inline]
+    fn slope(&self, z: S, split: &Split<S>, velocity: S::Plain) -> S {
+        let one = S::Plain::one();
+        let dry = split.dry();
+        if self.stiffness.value() >= VANISHED * dry.value() {
+            return S::zero();
+        }
+        let x = (self.stiffness * z / dry).scale(velocity.sign());
+        let breakaway = self.breakaway();
+        if x.value() < breakaway.value() {
+            return S::one();
+        }
+        let way = (-x).shift(one);
+        if way.value() <= 0.0 {
+            return way;
+        }
+        let breadth = (-breakaway).shift(one);
+        way * descent(way / breadth, breadth)
+    }
+
+    #[inline]
+    fn advance(
+        &self,
+        state: &mut BristleState<S>,
+        split: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Glide<S> {
+        let one = S::Plain::one();
+        let half = S::Plain::from_f64(0.5);
+        let travel = interval.travel();
+        if travel.value() == 0.0 {
+            return Glide { mean: state.z, following: S::zero() };
+        }
+        let direction = interval.velocity().sign();
+        let dry = split.dry();
+        let pull = self.stiffness.scale(travel);
+        if pull.value() >= VANISHED * dry.value() {
+            state.z = (dry / self.stiffness).scale(direction);
+            return Glide { mean: state.z, following: S::one() };
+        }
+        let unit = (dry / self.stiffness).scale(direction);
+        let (whole, x) = (pull / dry, state.z / unit);
+        let breakaway = self.breakaway();
+        let room = breakaway - x;
+        if room.value() >= whole.value() {
+            let rise = S::from_plain(travel * direction);
+            let mean = state.z + rise.scale(half);
+            state.z += rise;
+            return Glide { mean, following: S::zero() };
+        }
+        // What is elastic first, then what is left of the travel; areas are under 1 - x.
+        let (mut left, mut way, mut area) = (whole, (-x).shift(one), S::zero());
+        if room.value() > 0.0 {
+            area = room * (way + -room.scale(half));
+            left += -room;
+            way += -room;
+        }
+        let breadth = (-breakaway).shift(one);
+        let (fall, under) = if way.value() <= SLIDING * breadth.value() {
+            let phi = (-left).phi(1);
+            (left, way * left * phi)
+        } else {
+            transition(way / breadth, breadth, left, interval.mean)
+        };
+        area += under;
+        state.z = unit * (-(way * (-fall).exp())).shift(one);
+        let mean = unit * (-(area / whole)).shift(one);
+        Glide { mean, following: following(-fall, (-fall).phi(1)) }
+    }
+}
+
+/// How a step went: the mean deflection, and how far it has followed where it tends to.
+struct Glide<S> {
+    mean: S,
+    following: S,
+}
+
+/// The rate at which `ln p` falls along the travel: `sin^2(pi p/2)/((1 - b) p) + cos^2(pi p/2)`.
+#[inline]
+fn descent<S: Real>(p: S, breadth: S) -> S {
+    if p.value() < 1e-150 {
+        return S::one();
+    }
+    let (sin, cos) = p.scale(S::Plain::from_f64(core::f64::consts::FRAC_PI_2)).sin_cos();
+    sin * (sin / (breadth * p)) + cos * cos
+}
+
+/// How far `ln p` falls over a travel from `p`, and the area under `1 - x` if it is wanted.
+#[inline]
+fn transition<S: Real>(p: S, breadth: S, travel: S, area: bool) -> (S, S) {
+    let (half, sixth) = (S::Plain::from_f64(0.5), S::Plain::from_f64(1.0 / 6.0));
+    let step = travel.scale(S::Plain::from_f64(1.0 / f64::from(STEPS)));
+    let rate = |fall: S| descent(p * (-fall).exp(), breadth);
+    let mut fall = S::zero();
+    for _ in 0..STEPS {
+        let a = rate(fall);
+        let b = rate(fall + (step * a).scale(half));
+        let c = rate(fall + (step * b).scale(half));
+        let d = rate(fall + step * c);
+        fall += (step * (a + b + b + c + c + d)).scale(sixth);
+    }
+    let under = if area { area_between(p, p * (-fall).exp(), breadth) } else { S::zero() };
+    (fall, under)
+}
+
+/// `(1 - b) int dp/h` from `end` to `start`, in the square root of `p`, in which it is smooth.
+#[inline]
+fn area_between<S: Real>(start: S, end: S, breadth: S) -> S {
+    let (half, two) = (S::Plain::from_f64(0.5), S::Plain::from_f64(2.0));
+    let (high, low) = (start.sqrt(), end.sqrt());
+    let (centre, reach) = ((high + low).scale(half), (high - low).scale(half));
+    let mut sum = S::zero();
+    for (node, weight) in GAUSS {
+        for node in [node, -node] {
+            let root = centre + reach.scale(S::Plain::from_f64(node));
+            let density = root.scale(two) / descent(root * root, breadth);
+            sum.add_scaled(&density, S::Plain::from_f64(weight));
+        }
+    }
+    breadth * reach * sum
+}

@@ -1,0 +1,225 @@
+//! The Leuven model with a Maxwell slip hysteresis, stepped exactly for a velocity held over the
+//! step.
+//!
+//! `dz/dt = v (1 - F sgn v/D)`, `tf = F + s1 dz/dt + V + additive`, where `F` is the sum of elements
+//! that follow `z`, `dF_i = k_i dz` while `|F_i| <= W_i` (Lampaert, Swevers and Al-Bender 2002, with
+//! `n = 1`). Along the travel `z` moves one way and `F` relaxes to `D`, faster while more elements
+//! stick; each element reaches its limit at most once, so that a step has a bounded number of pieces.
+
+use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step, following, logarithm_ratio};
+use crate::sample::Split;
+use crate::scalar::Real;
+
+/// Above this ratio of a force per travel to dry friction, dry friction has vanished.
+const VANISHED: f64 = 1e30;
+
+/// Parameters of the elements.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeuvenBristle<'a, S> {
+    /// What each element carries at most, relative to the others (T).
+    pub friction: &'a [S; MOST_ELEMENTS],
+    /// Stiffness of each element (T/X).
+    pub stiffness: &'a [S; MOST_ELEMENTS],
+    /// How many elements there are.
+    pub count: usize,
+    /// Damping `s1` (T s/X).
+    pub damping: S,
+}
+
+impl<S: Real> LeuvenBristle<'_, S> {
+    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
+    /// the end, with which the torque is read.
+    #[inline]
+    pub fn over(
+        &self,
+        state: &mut Elements<S>,
+        held: &Split<S>,
+        end: &Split<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Step<S> {
+        let direction = interval.velocity().sign();
+        let travel = interval.travel();
+        let glide = self.advance(state, held, direction, travel);
+        if interval.held.is_some() {
+            self.follow(state, held, end, direction, glide.following);
+        }
+        let velocity = interval.sample.velocity;
+        let force = self.total(state);
+        let rate = slope(force.scale(velocity.sign()), end.dry()).scale(velocity);
+        let torque = force + self.damping * rate + end.rate + end.additive;
+        if !interval.mean || travel.value() == 0.0 {
+            return Step::same(torque);
+        }
+        let mean = glide.area.scale(S::Plain::one() / travel);
+        let mean_rate = slope(mean, held.dry()).scale(interval.velocity());
+        let mean_torque =
+            mean.scale(direction) + self.damping * mean_rate + held.rate + held.additive;
+        Step { torque, mean_torque }
+    }
+
+    /// Lets the force follow `D` from what was held to the end.
+    #[inline]
+    fn follow(
+        &self,
+        state: &mut Elements<S>,
+        held: &Split<S>,
+        end: &Split<S>,
+        direction: S::Plain,
+        following: S,
+    ) {
+        let limit = self.limit(end);
+        let change = (end.dry() - held.dry()) * following;
+        let toward = if change.value() > 0.0 { direction } else { -direction };
+        if let Some(free) = self.free(state, limit, toward) {
+            self.shift(state, limit, toward, change.abs() / free.stiffness);
+        }
+    }
+
+    #[inline]
+    fn total(&self, state: &Elements<S>) -> S {
+        state.force[..self.count()].iter().fold(S::zero(), |sum, &force| sum + force)
+    }
+
+    #[inline]
+    fn count(&self) -> usize {
+        self.count.min(MOST_ELEMENTS)
+    }
+
+    /// What an element carries at most, over its friction: together they carry what holds the joint
+    /// at rest, so that `F` can always reach `D`.
+    #[inline]
+    fn limit(&self, split: &Split<S>) -> S {
+        let total = self.friction[..self.count()].iter().fold(S::zero(), |sum, &part| sum + part);
+        (split.coulomb + split.height + split.load + split.smoothed_amplitude) / total
+    }
+
+    /// Travels along `direction`, piece by piece between the elements' limits.
+    #[inline]
+    fn advance(
+        &self,
+        state: &mut Elements<S>,
+        split: &Split<S>,
+        direction: S::Plain,
+        travel: S::Plain,
+    ) -> Glide<S> {
+        let dry = split.dry();
+        let dry = if dry.value() > 0.0 { dry } else { S::zero() };
+        let limit = self.limit(split);
+        let mut left = S::from_plain(travel);
+        let mut glide = Glide { area: S::zero(), following: S::zero() };
+        for _ in 0..=self.count() {
+            let force = self.total(state).scale(direction);
+            let gap = dry - force;
+            let toward = if gap.value() > 0.0 { direction } else { -direction };
+            let free = self.free(state, limit, toward).filter(|_| gap.value() != 0.0);
+            let Some(free) = free.filter(|_| left.value() > 0.0) else {
+                glide.area += force * left;
+                break;
+            };
+            let piece = Piece { dry, gap, stiffness: free.stiffness };
+            match piece.travel_to(free.room).filter(|reach| reach.value() < left.value()) {
+                Some(reach) => {
+                    self.shift(state, limit, toward, free.room);
+                    glide.area += dry * (reach - free.room.scale(toward * direction));
+                    left += -reach;
+                }
+                None => {
+                    let (way, following) = piece.over(left);
+                    self.shift(state, limit, toward, way.abs());
+                    glide.area += dry * (left - way);
+                    glide.following = following;
+                    break;
+                }
+            }
+        }
+        glide
+    }
+
+    /// The elements that a motion of `z` along `toward` loads, if there are any.
+    #[inline]
+    fn free(&self, state: &Elements<S>, limit: S, toward: S::Plain) -> Option<Free<S>> {
+        let mut free: Option<Free<S>> = None;
+        for k in 0..self.count() {
+            let room = self.friction[k] * limit - state.force[k].scale(toward);
+            if room.value() > 0.0 {
+                let (stiffness, room) = (self.stiffness[k], room / self.stiffness[k]);
+                free = Some(match free {
+                    Some(others) => Free {
+                        stiffness: others.stiffness + stiffness,
+                        room: if room.value() < others.room.value() { room } else { others.room },
+                    },
+                    None => Free { stiffness, room },
+                });
+            }
+        }
+        free
+    }
+
+    /// Moves `z` by `way >= 0` along `toward`: each element up to its limit.
+    #[inline]
+    fn shift(&self, state: &mut Elements<S>, limit: S, toward: S::Plain, way: S) {
+        for (k, force) in state.force[..self.count()].iter_mut().enumerate() {
+            let most = self.friction[k] * limit;
+            let room = most - force.scale(toward);
+            if room.value() > 0.0 {
+                let rise = self.stiffness[k] * way;
+                if rise.value() < room.value() * (1.0 - 1e-12) {
+                    *force += rise.scale(toward);
+                } else {
+                    *force = most.scale(toward);
+                }
+            }
+        }
+    }
+}
+
+/// What moves over a travel: the area under the force, and how far the force has followed where it
+/// tends to.
+struct Glide<S> {
+    area: S,
+    following: S,
+}
+
+/// Elements that are not at their limit: their stiffness together, and how far the first is from it.
+struct Free<S> {
+    stiffness: S,
+    room: S,
+}
+
+/// A stretch over which the same elements stick: `F` relaxes to `D`.
+struct Piece<S> {
+    dry: S,
+    gap: S,
+    stiffness: S,
+}
+
+impl<S: Real> Piece<S> {
+    /// The travel after which `z` has moved by `room`, if it ever does.
+    #[inline]
+    fn travel_to(&self, room: S) -> Option<S> {
+        let size = self.gap.abs();
+        let share = self.stiffness * room / size;
+        (share.value() < 1.0).then(|| room * (self.dry / size) * logarithm_ratio(-share))
+    }
+
+    /// How far `z` moves over a travel, and how far the force has followed where it tends to.
+    #[inline]
+    fn over(&self, travel: S) -> (S, S) {
+        let pull = self.stiffness * travel;
+        if pull.value() >= SATURATED * self.dry.value() {
+            return (self.gap / self.stiffness, S::one());
+        }
+        let y = -(pull / self.dry);
+        let phi = y.phi(1);
+        (-(self.gap * y * phi) / self.stiffness, following(y, phi))
+    }
+}
+
+/// `dz/dt` over `v`, for a force along the velocity; 0 where dry friction has vanished.
+#[inline]
+fn slope<S: Real>(force: S, dry: S) -> S {
+    if force.value().abs() >= VANISHED * dry.value() {
+        return S::zero();
+    }
+    (-(force / dry)).shift(S::Plain::one())
+}
