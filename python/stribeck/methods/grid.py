@@ -7,22 +7,24 @@ is least is the answer. A few wrong measurements do not move it, as they move le
 
 from __future__ import annotations
 
+import itertools
+import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import norm
 
 from stribeck.errors import FitError, SpecError, nearest
 from stribeck.fit import Estimate, Fit, evaluate, operating_box
 from stribeck.identify.covariance import seen
 from stribeck.identify.figures import relative_residual, rms
 from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import ReducedProblem
-from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.scaling import model_for
+from stribeck.methods.estimates import estimates, reached_bounds
 from stribeck.methods.least_absolute import least_absolute, least_total, standard_errors
+from stribeck.methods.ranges import Ranges
 from stribeck.model import Model
 from stribeck.recording import Recording
 
@@ -31,6 +33,8 @@ Array = NDArray[np.float64]
 #: Rows that the regressions use; more are thinned evenly. A programme's time grows faster than
 #: its rows, and steady-state points are few.
 MOST_ROWS = 500
+#: A larger grid would take minutes to hours.
+MOST_POINTS = 20_000
 #: Points of the grid along each nonlinear parameter, by their number.
 COUNTS = {1: 120, 2: 25, 3: 10}
 #: After the grid, so many finer ones about its best point, of so many points a parameter.
@@ -90,15 +94,14 @@ def grid_fit(
         )
     whole = Problem(recording, made, rows)
     lower, upper, count = _ranges(made, recording, grid or {})
-    search = _GridSearch(ReducedProblem(whole.thinned(MOST_ROWS), lower, upper), count)
+    search = _GridSearch(whole.thinned(MOST_ROWS), lower, upper, count)
     values = search.best()
     made = replace(
         made,
         bounds={n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper, strict=True)},
         box=operating_box(recording, None),
     ).with_values(values)
-    used = search.reduced.problem
-    return _as_fit(made, whole, used, lower, upper, search, time.perf_counter() - began)
+    return replace(_as_fit(made, whole, search), seconds=time.perf_counter() - began)
 
 
 def _static_model(spec: str | Model, recording: Recording) -> Model:
@@ -120,7 +123,8 @@ def _ranges(
     made: Model, recording: Recording, grid: Mapping[str, Axis]
 ) -> tuple[Array, Array, Array]:
     """Bounds of all parameters and points along each nonlinear one, arrays [p], [p], [k]."""
-    lower, upper, _ = bounds(made, recording)
+    ranges = Ranges.of(made, recording)
+    lower, upper = ranges.lower.copy(), ranges.upper.copy()
     linear = np.array([p.linear for p in made.parameters], dtype=bool)
     searched = np.flatnonzero(~linear & (upper > lower))
     counts = np.ones(lower.size, dtype=np.int64)
@@ -146,18 +150,25 @@ def _ranges(
             f"{made.spec} has {searched.size} nonlinear parameters, too many for a grid: give the "
             f"range of {', '.join(names)} with --grid, or use --method rms"
         )
+    points = math.prod(counts.tolist())
+    if points > MOST_POINTS:
+        raise FitError(
+            f"the grid has {points} points, {MOST_POINTS} at most are searched: give fewer a "
+            f"parameter with --grid NAME=FROM:TO:COUNT, its best point is refined anyway"
+        )
     return lower, upper, counts[~linear]
 
 
 class _GridSearch:
-    """Regressions over a grid in the search coordinates 0..1 of the nonlinear parameters."""
+    """Regressions over a grid of the nonlinear parameters, in 0..1 from lower to upper."""
 
-    def __init__(self, reduced: ReducedProblem, counts: Array) -> None:
-        self.reduced = reduced
-        self.counts = counts
-        self.linear = reduced.linear
+    def __init__(self, problem: Problem, lower: Array, upper: Array, counts: Array) -> None:
+        self.problem = problem
+        self.lower, self.upper, self.counts = lower, upper, counts
+        self.linear = np.array([p.linear for p in problem.model.parameters], dtype=bool)
+        self.ranges = Ranges(lower[~self.linear], upper[~self.linear])
         self.total = np.inf
-        self.values = np.clip(np.zeros(reduced.lower.size), reduced.lower, reduced.upper)
+        self.values = np.clip(np.zeros(lower.size), lower, upper)
         self.regressions = 0
 
     def best(self) -> Array:
@@ -167,8 +178,8 @@ class _GridSearch:
         for _ in range(ROUNDS if self.counts.size else 0):
             here = self._search(
                 [
-                    np.clip(np.linspace(u - step, u + step, FINER), 0.0, 1.0)
-                    for u, step in zip(here, spacing, strict=True)
+                    np.clip(np.linspace(u - step, u + step, FINER if n > 1 else 1), 0.0, 1.0)
+                    for u, step, n in zip(here, spacing, self.counts, strict=True)
                 ]
             )
             spacing = spacing * 2.0 / (FINER - 1)
@@ -180,25 +191,23 @@ class _GridSearch:
         The most promising points are solved first, and those of which least squares shows that
         they cannot be better are passed over: the answer is that of the whole grid.
         """
-        points = np.stack([a.ravel() for a in np.meshgrid(*axes, indexing="ij")], axis=-1) \
-            if axes else np.zeros((1, 0))  # fmt: skip
+        points = [np.array(point) for point in itertools.product(*axes)]
         totals = [least_total(*self._regression(u)[:2]) for u in points]
         for k in sorted(range(len(points)), key=lambda k: totals[k][1]):
             if totals[k][0] < self.total:
                 self._solve(points[k])
-        return self.reduced.encode(self.values)
+        return self.ranges.share(self.values[~self.linear])
 
     def _regression(self, u: Array) -> tuple[Array, Array, Array]:
         """Columns [n, linear], target [n] and all parameters [p] at a grid point."""
         values = self.values.copy()
-        values[~self.linear] = self.reduced.decode(u)
-        residual, columns = self.reduced.problem.linearise(values, np.flatnonzero(self.linear))
+        values[~self.linear] = self.ranges.at(u)
+        residual, columns = self.problem.linearise(values, np.flatnonzero(self.linear))
         return columns, residual + columns @ values[self.linear], values
 
     def _solve(self, u: Array) -> None:
         columns, target, values = self._regression(u)
-        lower, upper = self.reduced.lower[self.linear], self.reduced.upper[self.linear]
-        solved = least_absolute(columns, target, lower, upper)
+        solved = least_absolute(columns, target, self.lower[self.linear], self.upper[self.linear])
         self.regressions += 1
         if solved.total < self.total:
             self.total = solved.total
@@ -223,56 +232,33 @@ def _held_out(problem: Problem, values: Array, lower: Array, upper: Array) -> Ar
     return prediction
 
 
-def _as_fit(
-    made: Model, whole: Problem, used: Problem, lower: Array, upper: Array, search: _GridSearch,
-    seconds: float,
-) -> Fit:  # fmt: skip
-    recording, values = whole.recording, made.values
-    fitted = evaluate(made, recording)
-    held_out = _held_out(used, values, lower, upper)
+def _as_fit(made: Model, whole: Problem, search: _GridSearch) -> Fit:
+    recording, used = whole.recording, search.problem
+    held_out = _held_out(used, made.values, search.lower, search.upper)
     residual = recording.torque - held_out
-    mean = search.total / used.rows.size
     note = (
-        f"least absolute error over a grid of {int(np.prod(search.counts))} points, then refined: "
-        f"mean {mean:.4g} {recording.torque_unit} over {used.rows.size} of {whole.rows.size} rows"
+        f"least absolute error over a grid of {math.prod(search.counts.tolist())} points, then "
+        f"refined: mean {search.total / used.rows.size:.4g} {recording.torque_unit} over "
+        f"{used.rows.size} of {whole.rows.size} rows"
     )
     enough = np.unique(recording.block[used.rows]).size > 1
+    fitted = evaluate(made, recording)
     return replace(
         fitted,
-        estimates=_estimates(made, used, lower, upper),
+        estimates=_estimates(made, used, search.lower, search.upper),
         held_out=held_out,
         rmse_held_out=rms(residual[recording.moving]) if enough else None,
         relative_residual=relative_residual(recording, residual) if enough else None,
         starts=1,
         outcome="searched the whole grid",
         evaluations=search.regressions,
-        seconds=seconds,
         notes=(note, *fitted.notes),
     )
 
 
 def _estimates(made: Model, problem: Problem, lower: Array, upper: Array) -> dict[str, Estimate]:
-    values = made.values
-    residual, jacobian = problem.linearise(values)
-    span = 1e-6 * (upper - lower)
-    at_bound = (values <= lower + span) | (values >= upper - span)
-    shown = seen(jacobian, np.ones(values.size, dtype=bool))
+    residual, jacobian = problem.linearise(made.values)
+    at_bound = reached_bounds(made.values, lower, upper)
+    shown = seen(jacobian, np.ones(lower.size, dtype=bool))
     errors = standard_errors(jacobian, residual, shown & ~at_bound)
-    reach = float(norm.ppf(0.975))
-    return {
-        p.name: Estimate(
-            name=p.name,
-            symbol=p.symbol,
-            value=float(values[k]),
-            unit=p.unit,
-            stderr=None if np.isnan(errors[k]) else float(errors[k]),
-            ci95=None
-            if np.isnan(errors[k])
-            else (float(values[k] - reach * errors[k]), float(values[k] + reach * errors[k])),
-            at_bound=bool(at_bound[k]),
-            identifiable=bool(shown[k]),
-            lower=float(lower[k]),
-            upper=float(upper[k]),
-        )
-        for k, p in enumerate(made.parameters)
-    }
+    return estimates(made, errors, at_bound, shown)

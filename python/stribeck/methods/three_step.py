@@ -14,15 +14,15 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
-from scipy.stats import norm
 
 from stribeck.errors import FitError
-from stribeck.fit import Estimate, Fit, evaluate, operating_box
+from stribeck.fit import Fit, evaluate, operating_box
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.scaling import model_for
+from stribeck.methods.estimates import estimates, reached_bounds
+from stribeck.methods.least_squares import BoundedLeastSquares
 from stribeck.methods.presliding import Presliding
 from stribeck.model import Model
 from stribeck.recording import Recording
@@ -32,8 +32,6 @@ Indices = NDArray[np.intp]
 
 #: A parameter acts on steady friction if its slope times its value exceeds this share of it.
 ACTS = 1e-9
-#: Sums of squares that differ by less are equal.
-TIE = 1.0 + 1e-6
 
 
 @dataclass(frozen=True)
@@ -124,7 +122,7 @@ def three_step_fit(
     began = time.perf_counter()
     made = model_for(spec, loaded)
     warm, heavy = _steady(no_load, made), _steady(loaded, made)
-    search = _Search(made, loaded, starts, seed)
+    search = BoundedLeastSquares(made, loaded, starts, seed)
     if "damping_velocity" in made.names:
         search.start[made.names.index("damping_velocity")] = damping_velocity
     first, second, third = _groups(warm, heavy, search)
@@ -146,7 +144,8 @@ def three_step_fit(
             slow.target.size, rms(slow.target - slow.predict(values, first_torque)),
         ),
     )  # fmt: skip
-    errors = _standard_errors(warm, values, first) | _standard_errors(heavy, values, second)
+    errors = _standard_errors(warm, values, first)
+    errors[second] = _standard_errors(heavy, values, second)[second]
     fitted = _as_fit(made, loaded, errors, steps)
     return replace(
         fitted,
@@ -172,68 +171,9 @@ def _steady(recording: Recording, made: Model) -> Problem:
     return Problem(recording, model_for(made, recording), np.flatnonzero(recording.moving))
 
 
-class _Search:
-    """Least squares of some parameters while the others stay, from several starts.
-
-    The paper uses Levenberg's and Marquardt's method; this is its trust-region form with bounds.
-    """
-
-    def __init__(self, made: Model, recording: Recording, starts: int, seed: int) -> None:
-        self.lower, self.upper, usual = bounds(made, recording)
-        known = np.where(np.isfinite(made.values), made.values, usual)
-        self.start = np.clip(known, self.lower, self.upper)
-        self.nonlinear = np.array([not p.linear for p in made.parameters])
-        self.starts = max(starts, 1)
-        self.evaluations = 0
-        self.random = np.random.default_rng(seed)
-
-    def solve(self, problem: Problem, values: Array, free: Indices) -> Array:
-        """`values` with the parameters `free` at their least sum of squares."""
-        if problem.rows.size < free.size + 2:
-            raise FitError(
-                f"{problem.recording.path} has {problem.rows.size} points that move, and "
-                f"{free.size} parameters are to come from them: record more speeds"
-            )
-        found = [self._from(problem, values, free, k) for k in range(self.starts)]
-        least = min(square for square, _ in found)
-        if not np.isfinite(least):
-            raise FitError(f"{problem.model.spec} is not finite on {problem.recording.path}")
-        # Of equals the first, from the usual start: some laws do not tell a sign.
-        return next(reached for square, reached in found if square <= TIE * least)
-
-    def _from(self, problem: Problem, values: Array, free: Indices, k: int) -> tuple[float, Array]:
-        """Sum of squares and values reached from the k-th start; the first is the usual one."""
-        values = values.copy()
-        drawn = self.random.uniform(size=values.size)
-        if k > 0:
-            here = free[self.nonlinear[free]]
-            values[here] = self.between(drawn)[here]
-
-        def residual(x: Array) -> Array:
-            values[free] = x
-            return problem.linearise(values, free)[0]
-
-        def slope(x: Array) -> Array:
-            values[free] = x
-            return -problem.linearise(values, free)[1]
-
-        found = least_squares(
-            residual, values[free], slope, x_scale="jac",
-            bounds=(self.lower[free], self.upper[free]),
-        )  # fmt: skip
-        values[free] = found.x
-        self.evaluations += int(found.nfev)
-        return float(found.cost), values
-
-    def between(self, share: Array) -> Array:
-        """Values at `share` of the way from lower to upper bound, in logarithms if positive."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            geometric = self.lower * (self.upper / self.lower) ** share
-        straight = self.lower + share * (self.upper - self.lower)
-        return np.where(self.lower > 0, geometric, straight)
-
-
-def _groups(warm: Problem, heavy: Problem, search: _Search) -> tuple[Indices, Indices, Indices]:
+def _groups(
+    warm: Problem, heavy: Problem, search: BoundedLeastSquares
+) -> tuple[Indices, Indices, Indices]:
     """Parameters of the three steps, by what they act on.
 
     Raises
@@ -243,12 +183,13 @@ def _groups(warm: Problem, heavy: Problem, search: _Search) -> tuple[Indices, In
     """
     made = warm.model
     # Neither a bound nor zero, where a parameter that acts may seem not to.
-    values = search.between(np.full(search.start.size, 0.6))
-    unloaded, loaded = _acting(warm, values), _acting(heavy, values)
+    values = search.ranges.at(np.full(search.start.size, 0.6))
+    free = search.upper > search.lower
+    unloaded, loaded = _acting(warm, values) & free, _acting(heavy, values) & free
     groups = (
         np.flatnonzero(unloaded),
         np.flatnonzero(loaded & ~unloaded),
-        np.flatnonzero(~loaded & ~unloaded),
+        np.flatnonzero(~loaded & ~unloaded & free),
     )
     missing = [
         what
@@ -296,49 +237,37 @@ def _step(name: str, problem: Problem, values: Array, free: Indices) -> Step:
     return Step(name, problem.recording.path, names, problem.rows.size, rms(residual))
 
 
-def _standard_errors(problem: Problem, values: Array, free: Indices) -> dict[int, float]:
-    """Standard errors of the parameters `free`, by place; those that the rows show."""
+def _standard_errors(problem: Problem, values: Array, free: Indices) -> Array:
+    """Standard errors of the parameters `free` that the rows show, NaN for the others; [p]."""
     residual, jacobian = problem.linearise(values)
     chosen = np.zeros(values.size, dtype=bool)
     chosen[free] = True
     shown = seen(jacobian, chosen)
     batch = batches(residual.size, correlation_length(residual))
     variance = np.diag(sandwich(jacobian, residual, batch, shown))
-    return {int(k): float(np.sqrt(variance[k])) for k in np.flatnonzero(shown)}
+    return np.where(shown, np.sqrt(variance), np.nan)
 
 
-def _as_fit(
-    made: Model, loaded: Recording, errors: dict[int, float], steps: Sequence[Step]
-) -> ThreeStepFit:
-    fitted = evaluate(made, loaded)
-    reach = float(norm.ppf(0.975))
-    estimates = {
-        p.name: Estimate(
-            name=p.name,
-            symbol=p.symbol,
-            value=float(value),
-            unit=p.unit,
-            stderr=errors.get(k),
-            ci95=(value - reach * errors[k], value + reach * errors[k]) if k in errors else None,
-            at_bound=k in errors and bool(min(value - low, high - value) <= 1e-6 * (high - low)),
-            identifiable=k in errors or p.name in steps[-1].parameters,
-            lower=low,
-            upper=high,
-        )
-        for k, (p, value) in enumerate(zip(made.parameters, made.values, strict=True))
-        for low, high in [made.bounds[p.name]]
-    }
+def _as_fit(made: Model, loaded: Recording, errors: Array, steps: Sequence[Step]) -> ThreeStepFit:
+    """The fit on the loaded points: nothing there is held out, and the simplex has no errors."""
+    known = ~np.isnan(errors)
+    lower, upper = np.array([made.bounds[name] for name in made.names]).T
+    shown = known | np.isin(made.names, steps[-1].parameters)
     unit = made.torque_unit
     notes = [
         f"step {k}, {step.name}: RMSE {step.rmse:.4g} {unit} over {step.rows} rows of {step.data}"
         for k, step in enumerate(steps, 1)
     ]
-    known = {f.name: getattr(fitted, f.name) for f in fields(Fit)}
+    fitted = evaluate(made, loaded)
     changed = {
-        "estimates": estimates,
+        "estimates": estimates(
+            made, errors, known & reached_bounds(made.values, lower, upper), shown
+        ),
         "rmse_held_out": None,
         "relative_residual": None,
         "outcome": "three steps",
         "notes": (*notes, *fitted.notes),
     }
-    return ThreeStepFit(**{**known, **changed}, steps=tuple(steps))
+    return ThreeStepFit(
+        **{**{f.name: getattr(fitted, f.name) for f in fields(Fit)}, **changed}, steps=tuple(steps)
+    )

@@ -85,6 +85,26 @@ def test_outliers_move_squared_error_and_not_absolute_error(tmp_path: Path) -> N
     assert curve_error(squared) > 5.0 * curve_error(absolute)
 
 
+def test_a_parameter_that_is_held_stays(tmp_path: Path) -> None:
+    """Simoni's a5 scales four others: it is held, and the grid is over a6 alone."""
+    rng = np.random.default_rng(3)
+    v, temperature = rng.uniform(-2.0, 2.0, 120), rng.uniform(20.0, 50.0, 120)
+    f = (3.0 * np.sign(v) + 1.5 * v) * (1.0 - 0.01 * (temperature - 20.0))
+    path = tmp_path / "warm.csv"
+    pl.DataFrame(
+        {"run": np.arange(120), "velocity": v, "temperature": temperature, "friction_torque": f}
+    ).write_csv(path)
+    fit = grid_fit("simoni", sb.read(path, average="run", joint_kind="revolute"))
+    assert fit.model.value("scale") == 1.0
+    assert np.abs(fit.residual).max() < 0.01
+
+
+def test_a_grid_too_large_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FitError, match="30000 points"):
+        grid_fit("bittencourt_a", points(tmp_path, noise=0.0),
+                 grid={"a3": Axis(1.0, 50.0, 300), "a4": Axis(0.5, 3.0, 100)})  # fmt: skip
+
+
 def test_the_grid_is_the_users(tmp_path: Path) -> None:
     recording = points(tmp_path, noise=0.0)
     narrow = grid_fit("bittencourt_a", recording, grid={"a3": Axis(1.0, 8.0, 20)})
