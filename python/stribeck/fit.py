@@ -10,88 +10,25 @@ from typing import Any
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
-from scipy.stats import t as student
 
 from stribeck.errors import FitError
-from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
+from stribeck.identify.estimates import Errors, Estimate, estimates
 from stribeck.identify.figures import relative_residual, rms, torque_cutoff
 from stribeck.identify.held_out import held_out_prediction
-from stribeck.identify.polish import polish
 from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import ReducedProblem, Search
-from stribeck.identify.scaling import (
-    bounds,
-    check_channels,
-    effect_constants,
-    model_for,
-    scaled_parameters,
-)
+from stribeck.identify.scaling import bounds, check_channels, effect_constants, model_for
+from stribeck.identify.search import QUICK, THOROUGH, Effort, multi_start
+from stribeck.identify.separable import minimise
 from stribeck.identify.transients import stretches, transient_rows
 from stribeck.model import Model
 from stribeck.recording import Recording
 
+__all__ = [
+    "QUICK", "THOROUGH", "Effort", "Estimate", "Fit", "evaluate", "fit", "on_recording",
+    "operating_box", "own_load",
+]  # fmt: skip
+
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Effort:
-    """How thoroughly a model is fitted.
-
-    Attributes
-    ----------
-    rows, samples
-        Rows that a start is searched on before the best ones are finished on all rows, and the
-        length of the stretch where a model has a state.
-    evaluations
-        Most evaluations of one start.
-    finished
-        Starts that are finished on all rows, to the relative `tolerance` of the squared error.
-    exact
-        Whether held-out predictions evaluate the model at each refit, or its linearisation.
-    """
-
-    rows: int = 4000
-    samples: int = 12000
-    evaluations: int = 60
-    finished: int = 2
-    tolerance: float = 1e-10
-    exact: bool = True
-
-
-#: For a fit that is reported.
-THOROUGH = Effort()
-#: For one of many candidates.
-QUICK = Effort(rows=3000, samples=6000, evaluations=30, finished=1, tolerance=1e-6, exact=False)
-#: A bound counts as reached within this share of its range.
-AT_BOUND = 1e-6
-
-
-@dataclass(frozen=True)
-class Estimate:
-    """One identified parameter: value, standard error and 95 % interval in `unit`."""
-
-    name: str
-    symbol: str
-    value: float
-    unit: str
-    stderr: float | None
-    ci95: tuple[float, float] | None
-    at_bound: bool
-    identifiable: bool
-    lower: float
-    upper: float
-
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of a parameter."""
-        return {
-            "symbol": self.symbol,
-            "value": self.value,
-            "unit": self.unit,
-            "stderr": self.stderr,
-            "ci95": list(self.ci95) if self.ci95 else None,
-            "at_bound": self.at_bound,
-            "identifiable": self.identifiable,
-        }
 
 
 @dataclass(frozen=True)
@@ -198,13 +135,15 @@ def fit(
     *,
     starts: int = 20,
     seed: int = 0,
+    errors: Errors = "robust",
     transient: NDArray[np.bool_] | None = None,
     effort: Effort = THOROUGH,
 ) -> Fit:
     """Identify the parameters of `spec` on `recording` by bounded least squares.
 
-    Linear parameters are eliminated (variable projection), the others searched with nlopt from
-    `starts` seeded starts. The measured torque is the target as recorded.
+    Linear parameters are eliminated (variable projection), the others searched from `starts`
+    seeded starts; a parameter whose bounds are equal is held. The measured torque is the target as
+    recorded.
 
     Parameters
     ----------
@@ -212,6 +151,10 @@ def fit(
         ``"coulomb+load"``, or a model; a model's values are the first start.
     starts, seed : int
         Random starts of the nonlinear parameters (review of 25 models, eqs 4-5: 20).
+    errors : {"robust", "independent"}
+        What standard errors assume of the residual: anything, right for a sampled motion; or that
+        each row errs for itself and all alike, right for separately measured points, which gives
+        the textbook's ``s^2 (J'J)^-1``.
     transient : bool array [n]
         Rows that are scored but not fitted to; default: looked for.
     effort : Effort
@@ -227,7 +170,8 @@ def fit(
     made = model_for(spec, recording)
     marked = transient_rows(recording) if transient is None else transient
     rows = np.flatnonzero(recording.moving & ~marked)
-    fewest = len(made.names) + 2
+    lower, upper, _ = bounds(made, recording)
+    fewest = int((lower < upper).sum()) + 2
     if rows.size < fewest:
         raise FitError(
             f"{recording.path} has {rows.size} rows that move, {made.spec} needs at least "
@@ -238,7 +182,7 @@ def fit(
     values, load = solution.values, solution.load
     made = made.with_values(values)
     return _finish(
-        made, recording, marked, rows, load, solution, effort, time.perf_counter() - began
+        made, recording, marked, rows, load, solution, effort, errors, time.perf_counter() - began
     )
 
 
@@ -307,85 +251,31 @@ def _identify(
     known = made.values
     start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)
     problem = Problem(recording, made, rows, load)
-    reduced = ReducedProblem(problem, lower, upper)
     # What is known stays where it is at the start; only the rest is searched at random.
     unknown = ~np.isfinite(known)
-    found, used = _multi_start(
-        reduced, start, unknown if unknown.any() else np.ones_like(unknown), starts, seed, effort
+    varied = unknown if unknown.any() else np.ones_like(unknown)
+    found, used, evaluations = multi_start(
+        problem, lower, upper, start, varied, starts, seed, effort
     )
-    evaluations = reduced.evaluations
     if load is not None and _needs_own_load(made):
         for _ in range(8):
             renewed = own_load(made.with_values(found.values), recording)
             assert renewed is not None
             moved = rms(renewed - load) / (rms(renewed) or 1.0)
             load = renewed
-            values, square, count = polish(
-                Problem(recording, made, rows, load), found.values, lower, upper
+            found, count = minimise(
+                Problem(recording, made, rows, load),
+                found.values,
+                lower,
+                upper,
+                tolerance=effort.tolerance,
             )
-            found = replace(found, values=values, square=square)
             evaluations += count
             if moved < 1e-5:
                 break
     return _Solution(
         found.values, load, lower, upper, used, found.converged, found.outcome, evaluations
     )
-
-
-def _multi_start(
-    reduced: ReducedProblem,
-    start: Array,
-    varied: NDArray[np.bool_],
-    starts: int,
-    seed: int,
-    effort: Effort,
-) -> tuple[Search, int]:
-    """Search coarsely from many starts, then finish the best ones on all rows."""
-    if not reduced.nonlinear.any():
-        return reduced.search(start, 1, 1e-10), 1
-    # Behind a bristle the torque is nearly linear in the amplitudes of dry friction: a search finds
-    # them from anywhere, and random ones would only spoil the start.
-    amplitude = np.array([p.role == "dry" for p in reduced.problem.model.parameters])
-    moved = varied & reduced.nonlinear & ~amplitude
-    count = int(moved.sum())
-    starts = max(starts, 1) if count else 1
-    problem = reduced.problem
-    model = problem.model
-    coarse_problem = (
-        problem.thinned(effort.rows) if model.memoryless else problem.window(effort.samples)
-    )
-    coarse = ReducedProblem(coarse_problem, reduced.lower, reduced.upper)
-    rng = np.random.default_rng(seed)
-    tried: list[Search] = []
-    for k in range(starts):
-        at = start.copy()
-        if k > 0:
-            random = start.copy()
-            random[reduced.nonlinear] = reduced.decode(
-                rng.uniform(size=int(reduced.nonlinear.sum()))
-            )
-            at[moved] = random[moved]
-        tried.append(coarse.search(at, effort.evaluations, 1e-7))
-    tried.sort(key=lambda search: search.square)
-    reduced.evaluations += coarse.evaluations
-    finished = []
-    for search in _distinct(tried)[: effort.finished]:
-        completed = reduced.complete(search.values)
-        values, square, evaluations = polish(
-            problem, completed, reduced.lower, reduced.upper, effort.tolerance
-        )
-        reduced.evaluations += evaluations
-        finished.append(replace(search, values=values, square=square))
-    return min(finished, key=lambda search: search.square), starts
-
-
-def _distinct(searches: list[Search]) -> list[Search]:
-    """The searches that ended in different places, best first."""
-    kept: list[Search] = []
-    for search in searches:
-        if all(abs(search.square - other.square) > 1e-4 * other.square for other in kept):
-            kept.append(search)
-    return kept
 
 
 def on_recording(fitted: Fit, recording: Recording | None, seed: int = 0) -> Fit:
@@ -425,7 +315,7 @@ def evaluate(
     residual = recording.torque - prediction
     moving = recording.moving
     same = fitted_on is not None and fitted_on == recording.sha256
-    estimates = {
+    stored = {
         p.name: Estimate(
             p.name, p.symbol, float(value), p.unit, (stderr or {}).get(p.name), None,
             False, True, *model.bounds.get(p.name, (-np.inf, np.inf)),
@@ -435,7 +325,7 @@ def evaluate(
     return Fit(
         model=model,
         recording=recording,
-        estimates=estimates,
+        estimates=stored,
         prediction=prediction,
         held_out=prediction,
         rmse=rms(residual[moving]),
@@ -459,6 +349,7 @@ def _finish(
     load: Array | None,
     solution: _Solution,
     effort: Effort,
+    errors: Errors,
     seconds: float,
 ) -> Fit:
     problem = Problem(recording, made, rows, load)
@@ -492,7 +383,7 @@ def _finish(
             box=operating_box(recording, load),
         ).with_values(values),
         recording=recording,
-        estimates=_estimates(problem, values, lower, upper),
+        estimates=estimates(problem, values, lower, upper, errors),
         prediction=prediction,
         held_out=held_out,
         rmse=rms((recording.torque - prediction)[moving]),
@@ -533,34 +424,6 @@ def _refuse_slack_bristle(problem: Problem) -> None:
             f"{velocity:.3g} {recording.position_unit}/s): leave the bristle or the effect that "
             f"makes it negative out"
         )
-
-
-def _estimates(problem: Problem, values: Array, lower: Array, upper: Array) -> dict[str, Estimate]:
-    residual, jacobian = problem.linearise(values)
-    span = AT_BOUND * (upper - lower)
-    at_bound = (values <= lower + span) | (values >= upper - span)
-    shown = seen(jacobian, np.ones(values.size, dtype=bool))
-    free = shown & ~at_bound
-    batch = batches(residual.size, correlation_length(residual))
-    covariance = sandwich(jacobian, residual, batch, free)
-    quantile = float(student.ppf(0.975, max(int(batch.max()), 1)))
-    made = {}
-    for k, p in enumerate(scaled_parameters(problem.model, problem.recording)):
-        error = float(np.sqrt(covariance[k, k])) if free[k] else None
-        value = float(values[k])
-        made[p.name] = Estimate(
-            name=p.name,
-            symbol=p.symbol,
-            value=value,
-            unit=p.unit,
-            stderr=error,
-            ci95=None if error is None else (value - quantile * error, value + quantile * error),
-            at_bound=bool(at_bound[k]),
-            identifiable=bool(shown[k]),
-            lower=float(lower[k]),
-            upper=float(upper[k]),
-        )
-    return made
 
 
 def operating_box(recording: Recording, load: Array | None) -> dict[str, tuple[float, float]]:

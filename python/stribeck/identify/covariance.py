@@ -9,6 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.identify.triangle import UNSEEN, Triangle
+
 Array = NDArray[np.float64]
 
 
@@ -52,26 +54,35 @@ def sandwich(
     j = jacobian[:, free]
     if not free.any():
         return covariance
-    scale = np.sqrt(np.einsum("ij,ij->j", j, j))
-    scale[scale == 0] = 1.0
-    j = j / scale
-    hessian = j.T @ j
     count = int(batch.max()) + 1
     scores = np.zeros((count, j.shape[1]))
     np.add.at(scores, batch, j * residual[:, None])
     scores -= scores.mean(axis=0)
     dof = max(count - 1, 1)
     meat = scores.T @ scores * (count / dof)
-    inverse = np.linalg.pinv(hessian, rcond=1e-13, hermitian=True)
-    inner = inverse @ meat @ inverse / np.outer(scale, scale)
-    covariance[np.ix_(free, free)] = inner
+    inverse = Triangle.of(j, residual).covariance()
+    covariance[np.ix_(free, free)] = inverse @ meat @ inverse
     return covariance
 
 
-def seen(jacobian: Array, free: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which parameters the data can show apart from the others.
+def independent(jacobian: Array, residual: Array, free: NDArray[np.bool_]) -> Array:
+    """Covariance ``s^2 (J'J)^-1`` [p, p] of the free parameters for errors that know nothing of
+    each other, with ``s^2`` the sum of squares over n - p.
+    """
+    p = jacobian.shape[1]
+    covariance = np.zeros((p, p))
+    freedom = residual.size - int(free.sum())
+    if free.any() and freedom > 0:
+        variance = float(residual @ residual) / freedom
+        inverse = Triangle.of(jacobian[:, free], residual).covariance()
+        covariance[np.ix_(free, free)] = variance * inverse
+    return covariance
 
-    A parameter whose tangent lies in the span of the others' to one part in 10^4 is not
+
+def seen(jacobian: Array, free: NDArray[np.bool_], apart: float = 1e-4) -> NDArray[np.bool_]:
+    """Which of the `free` parameters the data can show apart from the others.
+
+    A parameter whose tangent lies in the span of the others' to the share `apart` is not
     identifiable on this data, whatever its standard error says.
     """
     p = jacobian.shape[1]
@@ -82,15 +93,11 @@ def seen(jacobian: Array, free: NDArray[np.bool_]) -> NDArray[np.bool_]:
     if index.size == 0:
         return shown
     j = jacobian[:, index] / size[index]
-    hessian = j.T @ j
-    inverse = np.linalg.pinv(hessian, rcond=1e-14, hermitian=True)
-    alone = 1.0 / np.maximum(np.diag(inverse) * np.diag(hessian), 1.0)
-    weights = np.linalg.eigvalsh(hessian)
-    singular = weights[0] < 1e-12 * weights[-1]
-    if singular:
-        # The pseudo-inverse hides exact collinearity: find who takes part in the null space.
-        values, vectors = np.linalg.eigh(hessian)
-        null = vectors[:, values < 1e-12 * values[-1]]
-        alone = np.where((null**2).sum(axis=1) > 1e-6, 0.0, alone)
-    shown[index] = alone > 1e-8
+    factor = Triangle.of(j, np.zeros(j.shape[0])).factor
+    _, weights, vectors = np.linalg.svd(factor)
+    hidden = weights < UNSEEN * weights[0]
+    # What takes part in a combination that changes nothing cannot be told from the others in it.
+    lost = (vectors[hidden] ** 2).sum(axis=0) > 1e-6
+    spread = np.sqrt(((vectors[~hidden] / weights[~hidden, None]) ** 2).sum(axis=0))
+    shown[index] = ~lost & (spread * apart < 1.0)
     return shown

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
+from stribeck.identify.separable import minimise
+from stribeck.identify.triangle import Triangle, triangles
 
 Array = NDArray[np.float64]
 
@@ -18,13 +21,12 @@ def held_out_prediction(
     upper: Array,
     *,
     exact: bool = True,
-    rounds: int = 2,
 ) -> tuple[Array, Array]:
     """Predict each block from a refit without it.
 
-    A refit is Gauss-Newton from the solution on all rows: the blocks' normal equations are
-    subtracted, which is exact for linear parameters and converges in a round or two for the
-    others, since leaving a tenth of the rows out moves them little.
+    A refit is Gauss-Newton from the solution on all rows, with the triangular factors of the other
+    blocks: exact for linear parameters, and converged in a round or two for the others, since
+    leaving a tenth of the rows out moves them little. Parameters with equal bounds are held.
 
     Parameters
     ----------
@@ -46,33 +48,58 @@ def held_out_prediction(
     refits = np.tile(values, (count, 1))
     if count < 2:
         return np.full_like(prediction, np.nan), refits
-    residual, jacobian = problem.linearise(values)
-    sums = NormalEquations.of(jacobian, residual, group)
+    free = np.flatnonzero(lower < upper)
+    residual, jacobian = problem.linearise(values, free)
+    parts = triangles(jacobian, residual, group, count)
     linear = all(p.linear for p in problem.model.parameters)
     for b in range(count):
-        if b >= sums.square.size:
+        kept = group != b
+        if kept.all():
             continue
-        matrix = sums.matrix.sum(axis=0) - sums.matrix[b]
-        vector = sums.vector.sum(axis=0) - sums.vector[b]
-        refits[b] = _step(values, matrix, vector, lower, upper)
+        others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
+        refits[b] = _step(values, others, free, lower, upper)
         if not exact:
-            here = group == b
-            prediction[problem.rows[here]] += jacobian[here] @ (refits[b] - values)
+            prediction[problem.rows[~kept]] += jacobian[~kept] @ (refits[b] - values)[free]
             continue
         if not linear:
-            for _ in range(rounds - 1):
-                kept = group != b
-                r, j = problem.linearise(refits[b])
-                matrix, vector = NormalEquations.of(
-                    np.ascontiguousarray(j[kept]), np.ascontiguousarray(r[kept])
-                ).total()
-                refits[b] = _step(refits[b], matrix, vector, lower, upper)
+            refits[b] = _refined(problem, refits[b], values, others.square, kept, lower, upper)
         rows = block == b
         prediction[rows] = problem.predict(refits[b])[rows]
     return prediction, refits
 
 
-def _step(values: Array, matrix: Array, vector: Array, lower: Array, upper: Array) -> Array:
-    """One bounded Gauss-Newton step."""
-    step = solve_bounded(matrix, vector, lower - values, upper - values)
-    return np.clip(values + step, lower, upper)
+def _refined(
+    problem: Problem,
+    refit: Array,
+    values: Array,
+    square: float,
+    kept: NDArray[np.bool_],
+    lower: Array,
+    upper: Array,
+) -> Array:
+    """A second step from `refit`; a damped search from `values` where the first went too far.
+
+    Parameters
+    ----------
+    square : float
+        Sum of squares at `values`, over the rows that are `kept`.
+    """
+    free = np.flatnonzero(lower < upper)
+    with np.errstate(all="ignore"):
+        residual, jacobian = problem.linearise(refit, free)
+    others = Triangle.of(jacobian[kept], residual[kept])
+    if others.square <= square:
+        return _step(refit, others, free, lower, upper)
+    remaining = replace(problem, rows=problem.rows[kept])
+    return minimise(remaining, values, lower, upper)[0].values
+
+
+def _step(
+    values: Array, triangle: Triangle, free: NDArray[np.intp], lower: Array, upper: Array
+) -> Array:
+    """One bounded Gauss-Newton step of the free parameters."""
+    at = values[free]
+    step = triangle.solve(lower[free] - at, upper[free] - at)
+    refit = values.copy()
+    refit[free] = np.clip(at + step, lower[free], upper[free])
+    return refit

@@ -50,8 +50,10 @@ class ReducedProblem:
 
     def __post_init__(self) -> None:
         parameters = self.problem.model.parameters
-        self.linear = np.array([p.linear for p in parameters], dtype=bool)
-        self.nonlinear = ~self.linear
+        linear = np.array([p.linear for p in parameters], dtype=bool)
+        # A parameter whose bounds are equal is held.
+        free = self.lower < self.upper
+        self.linear, self.nonlinear = linear & free, ~linear & free
         # Speeds, exponents and stiffnesses span decades: search their logarithm.
         self._log = (self.lower > 0)[self.nonlinear]
 

@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
+from stribeck.identify.covariance import (
+    batches,
+    correlation_length,
+    independent,
+    sandwich,
+    seen,
+)
 from synthetic import ar1
 
 
@@ -41,6 +47,19 @@ def test_sandwich_of_white_noise_is_the_textbook_formula() -> None:
     # A parameter that is held has no error and lends none.
     held = sandwich(j, r, batches(r.size, 1.0), np.array([True, False, True]))
     assert held[1, 1] == 0.0 and held[0, 0] > 0.0
+
+
+def test_independent_errors_are_the_textbook_formula() -> None:
+    """A straight line through five points; Draper and Smith, section 1.4."""
+    x = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
+    j = np.column_stack([np.ones(5), x])
+    r = np.array([0.1, -0.2, 0.1, 0.1, -0.1])
+    variance = r @ r / 3
+    covariance = independent(j, r, np.ones(2, dtype=bool))
+    assert covariance[1, 1] == pytest.approx(variance / 10.0, rel=1e-12)
+    assert covariance[0, 0] == pytest.approx(variance * (0.2 + 9.0 / 10.0), rel=1e-12)
+    held = independent(j, r, np.array([False, True]))
+    assert held[0, 0] == 0.0 and held[1, 1] == pytest.approx(r @ r / 4 / 55.0, rel=1e-12)
 
 
 def test_collinear_and_absent_columns_are_not_seen() -> None:

@@ -1,11 +1,10 @@
-"""One model on one recording: target, rows, the slope that the search follows, the last steps."""
+"""One model on one recording: target, rows, the slope that the search follows."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.identify.polish import polish
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import ReducedProblem
 from stribeck.identify.scaling import bounds, model_for
@@ -67,19 +66,6 @@ def test_search_coordinates_round_trip(recording: sb.Recording) -> None:
     np.testing.assert_allclose(reduced.encode(values), u, atol=1e-12)
     for end, bound in ((np.zeros_like(u), lower), (np.ones_like(u), upper)):
         np.testing.assert_allclose(reduced.decode(end), bound[reduced.nonlinear], rtol=1e-12)
-
-
-def test_polish_never_goes_up_and_ends_at_a_minimum(recording: sb.Recording) -> None:
-    p, lower, upper = problem(recording, "coulomb+stribeck")
-    best = sb.fit("coulomb+stribeck", recording)
-    rng = np.random.default_rng(1)
-    for _ in range(5):
-        start = np.clip(best.model.values * np.exp(0.2 * rng.standard_normal(5)), lower, upper)
-        first, _ = p.linearise(start)
-        values, square, _ = polish(p, start, lower, upper)
-        assert square <= first @ first
-        assert np.all(values >= lower) and np.all(values <= upper)
-        assert np.sqrt(square / p.rows.size) == pytest.approx(best.rmse, rel=1e-6)
 
 
 def test_fewer_rows_are_spread_and_windows_are_where_it_turns(recording: sb.Recording) -> None:

@@ -1,0 +1,111 @@
+"""Identified parameters with their standard errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import t as student
+
+from stribeck.identify.covariance import (
+    batches,
+    correlation_length,
+    independent,
+    sandwich,
+    seen,
+)
+from stribeck.identify.problem import Problem
+
+Array = NDArray[np.float64]
+
+#: What standard errors assume of the residual.
+#:
+#: ``"robust"``: it may remember itself and scatter unevenly, as the residual of any sampled motion
+#: does: a friction model's error is smooth in time.
+#: ``"independent"``: each row errs for itself and all alike, as separately measured points do.
+#: This is the textbook's ``s^2 (J'J)^-1`` with n - p degrees of freedom; on a sampled motion it
+#: promises far too much.
+Errors = Literal["robust", "independent"]
+#: A bound counts as reached within this share of its range.
+AT_BOUND = 1e-6
+#: Least share of a parameter's effect that the other parameters cannot imitate: what systematic
+#: errors of a recording leave no room for, and what rounding does not.
+APART: dict[Errors, float] = {"robust": 1e-4, "independent": 1e-8}
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """One identified parameter: value, standard error and 95 % interval in `unit`.
+
+    A parameter that was `held` was not identified and has no error.
+    """
+
+    name: str
+    symbol: str
+    value: float
+    unit: str
+    stderr: float | None
+    ci95: tuple[float, float] | None
+    at_bound: bool
+    identifiable: bool
+    lower: float
+    upper: float
+    held: bool = False
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of a parameter."""
+        return {
+            "symbol": self.symbol,
+            "value": self.value,
+            "unit": self.unit,
+            "stderr": self.stderr,
+            "ci95": list(self.ci95) if self.ci95 else None,
+            "at_bound": self.at_bound,
+            "identifiable": self.identifiable,
+            "held": self.held,
+        }
+
+
+def estimates(
+    problem: Problem, values: Array, lower: Array, upper: Array, errors: Errors = "robust"
+) -> dict[str, Estimate]:
+    """The parameters at the solution `values` [p] between bounds, by name."""
+    residual, jacobian = problem.linearise(values)
+    held = lower == upper
+    at_bound = ~held & _reached(values, lower, upper)
+    shown = seen(jacobian, ~held, APART[errors])
+    free = shown & ~at_bound
+    if errors == "independent":
+        freedom = residual.size - int(free.sum())
+        covariance = independent(jacobian, residual, free)
+    else:
+        batch = batches(residual.size, correlation_length(residual))
+        freedom = max(int(batch.max()), 1)
+        covariance = sandwich(jacobian, residual, batch, free)
+    quantile = float(student.ppf(0.975, freedom))
+    made = {}
+    for k, p in enumerate(problem.model.parameters):
+        error = float(np.sqrt(covariance[k, k])) if free[k] else None
+        value = float(values[k])
+        made[p.name] = Estimate(
+            name=p.name,
+            symbol=p.symbol,
+            value=value,
+            unit=p.unit,
+            stderr=error,
+            ci95=None if error is None else (value - quantile * error, value + quantile * error),
+            at_bound=bool(at_bound[k]),
+            identifiable=bool(shown[k]),
+            lower=float(lower[k]),
+            upper=float(upper[k]),
+            held=bool(held[k]),
+        )
+    return made
+
+
+def _reached(values: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
+    """Which values [p] lie at a bound; a bound at infinity is never reached."""
+    size = np.where(np.isfinite(upper - lower), upper - lower, np.maximum(np.abs(values), 1.0))
+    return np.asarray((values <= lower + AT_BOUND * size) | (values >= upper - AT_BOUND * size))

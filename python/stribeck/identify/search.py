@@ -1,0 +1,202 @@
+"""Many starts: coarse searches first, then the best of them are finished on all rows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.identify.problem import Problem
+from stribeck.identify.reduced import ReducedProblem, Search
+from stribeck.identify.separable import CAUTIOUS, TOLERANCE, minimise
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+#: Of coarse searches whose sums of squares agree to this share one is finished.
+SAME = 1e-4
+#: Sums of squares that agree to this share are one minimum, or equal ones.
+TIE = 1e-9
+#: Without bounds, random starts lie within this factor of the given one, either way.
+SPREAD = 10.0
+#: Most steps of a search from the given start where there are no bounds.
+MOST_STEPS = 200
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How thoroughly a model is fitted.
+
+    Attributes
+    ----------
+    rows, samples
+        Rows that a start is searched on before the best ones are finished on all rows, and the
+        length of the stretch where a model has a state.
+    evaluations
+        Most evaluations of one start.
+    finished
+        Starts that are finished on all rows, until the next step foresees a relative fall of the
+        squared error below `tolerance`.
+    exact
+        Whether held-out predictions evaluate the model at each refit, or its linearisation.
+    """
+
+    rows: int = 4000
+    samples: int = 12000
+    evaluations: int = 60
+    finished: int = 2
+    tolerance: float = TOLERANCE
+    exact: bool = True
+
+
+#: For a fit that is reported.
+THOROUGH = Effort()
+#: For one of many candidates.
+QUICK = Effort(rows=3000, samples=6000, evaluations=30, finished=1, tolerance=1e-6, exact=False)
+
+
+def multi_start(
+    problem: Problem,
+    lower: Array,
+    upper: Array,
+    start: Array,
+    varied: Mask,
+    starts: int,
+    seed: int,
+    effort: Effort,
+) -> tuple[Search, int, int]:
+    """The best of searches from `start` and from random ones.
+
+    Between bounds, random starts are drawn evenly (evenly in the logarithm where a bound above
+    zero allows it) and nlopt searches them. Where a nonlinear parameter has no bounds, they lie
+    within a factor of `SPREAD` of `start` and Levenberg and Marquardt's method searches them: from
+    `start` itself twice, in the logarithms of the parameters, which keep the sign, and in the
+    parameters as they are.
+
+    Parameters
+    ----------
+    varied : bool array [p]
+        Parameters that random starts change; linear ones follow by themselves.
+
+    Returns
+    -------
+    Search, starts, evaluations
+    """
+    reduced = ReducedProblem(problem, lower, upper)
+    nonlinear = reduced.nonlinear
+    # Behind a bristle the torque is nearly linear in the amplitudes of dry friction: a search finds
+    # them from anywhere, and random ones would only spoil the start.
+    amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
+    moved = varied & nonlinear & ~amplitude
+    starts = max(starts, 1) if moved.any() else 1
+    bounded = bool(np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])))
+    rng = np.random.default_rng(seed)
+    if not nonlinear.any():
+        tried, evaluations = [Search(start, np.inf, True, "")], 0
+    elif bounded:
+        tried, evaluations = _between_bounds(reduced, start, moved, starts, rng, effort)
+    else:
+        tried, evaluations = _without_bounds(reduced, start, moved, starts, rng, effort)
+    rounding = np.finfo(float).eps * float(np.linalg.norm(problem.target))
+    finished = []
+    for search in _distinct(tried, rounding)[: effort.finished]:
+        done, count = minimise(problem, search.values, lower, upper, tolerance=effort.tolerance)
+        evaluations += count
+        finished.append(done)
+    return _winner(finished, rounding), starts, evaluations
+
+
+def _coarse(problem: Problem, effort: Effort) -> Problem:
+    """The problem on fewer rows."""
+    if problem.model.memoryless:
+        return problem.thinned(effort.rows)
+    return problem.window(effort.samples)
+
+
+def _between_bounds(
+    reduced: ReducedProblem,
+    start: Array,
+    moved: Mask,
+    starts: int,
+    rng: np.random.Generator,
+    effort: Effort,
+) -> tuple[list[Search], int]:
+    """Coarse searches by nlopt, best first, and their evaluations."""
+    coarse = ReducedProblem(_coarse(reduced.problem, effort), reduced.lower, reduced.upper)
+    nonlinear = reduced.nonlinear
+    tried = []
+    for k in range(starts):
+        at = start.copy()
+        if k > 0:
+            random = start.copy()
+            random[nonlinear] = reduced.decode(rng.uniform(size=int(nonlinear.sum())))
+            at[moved] = random[moved]
+        tried.append(coarse.search(at, effort.evaluations, 1e-7))
+    return sorted(tried, key=lambda search: search.square), coarse.evaluations
+
+
+def _without_bounds(
+    reduced: ReducedProblem,
+    start: Array,
+    moved: Mask,
+    starts: int,
+    rng: np.random.Generator,
+    effort: Effort,
+) -> tuple[list[Search], int]:
+    """Coarse searches by Levenberg and Marquardt's method in order, and their evaluations."""
+    lower, upper = reduced.lower, reduced.upper
+    coarse = _coarse(reduced.problem, effort)
+    signed = reduced.nonlinear & (start != 0.0)
+    evaluations = 0
+    tried = []
+
+    def search(at: Array, logarithmic: Mask, most: int) -> None:
+        nonlocal evaluations
+        found, count = minimise(
+            coarse, at, lower, upper, most=most, damping=CAUTIOUS, logarithmic=logarithmic
+        )
+        tried.append(found)
+        evaluations += count
+
+    # First what keeps the given signs: a formula may have the same torque at several values.
+    search(start, signed, MOST_STEPS)
+    search(start, np.zeros_like(signed), MOST_STEPS)
+    for _ in range(1, starts):
+        at = start.copy()
+        factor = SPREAD ** rng.uniform(-1.0, 1.0, size=start.size)
+        at[moved] = np.where(signed, start * factor, factor - 1.0)[moved]
+        search(np.clip(at, lower, upper), signed, effort.evaluations)
+    return tried, evaluations
+
+
+def _distinct(tried: list[Search], rounding: float) -> list[Search]:
+    """The searches that ended in different places, best first.
+
+    The first of those tried stands for others that found the same.
+    """
+    kept: list[Search] = []
+    for search in sorted(tried, key=lambda search: search.square):
+        if not any(abs(search.square - k.square) <= SAME * k.square for k in kept):
+            kept.append(tried[0] if _same(tried[0], search, rounding) else search)
+    return kept
+
+
+def _winner(finished: list[Search], rounding: float) -> Search:
+    """The lowest; of those that found the same, the first."""
+    best = min(finished, key=lambda search: search.square)
+    return next(search for search in finished if _same(search, best, rounding))
+
+
+def _same(one: Search, other: Search, rounding: float) -> bool:
+    """Whether two sums of squares differ by rounding alone.
+
+    Parameters
+    ----------
+    rounding : float
+        Norm of the torque's rounding, which is all that is left where a model fits exactly.
+    """
+    if one is other:
+        return True
+    margin = TIE * other.square + 16.0 * rounding * np.sqrt(other.square) + rounding**2
+    return bool(abs(one.square - other.square) <= margin)
