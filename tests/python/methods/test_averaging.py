@@ -10,7 +10,7 @@ import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.errors import FitError
-from stribeck.methods import averaged_points
+from stribeck.methods import averaged_points, grid_fit
 
 SPEEDS = [0.02, 0.05, 0.08, 0.15, 0.3, 0.6, 1.0, 1.5]
 
@@ -81,3 +81,14 @@ def test_passes_over_other_positions_are_refused(tmp_path: Path) -> None:
 def test_no_bins_are_refused(tmp_path: Path) -> None:
     with pytest.raises(FitError, match="--bins 0"):
         averaged_points(read(tmp_path, passes.log([0.3])), bins=0)
+
+
+def test_a_law_with_load_is_identified_from_bins(tmp_path: Path) -> None:
+    """M1 of the paper: the load torque that it needs is half the sum of both directions."""
+    frame = passes.log([*SPEEDS], stroke=1.7, load_share=0.1)
+    averaged_points(read(tmp_path, frame), bins=6).write(tmp_path / "points.csv")
+    law = sb.model("m1", constants={"stribeck_exponent": 2.0})
+    fit = grid_fit(law, sb.read(tmp_path / "points.csv"))
+    assert fit.model.value("load_coulomb") == pytest.approx(0.1, rel=0.05)
+    assert fit.model.value("coulomb_friction") == pytest.approx(passes.COULOMB, rel=0.02)
+    assert fit.model.value("stribeck_velocity") == pytest.approx(passes.STRIBECK_VELOCITY, rel=0.05)
