@@ -93,6 +93,53 @@ DYNAMIC["tadese_t"] = _bristle(
 )
 
 
+def _quadrant(v: float, x: Any) -> int:
+    """1 to 4 for (v, tl) = ++, -+, --, +-; 0 at rest or without load (Tadese et al., figure 3)."""
+    return {(1, 1): 1, (-1, 1): 2, (-1, -1): 3, (1, -1): 4}.get(
+        (int(np.sign(v)), int(np.sign(x.tl))), 0
+    )
+
+
+def _by_direction(p: Any, name: str, v: float) -> float:
+    return float(getattr(p, f"{name}_plus" if v > 0 else f"{name}_minus"))
+
+
+def _four_quadrants(v: float, p: Any, x: Any) -> float:
+    """Tadese et al. 2021, eqs 13 (with the sign that friction needs) and 15."""
+    if v == 0:
+        return 0.0
+    level = _by_direction(p, "s20", v) + _by_direction(p, "s2T", v) * x.T
+    speed = _by_direction(p, "s30", v) + _by_direction(p, "s3T", v) * x.T
+    viscous = np.sign(v) * level * (1 - np.exp(-abs(v / speed)))
+    i = _quadrant(v, x)
+    if i == 0:
+        return float(viscous)
+    g1, g2, g3, l1, l2 = (getattr(p, f"{name}_{i}") for name in ("g1", "g2", "g3", "l1", "l2"))
+    return float(viscous + g1 * (1 - np.exp(-abs(g2 * v))) + g3 + (l1 + l2 * v) * x.tl)
+
+
+DYNAMIC["tadese_full"] = _bristle(
+    dry=lambda v, p, x: _by_direction(p, "Fc", v),
+    stiffness=lambda p: p.s0,
+    damping=lambda v, p, x: float(p.s1 * np.exp(-abs(v / p.vd))),
+    rest=_four_quadrants,
+)
+
+
+def _xiao_load(v: float, p: Any, x: Any) -> float:
+    """A coefficient per quadrant on |tl|, after the review, section 2.2."""
+    i = _quadrant(v, x)
+    return float(p.s2 * v + (np.sign(v) * getattr(p, f"l_{i}") * abs(x.tl) if i else 0.0))
+
+
+DYNAMIC["xiao"] = _bristle(
+    dry=lambda v, p, x: p.Fc + (p.Fs - p.Fc) * _stribeck(v, p.vs, 2),
+    stiffness=lambda p: p.s0,
+    damping=lambda v, p, x: p.s1,
+    rest=_xiao_load,
+)
+
+
 def _dahl_rate(z: Array, v: float, p: Any, x: Any) -> Array:
     u = 1 - np.sign(v) * p.a1 * z / p.a2
     return v * np.sign(u) * np.abs(u) ** p.a3

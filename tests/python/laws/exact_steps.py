@@ -87,6 +87,47 @@ EXACT["tadese_t"] = _bristle(
 )
 
 
+def _quadrant(v: mpf, x: Any) -> int:
+    """1 to 4 for (v, tl) = ++, -+, --, +-; 0 at rest or without load."""
+    return int({(1, 1): 1, (-1, 1): 2, (-1, -1): 3, (1, -1): 4}.get((sign(v), sign(x.tl)), 0))
+
+
+def _side(p: Any, name: str, v: mpf) -> Dual:
+    return getattr(p, name + ("_plus" if v > 0 else "_minus"))
+
+
+def _four_quadrants(v: mpf, p: Any, x: Any) -> Dual:
+    level = _side(p, "s20", v) + _side(p, "s2T", v) * x.T
+    speed = _side(p, "s30", v) + _side(p, "s3T", v) * x.T
+    viscous = level * rising(v / speed) * sign(v)
+    i = _quadrant(v, x)
+    if not i:
+        return viscous
+    g1, g2, g3, l1, l2 = (getattr(p, f"{name}_{i}") for name in ("g1", "g2", "g3", "l1", "l2"))
+    return viscous + g1 * rising(g2 * v) + g3 + (l1 + l2 * v) * x.tl
+
+
+EXACT["tadese_full"] = _bristle(
+    dry=lambda v, p, x: _side(p, "Fc", v),
+    stiffness=lambda p: p.s0,
+    damping=lambda v, p, x: p.s1 * exp(-abs(v) / magnitude(p.vd)),
+    rest=_four_quadrants,
+)
+
+
+def _xiao_load(v: mpf, p: Any, x: Any) -> Dual:
+    i = _quadrant(v, x)
+    return p.s2 * v + (getattr(p, f"l_{i}") * abs(x.tl) * sign(v) if i else 0)
+
+
+EXACT["xiao"] = _bristle(
+    dry=lambda v, p, x: p.Fc + (p.Fs - p.Fc) * stribeck(Dual(v), p.vs, 2),
+    stiffness=lambda p: p.s0,
+    damping=lambda v, p, x: p.s1,
+    rest=_xiao_load,
+)
+
+
 def _dahl_advance(z: State, v: mpf, dt: mpf, p: Any, x: Any) -> State:
     """du/dt = -k sgn(u) |u|^a3 for u = 1 - sgn(v) a1 z/a2 and k = a1 |v|/a2."""
     if not v:

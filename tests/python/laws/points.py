@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from itertools import product
+from itertools import islice, product
 from typing import Any
 from zlib import crc32
 
@@ -16,15 +16,24 @@ from stribeck.model import Parameter, catalog
 from laws.published import TABLE_7
 from laws.reference import LETTERS
 
-#: A joint of a collaborative robot: 2 rad/s, 10 N m, an excursion of 1 rad, 5 rad/s2, 1 kHz.
+#: A joint of a collaborative robot.
+SPEED, TORQUE, EXCURSION, ACCELERATION, PERIOD = 2.0, 10.0, 1.0, 5.0, 1e-3
+
+#: What the catalog's bounds are multiples of, for that joint.
 SCALES = {
     "none": 1.0,
-    "speed": 2.0,
-    "torque": 10.0,
-    "stiffness": 10.0,
-    "damping": 5.0,
-    "inertia": 2.0,
-    "sample_period": 1e-3,
+    "speed": SPEED,
+    "torque": TORQUE,
+    "stiffness": TORQUE / EXCURSION,
+    "damping": TORQUE / SPEED,
+    "square_damping": TORQUE / SPEED**2,
+    "cubic_damping": TORQUE / SPEED**3,
+    "root_damping": TORQUE / SPEED**0.5,
+    "inverse_speed": 1 / SPEED,
+    "inverse_torque": 1 / TORQUE,
+    "inertia": TORQUE / ACCELERATION,
+    "torque_rate": TORQUE * SPEED / EXCURSION,
+    "sample_period": PERIOD,
 }
 
 #: Fixed constants, drawn between these. The base temperature stays below all temperatures.
@@ -139,31 +148,53 @@ TURNING: dict[str, tuple[dict[str, float], ...]] = {
     "bittencourt_b": ({"a8": -25.0, "a9": 0.5},),
     "iskandar": ({"a5": 8.0, "a6": -1.0, "a7": 0.03125}, {"a11": 0.5, "a12": 0.0, "a13": 0.0}),
     "m_star": ({"vs0": -25.0, "vs_T": 0.5},),
-    "zhou": ({"a2": 0.0}, {"a2": 1.0, "a5": 1.0}),
-    "wolf": ({"a6": 0.0}, {"a6": 1.0, "a4": 1.0}),
-    "li": ({"a4": 0.0}, {"a4": 0.5}),
-    "dong": ({"a3": 16.34, "a5": 16.34}, {"a3": 0.0, "a5": 0.0}),
-    "makkar": ({"a2": 3.0, "a3": 3.0},),
-    "gaz_a": ({"a4": 0.0}, {"a4": 1e6, "a5": 0.0}),
-    "gaz_b": ({"a2": 1e4, "a3": 1.0}, {"a2": 0.0}, {"a3": -5.0}, {"a3": 0.0}),
-    "shao": ({"a3": 0.0}, {"a3": 1e9}),
+    "zhou": ({"a2": 1.0, "a5": 1.0},),
+    "wolf": ({"a4": 1.0, "a6": 1.0},),
+    "li": ({"a4": 0.5},),
+    "dong": ({"a3": 16.34, "a5": 16.34}, {"a3": 1e-9, "a5": 1e-9}),
+    "makkar": ({"a2": 3.0, "a3": 3.0}, {"a3": 0.0}),
+    "gaz_a": ({"a4": 1e-9}, {"a4": 1e6, "a5": 0.0}),
+    "gaz_b": ({"a2": 1e4, "a3": 1.0}, {"a2": 1e-9}, {"a2": 1e3, "a3": -5.0}, {"a3": 0.0}),
+    "shao": ({"a3": 1e-9}, {"a3": 1e9}),
 }
 
 #: Temperatures at which one of `TURNING` is singular, and one that is not.
 TEMPERATURES = (30.0, 50.0, 16.0)
 
 SPEEDS = (0.0, 5e-324, 1e-300, 1e-40, 1e-12, 1e-3, 0.25, 1.0, 3.0, 1e6, LARGEST["v"])
-TORQUES = ((0.0, 0.0, 0.0), (1.0, 1.0, -1.0), (-2.0, 4.0, 1.0), (1e6, -1e6, 1e6), (3.0, 3.0, 3.0))
+#: Load, motor and external torque, and acceleration.
+EFFORTS = (
+    (0.0, 0.0, 0.0, 0.0),
+    (1.0, 1.0, -1.0, 2.0),
+    (-2.0, 4.0, 1.0, -3.0),
+    (1e6, -1e6, 1e6, 1e6),
+    (3.0, 3.0, 3.0, -1e-9),
+)
 
 
-def special_points(law: str) -> Iterator[Point]:
-    """Rest, the smallest and the largest speeds, loads and exponents, singular temperatures."""
+def special_points(law: str, stride: int = 1) -> Iterator[Point]:
+    """Rest, the smallest and the largest speeds, loads and exponents, singular temperatures.
+
+    With a `stride`, every so many of the points; 7 shares no factor with the inputs' counts.
+    """
+    return islice(_special_points(law), 0, None, stride)
+
+
+def _special_points(law: str) -> Iterator[Point]:
     rng = generator(law, "special")
     constants = draw_constants(rng, law)
+    reads = catalog()["laws"][law]["channels"]
     speeds = [s * v for v in SPEEDS for s in (1.0, -1.0)]
-    for parameters in special_parameters(law, rng):
-        for v, T, (tl, tm, te) in product(speeds, TEMPERATURES, TORQUES):
-            inputs = {"v": v, "T": T, "tl": tl, "tm": tm, "te": te, "a": 0.0, "q": 0.0}
+    temperatures = TEMPERATURES if "temperature" in reads else TEMPERATURES[:1]
+    efforts = EFFORTS if set(reads) - {"temperature"} else EFFORTS[:1]
+    everywhere = list(product(speeds, temperatures, efforts))
+    somewhere = list(product((3.0, -0.25, 0.0), temperatures[:1], efforts[2:3] or efforts))
+    for parameters, where in [
+        *((each, everywhere) for each in special_parameters(law, rng)),
+        *((each, somewhere) for each in vanishing_parameters(law, rng)),
+    ]:
+        for v, T, (tl, tm, te, a) in where:
+            inputs = {"v": v, "T": T, "tl": tl, "tm": tm, "te": te, "a": a, "q": 0.0}
             yield Point(law, parameters, inputs, constants)
 
 
@@ -180,3 +211,12 @@ def special_parameters(law: str, rng: np.random.Generator) -> Iterator[dict[str,
     if steep:
         near_one = {p.symbol: 0.25 for p in table if "stribeck_velocity" in p.name}
         yield {**drawn, **steep, **near_one}
+
+
+def vanishing_parameters(law: str, rng: np.random.Generator) -> Iterator[dict[str, float]]:
+    """The start of a fit, and each parameter that may be 0 at 0, the others drawn."""
+    table = sb.model(law).parameters
+    yield {p.symbol: p.start * SCALES[p.scale] for p in table}
+    for vanishing in table:
+        if vanishing.lower <= 0 <= vanishing.upper:
+            yield {p.symbol: draw(rng, p) for p in table} | {vanishing.symbol: 0.0}

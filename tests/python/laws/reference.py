@@ -51,6 +51,10 @@ Terms = Callable[[Any, Any], list[Dual]]
 #: The terms of every static law, by id.
 STATIC: dict[str, Terms] = {}
 
+#: The terms as printed, where `STATIC` has joined some to show that they cancel at rest. Their
+#: derivatives by the parameters do not cancel and are judged one by one.
+PRINTED: dict[str, Terms] = {}
+
 
 def law(of: Terms) -> Terms:
     """Enter a law under the name of its function."""
@@ -184,7 +188,9 @@ def _one_minus_exp(x: Dual) -> Dual:
 
 @law
 def gaz_a(p: Any, x: Any) -> list[Dual]:
-    return [p.a1 * x.v, p.a2, p.a3 * sigmoid(p.a4 * (x.v + p.a5))]
+    """1/(1 + exp(-y)) = (1 + tanh(y/2))/2: a constant torque and a smoothed sign."""
+    half = p.a3 / 2
+    return [p.a1 * x.v, p.a2, half, half * tanh(p.a4 * (x.v + p.a5) / 2)]
 
 
 @law
@@ -198,6 +204,13 @@ def gaz_b(p: Any, x: Any) -> list[Dual]:
     if u.value > 0:
         return [p.a1 * _one_minus_exp(u) * sigmoid(u + w) * sigmoid(-w)]
     return [-p.a1 * _one_minus_exp(-u) * sigmoid(-(u + w)) * sigmoid(w)]
+
+
+def _gaz_b_printed(p: Any, x: Any) -> list[Dual]:
+    return [p.a1 * sigmoid(p.a2 * (x.v + p.a3)), -p.a1 * sigmoid(p.a2 * p.a3)]
+
+
+PRINTED["gaz_b"] = _gaz_b_printed
 
 
 @law
@@ -402,6 +415,22 @@ def m_star(p: Any, x: Any) -> list[Dual]:
         p.Fv0 * x.v,
         p.Fv_T * exp(-x.T / p.TV) * x.v,
     ]
+
+
+@law
+def karahan_karci(p: Any, x: Any) -> list[Dual]:
+    """One set for each combination of the signs of v and a; steady motion counts as speeding up.
+
+    The paper was not to be had: this is the review's description of it, section 2.1, with the
+    usual Gaussian Stribeck curve.
+    """
+    s = sign(x.v)
+    speeding = sign(x.a) or s
+    side = {1: "p", -1: "m", 0: "p"}
+    which = side[int(s)] + side[int(speeding)]
+    fc, fs, fv, vs = (getattr(p, f"{name}_{which}") for name in ("Fc", "Fs", "Fv", "vs"))
+    e = stribeck(x.v, vs, 2)
+    return [s * fc, s * fs * e, -s * fc * e, fv * x.v]
 
 
 # Servo laws: Duclusaud et al. 2024. te is the torque of the environment, tm the motor's.

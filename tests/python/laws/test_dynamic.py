@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from stribeck.model import law_ids
+from stribeck.model import Parameter, law_ids
 
 from laws import dynamics, exact_steps
 from laws.dynamics import DYNAMIC, Motion
@@ -41,17 +42,34 @@ def base(spec: str) -> str:
     return spec.partition(":")[0]
 
 
-def parameter_sets(spec: str) -> dict[str, dict[str, float]]:
-    """Table 7 where it has the law, and three drawn sets that keep the dry friction positive."""
+#: A real joint's part of the bounds, where a stiff solver takes seconds instead of hours.
+PLAUSIBLE = {"bristle_stiffness": (1e2, 1e5), "dahl_exponent": (1.0, 3.0)}
+
+
+def parameter_sets(spec: str, *, wide: bool = False) -> dict[str, dict[str, float]]:
+    """Table 7 where it has the law, and drawn sets that keep the dry friction positive.
+
+    `wide` draws between all of the catalog's bounds.
+    """
     law = base(spec)
     sets = {"table 7": DYNAMIC_LAWS[law]} if law in DYNAMIC_LAWS else {}
     rng = generator(spec, "dynamic")
     table = sb.model(spec).parameters
-    while len(sets) < 3 + (law in DYNAMIC_LAWS):
+    if not wide:
+        table = tuple(replace_bounds(p) for p in table)
+    while len(sets) < (8 if wide else 3):
         drawn = {p.symbol: draw(rng, p) for p in table}
         if least_dry(spec, drawn) > 0.1:
             sets[f"drawn {len(sets)}"] = drawn
     return sets
+
+
+def replace_bounds(p: Parameter) -> Parameter:
+    """The parameter between plausible bounds."""
+    if p.name not in PLAUSIBLE:
+        return p
+    lower, upper = PLAUSIBLE[p.name]
+    return replace(p, lower=lower, upper=upper, scale="none")
 
 
 def least_dry(spec: str, parameters: dict[str, float]) -> float:
@@ -123,7 +141,7 @@ def test_steps_and_their_gradients_are_exact(spec: str) -> None:
     """Against the solution at 50 digits: 1e-11 of the size of the torque, gradients 1e-9 of their
     largest entry over the motion and of the torque per parameter."""
     motion, constants = steps(spec)
-    for name, parameters in parameter_sets(spec).items():
+    for name, parameters in parameter_sets(spec, wide=True).items():
         model = made(spec, parameters, constants)
         symbols = [p.symbol for p in model.parameters]
         duals = exact_steps.solve(EXACT[base(spec)], parameters, motion, constants)
@@ -154,9 +172,25 @@ def test_the_references_agree(spec: str) -> None:
         assert np.max(np.abs(value - solved.torque) / solved.size) <= 1e-9
 
 
-#: Amplitude and frequency of the smooth motion: 0.05 rad at 1 Hz.
+#: The smooth motion: 0.05 rad at 1 Hz, compared at equal instants.
 AMPLITUDE, OMEGA = 0.05, 2 * np.pi
-DURATION, INSTANTS = 1.3, 500
+DURATION, INSTANTS = 1.25, 500
+#: Steps by thirds: a reversal in the middle of a coarse step is in the middle of a finer one, so
+#: that its part of the error does not depend on where the grid happens to lie.
+ROWS = (4000, 12000, 36000)
+PHASE = OMEGA * (0.05 + 0.5 * DURATION / ROWS[0])
+
+
+def position(t: Array) -> Array:
+    return AMPLITUDE * np.sin(OMEGA * t - PHASE)
+
+
+def speed(t: Array | float) -> Array:
+    return AMPLITUDE * OMEGA * np.cos(OMEGA * t - PHASE)
+
+
+def acceleration(t: Array | float) -> Array:
+    return -AMPLITUDE * OMEGA**2 * np.sin(OMEGA * t - PHASE)
 
 
 def smooth_torque(spec: str, parameters: dict[str, float], constants: dict[str, float]) -> Array:
@@ -164,15 +198,14 @@ def smooth_torque(spec: str, parameters: dict[str, float], constants: dict[str, 
     law, p = DYNAMIC[base(spec)], SimpleNamespace(**parameters)
 
     def inputs(t: float) -> SimpleNamespace:
-        acceleration = -AMPLITUDE * OMEGA**2 * np.sin(OMEGA * t)
-        return SimpleNamespace(**STILL, a=acceleration, **constants)
+        return SimpleNamespace(**STILL, a=float(acceleration(t)), **constants)
 
     def velocity(t: float) -> float:
-        return float(AMPLITUDE * OMEGA * np.cos(OMEGA * t))
+        return float(speed(t))
 
     times = np.linspace(0, DURATION, INSTANTS + 1)[1:]
     z = np.zeros(law.states(inputs(0.0)))
-    tolerance = 1e-9 * law.dry(velocity(0.0), p, inputs(0.0)) / law.stiffness(p)
+    tolerance = 1e-10 * law.dry(velocity(0.0), p, inputs(0.0)) / law.stiffness(p)
     solved = solve_ivp(
         lambda t, z: law.rate(z, velocity(t), p, inputs(t)),
         (0.0, DURATION), z, method="Radau", rtol=1e-11, atol=tolerance,
@@ -193,16 +226,14 @@ STILL = {"T": 30.0, "tl": 8.0, "tm": 9.0, "te": -8.0, "q": 0.0}
 def sampled_torque(model: sb.Model, rows: int, *, mean: bool) -> Array:
     """The core over the sampled motion, at the instants of `smooth_torque`."""
     t = np.linspace(0, DURATION, rows + 1)
-    position = AMPLITUDE * np.sin(OMEGA * t)
-    velocity = AMPLITUDE * OMEGA * np.cos(OMEGA * t[1:])
     dt = np.diff(t)
     torque = model.core.torque(
         model.values,
         dt,
-        velocity,
-        acceleration=-(OMEGA**2) * position[1:],
+        speed(t[1:]),
+        acceleration=acceleration(t[1:]),
         position=np.zeros(rows),
-        mean_velocity=np.diff(position) / dt if mean else None,
+        mean_velocity=np.diff(position(t)) / dt if mean else None,
         **{
             name: np.full(rows, STILL[letter])
             for name, letter in {
@@ -223,7 +254,7 @@ SMOOTH = [spec for spec in SPECS if base(spec) not in ("gms", "leuven")]
 @pytest.mark.parametrize("mean", [False, True], ids=["end of step", "mean velocity"])
 @pytest.mark.parametrize("spec", SMOOTH)
 def test_order_on_a_smooth_motion(spec: str, mean: bool) -> None:
-    """Halving the step halves the error; with the step's mean velocity it quarters it."""
+    """First order in the step; second with the step's mean velocity."""
     _, constants = steps(spec)
     for name, parameters in smooth_sets(spec).items():
         model = made(spec, parameters, constants)
@@ -231,23 +262,31 @@ def test_order_on_a_smooth_motion(spec: str, mean: bool) -> None:
         errors = np.array(
             [
                 np.sqrt(np.mean((sampled_torque(model, rows, mean=mean) - expected) ** 2))
-                for rows in (4000, 8000, 16000)
+                for rows in ROWS
             ]
         )
-        order = np.log2(errors[:-1] / errors[1:])
-        least = 1.7 if mean else 0.9
-        assert np.all(order >= least), (name, errors.tolist(), order.tolist())
+        order = np.log(errors[:-1] / errors[1:]) / np.log(3)
+        above_the_solver = errors[1:] > 3e-9 * np.max(np.abs(expected))
+        least = 1.8 if mean else 0.9
+        assert np.all(order[above_the_solver] >= least), (name, errors.tolist(), order.tolist())
+        assert above_the_solver[0] or mean
 
 
 def smooth_sets(spec: str) -> dict[str, dict[str, float]]:
     """Parameters whose bristle the steps resolve."""
-    return {k: v for k, v in parameter_sets(spec).items() if pace(spec, v) * DURATION / 4000 < 0.3}
+    return {
+        k: v for k, v in parameter_sets(spec).items() if pace(spec, v) * DURATION / ROWS[0] < 0.3
+    }
 
 
 def pace(spec: str, parameters: dict[str, float]) -> float:
-    """s0 v/D at the largest speed of the smooth motion (1/s)."""
+    """How fast the bristle moves at the largest speed of the smooth motion (1/s): s0 v/D.
+
+    Dahl's turns back faster: from u = 2 the slope of |u|^a3 is a3 2^(a3 - 1).
+    """
     _, constants = steps(spec)
     p, v = SimpleNamespace(**parameters), AMPLITUDE * OMEGA
     x = SimpleNamespace(**STILL, a=0.0, **constants)
     law = DYNAMIC[base(spec)]
-    return law.stiffness(p) * v / law.dry(v, p, x)
+    steepest = p.a3 * 2 ** (p.a3 - 1) if base(spec) == "dahl" else 1.0
+    return steepest * law.stiffness(p) * v / law.dry(v, p, x)

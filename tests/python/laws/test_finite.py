@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck import _core
-from stribeck.model import catalog, law_ids
+from stribeck.model import law_ids
 
 from laws.points import LARGEST, SCALES, SPEEDS, draw_constants, generator
 
@@ -71,15 +71,14 @@ def test_torque_is_finite_in_single_precision(law: str) -> None:
         assert not bad.size, f"torque of {describe(model)} at {row(columns, bad[0])}"
 
 
-@pytest.mark.parametrize("law", [law for law, row in catalog()["laws"].items() if row.get("pole")])
+@pytest.mark.parametrize("law", ["li", "madsen"])
 def test_temperatures_around_a_pole_are_refused(law: str) -> None:
-    rng = generator(law, "pole")
-    model = corner(law, rng)
+    """T^-3 of li and (T - T0)^-3 of madsen have no limit there."""
+    model = corner(law, generator(law, "pole"))
     pole = model.constants.get("base_temperature", 0.0)
-    with pytest.raises(_core.ModelError, match="no limit"):
-        model.torque([1.0, 1.0], temperature=[pole - 1, pole + 1], load_torque=0.0)
-    with pytest.raises(_core.ModelError, match="no limit"):
-        model.torque([1.0], temperature=[pole], load_torque=0.0)
+    for temperatures in ([pole - 1, pole + 1], [pole]):
+        with pytest.raises(_core.ModelError, match="no limit"):
+            model.torque([1.0] * len(temperatures), temperature=temperatures, load_torque=0.0)
 
 
 def describe(model: sb.Model) -> str:
