@@ -22,16 +22,9 @@ def torque_cutoff(recording: Recording) -> float | None:
     The band ends where 99 % of the velocity's power lies below. None where there is nothing to
     filter: steady-state points, or a motion as fast as the sampling.
     """
-    v = recording.velocity
-    if recording.averaged or v.size < 64 or recording.rate_hz <= 0:
+    if recording.motion_band is None:
         return None
-    power = np.abs(np.fft.rfft(v - v.mean())) ** 2
-    total = np.cumsum(power)
-    if total[-1] <= 0:
-        return None
-    frequency = np.fft.rfftfreq(v.size, 1.0 / recording.rate_hz)
-    band = float(frequency[int(np.searchsorted(total, 0.99 * total[-1]))])
-    cutoff = 10.0 * max(band, recording.rate_hz / v.size)
+    cutoff = 10.0 * recording.motion_band
     return cutoff if cutoff < 0.4 * recording.rate_hz else None
 
 

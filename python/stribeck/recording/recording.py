@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
+
+from stribeck.recording.rows import SIGMAS, noise_level
 
 __all__ = ["Column", "Recording"]
 
@@ -141,23 +144,40 @@ class Recording:
             "velocity_threshold": self.velocity_threshold,
         }
 
-    def columns_for_model(self, smooth: bool = False) -> dict[str, Floats | None]:
-        """Return what a friction law reads, by argument name.
+    def denoised(self, channel: str) -> Floats:
+        """Return a channel's noise taken out where that does not bend the signal, [n].
 
-        Parameters
-        ----------
-        smooth
-            Take the low-passed kinematics and load.
+        The smoothed channel where it differs by noise alone, the measured one elsewhere; where a
+        channel has no smoothed form, itself. Found once.
         """
-        return {
-            "dt": self.dt,
-            "velocity": self.velocity_smooth if smooth else self.velocity,
-            "position": self.position_smooth if smooth else self.position,
-            "acceleration": self.acceleration_smooth if smooth else self.acceleration,
-            "temperature": self.temperature,
-            "load_torque": self.load_torque_smooth if smooth else self.load_torque,
-            "motor_torque": self.torque,
-        }
+        if channel not in self._denoised:
+            measured = getattr(self, channel)
+            smooth = getattr(self, f"{channel}_smooth", None)
+            if smooth is None:
+                self._denoised[channel] = measured
+            else:
+                sigma = noise_level(self.time, measured, self.segment)
+                near = np.abs(smooth - measured) <= SIGMAS * sigma
+                self._denoised[channel] = np.where(near, smooth, measured)
+        return self._denoised[channel]
+
+    @cached_property
+    def _denoised(self) -> dict[str, Floats]:
+        return {}
+
+    @cached_property
+    def motion_band(self) -> float | None:
+        """Frequency in Hz below which 99 % of the velocity's power lies; None where none can be."""
+        v = self.velocity
+        if self.averaged or v.size < 64 or self.rate_hz <= 0:
+            return None
+        power = np.abs(np.fft.rfft(v - v.mean())) ** 2
+        total = np.cumsum(power)
+        if total[-1] <= 0:
+            return None
+        frequency = np.fft.rfftfreq(v.size, 1.0 / self.rate_hz)
+        band = float(frequency[int(np.searchsorted(total, 0.99 * total[-1]))])
+        return max(band, self.rate_hz / v.size)
 
     def scales(self) -> dict[str, float]:
         """Return typical sizes for scaling parameters, each in the channel's unit.
@@ -167,6 +187,10 @@ class Recording:
         (excursion), acceleration (99th percentile of the smooth one), sample_period (median step),
         temperature (span). A channel that is absent has scale 0.
         """
+        return self._scales
+
+    @cached_property
+    def _scales(self) -> dict[str, float]:
         moving = self.moving if self.moving.any() else np.ones(len(self.moving), dtype=bool)
         steps = self.dt[self.dt > 0.0]
         seen = self.torque if self.drive is None or self.load_torque is None else self.load_torque

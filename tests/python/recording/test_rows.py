@@ -233,8 +233,10 @@ def test_smooth_is_closer_than_raw(write):
     recording = read(write(joint(6000, noise=0.02)))
     v = exact["velocity"].to_numpy()
     assert np.std(recording.velocity_smooth - v) < 0.4 * np.std(recording.velocity - v)
-    assert recording.columns_for_model(smooth=True)["velocity"] is recording.velocity_smooth
-    assert recording.columns_for_model()["velocity"] is recording.velocity
+    denoised = recording.denoised("velocity")
+    assert np.std(denoised - v) < 0.4 * np.std(recording.velocity - v)
+    assert recording.denoised("velocity") is denoised
+    assert recording.denoised("temperature") is recording.temperature
 
 
 def test_scales(write, frame):
