@@ -92,6 +92,7 @@ class Fit:
             "seconds": self.seconds,
             "passive": None,
             "rigid_body": list(self.model.rigid_body),
+            "drive": self.model.drive,
             "transients": [list(pair) for pair in stretches(self.recording, self.transient)],
             "scored": self.recording.scored(),
             "notes": [*self.recording.notes, *self.notes],
@@ -365,6 +366,7 @@ def _finish(
     residual = recording.torque - held_out
     blocks = np.unique(recording.block[moving]).size
     has_held_out = blocks >= 2 and bool(np.all(np.isfinite(residual[moving])))
+    counted = moving if recording.counted is None else moving & recording.counted
     notes: tuple[str, ...] = ()
     if marked.any():
         spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, marked))
@@ -387,7 +389,7 @@ def _finish(
         prediction=prediction,
         held_out=held_out,
         rmse=rms((recording.torque - prediction)[moving]),
-        rmse_held_out=rms(residual[moving]) if has_held_out else None,
+        rmse_held_out=rms(residual[counted]) if has_held_out else None,
         relative_residual=relative_residual(recording, residual) if has_held_out else None,
         starts=solution.starts,
         converged=solution.converged,

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
 from stribeck.errors import SpecError, nearest
+from stribeck.servo.drive import ARMATURE, KNOWN, VoltageDrive
 
 Array = NDArray[np.float64]
 
@@ -121,6 +122,10 @@ class Model:
         friction; their parameters are part of `values`.
     values
         One value a parameter, NaN where none is known yet.
+    drive
+        ``"voltage"``: a fit predicts the voltage on the joint's motor, whose constants are
+        parameters too; what is known of them stands in `constants`. `core`, `torque`, `gradient`
+        and `split` speak of the friction alone, and so does `friction`, the model without a drive.
 
     Examples
     --------
@@ -138,6 +143,7 @@ class Model:
     position_unit: str = "rad"
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    drive: str | None = None
 
     def __post_init__(self) -> None:
         if self.values.shape != (len(self.names),):
@@ -152,10 +158,45 @@ class Model:
                     f"{term} is identified with the friction already (the recording has no "
                     f"load_torque), so effect {term!r} cannot be added"
                 )
+        return self._compiled(self.effects + self.rigid_body)
+
+    @cached_property
+    def predictor(self) -> _core.Model | VoltageDrive:
+        """What predicts the measured effort: the compiled model, or the drive around it."""
+        if self.drive is None:
+            return self.core
+        if "inertia" in self.effects:
+            raise SpecError(
+                f"the drive has an {ARMATURE} already, so effect 'inertia' cannot be added"
+            )
+        return VoltageDrive(
+            self._compiled((*self.effects, *self.rigid_body, "inertia")), self.constants
+        )
+
+    def _compiled(self, effects: tuple[str, ...]) -> _core.Model:
+        constants = {name: x for name, x in self.constants.items() if name not in KNOWN}
         try:
-            return _core.Model(self.law, list(self.effects + self.rigid_body), dict(self.constants))
+            return _core.Model(self.law, list(effects), constants)
         except _core.ModelError as error:
             raise SpecError(str(error)) from None
+
+    @property
+    def friction(self) -> Model:
+        """The friction alone, without a drive, in N m or N."""
+        if self.drive is None:
+            return self
+        constants = {name: x for name, x in self.constants.items() if name not in KNOWN}
+        return replace(
+            self, constants=constants, drive=None, torque_unit=self.load_unit,
+            values=self._friction_values,
+        )  # fmt: skip
+
+    @property
+    def load_unit(self) -> str:
+        """Unit of loads and friction: the effort's, unless a drive stands between."""
+        if self.drive is None:
+            return self.torque_unit
+        return "N m" if self.position_unit == "rad" else "N"
 
     @property
     def spec(self) -> str:
@@ -178,17 +219,17 @@ class Model:
                 role=row["role"],
                 description=row["description"],
             )
-            for row in self.core.parameters()
+            for row in self.predictor.parameters()
         )
 
     def _unit(self, unit: str) -> str:
         """Spell the catalog's unit (T torque or force, X position) for this joint."""
-        spelled = {"T": self.torque_unit, "X": self.position_unit}
+        spelled = {"T": self.load_unit, "X": self.position_unit}
         words = [
             "/".join(spelled.get(part, part) for part in word.split("/"))
             for word in unit.split(" ")
         ]
-        if unit == "T s2/X" and self.torque_unit in ("N m", "N"):
+        if unit == "T s2/X" and self.load_unit in ("N m", "N"):
             return "kg m2" if self.position_unit == "rad" else "kg"
         return " ".join(words)
 
@@ -357,16 +398,16 @@ class Model:
                 return None
             return np.ascontiguousarray(np.broadcast_to(values, speed.shape), dtype=np.float64)
 
-        external = column(external_torque)
-        if external is None and load_torque is not None and "external_torque" in self.core.needs:
-            external = -column(load_torque)
+        external, load = column(external_torque), column(load_torque)
+        if external is None and load is not None and "external_torque" in self.core.needs:
+            external = -load
         return {
             "dt": np.zeros_like(speed) if dt is None else column(dt),
             "velocity": speed,
             "position": column(position),
             "acceleration": column(acceleration),
             "temperature": column(temperature),
-            "load_torque": column(load_torque),
+            "load_torque": load,
             "motor_torque": column(motor_torque),
             "external_torque": external,
         }
@@ -375,7 +416,13 @@ class Model:
         unknown = [n for n, v in zip(self.names, self.values, strict=True) if not np.isfinite(v)]
         if unknown:
             raise SpecError(f"{self.spec} has no value for {', '.join(unknown)}: fit it or give it")
-        return self.values
+        return self._friction_values
+
+    @property
+    def _friction_values(self) -> Array:
+        """Those of `values` that `core` takes."""
+        own = {row["name"] for row in self.core.parameters()}
+        return self.values[[name in own for name in self.names]]
 
     def save(self, path: str) -> None:
         """Write the model file (TOML)."""

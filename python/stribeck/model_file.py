@@ -25,7 +25,7 @@ else:
 SCHEMA = 1
 TOP_KEYS = {
     "kind", "schema", "law", "effects", "rigid_body", "torque_unit", "position_unit",
-    "constants", "parameters", "fitted_on", "box",
+    "constants", "parameters", "fitted_on", "box", "drive",
 }  # fmt: skip
 PARAMETER_KEYS = {"value", "symbol", "unit", "bounds", "stderr"}
 BOX_KEYS = {"velocity", "position", "acceleration", "temperature", "load_torque"}
@@ -59,6 +59,8 @@ class ModelFile:
         document.add("rigid_body", tomlkit.item(list(m.rigid_body)))
         document.add("torque_unit", tomlkit.item(m.torque_unit))
         document.add("position_unit", tomlkit.item(m.position_unit))
+        if m.drive is not None:
+            document.add("drive", tomlkit.item(m.drive))
         if m.constants:
             document.add("constants", _table({k: float(v) for k, v in m.constants.items()}))
         rows = tomlkit.table(is_super_table=True)
@@ -187,6 +189,7 @@ class _Reader:
                 rigid_body=self._names(data, "rigid_body"),
                 torque_unit=self._choice(data, "torque_unit", ("N m", "N", "V", "%")),
                 position_unit=self._choice(data, "position_unit", ("rad", "m")),
+                drive=self._choice(data, "drive", ("voltage",)) if "drive" in data else None,
                 box={k: self._pair(v, "box", k) for k, v in data.get("box", {}).items()},
             )
         except SpecError as error:

@@ -61,6 +61,8 @@ class Problem:
             "velocity": np.where(
                 r.moving, r.velocity, self._denoised(r.velocity, r.velocity_smooth)
             ),
+            "external_torque": r.external_torque,
+            **({} if self.model.drive is None else {"enabled": r.enabled}),
             "position": r.position,
             "acceleration": r.acceleration,
             "temperature": r.temperature,
@@ -134,7 +136,7 @@ class Problem:
     def predict(self, values: Array) -> Array:
         """Predicted torque of every row of the recording, array [n]."""
         everything = self._stretch(0, self.recording.time.size)
-        return self.model.core.torque(values, **everything) + self.known
+        return self.model.predictor.torque(values, **everything) + self.known
 
     def linearise(
         self, values: Array, wanted: NDArray[np.intp] | None = None
@@ -152,10 +154,12 @@ class Problem:
         """
         chosen = None if wanted is None else wanted.tolist()
         if self.model.memoryless:
-            torque, jacobian = self.model.core.gradient(values, **self._row_channels, wanted=chosen)
+            torque, jacobian = self.model.predictor.gradient(
+                values, **self._row_channels, wanted=chosen
+            )
         else:
             start, stop = self.span or (0, self.recording.time.size)
-            torque, jacobian = self.model.core.gradient(
+            torque, jacobian = self.model.predictor.gradient(
                 values, **self._stretch(start, stop), wanted=chosen
             )
             torque, jacobian = torque[self.rows - start], jacobian[self.rows - start]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from stribeck.errors import FitError
 from stribeck.model import RIGID_BODY_EFFECTS, Model, Parameter, parse_spec
 from stribeck.recording import Recording
+from stribeck.servo.scaling import drive_scales, known_constants
 
 Array = NDArray[np.float64]
 
@@ -41,6 +42,7 @@ def scale_values(recording: Recording) -> dict[str, float]:
         "inertia": torque / acceleration,
         "torque_rate": torque * speed / position,
         "sample_period": s["sample_period"] or 1.0,
+        **drive_scales(recording),
     }
 
 
@@ -124,6 +126,7 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
     for effect in effects:
         needed = effect_constants(effect, recording)
         constants = {**needed, **constants}
+    constants.update(known_constants(recording))
     made = Model(
         law=law,
         effects=effects,
@@ -131,6 +134,7 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
         rigid_body=rigid_body_terms(recording, effects),
         torque_unit=recording.torque_unit,
         position_unit=recording.position_unit,
+        drive=recording.drive,
     )
     check_channels(made, recording)
     if isinstance(spec, Model):
@@ -141,11 +145,37 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
 
 def check_channels(model: Model, recording: Recording) -> None:
     """Refuse a model that needs a channel which the recording does not have."""
+    if model.drive != recording.drive:
+        raise FitError(
+            f"the model {model.spec} predicts {_effort(model.drive)}, but {recording.path} is read "
+            f"as {_effort(recording.drive)}: "
+            + ("leave --drive out" if model.drive is None else f"give --drive {model.drive}")
+        )
     for channel in model.core.needs:
         if channel == "load_torque" and model.rigid_body:
             continue
+        if channel == "external_torque" and "gravity" in model.rigid_body:
+            continue
+        if channel == "motor_torque":
+            # It is what a fit predicts: it follows from the balance of all torques.
+            if model.has_state:
+                raise FitError(
+                    f"friction of {model.spec} depends on the motor torque, which cannot be solved "
+                    "for in a model with a memory: leave presliding out"
+                )
+            continue
+        if channel == "external_torque" and recording.external_torque is None:
+            raise FitError(
+                f"{model.spec} needs the torque of the environment, which {recording.path} does "
+                "not have: give inertia and gravity_cos, gravity_sin in the sidecar, or map a "
+                "column with --map external_torque=COLUMN"
+            )
         if getattr(recording, channel, None) is None:
             raise FitError(
                 f"{model.spec} needs the column {channel}, which {recording.path} does not have: "
                 f"map one with --map {channel}=COLUMN, or leave the effect out"
             )
+
+
+def _effort(drive: str | None) -> str:
+    return "a torque" if drive is None else f"the {drive} on a motor"

@@ -23,9 +23,7 @@ def natural_unit(joint_kind: str) -> str:
     return "N" if joint_kind == "prismatic" else "N m"
 
 
-def with_drive(
-    recording: Recording, prepared: Prepared, values: Mapping[str, Floats]
-) -> Recording:
+def with_drive(recording: Recording, prepared: Prepared, values: Mapping[str, Floats]) -> Recording:
     """The recording with the torque of the environment and, where it has one, its drive.
 
     Parameters

@@ -1,0 +1,1 @@
+"""Servo actuators: joints of which only the motor's voltage is logged."""
