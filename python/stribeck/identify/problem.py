@@ -11,14 +11,11 @@ from numpy.typing import NDArray
 
 from stribeck.model import Model
 from stribeck.recording import Recording
-from stribeck.recording.rows import noise_level
 
 Array = NDArray[np.float64]
 
 #: Steady-state points, one a run, have slid for so long (s) that every state has settled.
 SETTLED = 1e9
-
-CHANNELS = ("position", "velocity", "acceleration", "temperature", "load_torque")
 
 
 @dataclass(frozen=True)
@@ -58,16 +55,14 @@ class Problem:
         load = self.load if r.load_torque is None else r.load_torque
         return {
             "dt": np.full_like(r.velocity, SETTLED) if r.averaged else r.dt,
-            "velocity": np.where(
-                r.moving, r.velocity, self._denoised(r.velocity, r.velocity_smooth)
-            ),
-            "external_torque": r.external_torque,
-            **({} if self.model.drive is None else {"enabled": r.enabled}),
+            "velocity": np.where(r.moving, r.velocity, r.denoised("velocity")),
             "position": r.position,
             "acceleration": r.acceleration,
             "temperature": r.temperature,
             "load_torque": load,
             "motor_torque": None,
+            "external_torque": r.external_torque,
+            **({} if self.model.drive is None else {"enabled": r.enabled}),
             "mean_velocity": self._mean_velocity if self.model.has_state else None,
         }
 
@@ -101,25 +96,19 @@ class Problem:
         r = self.recording
         if "delay" not in self.model.effects:
             return None
-        velocity = self._denoised(r.velocity, r.velocity_smooth)
+        velocity = r.denoised("velocity")
         smooth = {
             # The direction is never in doubt on moving rows; smoothing must not turn it.
             "velocity": np.where(r.moving, np.copysign(velocity, r.velocity), velocity),
-            "acceleration": self._denoised(r.acceleration, r.acceleration_smooth),
+            "acceleration": r.denoised("acceleration"),
         }
         if r.position is not None and r.position_smooth is not None:
-            smooth["position"] = self._denoised(r.position, r.position_smooth)
+            smooth["position"] = r.denoised("position")
         if r.load_torque is not None and r.load_torque_smooth is not None:
-            smooth["load_torque"] = self._denoised(r.load_torque, r.load_torque_smooth)
+            smooth["load_torque"] = r.denoised("load_torque")
         elif self.load is not None:
             smooth["load_torque"] = self.load
         return smooth
-
-    def _denoised(self, measured: Array, smooth: Array) -> Array:
-        """`smooth` where it takes out noise alone, `measured` where it would bend the signal."""
-        r = self.recording
-        sigma = noise_level(r.time, measured, r.segment)
-        return np.where(np.abs(smooth - measured) <= 5.0 * sigma, smooth, measured)
 
     def _stretch(self, start: int, stop: int) -> dict[str, Any]:
         """The channels of a contiguous stretch, for models that need what went before."""
