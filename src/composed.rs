@@ -257,6 +257,9 @@ fn effects_of<'a>(
     })
 }
 
+/// After so long (s) every state has settled.
+const LONG: f64 = 1e9;
+
 /// A law and its effects with numbers: immutable, its state is kept apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composed<S: Real> {
@@ -309,6 +312,15 @@ impl<S: Real> Composed<S> {
     #[must_use]
     pub fn static_torque(&self, sample: &Sample<S::Plain>) -> S {
         self.split(sample).torque(sample.velocity.sign())
+    }
+
+    /// The state that a sample held for long leaves behind; at rest one without tension.
+    #[must_use]
+    pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
+        let mut state = State::default();
+        let dt = S::Plain::from_f64(LONG);
+        self.over(&mut state, &Interval { sample: *sample, held: None, dt, mean: false });
+        state
     }
 
     /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.

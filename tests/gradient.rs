@@ -83,7 +83,7 @@ fn delay_of_whole_samples_shifts_rows_within_a_segment() {
 fn a_gap_makes_the_state_start_afresh() {
     let motion = motion(80);
     let mut dt = vec![motion.dt; 80];
-    (dt[0], dt[40]) = (0.0, f64::INFINITY);
+    (dt[0], dt[40]) = (0.0, f64::NAN);
     let mut columns = motion.columns();
     columns.dt = TimeStep::Each(&dt);
     let spec = Spec::new("lugre", []).unwrap();
@@ -91,6 +91,28 @@ fn a_gap_makes_the_state_start_afresh() {
     columns.channels.velocity = &motion.velocity[40..];
     columns.dt = TimeStep::Each(&dt[40..]);
     assert_eq!(whole[40..], batch::torque(&spec, &values(&spec), &columns).unwrap());
+}
+
+#[test]
+fn an_infinite_step_starts_a_segment_in_sliding() {
+    let motion = motion(60);
+    let mut dt = vec![motion.dt; 60];
+    (dt[0], dt[30]) = (f64::INFINITY, f64::INFINITY);
+    let mut columns = motion.columns();
+    columns.dt = TimeStep::Each(&dt);
+    for law in ["lugre", "dahl", "bliman_sorine", "leuven", "gms"] {
+        let spec = Spec::new(law, []).unwrap();
+        let (torque, jacobian) = batch::gradient(&spec, &values(&spec), &columns, None).unwrap();
+        let parts = batch::split(&spec, &values(&spec), &columns).unwrap();
+        common::close(
+            torque[30],
+            parts.dry[30] * motion.velocity[30].signum() + parts.rate[30],
+            1e-9,
+        );
+        // The first row rests: without tension.
+        assert_eq!((motion.velocity[0], torque[0]), (0.0, 0.0), "{law}");
+        assert!(jacobian.iter().all(|x| x.is_finite()));
+    }
 }
 
 #[test]

@@ -65,7 +65,8 @@ pub enum TimeStep<'a> {
     Unknown,
     /// The same for every row, the first included.
     Uniform(f64),
-    /// One a row; what is not positive and finite starts a new segment.
+    /// One a row; what is not positive and finite starts a new segment. Where it is infinite the
+    /// row's velocity has been held for long: the joint slides, and its state has settled.
     Each(&'a [f64]),
 }
 
@@ -195,9 +196,7 @@ impl<'a> Columns<'a> {
             TimeStep::Each(dt) if dt.len() != count => {
                 return Err(BatchError::Length { column: "dt", length: dt.len(), rows: count });
             }
-            TimeStep::Each(dt) => {
-                dt.iter().map(|&dt| if dt > 0.0 && dt.is_finite() { dt } else { 0.0 }).collect()
-            }
+            TimeStep::Each(dt) => dt.iter().map(|&dt| if dt > 0.0 { dt } else { 0.0 }).collect(),
         };
         Ok(Rows { steps, uniform: false })
     }
@@ -213,7 +212,7 @@ fn whole(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchE
     }
 }
 
-/// The time axis: steps, 0 where a segment starts.
+/// The time axis: steps, 0 where a segment starts and infinite where one starts settled.
 pub(super) struct Rows {
     pub(super) steps: Vec<f64>,
     uniform: bool,
@@ -225,6 +224,11 @@ impl Rows {
     }
 
     pub(super) fn starts_at(&self, row: usize) -> bool {
-        row == 0 || (!self.uniform && self.steps[row] == 0.0)
+        row == 0 || (!self.uniform && (self.steps[row] == 0.0 || self.is_settled(row)))
+    }
+
+    /// Whether a segment starts at this row whose velocity has been held for long.
+    pub(super) fn is_settled(&self, row: usize) -> bool {
+        self.steps[row] == f64::INFINITY
     }
 }

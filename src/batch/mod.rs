@@ -184,11 +184,15 @@ fn evaluate<S: Real>(
     let fresh = columns.start(model.memory());
     let mut state = fresh;
     for (i, &dt) in rows.steps.iter().enumerate() {
+        let sample = channels.sample(i);
         let starts = rows.starts_at(i);
-        if starts {
+        let settled = starts && rows.is_settled(i);
+        if settled {
+            state = model.settled(&sample);
+        } else if starts {
             state = fresh;
         }
-        let sample = channels.sample(i);
+        let dt = if settled { 0.0 } else { dt };
         let held = columns.mean_velocity.and_then(|mean| mean.get(i)).map(|&velocity| {
             let before = if starts { sample } else { channels.sample(i - 1) };
             Sample { velocity: S::Plain::from_f64(velocity), ..before.midway(&sample) }

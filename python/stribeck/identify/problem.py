@@ -54,7 +54,7 @@ class Problem:
         r = self.recording
         load = self.load if r.load_torque is None else r.load_torque
         return {
-            "dt": np.full_like(r.velocity, SETTLED) if r.averaged else r.dt,
+            "dt": np.full_like(r.velocity, SETTLED) if r.averaged else self._steps,
             "velocity": np.where(r.moving, r.velocity, r.denoised("velocity")),
             "position": r.position,
             "acceleration": r.acceleration,
@@ -65,6 +65,14 @@ class Problem:
             **({} if self.model.drive is None else {"enabled": r.enabled}),
             "mean_velocity": self._mean_velocity if self.model.has_state else None,
         }
+
+    @cached_property
+    def _steps(self) -> Array:
+        """Time steps, array [n]; infinite where a run begins in motion: the joint slides already."""
+        r = self.recording
+        begins = ~(r.dt > 0.0)
+        begins[0] = True
+        return np.where(begins & r.moving, np.inf, r.dt)
 
     @cached_property
     def _mean_velocity(self) -> Array:
@@ -120,6 +128,8 @@ class Problem:
             name: None if column is None else column[start:stop]
             for name, column in self._all_channels.items()
         }
+        if start > 0 and self.recording.moving[start]:
+            channels["dt"] = np.concatenate([[np.inf], channels["dt"][1:]])
         return {**channels, **delayed}
 
     def predict(self, values: Array) -> Array:
