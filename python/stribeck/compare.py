@@ -142,6 +142,9 @@ def regime_rows(fit: Fit) -> dict[str, NDArray[np.bool_]]:
     low, high = np.quantile(r.time[moving], [0.25, 0.75])
     rows["start"] = moving & (r.time <= low)
     rows["end"] = moving & (r.time >= high)
+    if r.enabled is not None and not r.enabled.all():
+        rows["drive_on"] = moving & r.enabled
+        rows["drive_off"] = moving & ~r.enabled
     rows["standstill"] = ~moving
     return rows
 

@@ -16,6 +16,7 @@ from stribeck.identify.covariance import (
     sandwich,
     seen,
 )
+from stribeck.identify.confounded import partners, reason
 from stribeck.identify.problem import Problem
 
 Array = NDArray[np.float64]
@@ -39,7 +40,8 @@ APART: dict[Errors, float] = {"robust": 1e-4, "independent": 1e-8}
 class Estimate:
     """One identified parameter: value, standard error and 95 % interval in `unit`.
 
-    A parameter that was `held` was not identified and has no error.
+    A parameter that was `held` was not identified and has no error. `why` says of one that is not
+    `identifiable` what else has the same effect.
     """
 
     name: str
@@ -53,6 +55,7 @@ class Estimate:
     lower: float
     upper: float
     held: bool = False
+    why: str | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The contract's JSON of a parameter."""
@@ -65,6 +68,7 @@ class Estimate:
             "at_bound": self.at_bound,
             "identifiable": self.identifiable,
             "held": self.held,
+            "why": self.why,
         }
 
 
@@ -85,6 +89,7 @@ def estimates(
         freedom = max(int(batch.max()), 1)
         covariance = sandwich(jacobian, residual, batch, free)
     quantile = float(student.ppf(0.975, freedom))
+    names = problem.model.names
     made = {}
     for k, p in enumerate(problem.model.parameters):
         error = float(np.sqrt(covariance[k, k])) if free[k] else None
@@ -101,6 +106,7 @@ def estimates(
             lower=float(lower[k]),
             upper=float(upper[k]),
             held=bool(held[k]),
+            why=None if shown[k] or held[k] else reason(names, partners(jacobian, k, ~held)),
         )
     return made
 

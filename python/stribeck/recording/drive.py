@@ -61,10 +61,12 @@ def with_drive(recording: Recording, prepared: Prepared, values: Mapping[str, Fl
         enabled = _read_only(values["enabled"] != 0.0)
         source = prepared.choices["enabled"].source
         torque = _read_only(np.where(enabled, torque, 0.0))
-        notes.append(
-            f"where '{source}' is false no current flows: the motor torque is zero, and so is what "
-            "it is measured against"
-        )
+        off = int(np.count_nonzero(~enabled))
+        if off:
+            notes.append(
+                f"no current flows in the {off} rows where '{source}' is false: the motor torque "
+                "is zero, and so is what it is measured against"
+            )
     return replace(
         recording, drive=prepared.options.drive, torque=torque, enabled=enabled,
         notes=tuple(notes),

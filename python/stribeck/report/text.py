@@ -53,6 +53,8 @@ REGIMES = {
     "hot": "warmest quarter",
     "start": "first quarter of the time",
     "end": "last quarter of the time",
+    "drive_on": "drive on",
+    "drive_off": "drive off",
     "standstill": "at rest (not scored)",
 }
 
@@ -273,6 +275,10 @@ def fit_text(fit: Fit) -> str:
         head,
         paragraph(search, 2) if refitted else paragraph(scored_sentence(r)),
         parameters_text(fit.estimates) + ("\n" + legend if legend else ""),
+        "\n".join(
+            paragraph(f"{name} is not identifiable: {e.why}.", 2, 2)
+            for name, e in fit.estimates.items() if e.why is not None
+        ),
         _errors_text(fit),
         trouble,
         notes_text(r.notes, fit.notes),
