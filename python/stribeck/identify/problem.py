@@ -68,7 +68,7 @@ class Problem:
 
     @cached_property
     def _steps(self) -> Array:
-        """Time steps, array [n]; infinite where a run begins in motion: the joint slides already."""
+        """Time steps, array [n]; infinite where a run begins in motion: the joint slides."""
         r = self.recording
         begins = ~(r.dt > 0.0)
         begins[0] = True
@@ -129,7 +129,7 @@ class Problem:
             for name, column in self._all_channels.items()
         }
         if start > 0 and self.recording.moving[start]:
-            channels["dt"] = np.concatenate([[np.inf], channels["dt"][1:]])
+            channels["dt"] = np.concatenate([[np.inf], self._all_channels["dt"][start + 1 : stop]])
         return {**channels, **delayed}
 
     def predict(self, values: Array) -> Array:
