@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import t as student
 
+from stribeck.identify.confounded import partners, reason
 from stribeck.identify.covariance import (
     batches,
     correlation_length,
@@ -16,7 +17,6 @@ from stribeck.identify.covariance import (
     sandwich,
     seen,
 )
-from stribeck.identify.confounded import partners, reason
 from stribeck.identify.problem import Problem
 
 Array = NDArray[np.float64]

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck import _core
+from stribeck.errors import FitError
 from stribeck.model import Model
 from stribeck.recording import Recording
 
@@ -133,9 +135,18 @@ class Problem:
         return {**channels, **delayed}
 
     def predict(self, values: Array) -> Array:
-        """Predicted torque of every row of the recording, array [n]."""
+        """Predicted torque of every row of the recording, array [n].
+
+        Raises
+        ------
+        FitError
+            The model means nothing at these values, or has no answer in some row.
+        """
         everything = self._stretch(0, self.recording.time.size)
-        return self.model.predictor.torque(values, **everything) + self.known
+        try:
+            return self.model.predictor.torque(values, **everything) + self.known
+        except _core.ModelError as error:
+            raise FitError(f"{self.model.spec} on {self.recording.path}: {error}") from None
 
     def linearise(
         self, values: Array, wanted: NDArray[np.intp] | None = None

@@ -54,7 +54,7 @@ def read(
         Known inertia [kg m2] or mass [kg]: load torque = inertia * acceleration (+ gravity).
     km, kb, kt
         Motor constant [N m/W^0.5], back-EMF constant [V s/rad] and torque constant [N m/A] for the
-        electrical energy.
+        electrical energy; a voltage drive takes kt, and the resistance from km, as known.
     unit
         ``"COLUMN=UNIT"`` texts: the unit of a column of the file.
     map

@@ -21,15 +21,15 @@ def drive_scales(recording: Recording) -> dict[str, float]:
 
 
 def known_constants(recording: Recording) -> dict[str, float]:
-    """Constants of the motor that were said with the recording.
+    """Constants of the motor that were said with the recording, at the joint.
 
-    The torque constant kt [N m/A]; with the motor constant km = kt / sqrt(R) [N m/W^0.5] the
-    resistance as well.
+    The motor's torque constant kt [N m/A] times the gear ratio; with the motor constant
+    km = kt / sqrt(R) [N m/W^0.5] the resistance as well.
     """
     motor = recording.motor
     if recording.drive is None or "kt" not in motor:
         return {}
-    known = {TORQUE_CONSTANT: motor["kt"]}
+    known = {TORQUE_CONSTANT: motor["kt"] * motor.get("gear_ratio", 1.0)}
     if "km" in motor:
         known[RESISTANCE] = (motor["kt"] / motor["km"]) ** 2
     return known
