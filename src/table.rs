@@ -209,6 +209,17 @@ pub enum Pole {
     Base,
 }
 
+impl Pole {
+    /// The name users read.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Zero => "zero",
+            Self::Base => "base_temperature",
+        }
+    }
+}
+
 /// A friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawInfo {

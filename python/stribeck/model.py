@@ -5,6 +5,7 @@ The mathematics lives in the compiled core; this module gives it names, units an
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
@@ -224,14 +225,18 @@ class Model:
 
     def _unit(self, unit: str) -> str:
         """Spell the catalog's unit (T torque or force, X position) for this joint."""
-        spelled = {"T": self.load_unit, "X": self.position_unit}
-        words = [
-            "/".join(spelled.get(part, part) for part in word.split("/"))
-            for word in unit.split(" ")
-        ]
         if unit == "T s2/X" and self.load_unit in ("N m", "N"):
             return "kg m2" if self.position_unit == "rad" else "kg"
-        return " ".join(words)
+        spelled = {"T": self.load_unit, "X": self.position_unit}
+
+        def spell(found: re.Match[str]) -> str:
+            before, letter, power = found.groups()
+            word = spelled[letter]
+            # A divisor or a power of two words needs brackets: 1/(N m), (N m)2.
+            several = " " in word and (before or power)
+            return f"{before}({word}){power}" if several else f"{before}{word}{power}"
+
+        return re.sub(r"(/?)\b([TX])(\d*)\b", spell, unit)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -360,12 +365,15 @@ class Model:
         velocity : array [n]
             rad/s or m/s.
         **channels : arrays [n]
-            ``position``, ``acceleration``, ``temperature``, ``load_torque``. One that is left
-            out stands at the middle of the operating box.
+            ``position``, ``acceleration``, ``temperature``, ``load_torque``, ``motor_torque``,
+            ``external_torque``. One that is left out stands at the middle of the operating box.
         """
         speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
         filled: dict[str, Array] = {}
-        for name in ("position", "acceleration", "temperature", "load_torque"):
+        for name in (
+            "position", "acceleration", "temperature", "load_torque", "motor_torque",
+            "external_torque",
+        ):  # fmt: skip
             given = channels.get(name)
             if given is None and name in self.box:
                 given = 0.5 * sum(self.box[name])

@@ -70,7 +70,8 @@ fn absorb(triangle: &mut [f64], block: &mut [f64], width: usize) {
     for k in 0..width {
         let diagonal = triangle[k * width + k];
         let below = block.chunks_exact(width).fold(0.0, |sum, row| sum + row[k] * row[k]);
-        if below == 0.0 {
+        if below < f64::MIN_POSITIVE {
+            // Nothing below the diagonal, or so little that its square has no inverse.
             continue;
         }
         let norm = Real::sqrt(diagonal * diagonal + below);

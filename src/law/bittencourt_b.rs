@@ -25,9 +25,9 @@ parameters! {
         /// Growth of that height per kelvin.
         stribeck_height_slope: "a7" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Dry;
         /// Stribeck velocity of the temperature's curve at 0 degC.
-        stribeck_velocity: "a8" ["X/s"] -5.0 .. 5.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "a8" ["X/s"] -2.0 .. 2.0, start 0.1, Speed, Nonlinear;
         /// Growth of that Stribeck velocity per kelvin.
-        stribeck_velocity_slope: "a9" ["X/s/K"] -0.2 .. 0.2, start 0.0, Speed, Nonlinear;
+        stribeck_velocity_slope: "a9" ["X/s/K"] -0.05 .. 0.05, start 0.0, Speed, Nonlinear;
         /// Torque per speed while hot.
         viscous_friction: "a10" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Torque per speed above that at 0 degC.
@@ -83,9 +83,9 @@ parameters! {
         /// Growth of that height per kelvin.
         stribeck_height_slope: "Fs_T" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Dry;
         /// Stribeck velocity of the temperature's curve at 0 degC.
-        stribeck_velocity: "vs0" ["X/s"] -5.0 .. 5.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "vs0" ["X/s"] -2.0 .. 2.0, start 0.1, Speed, Nonlinear;
         /// Growth of that Stribeck velocity per kelvin.
-        stribeck_velocity_slope: "vs_T" ["X/s/K"] -0.2 .. 0.2, start 0.0, Speed, Nonlinear;
+        stribeck_velocity_slope: "vs_T" ["X/s/K"] -0.05 .. 0.05, start 0.0, Speed, Nonlinear;
         /// Torque per speed while hot.
         viscous_friction: "Fv0" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Torque per speed above that at 0 degC.

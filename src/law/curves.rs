@@ -33,9 +33,10 @@ pub fn arctangent_sign<S: Real>(velocity: S::Plain, steepness: S) -> S {
 /// `1/(1 + exp(-x))`, without overflow on either side.
 #[inline]
 pub fn logistic<S: Real>(x: S) -> S {
-    let rest = (-x.abs()).exp();
+    let below = x.value() < 0.0;
+    let rest = (if below { x } else { -x }).exp();
     let whole = rest.shift(S::Plain::one());
-    if x.value() < 0.0 { rest / whole } else { S::one() / whole }
+    if below { rest / whole } else { S::one() / whole }
 }
 
 /// `1 - exp(-x)`, without cancellation at small `x`.

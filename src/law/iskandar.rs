@@ -19,7 +19,7 @@ parameters! {
         /// Stribeck velocity at 0 degC.
         stribeck_velocity: "a5" ["X/s"] -5.0 .. 5.0, start 0.1, Speed, Nonlinear;
         /// Its slope with temperature there.
-        stribeck_velocity_slope: "a6" ["X/s/K"] -0.2 .. 0.2, start 0.0, Speed, Nonlinear;
+        stribeck_velocity_slope: "a6" ["X/s/K"] -0.25 .. 0.25, start 0.0, Speed, Nonlinear;
         /// Its square in temperature.
         stribeck_velocity_square: "a7" ["X/s/K2"] -0.005 .. 0.005, start 0.0, Speed, Nonlinear;
         /// Torque per power of speed at 0 degC.

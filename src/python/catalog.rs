@@ -5,7 +5,7 @@ use pyo3::types::{PyDict, PyList};
 
 use crate::catalog::{EffectId, LawId};
 use crate::constants::CONSTANTS;
-use crate::table::{EffectInfo, LawInfo, ParameterInfo};
+use crate::table::{EffectInfo, LawInfo, ParameterInfo, Pole};
 
 /// Every law, effect and constant: lists of dicts under `laws`, `effects` and `constants`.
 #[pyfunction]
@@ -38,6 +38,7 @@ fn law<'py>(py: Python<'py>, info: &LawInfo) -> PyResult<Bound<'py, PyDict>> {
     row.set_item("parameters", parameters(py, info.parameters)?)?;
     row.set_item("channels", info.channels.iter().map(|c| c.name()).collect::<Vec<_>>())?;
     row.set_item("constants", info.constants.to_vec())?;
+    row.set_item("pole", info.pole.map(Pole::name))?;
     row.set_item("captures", info.captures.to_vec())?;
     Ok(row)
 }

@@ -341,3 +341,30 @@ def test_noise_has_the_memory_it_says() -> None:
     x = ar1(np.random.default_rng(0), 200_000, 0.9, 0.5)
     assert x.std() == pytest.approx(0.5, rel=0.03)
     assert np.corrcoef(x[1:], x[:-1])[0, 1] == pytest.approx(0.9, abs=0.01)
+
+
+def test_more_parameters_than_the_data_shows_do_not_spoil_the_held_out_error(
+    plain: sb.Recording,
+) -> None:
+    """Exponentials that cancel, a sigmoid steeper than the samples: still Coulomb friction."""
+    simple = sb.fit("coulomb", plain).rmse_held_out
+    for law in ("dong", "gaz_a", "makkar"):
+        assert sb.fit(law, plain, starts=4).rmse_held_out == pytest.approx(simple, rel=0.02), law
+
+
+def test_motoring_and_generating_friction_are_told_apart_by_the_motor_torque(
+    tmp_path: Path,
+) -> None:
+    """Only the sign of the recorded torque goes in: the same fit with its size thrown away."""
+    frame = joint()
+    driven = frame["load_torque"] * frame["velocity"].sign() < -5.0
+    recording = record(
+        tmp_path, frame.with_columns(torque=frame["torque"] - frame["velocity"].sign() * driven)
+    )
+    fit = sb.fit("clochiatti", recording)
+    signs = np.sign(recording.torque)
+    shifted = fit.model.torque(recording.velocity, motor_torque=100.0 * signs)
+    np.testing.assert_allclose(shifted, fit.prediction - recording.load_torque, atol=1e-12)
+    assert fit.estimates["coulomb_friction_motoring"].value == pytest.approx(COULOMB, rel=0.05)
+    generating = fit.estimates["coulomb_friction_generating"].value
+    assert generating < fit.estimates["coulomb_friction_motoring"].value - 0.5

@@ -17,6 +17,12 @@ def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> di
         "torque": 2.0 * c,
         "stiffness": c / joint.stroke,
         "damping": b,
+        "square_damping": b / joint.speed,
+        "cubic_damping": b / joint.speed**2,
+        "root_damping": 2.0 * c / joint.speed**0.5,
+        "inverse_speed": 1.0 / joint.speed,
+        "inverse_torque": 0.5 / c,
+        "torque_rate": 2.0 * c * joint.speed / joint.stroke,
         "inertia": joint.inertia,
         "sample_period": 1.0,
     }

@@ -19,6 +19,9 @@ Array = NDArray[np.float64]
 #: Steady-state points, one a run, have slid for so long (s) that every state has settled.
 SETTLED = 1e9
 
+#: Laws that read the sign of the motor torque and nothing else of it.
+SIGN_OF_MOTOR_TORQUE = ("clochiatti",)
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -62,7 +65,7 @@ class Problem:
             "acceleration": r.acceleration,
             "temperature": r.temperature,
             "load_torque": load,
-            "motor_torque": None,
+            "motor_torque": self._motor_sign,
             "external_torque": r.external_torque,
             **({} if self.model.drive is None else {"enabled": r.enabled}),
             "mean_velocity": self._mean_velocity if self.model.has_state else None,
@@ -75,6 +78,22 @@ class Problem:
         begins = ~(r.dt > 0.0)
         begins[0] = True
         return np.where(begins & r.moving, np.inf, r.dt)
+
+    @cached_property
+    def _motor_sign(self) -> Array | None:
+        """Sign of the motor torque, for laws that tell motoring from generating by it; [n].
+
+        The sign alone goes in, so nothing is regressed on the measured torque: it chooses which of
+        two coefficients a row belongs to, and turns with the noise only where the torque crosses
+        zero. Laws that read the size of the motor torque get none, nor does a joint whose motor
+        torque was not recorded: it follows from the balance with their own prediction.
+        """
+        if self.model.law not in SIGN_OF_MOTOR_TORQUE or self.model.drive is not None:
+            return None
+        r = self.recording
+        if r.load_torque is not None and not r.torque_holds_load:
+            return np.sign(r.torque + r.load_torque)
+        return np.sign(r.torque)
 
     @cached_property
     def _mean_velocity(self) -> Array:

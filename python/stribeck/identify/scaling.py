@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.errors import FitError
-from stribeck.model import RIGID_BODY_EFFECTS, Model, Parameter, parse_spec
+from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
+from stribeck.model import RIGID_BODY_EFFECTS, Model, Parameter, catalog, parse_spec
 from stribeck.recording import Recording
 from stribeck.servo.scaling import drive_scales, known_constants
 
@@ -61,11 +62,12 @@ def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ..
 
 
 def bounds(model: Model, recording: Recording) -> tuple[Array, Array, Array]:
-    """Lower bounds, upper bounds and starts, arrays [p]."""
+    """Lower bounds, upper bounds and starts, arrays [p]; all three are equal where one is held."""
     rows = scaled_parameters(model, recording)
-    lower = np.array([p.lower for p in rows])
-    upper = np.array([p.upper for p in rows])
     start = np.array([p.start for p in rows])
+    held = np.array([p.role == "held" for p in rows], dtype=bool)
+    lower = np.where(held, start, [p.lower for p in rows])
+    upper = np.where(held, start, [p.upper for p in rows])
     return lower, upper, start
 
 
@@ -100,6 +102,36 @@ def effect_constants(
     return {}
 
 
+#: How far below the coldest sample a law that has no limit at its base temperature puts it (K).
+COLD_MARGIN = 20.0
+#: Largest share of the speed over which a law smooths the sign of the velocity.
+SMOOTHING = 0.01
+
+
+def law_constants(law: str, recording: Recording) -> dict[str, float]:
+    """The constants that a law needs, taken from the recording.
+
+    The base temperature is the mean, about which a factor of temperature is least tied to the
+    friction it multiplies; for a law that has no limit there it lies well below the data. The sign
+    is smoothed where noise leaves it in doubt, so that tanh is 1 on all rows that move. An exponent
+    that a law does not identify stays what its paper says.
+    """
+    row = catalog()["laws"][law]
+    speed = recording.scales()["speed"] or 1.0
+    given = {
+        "smoothing_velocity": min(SMOOTHING * speed, recording.velocity_threshold / 3.0)
+        or SMOOTHING * speed,
+        "largest_velocity": speed,
+        "largest_acceleration": recording.scales()["acceleration"] or 1.0,
+    }
+    if recording.temperature is not None:
+        coldest = float(np.min(recording.temperature))
+        mean = float(np.mean(recording.temperature[recording.moving]))
+        below = row["pole"] == "base_temperature"
+        given["base_temperature"] = coldest - COLD_MARGIN if below else mean
+    return {name: given[name] for name in row["constants"] if name in given}
+
+
 def rigid_body_terms(recording: Recording, effects: tuple[str, ...]) -> tuple[str, ...]:
     """Which rigid-body terms must be identified with the friction on this recording."""
     if recording.load_torque is not None or recording.averaged:
@@ -123,6 +155,9 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
     else:
         law, effects = parse_spec(spec)
         constants = {}
+    if not isinstance(spec, Model) or not np.any(np.isfinite(spec.values)):
+        # Values that are known already mean something only with the constants they came with.
+        constants = {**law_constants(law, recording), **constants}
     for effect in effects:
         needed = effect_constants(effect, recording)
         constants = {**needed, **constants}
@@ -144,7 +179,7 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
 
 
 def check_channels(model: Model, recording: Recording) -> None:
-    """Refuse a model that needs a channel which the recording does not have."""
+    """Refuse a model that needs a channel which the recording does not have or cannot use."""
     if model.drive != recording.drive:
         raise FitError(
             f"the model {model.spec} predicts {_effort(model.drive)}, but {recording.path} is read "
@@ -152,6 +187,8 @@ def check_channels(model: Model, recording: Recording) -> None:
             + ("leave --drive out" if model.drive is None else f"give --drive {model.drive}")
         )
     for channel in model.core.needs:
+        if channel == "motor_torque" and model.law in SIGN_OF_MOTOR_TORQUE and not model.drive:
+            continue
         if channel == "load_torque" and model.rigid_body:
             continue
         if channel == "external_torque" and "gravity" in model.rigid_body:
@@ -175,6 +212,22 @@ def check_channels(model: Model, recording: Recording) -> None:
                 f"{model.spec} needs the column {channel}, which {recording.path} does not have: "
                 f"map one with --map {channel}=COLUMN, or leave the effect out"
             )
+    _check_pole(model, recording)
+
+
+def _check_pole(model: Model, recording: Recording) -> None:
+    """Refuse temperatures on both sides of one at which the law has no limit."""
+    name = catalog()["laws"][model.law]["pole"]
+    if name is None or recording.temperature is None:
+        return
+    pole = 0.0 if name == "zero" else model.core.constants[name]
+    coldest, warmest = float(recording.temperature.min()), float(recording.temperature.max())
+    if coldest <= pole <= warmest:
+        raise FitError(
+            f"{model.spec} has no limit at {pole:g} degC, and the temperatures of {recording.path} "
+            f"run from {coldest:.4g} to {warmest:.4g} degC: take rows on one side of it (--where), "
+            f"or another law"
+        )
 
 
 def _effort(drive: str | None) -> str:

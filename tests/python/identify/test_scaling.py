@@ -7,7 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.identify.scaling import bounds, effect_constants, model_for, rigid_body_terms
+from stribeck.identify.scaling import (
+    bounds,
+    effect_constants,
+    law_constants,
+    model_for,
+    rigid_body_terms,
+)
 from stribeck.model import catalog
 from synthetic import joint, record
 
@@ -76,3 +82,45 @@ def test_missing_channels_are_named(tmp_path: Path) -> None:
     cold = record(tmp_path, joint(rows=400).drop("temperature"))
     with pytest.raises(sb.FitError, match="--map temperature"):
         model_for("coulomb+temperature_viscous", cold)
+
+
+def test_laws_get_the_constants_they_name(plain: sb.Recording) -> None:
+    """All but the exponent of laws that do not identify it, and the number of elements."""
+    for law, row in catalog()["laws"].items():
+        given = law_constants(law, plain)
+        assert set(given) == set(row["constants"]) - {"stribeck_exponent", "elements"}, law
+        assert all(np.isfinite(x) for x in given.values())
+
+
+def test_base_temperature_is_the_mean_but_far_below_for_a_law_without_limit_there(
+    plain: sb.Recording,
+) -> None:
+    assert plain.temperature is not None
+    mean = plain.temperature[plain.moving].mean()
+    assert law_constants("hao_b", plain)["base_temperature"] == pytest.approx(mean)
+    below = law_constants("madsen", plain)["base_temperature"]
+    assert below == pytest.approx(plain.temperature.min() - 20.0)
+
+
+def test_constants_of_known_values_stay(plain: sb.Recording) -> None:
+    """`hao_b` with values counts from its own base temperature, here the default."""
+    known = sb.model("hao_b", a1=3.0, a2=1.0, a3=0.0, a4=0.0, a5=-0.01)
+    assert "base_temperature" not in model_for(known, plain).constants
+    unknown = sb.model("hao_b")
+    assert model_for(unknown, plain).constants["base_temperature"] > 20.0
+
+
+def test_no_limit_within_the_data_is_refused(tmp_path: Path) -> None:
+    frame = joint(rows=600)
+    cold = record(tmp_path, frame.with_columns(temperature=frame["temperature"] - 30.0))
+    with pytest.raises(sb.FitError, match=r"no limit at 0 degC.*-12 to 12"):
+        sb.fit("li", cold)
+
+
+def test_a_held_parameter_keeps_its_start(plain: sb.Recording) -> None:
+    made = model_for("simoni", plain)
+    lower, upper, start = bounds(made, plain)
+    k = made.names.index("scale")
+    assert lower[k] == upper[k] == start[k] == 1.0
+    scale = sb.fit("simoni", plain, starts=2).estimates["scale"]
+    assert scale.value == 1.0 and scale.stderr is None and not scale.at_bound

@@ -70,3 +70,15 @@ def test_covariance_keeps_digits_that_normal_equations_lose() -> None:
     triangle = Triangle.of(np.column_stack([np.ones_like(x), 1.0 + 1e-7 * x]), np.zeros_like(x))
     expected = 1e14 / (x @ x)
     assert triangle.covariance()[1, 1] == pytest.approx(expected, rel=1e-6)
+
+
+def test_a_column_that_all_but_vanishes_in_one_group() -> None:
+    """Its squares underflow there: a sigmoid's slope, where that block has no slow samples."""
+    rng = np.random.default_rng(2)
+    j, r = rng.standard_normal((200, 2)), rng.standard_normal(200)
+    group = (np.arange(200) // 100).astype(np.uint32)
+    j[group == 1, 1] *= 1e-160
+    joined = Triangle.joined(triangles(j, r, group, 2))
+    assert np.all(np.isfinite(joined.factor)) and np.all(np.isfinite(joined.right))
+    expected = np.linalg.lstsq(j, r, rcond=None)[0]
+    np.testing.assert_allclose(joined.solve(-FREE[:2], FREE[:2]), expected, rtol=1e-12)
