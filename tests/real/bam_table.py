@@ -11,9 +11,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
-
 import stribeck as sb
+from numpy.typing import NDArray
 from stribeck.fit import Fit
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -50,8 +50,8 @@ def _nonlinear_viscous(before: Fit, after: Fit) -> str:
     bends = "flattens" if part(0.5 * top) > 0.5 * part(top) else "steepens"
     return (
         f"the curve of friction against speed {bends}: the part that is not proportional to speed "
-        f"is {number(part(0.5 * top))} {m.torque_unit} at {number(0.5 * top)} and "
-        f"{number(part(top))} {m.torque_unit} at {number(top)} {m.position_unit}/s"
+        f"is {number(part(0.5 * top))} {m.load_unit} at {number(0.5 * top)} and "
+        f"{number(part(top))} {m.load_unit} at {number(top)} {m.position_unit}/s"
     )
 
 
@@ -61,8 +61,8 @@ def _direction(before: Fit, after: Fit) -> str:
     slope = m.value("direction_viscous")
     base = m.value("direction_coulomb") if "direction_coulomb" in m.names else 0.0
     return (
-        f"friction in the two directions differs by {number(2 * abs(base))} {m.torque_unit} near "
-        f"rest and by {number(2 * abs(base + slope * top))} {m.torque_unit} at {number(top)} "
+        f"friction in the two directions differs by {number(2 * abs(base))} {m.load_unit} near "
+        f"rest and by {number(2 * abs(base + slope * top))} {m.load_unit} at {number(top)} "
         f"{m.position_unit}/s, larger "
         f"{'forward' if base + slope * top > 0 else 'backward'}"
     )
@@ -75,8 +75,8 @@ def _load(before: Fit, after: Fit) -> str:
     reference = m.constants["reference_load"]
     part = m.value("load_coulomb") * reference * (most / reference) ** m.value("load_exponent")
     return (
-        f"at the same speed friction is {number(part)} {m.torque_unit} higher under "
-        f"{number(most)} {m.torque_unit} of load than without load"
+        f"at the same speed friction is {number(part)} {m.load_unit} higher under "
+        f"{number(most)} {m.load_unit} of load than without load"
     )
 
 
@@ -90,8 +90,8 @@ def _quadrant(before: Fit, after: Fit) -> str:
     )
     more = "higher" if driving > driven else "lower"
     return (
-        f"under {number(most)} {m.torque_unit} of load at {number(speed)} {m.position_unit}/s "
-        f"friction is {number(abs(driving - driven))} {m.torque_unit} {more} while the joint "
+        f"under {number(most)} {m.load_unit} of load at {number(speed)} {m.position_unit}/s "
+        f"friction is {number(abs(driving - driven))} {m.load_unit} {more} while the joint "
         f"drives the load than while the load drives the joint"
     )
 
@@ -115,7 +115,7 @@ def _temperature(part: str) -> Callable[[Fit, Fit], str]:
         speed = 0.5 * max(abs(low), abs(high))
         at = f" at {number(speed)} {m.position_unit}/s" if part == "rate" else ""
         return (
-            f"{name} friction{at} is {number(abs(at_cold - at_hot))} {m.torque_unit} {more} at "
+            f"{name} friction{at} is {number(abs(at_cold - at_hot))} {m.load_unit} {more} at "
             f"{number(cold)} degC than at {number(hot)} degC"
         )
 
@@ -140,7 +140,7 @@ def _position(before: Fit, after: Fit) -> str:
     dry = m.split(top, position=q)["dry"]
     at = float(q[int(np.argmax(dry))])
     return (
-        f"dry friction varies by {number(float(np.ptp(dry)))} {m.torque_unit} along the stroke and "
+        f"dry friction varies by {number(float(np.ptp(dry)))} {m.load_unit} along the stroke and "
         f"is highest at {number(at)} {m.position_unit}, in both directions"
     )
 
@@ -148,7 +148,7 @@ def _position(before: Fit, after: Fit) -> str:
 def _offset(before: Fit, after: Fit) -> str:
     m = after.model
     return (
-        f"the torque is shifted by {number(m.value('offset'))} {m.torque_unit}, the same in both "
+        f"the torque is shifted by {number(m.value('offset'))} {m.load_unit}, the same in both "
         f"directions"
     )
 
@@ -168,7 +168,7 @@ def _gravity(before: Fit, after: Fit) -> str:
     m = after.model
     size = float(np.hypot(m.value("gravity_cos"), m.value("gravity_sin")))
     return (
-        f"what is left follows the angle like a weight of {number(size)} {m.torque_unit} that the "
+        f"what is left follows the angle like a weight of {number(size)} {m.load_unit} that the "
         f"load torque does not hold"
     )
 

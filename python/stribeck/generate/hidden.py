@@ -69,7 +69,7 @@ def generate(
     -------
     frame : polars.DataFrame
         ``time``, ``position``, ``velocity``, ``acceleration``, ``torque``, ``load_torque``,
-        ``temperature``.
+        ``temperature``, and ``external_torque`` where the law reads it.
     truth : dict
         What is hidden: effects, parameters with units, noise in the unit of torque, the seed.
 
@@ -125,7 +125,10 @@ def generate(
     fq, fv, fa = motion(inside)
     fload = load_at(inside, fq, fa)
     step = np.full(n * fine, 1.0 / (rate * fine))
-    friction = model.torque(fv, fq, fa, _temperature(inside, seconds, warming), fload, dt=step)
+    friction = model.torque(
+        fv, fq, fa, _temperature(inside, seconds, warming), fload, dt=step,
+        external_torque=-load_at(inside, fq, np.zeros_like(fa)),
+    )  # fmt: skip
     torque = (fload + friction)[fine - 1 :: fine]
 
     level = noise * joint.coulomb
@@ -144,6 +147,9 @@ def generate(
             "temperature": _temperature(time, seconds, warming) + 0.05 * rng.standard_normal(n),
         }
     )
+    if "external_torque" in model.core.needs:
+        external = -load_at(time, q, np.zeros_like(a))
+        frame = frame.with_columns(external_torque=external)
     truth: dict[str, Any] = {
         "spec": "+".join((law, *hidden)),
         "law": law,

@@ -240,7 +240,7 @@ def model_text(model: Model) -> str:
         "position": model.position_unit,
         "acceleration": f"{model.position_unit}/s2",
         "temperature": "degC",
-        "load_torque": model.torque_unit,
+        "load_torque": model.load_unit,
     }
     box = "; ".join(
         f"{name} {plain(a)} to {plain(b)} {units.get(name, '')}"

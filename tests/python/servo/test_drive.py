@@ -135,5 +135,5 @@ def test_models_that_do_not_fit_the_drive_are_refused(whole: sb.Recording) -> No
     with pytest.raises(FitError, match="depends on the motor torque"):
         sb.fit("bam_m3+presliding", whole)
     plain = sb.model("coulomb", coulomb_friction=1.0, viscous_friction=1.0)
-    with pytest.raises(FitError, match="predicts a torque, but .* as the voltage on a motor"):
+    with pytest.raises(FitError, match=r"predicts a torque, but .* as the voltage on a motor"):
         evaluate(plain, whole)
