@@ -29,7 +29,7 @@ def physically(effect: str) -> str:
 
 
 def _stribeck(before: Fit, after: Fit) -> str:
-    m, unit = after.model, after.model.torque_unit
+    m, unit = after.model, after.model.load_unit
     return (
         f"at low speed friction is {number(m.value('stribeck_height'))} {unit} higher than the "
         f"Coulomb level and falls to it around {number(m.value('stribeck_velocity'))} "
