@@ -164,6 +164,37 @@ fn a_self_locking_joint_has_no_motor_torque() {
 }
 
 #[test]
+fn a_search_meets_no_nan() {
+    let speeds = [0.0, -0.0, 1e-308, 1e-12, 0.5, -0.5, 1e3, -1e12];
+    let loads = [0.0, -0.0, 1e-300, -3.0, 3.0, 1e9];
+    let velocity: Vec<f64> = speeds.iter().flat_map(|&v| loads.map(|_| v)).collect();
+    let load: Vec<f64> = speeds.iter().flat_map(|_| loads).collect();
+    for external in [0.0, -3.0, 3.0, 1e-12] {
+        let external = vec![external; velocity.len()];
+        let columns = Columns {
+            channels: Channels {
+                velocity: &velocity,
+                load_torque: Some(&load),
+                external_torque: Some(&external),
+                ..Channels::default()
+            },
+            ..Columns::default()
+        };
+        for law in LAWS.into_iter().chain(["clochiatti"]) {
+            let spec = Spec::new(law, []).unwrap();
+            let bounds =
+                |upper: bool| spec.parameters().map(move |p| if upper { p.upper } else { p.lower });
+            for values in [bounds(false).collect::<Vec<_>>(), bounds(true).collect(), values(&spec)]
+            {
+                let (torque, jacobian) = batch::gradient(&spec, &values, &columns, None).unwrap();
+                let nan = torque.iter().chain(&jacobian).position(|x| x.is_nan());
+                assert_eq!(nan, None, "{law} at {values:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn loads_that_cannot_be_found_are_asked_for() {
     let motion = motion(5);
     let refused = |law, effects: &[&'static str], columns: &Columns<'_>| {
