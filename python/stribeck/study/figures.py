@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from stribeck.report.figures import AFTER, BEFORE, DPI, FLOOR, MEASURED, torque_name
-from stribeck.report.numbers import MINUS, plain
+from stribeck.report.numbers import MINUS, plain, thousands
 from stribeck.study.plan import DYNAMIC, STATIC, THERMAL
 
 if TYPE_CHECKING:
@@ -78,12 +78,12 @@ def error_figure(study: Study, joint: str | None) -> Figure:
         axes.axvline(0.0, color=MEASURED, linewidth=0.8)
         for place, (group, _, _), spread in zip(at, rows, boxes, strict=True):
             _box(axes, place, spread, COLOURS[group])
-        axes.set_title(f"{title} ({boxes[0].rows} rows)", loc="left", fontsize=10.5)
+        axes.set_title(f"{title} ({thousands(boxes[0].rows)} rows)", loc="left", fontsize=10.5)
         axes.set_xlabel(f"{quantity} error, measured {MINUS} modelled [{data.torque_unit}]")
     both[0].set_yticks(at, [law for _, law, _ in rows])
     both[0].set_ylim(max(at) + 0.7, min(at) - 0.7)
     figure.supxlabel(
-        "line: median; box: middle half of the rows; whiskers: to the last row within 1.5 boxes",
+        "line: median; box: middle half of the rows; whiskers: last row within 1.5 box lengths",
         fontsize=8, color=MEASURED,
     )  # fmt: skip
     used = [group for group in COLOURS if any(group == g for g, _, _ in rows)]

@@ -145,6 +145,8 @@ _fitter: _Fitter | None = None
 def _begin(path: str, reading: Mapping[str, Any], seed: int) -> None:
     """Ready a process of the pool for its study."""
     global _fitter
+    # Libraries such as LAPACK complain on stdout, where the study's one answer goes.
+    os.dup2(2, 1)
     _fitter = _Fitter(path, reading, seed)
 
 

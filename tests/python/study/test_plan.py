@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 from stribeck.errors import FitError, RecordingError, SpecError
 from stribeck.identify.scaling import model_for
-from stribeck.study.plan import DYNAMIC, STATIC, THERMAL, Job, group_of, make_plan
+from stribeck.model import law_ids
+from stribeck.study.plan import DYNAMIC, REVIEW, STATIC, THERMAL, Job, group_of, make_plan
 from synthetic import joint, record
 
 
@@ -65,3 +66,11 @@ def test_wrong_laws_are_refused(two_joints: Path, laws: tuple, sentence: str) ->
 def test_a_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match=r"none\.parquet"):
         make_plan(str(tmp_path / "none.parquet"), {}, ("coulomb",))
+
+
+def test_the_laws_of_the_review_are_in_the_catalog_and_in_their_tables(tmp_path: Path) -> None:
+    """14 laws of velocity, 7 with temperature or load, 4 dynamic ones."""
+    assert set(REVIEW) <= set(law_ids()) and len(set(REVIEW)) == 25
+    recording = record(tmp_path, joint())
+    groups = [group_of(model_for(law, recording)) for law in REVIEW]
+    assert groups == [STATIC] * 14 + [THERMAL] * 7 + [DYNAMIC] * 4
