@@ -124,6 +124,7 @@ def _cosh_squared_inverse(x: mpf) -> mpf:
 
 inverse = _function(lambda x: 1 / x if x else HUGE, lambda x, y: -y * y if x else mpf(0))
 exp = _function(_exp, lambda x, y: y)
+log = _function(mp.log, lambda x, y: 1 / x)
 sqrt = _function(mp.sqrt, lambda x, y: 1 / (2 * y) if y else mpf(0))
 atan = _function(mp.atan, lambda x, y: 1 / (1 + x * x))
 tanh = _function(_tanh, lambda x, y: _cosh_squared_inverse(x))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -17,6 +18,7 @@ from scipy.integrate import solve_ivp
 
 Array = NDArray[np.float64]
 Rate = Callable[[Array, float, Any, Any], Array]
+Phase = tuple[Array, Callable[[Array], Array], list[Callable[[Array], float]]]
 
 
 @dataclass(frozen=True)
@@ -34,6 +36,12 @@ class Dynamic:
         deflection is measured in ``dry/stiffness``.
     damping
         ``damping(v, p, x)``: torque per deflection rate.
+    states
+        ``states(p)``: how many numbers the state has, all 0 at the start.
+    switches
+        ``switches(z, v, p, x) -> (z, rate, events)`` for a law whose elements stick and slip:
+        the state as the phase starts, the rate while no element switches, and one function
+        ``event(z)`` for each switch, 0 from above where it happens.
     """
 
     rate: Rate
@@ -41,7 +49,8 @@ class Dynamic:
     dry: Callable[[float, Any, Any], float]
     stiffness: Callable[[Any], float]
     damping: Callable[[float, Any, Any], float] = field(default=lambda v, p, x: 0.0)
-    states: Callable[[Any], int] = field(default=lambda x: 1)
+    states: Callable[[Any], int] = field(default=lambda p: 1)
+    switches: Callable[[Array, float, Any, Any], Phase] | None = None
 
 
 DYNAMIC: dict[str, Dynamic] = {}
@@ -184,6 +193,143 @@ def _indri_torque(z: Array, dz: Array, v: float, p: Any, x: Any) -> float:
 DYNAMIC["indri_b"] = Dynamic(_indri_rate, _indri_torque, _indri_dry, lambda p: p.a1, _indri_damping)
 
 
+def _bliman_rate(z: Array, v: float, p: Any, x: Any) -> Array:
+    """Bliman and Sorine 1995, second order: dx/ds = A x + B sgn(v) in the distance s."""
+    f1, f2, s = (1 + p.rho) * p.Fc, p.rho * p.Fc, np.sign(v)
+    return abs(v) * np.array([(f1 * s - z[0]) / (p.eta * p.eps), -(f2 * s + z[1]) / p.eps])
+
+
+DYNAMIC["bliman_sorine"] = Dynamic(
+    rate=_bliman_rate,
+    torque=lambda z, dz, v, p, x: float(z[0] + z[1]),
+    dry=lambda v, p, x: (1 + 2 * p.rho) * p.Fc,
+    stiffness=lambda p: 1.0,
+    states=lambda p: 2,
+)
+
+
+def _elastoplastic_dry(v: float, p: Any, x: Any) -> float:
+    return float(p.Fc + (p.Fs - p.Fc) * _stribeck(v, p.vs, 2))
+
+
+def _elastoplastic_rate(z: Array, v: float, p: Any, x: Any) -> Array:
+    """Dupont et al. 2002, eqs 8-14: purely elastic up to the breakaway deflection."""
+    if v == 0:
+        return np.zeros(1)
+    largest = _elastoplastic_dry(v, p, x) / p.s0
+    breakaway = p.b * largest
+    along = float(z[0] * np.sign(v))
+    if along <= breakaway:
+        plastic = 0.0
+    elif along >= largest:
+        plastic = 1.0
+    else:
+        middle = (largest + breakaway) / 2
+        plastic = 0.5 * np.sin(np.pi * (along - middle) / (largest - breakaway)) + 0.5
+    return np.array([v * (1 - plastic * along / largest)])
+
+
+DYNAMIC["elastoplastic"] = Dynamic(
+    rate=_elastoplastic_rate,
+    torque=lambda z, dz, v, p, x: float(p.s0 * z[0] + p.s1 * dz[0] + p.s2 * v),
+    dry=_elastoplastic_dry,
+    stiffness=lambda p: p.s0,
+    damping=lambda v, p, x: p.s1,
+)
+
+
+#: So close to its limit an element counts as having reached it: the solver's events are as exact.
+REACHED = 1e-12
+
+
+def elements(p: Any) -> tuple[Array, Array]:
+    """Friction and stiffness of each element."""
+    numbers = range(1, _count(p) + 1)
+    return (
+        np.array([getattr(p, f"F{i}") for i in numbers]),
+        np.array([getattr(p, f"k{i}") for i in numbers]),
+    )
+
+
+def _count(p: Any) -> int:
+    return sum(1 for name in vars(p) if name[0] == "F" and name[1:].isdigit())
+
+
+def _level(v: float, p: Any, exponent: float) -> float:
+    """The sliding level s(v)."""
+    return float(np.sum(elements(p)[0]) + p.dFs * _stribeck(v, p.vs, exponent))
+
+
+def _gms_switches(z: Array, v: float, p: Any, x: Any) -> Phase:
+    """Generalized Maxwell slip (Lampaert et al. 2003): the torques of the elements, then 1 for
+    each that slides and the direction of that sliding.
+
+    An element sticks, df/dt = k v, until f = a s; then it slides, df/dt = C (a - f/s) along v,
+    until the velocity goes through zero.
+    """
+    friction, stiffness = elements(p)
+    n, s, direction = friction.size, _level(v, p, p.alpha), np.sign(v)
+    share = friction / np.sum(friction)
+    slides = (z[n : 2 * n] == direction) if direction else np.zeros(n, dtype=bool)
+    slides |= direction * z[:n] >= share * s - REACHED * s
+    start = np.concatenate([z[:n], np.where(slides, direction, 0.0)])
+
+    def rate(z: Array) -> Array:
+        sticking = stiffness * v
+        sliding = p.C * (share * direction - z[:n] / s)
+        return np.concatenate([np.where(slides, sliding, sticking), np.zeros(n)])
+
+    events = [
+        lambda z, i=i: float(share[i] * s - direction * z[i]) for i in np.flatnonzero(~slides)
+    ]
+    return start, rate, events
+
+
+def _no_rate(z: Array, v: float, p: Any, x: Any) -> Array:
+    return np.zeros_like(z)
+
+
+DYNAMIC["gms"] = Dynamic(
+    rate=_no_rate,
+    torque=lambda z, dz, v, p, x: float(np.sum(z[: _count(p)]) + p.s2 * v),
+    dry=lambda v, p, x: float(_level(v, p, p.alpha)),
+    stiffness=lambda p: 1.0,
+    states=lambda p: 2 * _count(p),
+    switches=_gms_switches,
+)
+
+
+def _leuven_slip(z: Array, v: float, p: Any) -> float:
+    """dz/dt = v (1 - f/s) along v (Lampaert et al. 2002, with n = 1)."""
+    return float(v * (1 - np.sum(z) * np.sign(v) / _level(v, p, p.delta)))
+
+
+def _leuven_switches(z: Array, v: float, p: Any, x: Any) -> Phase:
+    """The hysteresis force of N Maxwell elements, each df = k dz until it slips at W."""
+    friction, stiffness = elements(p)
+    limit = friction * (1 + p.dFs / np.sum(friction))
+    way = np.sign(_leuven_slip(z, v, p))
+    start = np.where(way * z >= limit - REACHED * np.sum(limit), way * limit, z)
+    sticks = way * start < limit
+
+    def rate(z: Array) -> Array:
+        return np.where(sticks, stiffness, 0.0) * _leuven_slip(z, v, p)
+
+    events = [lambda z, i=i: float(limit[i] - way * z[i]) for i in np.flatnonzero(sticks)]
+    return start, rate, events
+
+
+DYNAMIC["leuven"] = Dynamic(
+    rate=_no_rate,
+    torque=lambda z, dz, v, p, x: float(np.sum(z) + p.s1 * _leuven_slip(z, v, p) + p.s2 * v),
+    dry=lambda v, p, x: float(_level(v, p, p.delta)),
+    stiffness=lambda p: 1.0,
+    damping=lambda v, p, x: p.s1,
+    states=_count,
+    switches=_leuven_switches,
+)
+
+
 @dataclass(frozen=True)
 class Motion:
     """Velocity held over each step, and the other inputs likewise.
@@ -235,18 +381,69 @@ def solve(
     largest = float(np.max(dry))
     z = np.zeros(law.states(p)) if start is None else np.array(start, dtype=float)
     torque, size = np.empty(len(speeds)), np.empty(len(speeds))
+    tolerance = 1e-9 * largest / law.stiffness(p)
     for k, (v, x) in enumerate(zip(speeds, seen, strict=True)):
-        if v != 0 and motion.dt[k] > 0:
-            solved = solve_ivp(
-                lambda t, z, v=v, x=x: law.rate(z, v, p, x),
-                (0.0, motion.dt[k]),
-                z,
-                method="Radau",
-                rtol=1e-11,
-                atol=1e-9 * largest / law.stiffness(p),
-            )
-            assert solved.success, solved.message
-            z = solved.y[:, -1]
+        if law.switches is not None:
+            z = _switching_step(law, z, v, float(motion.dt[k]), p, x, tolerance)
+        elif v != 0:
+            rate = partial(_autonomous, law.rate, v, p, x)
+            z = _radau(rate, z, float(motion.dt[k]), tolerance, []).z
         torque[k] = law.torque(z, law.rate(z, v, p, x), v, p, x)
         size[k] = largest * (1 + law.damping(v, p, x) * abs(v) / dry[k])
     return Solution(torque, size)
+
+
+def _autonomous(rate: Rate, v: float, p: Any, x: Any, z: Array) -> Array:
+    return rate(z, v, p, x)
+
+
+@dataclass(frozen=True)
+class _Stretch:
+    """The state at the end of a stretch and how long it took."""
+
+    z: Array
+    duration: float
+
+
+def _radau(
+    rate: Callable[[Array], Array],
+    z: Array,
+    dt: float,
+    tolerance: float,
+    events: list[Callable[[Array], float]],
+) -> _Stretch:
+    """Up to `dt` or the first event."""
+
+    def stopping(event: Callable[[Array], float]) -> Callable[[float, Array], float]:
+        def watched(t: float, z: Array) -> float:
+            return event(z)
+
+        watched.terminal = True  # type: ignore[attr-defined]
+        watched.direction = -1  # type: ignore[attr-defined]
+        return watched
+
+    solved = solve_ivp(
+        lambda t, z: rate(z),
+        (0.0, dt),
+        z,
+        method="Radau",
+        rtol=1e-11,
+        atol=tolerance,
+        events=[stopping(event) for event in events],
+    )
+    assert solved.success, solved.message
+    return _Stretch(solved.y[:, -1], float(solved.t[-1]))
+
+
+def _switching_step(
+    law: Dynamic, z: Array, v: float, dt: float, p: Any, x: Any, tolerance: float
+) -> Array:
+    """One step of held velocity, restarted wherever an element sticks or slips."""
+    assert law.switches is not None
+    left = dt
+    while True:
+        z, rate, events = law.switches(z, v, p, x)
+        if v == 0 or left <= 1e-14 * dt:
+            return z
+        stretch = _radau(rate, z, left, tolerance, events)
+        z, left = stretch.z, left - stretch.duration

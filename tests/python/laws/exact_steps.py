@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from mpmath import mp, mpf
 
-from laws.dual import Dual, atan, exp, magnitude, power, sign, sqrt, variable
+from laws.dual import Dual, atan, exp, log, magnitude, power, sign, sqrt, variable
 from laws.dynamics import Motion
 from laws.reference import rising, stribeck
 
@@ -32,12 +32,12 @@ class Exact:
     torque
         ``torque(z, v, p, x)`` there.
     states
-        ``states(x)``: how many numbers the state has, all 0 at the start.
+        ``states(p)``: how many numbers the state has, all 0 at the start.
     """
 
     advance: Callable[[State, mpf, mpf, Any, Any], State]
     torque: Callable[[State, mpf, Any, Any], Dual]
-    states: Callable[[Any], int] = lambda x: 1
+    states: Callable[[Any], int] = lambda p: 1
 
 
 EXACT: dict[str, Exact] = {}
@@ -170,6 +170,107 @@ def _indri_torque(z: State, v: mpf, p: Any, x: Any) -> Dual:
 EXACT["indri_b"] = Exact(_indri_advance, _indri_torque)
 
 
+def _bliman_advance(z: State, v: mpf, dt: mpf, p: Any, x: Any) -> State:
+    near, far = abs(v) / (p.eta * p.eps), abs(v) / p.eps
+    fast = relax(z[0], (1 + p.rho) * p.Fc * near * sign(v), near, dt)
+    slow = relax(z[1], -p.rho * p.Fc * far * sign(v), far, dt)
+    return [fast, slow]
+
+
+EXACT["bliman_sorine"] = Exact(_bliman_advance, lambda z, v, p, x: z[0] + z[1], states=lambda p: 2)
+
+
+def _elements(p: Any) -> list[tuple[Dual, Dual]]:
+    """Friction and stiffness of each element."""
+    count = _count(p)
+    return [(getattr(p, f"F{i}"), getattr(p, f"k{i}")) for i in range(1, count + 1)]
+
+
+def _count(p: Any) -> int:
+    return sum(1 for name in vars(p) if name[0] == "F" and name[1:].isdigit())
+
+
+def _levels(v: mpf, p: Any, exponent: Dual) -> tuple[Dual, Dual]:
+    """F = F1 + ... + FN and the sliding level s(v)."""
+    total = sum((friction for friction, _ in _elements(p)), Dual(0))
+    return total, total + p.dFs * stribeck(Dual(v), p.vs, exponent)
+
+
+def _gms_advance(z: State, v: mpf, dt: mpf, p: Any, x: Any) -> State:
+    """An element that starts to slide within the step does so on its level and stays there; one
+    that slides already relaxes towards it. The second half of the state: directions of sliding."""
+    direction = sign(v)
+    if not direction:
+        return [*z[: len(z) // 2], *(Dual(0) for _ in z[len(z) // 2 :])]
+    total, level = _levels(v, p, p.alpha)
+    torques, slides = [], []
+    for (friction, stiffness), f, slid in zip(
+        _elements(p), z[: len(z) // 2], z[len(z) // 2 :], strict=True
+    ):
+        end = friction / total * level * direction
+        if slid.value == direction or f.value * direction >= end.value * direction:
+            torques.append(end + (f - end) * exp(-p.C * dt / level))
+            slides.append(Dual(direction))
+            continue
+        stuck = f + stiffness * v * dt
+        reached = stuck.value * direction >= end.value * direction
+        torques.append(end if reached else stuck)
+        slides.append(Dual(direction if reached else 0))
+    return [*torques, *slides]
+
+
+EXACT["gms"] = Exact(
+    _gms_advance,
+    lambda z, v, p, x: sum(z[: len(z) // 2], Dual(0)) + p.s2 * v,
+    states=lambda p: 2 * _count(p),
+)
+
+
+def _leuven_slip(z: State, v: mpf, p: Any) -> Dual:
+    return v * (1 - sum(z, Dual(0)) * sign(v) / _levels(v, p, p.delta)[1])
+
+
+def _leuven_advance(z: State, v: mpf, dt: mpf, p: Any, x: Any) -> State:
+    """From switch to switch: with the stiffness K of the elements that stick, the hysteresis
+    torque goes from y to s + (y - s) exp(-K |v| t/s) along v."""
+    if not v:
+        return z
+    total, s = _levels(v, p, p.delta)
+    limits = [friction * (total + p.dFs) / total for friction, _ in _elements(p)]
+    left = Dual(dt)
+    while True:
+        y = sum(z, Dual(0)) * sign(v)
+        way = sign(s - y) * sign(v)
+        sticking = [i for i, f in enumerate(z) if way * f.value < limits[i].value]
+        if not way or not sticking:
+            return z
+        stiffness = sum((_elements(p)[i][1] for i in sticking), Dual(0))
+        travels = {i: (way * limits[i] - z[i]) / _elements(p)[i][1] for i in sticking}
+        first = min(sticking, key=lambda i: abs(travels[i].value))
+        after = y + stiffness * travels[first] * sign(v)
+        decay = (s - after) / (s - y)
+        pace = stiffness * abs(v) / s
+        free = (s + (y - s) * exp(-pace * left) - y) / stiffness * sign(v)
+        if decay.value > 0 and exp(-pace * left).value < decay.value:
+            left = left + log(decay) / pace
+            z = _moved(z, travels[first], sticking, p)
+            z[first] = way * limits[first]
+        else:
+            return _moved(z, free, sticking, p)
+
+
+def _moved(z: State, travel: Dual, sticking: list[int], p: Any) -> State:
+    springs = _elements(p)
+    return [f + springs[i][1] * travel if i in sticking else f for i, f in enumerate(z)]
+
+
+EXACT["leuven"] = Exact(
+    _leuven_advance,
+    lambda z, v, p, x: sum(z, Dual(0)) + p.s1 * _leuven_slip(z, v, p) + p.s2 * v,
+    states=_count,
+)
+
+
 def solve(
     law: Exact,
     parameters: Mapping[str, float],
@@ -185,7 +286,7 @@ def solve(
         row = {name: mpf(float(column[k])) for name, column in motion.others.items()}
         x = SimpleNamespace(**row, **fixed)
         if z is None:
-            z = [Dual(0) for _ in range(law.states(x))]
+            z = [Dual(0) for _ in range(law.states(p))]
         z = law.advance(z, mpf(v), mpf(float(motion.dt[k])), p, x)
         torques.append(law.torque(z, mpf(v), p, x))
     return torques

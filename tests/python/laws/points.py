@@ -24,6 +24,7 @@ SCALES = {
     "none": 1.0,
     "speed": SPEED,
     "torque": TORQUE,
+    "position": EXCURSION,
     "stiffness": TORQUE / EXCURSION,
     "damping": TORQUE / SPEED,
     "square_damping": TORQUE / SPEED**2,

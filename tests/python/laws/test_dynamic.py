@@ -43,7 +43,15 @@ def base(spec: str) -> str:
 
 
 #: A real joint's part of the bounds, where a stiff solver takes seconds instead of hours.
-PLAUSIBLE = {"bristle_stiffness": (1e2, 1e5), "dahl_exponent": (1.0, 3.0)}
+PLAUSIBLE = {
+    "bristle_stiffness": (1e2, 1e5),
+    "dahl_exponent": (1.0, 3.0),
+    "sliding_distance": (1e-3, 1e-1),
+    "distance_ratio": (0.1, 0.9),
+    "attraction": (1e1, 1e4),
+    **{f"element_stiffness_{i}": (1e2, 1e4) for i in range(1, 17)},
+    **{f"element_friction_{i}": (0.1, 10.0) for i in range(1, 17)},
+}
 
 
 def parameter_sets(spec: str, *, wide: bool = False) -> dict[str, dict[str, float]]:
@@ -57,7 +65,7 @@ def parameter_sets(spec: str, *, wide: bool = False) -> dict[str, dict[str, floa
     table = sb.model(spec).parameters
     if not wide:
         table = tuple(replace_bounds(p) for p in table)
-    while len(sets) < (8 if wide else 3):
+    while len(sets) < (8 if wide and not spec.endswith(":16") else 3):
         drawn = {p.symbol: draw(rng, p) for p in table}
         if least_dry(spec, drawn) > 0.1:
             sets[f"drawn {len(sets)}"] = drawn
@@ -97,14 +105,11 @@ def steps(spec: str, count: int = 40) -> tuple[Motion, dict[str, float]]:
         "q": rng.uniform(-1, 1, count),
     }
     constants = draw_constants(rng, base(spec))
-    if ":" in spec:
-        constants["elements"] = float(spec.partition(":")[2])
     return Motion(10 ** rng.uniform(-4, -1.5, count), velocity, others), constants
 
 
 def made(spec: str, parameters: dict[str, float], constants: dict[str, float]) -> sb.Model:
-    fixed = {name: x for name, x in constants.items() if name != "elements"}
-    return sb.model(spec, constants=fixed, **parameters)
+    return sb.model(spec, constants=constants, **parameters)
 
 
 def columns(motion: Motion) -> dict[str, Array]:
@@ -169,7 +174,7 @@ def test_the_references_agree(spec: str) -> None:
         solved = dynamics.solve(DYNAMIC[base(spec)], parameters, motion, constants)
         duals = exact_steps.solve(EXACT[base(spec)], parameters, motion, constants)
         value, _ = exact_steps.as_arrays(duals, list(parameters))
-        assert np.max(np.abs(value - solved.torque) / solved.size) <= 1e-9
+        assert np.max(np.abs(value - solved.torque) / solved.size) <= 5e-9
 
 
 #: The smooth motion: 0.05 rad at 1 Hz, compared at equal instants.
@@ -204,7 +209,7 @@ def smooth_torque(spec: str, parameters: dict[str, float], constants: dict[str, 
         return float(speed(t))
 
     times = np.linspace(0, DURATION, INSTANTS + 1)[1:]
-    z = np.zeros(law.states(inputs(0.0)))
+    z = np.zeros(law.states(p))
     tolerance = 1e-10 * law.dry(velocity(0.0), p, inputs(0.0)) / law.stiffness(p)
     solved = solve_ivp(
         lambda t, z: law.rate(z, velocity(t), p, inputs(t)),
@@ -247,18 +252,25 @@ def sampled_torque(model: sb.Model, rows: int, *, mean: bool) -> Array:
     return torque[rows // INSTANTS - 1 :: rows // INSTANTS]
 
 
-#: Laws whose right-hand side switches: their events are solved step by step only.
-SMOOTH = [spec for spec in SPECS if base(spec) not in ("gms", "leuven")]
-
-
 @pytest.mark.parametrize("mean", [False, True], ids=["end of step", "mean velocity"])
-@pytest.mark.parametrize("spec", SMOOTH)
+@pytest.mark.parametrize("spec", SPECS)
 def test_order_on_a_smooth_motion(spec: str, mean: bool) -> None:
-    """First order in the step; second with the step's mean velocity."""
+    """First order in the step; second with the step's mean velocity.
+
+    Against Radau over the continuous motion; for laws of several elements, which switch at
+    instants that no solver meets, against their own steps 27 times finer than the finest. A level
+    that moves while an element of GMS reaches it costs an error of first order there, so its
+    second order is that of a constant level.
+    """
     _, constants = steps(spec)
     for name, parameters in smooth_sets(spec).items():
+        if mean and base(spec) == "gms":
+            parameters["dFs"] = 0.0
         model = made(spec, parameters, constants)
-        expected = smooth_torque(spec, parameters, constants)
+        if DYNAMIC[base(spec)].switches is None:
+            expected = smooth_torque(spec, parameters, constants)
+        else:
+            expected = sampled_torque(model, 27 * ROWS[-1], mean=True)
         errors = np.array(
             [
                 np.sqrt(np.mean((sampled_torque(model, rows, mean=mean) - expected) ** 2))
@@ -280,13 +292,18 @@ def smooth_sets(spec: str) -> dict[str, dict[str, float]]:
 
 
 def pace(spec: str, parameters: dict[str, float]) -> float:
-    """How fast the bristle moves at the largest speed of the smooth motion (1/s): s0 v/D.
+    """How fast the state moves at the largest speed of the smooth motion (1/s): s0 v/D.
 
-    Dahl's turns back faster: from u = 2 the slope of |u|^a3 is a3 2^(a3 - 1).
+    Dahl's turns back faster: from u = 2 the slope of |u|^a3 is a3 2^(a3 - 1). Bliman and Sorine
+    give the distance itself; springs side by side add up.
     """
     _, constants = steps(spec)
     p, v = SimpleNamespace(**parameters), AMPLITUDE * OMEGA
     x = SimpleNamespace(**STILL, a=0.0, **constants)
     law = DYNAMIC[base(spec)]
+    if base(spec) == "bliman_sorine":
+        return v / (p.eta * p.eps)
+    if base(spec) in ("gms", "leuven"):
+        return float(np.sum(dynamics.elements(p)[1])) * v / law.dry(v, p, x)
     steepest = p.a3 * 2 ** (p.a3 - 1) if base(spec) == "dahl" else 1.0
     return steepest * law.stiffness(p) * v / law.dry(v, p, x)
