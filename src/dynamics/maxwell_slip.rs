@@ -58,14 +58,14 @@ impl<S: Real> MaxwellSlip<'_, S> {
         let dry = held.dry();
         let change = if interval.held.is_some() { end.dry() - dry } else { S::zero() };
         let dt = if interval.dt.value() > 0.0 { interval.dt } else { S::Plain::zero() };
+        let settling = Settling { pull: self.attraction.scale(dt), dry, mean: interval.mean };
         Slide {
             direction: interval.velocity().sign(),
             travel: interval.travel(),
             from: (dry - change) / total,
             to: (dry + change) / total,
-            pull: self.attraction.scale(dt),
-            dry,
-            mean: interval.mean,
+            whole: settling.over(S::one()),
+            settling,
         }
     }
 }
@@ -78,31 +78,54 @@ struct Slide<S: Real> {
     /// moves steadily through what is held, at the middle.
     from: S,
     to: S,
-    /// The relaxation in sliding over the whole step is the ratio of these.
+    settling: Settling<S>,
+    /// The weights of an element that slides through the whole step.
+    whole: Weights<S>,
+}
+
+/// How a sliding element settles: its relaxation over the whole step is `pull/dry`.
+struct Settling<S> {
     pull: S,
     dry: S,
-    /// Whether the mean is wanted.
     mean: bool,
 }
 
-impl<S: Real> Slide<S> {
-    /// The weights of an exponential approach over a share of the step: `phi_1`, `phi_2` and what
-    /// is covered.
+/// What is left of a way, at the mean of it (`phi_1`) and of a way that grows (`phi_2`, if the mean
+/// is wanted), and what is covered at the end.
+struct Weights<S> {
+    first: S,
+    second: S,
+    covered: S,
+}
+
+impl<S: Real> Settling<S> {
+    /// The weights over a share of the step.
     #[inline]
-    fn weights(&self, share: S) -> (S, S, S) {
+    fn over(&self, share: S) -> Weights<S> {
         let pull = self.pull * share;
         if pull.value() == 0.0 {
-            return (S::one(), S::from_f64(0.5), S::zero());
+            return Weights { first: S::one(), second: S::from_f64(0.5), covered: S::zero() };
         }
         if pull.value() < SATURATED * self.dry.value() {
             let y = -(pull / self.dry);
-            let phi = y.phi(1);
+            let first = y.phi(1);
             let second = if self.mean { y.phi(2) } else { S::zero() };
-            return (phi, second, -(y * phi));
+            return Weights { first, second, covered: -(y * first) };
         }
-        let phi = if self.dry.value() > 0.0 { self.dry / pull } else { S::zero() };
-        (phi, phi * (-phi).shift(S::Plain::one()), S::one())
+        let first = if self.dry.value() > 0.0 { self.dry / pull } else { S::zero() };
+        let second = first * (-first).shift(S::Plain::one());
+        Weights { first, second, covered: S::one() }
     }
+}
+
+/// What an element does over a step.
+enum Course<S> {
+    /// It sticks throughout, and its force grows by this along the motion.
+    Sticks(S),
+    /// It sticks for this share of the step and begins to slide at this force.
+    BreaksAway { share: S, force: S },
+    /// It slides throughout.
+    Slides,
 }
 
 struct Element<S> {
@@ -118,36 +141,49 @@ impl<S: Real> Element<S> {
             *sliding = 0;
             return *force;
         }
-        let (half, one) = (S::Plain::from_f64(0.5), S::Plain::one());
         let along = if slide.direction.value() > 0.0 { 1 } else { -1 };
+        let half = S::Plain::from_f64(0.5);
         let before = force.scale(slide.direction);
-        let (mut limit, end) = (self.friction * slide.from, self.friction * slide.to);
-        // Where sliding starts from, the share of the step that is left for it, and the area under
-        // the ramp.
-        let (mut start, mut rest, mut ramp) = (before, S::one(), S::zero());
-        if *sliding != along {
-            let room = limit - before;
-            let reach = self.stiffness.scale(slide.travel);
-            let gain = reach - (end - limit);
-            if room.value() > 0.0 {
-                if room.value() > gain.value() {
-                    *sliding = 0;
-                    *force += reach.scale(slide.direction);
-                    return (before + reach.scale(half)).scale(slide.direction);
-                }
-                let share = room / gain;
-                start = before + reach * share;
-                limit = start;
-                ramp = share * (before + start).scale(half);
-                rest = (-share).shift(one);
+        let limits = (self.friction * slide.from, self.friction * slide.to);
+        let course =
+            if *sliding == along { Course::Slides } else { self.course(before, limits, slide) };
+        *sliding = if matches!(course, Course::Sticks(_)) { 0 } else { along };
+        let (after, mean) = match course {
+            Course::Sticks(rise) => (before + rise, before + rise.scale(half)),
+            Course::Slides => approach(before, limits, &slide.whole),
+            Course::BreaksAway { share, force } => {
+                let rest = (-share).shift(S::Plain::one());
+                let (after, mean) = approach(force, (force, limits.1), &slide.settling.over(rest));
+                (after, share * (before + force).scale(half) + rest * mean)
             }
-            *sliding = along;
-        }
-        let (phi, second, covered) = slide.weights(rest);
-        let (gap, rise) = (limit - start, end - limit);
-        let after = start + gap * covered + rise * (-phi).shift(one);
+        };
         *force = after.scale(slide.direction);
-        let mean = limit - gap * phi + rise * (-second).shift(half);
-        (ramp + rest * mean).scale(slide.direction)
+        mean.scale(slide.direction)
     }
+
+    /// What an element that sticks at first does; forces along the motion.
+    #[inline]
+    fn course(&self, before: S, (from, to): (S, S), slide: &Slide<S>) -> Course<S> {
+        let room = from - before;
+        let reach = self.stiffness.scale(slide.travel);
+        let gain = reach - (to - from);
+        if room.value() <= 0.0 {
+            Course::Slides
+        } else if room.value() > gain.value() {
+            Course::Sticks(reach)
+        } else {
+            let share = room / gain;
+            Course::BreaksAway { share, force: before + reach * share }
+        }
+    }
+}
+
+/// Force at the end and mean force of an element that starts at `start` and tends to a limit that
+/// moves from one place to another.
+#[inline]
+fn approach<S: Real>(start: S, (from, to): (S, S), weights: &Weights<S>) -> (S, S) {
+    let (gap, rise) = (from - start, to - from);
+    let after = start + gap * weights.covered + rise * (-weights.first).shift(S::Plain::one());
+    let half = S::Plain::from_f64(0.5);
+    (after, from - gap * weights.first + rise * (-weights.second).shift(half))
 }
