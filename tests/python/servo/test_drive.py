@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from click.testing import CliRunner
 from servo_recording import TRUTH, recorded
 from stribeck import _core
+from stribeck.cli import cli
 from stribeck.errors import FitError, RecordingError, SpecError
 from stribeck.fit import evaluate
 from stribeck.servo.drive import VoltageDrive
@@ -137,3 +140,17 @@ def test_models_that_do_not_fit_the_drive_are_refused(whole: sb.Recording) -> No
     plain = sb.model("coulomb", coulomb_friction=1.0, viscous_friction=1.0)
     with pytest.raises(FitError, match=r"predicts a torque, but .* as the voltage on a motor"):
         evaluate(plain, whole)
+
+
+def test_the_command_drives_and_holds_out(tmp_path: Path, frame: pl.DataFrame) -> None:
+    recorded(tmp_path, frame)
+    words = ["fit", str(tmp_path / "servo.parquet"), "--drive", "voltage", "--model", "bam_m3"]
+    done = CliRunner().invoke(
+        cli, [*words, "--starts", "2", "--hold-out", "gain=1", "--where", "enabled", "--json"]
+    )
+    assert done.exit_code == 0
+    said = json.loads(done.stdout)
+    assert said["drive"] == "voltage" and said["unit"] == "V"
+    assert said["parameters"]["resistance"]["unit"] == "ohm"
+    assert said["rmse_held_out"] > 0
+    assert "held out: the rows with gain 1, predicted from all others" in said["notes"]
