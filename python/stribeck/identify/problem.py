@@ -114,10 +114,12 @@ class Problem:
     @cached_property
     def _row_channels(self) -> dict[str, Any]:
         """The channels of `rows` alone, for models in which each sample stands by itself."""
-        return {
+        channels: dict[str, Any] = {
             name: None if column is None else np.ascontiguousarray(column[self.rows])
             for name, column in self._all_channels.items()
         }
+        # An identified load is a term of the model: no balance may count it twice.
+        return {**channels, "shift_load": self.recording.load_torque is not None}
 
     @cached_property
     def _smooth(self) -> dict[str, Array] | None:
@@ -151,7 +153,8 @@ class Problem:
         }
         if start > 0 and self.recording.moving[start]:
             channels["dt"] = np.concatenate([[np.inf], self._all_channels["dt"][start + 1 : stop]])
-        return {**channels, **delayed}
+        known = {"shift_load": self.recording.load_torque is not None}
+        return {**channels, **known, **delayed}
 
     def predict(self, values: Array) -> Array:
         """Predicted torque of every row of the recording, array [n].
