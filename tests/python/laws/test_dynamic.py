@@ -177,6 +177,29 @@ def test_the_references_agree(spec: str) -> None:
         assert np.max(np.abs(value - solved.torque) / solved.size) <= 5e-9
 
 
+@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) not in EXACT])
+def test_gradients_are_slopes_of_the_solution(spec: str) -> None:
+    """Against difference quotients of Radau, where no closed form gives the derivative."""
+    motion, constants = steps(spec, count=15)
+    parameters = parameter_sets(spec)["drawn 1"]
+    model = made(spec, parameters, constants)
+    gradient = model.gradient(**columns(motion))
+    for column, p in zip(gradient.T, model.parameters, strict=True):
+        h = 1e-4 * parameters[p.symbol]
+        high, low = (
+            dynamics.solve(
+                DYNAMIC[base(spec)],
+                {**parameters, p.symbol: parameters[p.symbol] + d},
+                motion,
+                constants,
+            )
+            for d in (h, -h)
+        )
+        slope = (high.torque - low.torque) / (2 * h)
+        allowed = 1e-3 * np.max(np.abs(slope)) + 1e-5 * high.size / parameters[p.symbol]
+        assert np.all(np.abs(column - slope) <= allowed), p.symbol
+
+
 #: The smooth motion: 0.05 rad at 1 Hz, compared at equal instants.
 AMPLITUDE, OMEGA = 0.05, 2 * np.pi
 DURATION, INSTANTS = 1.25, 500

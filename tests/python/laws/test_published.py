@@ -129,10 +129,3 @@ def test_load_and_temperature_parts_of_the_full_model_are_independent() -> None:
         for T in (38.0, 80.0):
             added = torque(at("m_star", p, v, T, -0.7)) - torque(at("m_star", p, v, T))
             assert added == pytest.approx(by_load, rel=1e-12)
-
-
-def test_reference_of_m0_is_the_equation() -> None:
-    """The reference itself, by hand: 0.049 + 0.0844 e^-1 + 5e-4 * 6.5 at the Stribeck speed."""
-    inputs = {"v": mpf("6.5"), "stribeck_exponent": mpf("1.3")}
-    value = evaluate(STATIC["m0"], published.M0, inputs).value
-    assert float(value) == pytest.approx(0.049 + 0.0844 * np.exp(-1) + 5e-4 * 6.5, rel=1e-15)
