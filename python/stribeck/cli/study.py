@@ -56,7 +56,8 @@ def study(
         try:
             result = make_study(
                 data, folder, laws or REVIEW, starts=starts, seed=seed, low_speed=low_speed,
-                workers=workers, progress=bar.show, **reading,
+                workers=workers, progress=bar.show, note=lambda text: say(f"note: {text}"),
+                **reading,
             )  # fmt: skip
         except (Stopped, KeyboardInterrupt):
             bar.close()

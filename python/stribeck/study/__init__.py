@@ -37,6 +37,7 @@ def study(
     low_speed: float | None = None,
     workers: int | None = 1,
     progress: Progress | None = None,
+    note: Callable[[str], None] | None = None,
     **reading: Any,
 ) -> Study:
     """Fit `laws` to every joint of a recording from many starts, and compare them.
@@ -57,6 +58,8 @@ def study(
     workers
         Processes; None: one for each core. More than one needs the script's main module to be
         importable (``if __name__ == "__main__":``). The results do not depend on it.
+    progress, note
+        Told after each fit how many are made, and before the first how the recording was read.
 
     Raises
     ------
@@ -72,6 +75,9 @@ def study(
     if low_speed is not None and not low_speed > 0.0:
         raise SpecError(f"low speed {low_speed:g} must be above zero")
     plan = make_plan(str(path), reading, laws, starts=starts, seed=seed)
+    if note is not None:
+        for sentence in plan.notes:
+            note(sentence)
     store = Store(Path(output), plan)
     todo = [job for job in plan.jobs if job not in store.trials]
 

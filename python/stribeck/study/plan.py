@@ -91,6 +91,8 @@ class Plan:
         parameters follow from linear equations.
     skipped
         Laws that a recording lacks a channel for.
+    notes
+        How the recordings were understood.
     """
 
     path: str
@@ -102,6 +104,7 @@ class Plan:
     seed: int
     jobs: tuple[Job, ...] = field(repr=False)
     skipped: tuple[Skipped, ...]
+    notes: tuple[str, ...]
 
     def read(self, joint: str | None) -> Recording:
         """The recording of one joint."""
@@ -121,7 +124,7 @@ def make_plan(
     Raises
     ------
     SpecError
-        A law that does not exist or is given twice.
+        A law that does not exist or is given twice; no starts; a negative seed.
     RecordingError
         A recording that cannot be read.
     FitError
@@ -129,6 +132,10 @@ def make_plan(
     """
     if not laws:
         raise SpecError("a study needs at least one law: name one with --law")
+    if starts < 1:
+        raise SpecError(f"{starts} starts are none: give 1 or more")
+    if seed < 0:
+        raise SpecError(f"seed {seed} is negative: give 0 or more")
     for law in laws:
         parse_spec(law)
         if laws.count(law) > 1:
@@ -136,10 +143,12 @@ def make_plan(
     joints = _joints(path, reading)
     jobs: list[Job] = []
     skipped: list[Skipped] = []
+    notes: list[str] = []
     sha256 = ""
     for joint in joints:
         recording = read(path, **{**reading, "joint": joint})
         sha256 = recording.sha256
+        notes += recording.notes
         counts: dict[str, int] = {}
         for law in laws:
             try:
@@ -159,6 +168,7 @@ def make_plan(
         seed=seed,
         jobs=tuple(jobs),
         skipped=tuple(skipped),
+        notes=tuple(dict.fromkeys(notes)),
     )
 
 

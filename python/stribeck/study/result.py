@@ -99,6 +99,7 @@ class Study:
                     }
                     for joint, data in self.joints.items()
                 ],
+                "notes": list(self.plan.notes),
             },
             "laws": list(self.plan.laws),
             "starts": self.plan.starts,

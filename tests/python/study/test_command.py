@@ -25,6 +25,8 @@ def test_json_alone_on_stdout(two_joints: Path, tmp_path: Path) -> None:
     assert done.stdout.count("\n") == 1
     assert json.loads(done.stdout)["output"] == str(tmp_path / "out")
     assert "Traceback" not in done.stderr
+    answer = json.loads(done.stdout)
+    assert all(f"note: {text}\n" in done.stderr for text in answer["data"]["notes"])
 
 
 def test_the_folder_is_named_after_the_data(two_joints: Path, tmp_path: Path) -> None:

@@ -74,3 +74,10 @@ def test_the_laws_of_the_review_are_in_the_catalog_and_in_their_tables(tmp_path:
     recording = record(tmp_path, joint())
     groups = [group_of(model_for(law, recording)) for law in REVIEW]
     assert groups == [STATIC] * 14 + [THERMAL] * 7 + [DYNAMIC] * 4
+
+
+def test_starts_and_seed_must_make_sense(two_joints: Path) -> None:
+    with pytest.raises(SpecError, match="give 1 or more"):
+        make_plan(str(two_joints), {}, ("coulomb",), starts=0)
+    with pytest.raises(SpecError, match="seed -1 is negative"):
+        make_plan(str(two_joints), {}, ("coulomb",), seed=-1)
