@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 
 #: Steady-state points, one a run, have slid for so long (s) that every state has settled.
 SETTLED = 1e9
+#: How many rows of a run tell how it began.
+FIRST_ROWS = 500
 
 #: Laws that read the sign of the motor torque and nothing else of it.
 SIGN_OF_MOTOR_TORQUE = ("clochiatti",)
@@ -59,7 +61,7 @@ class Problem:
         r = self.recording
         load = self.load if r.load_torque is None else r.load_torque
         return {
-            "dt": np.full_like(r.velocity, SETTLED) if r.averaged else self._steps,
+            "dt": np.full_like(r.velocity, SETTLED) if r.averaged else r.dt,
             "velocity": np.where(r.moving, r.velocity, r.denoised("velocity")),
             "position": r.position,
             "acceleration": r.acceleration,
@@ -70,14 +72,6 @@ class Problem:
             **({} if self.model.drive is None else {"enabled": r.enabled}),
             "mean_velocity": self._mean_velocity if self.model.has_state else None,
         }
-
-    @cached_property
-    def _steps(self) -> Array:
-        """Time steps, array [n]; infinite where a run begins in motion: the joint slides."""
-        r = self.recording
-        begins = ~(r.dt > 0.0)
-        begins[0] = True
-        return np.where(begins & r.moving, np.inf, r.dt)
 
     @cached_property
     def _motor_sign(self) -> Array | None:
@@ -141,20 +135,56 @@ class Problem:
             smooth["load_torque"] = self.load
         return smooth
 
-    def _stretch(self, start: int, stop: int) -> dict[str, Any]:
-        """The channels of a contiguous stretch, for models that need what went before."""
+    def _channels_at(self, at: slice | NDArray[np.intp]) -> dict[str, Any]:
+        """The channels of some rows, for models that need what went before."""
         delayed: dict[str, Any] = {}
         if self._smooth is not None:
-            smooth = {name: column[start:stop] for name, column in self._smooth.items()}
+            smooth = {name: column[at] for name, column in self._smooth.items()}
             delayed = {"smooth": smooth, "shift_load": self.recording.torque_holds_load}
         channels = {
-            name: None if column is None else column[start:stop]
+            name: None if column is None else column[at]
             for name, column in self._all_channels.items()
         }
-        if start > 0 and self.recording.moving[start]:
-            channels["dt"] = np.concatenate([[np.inf], self._all_channels["dt"][start + 1 : stop]])
         known = {"shift_load": self.recording.load_torque is not None}
         return {**channels, **known, **delayed}
+
+    def _stretch(self, start: int, stop: int, values: Array) -> dict[str, Any]:
+        """The channels of a contiguous stretch, each run in it begun as the data says."""
+        channels = self._channels_at(slice(start, stop))
+        begins = self._moving_begins(start, stop)
+        if begins.size:
+            dt = channels["dt"].copy()
+            dt[begins - start] = np.where(self._slides(begins, stop, values), np.inf, 0.0)
+            channels["dt"] = dt
+        return channels
+
+    def _moving_begins(self, start: int, stop: int) -> NDArray[np.intp]:
+        """Rows at which a run begins in motion, where a model with a memory has to know how."""
+        r = self.recording
+        if not self.model.has_state or r.averaged:
+            return np.empty(0, dtype=np.intp)
+        begins = ~(r.dt[start:stop] > 0.0)
+        begins[:1] = True
+        return start + np.flatnonzero(begins & r.moving[start:stop])
+
+    def _slides(self, begins: NDArray[np.intp], stop: int, values: Array) -> NDArray[np.bool_]:
+        """Whether the joint slides already where a run begins in motion, or is without tension.
+
+        Nothing recorded says which: what fits the first rows better is taken, array [begins].
+        """
+        r = self.recording
+        ends = np.append(np.flatnonzero(~(r.dt[:stop] > 0.0)), stop)
+        ends = np.minimum(ends[np.searchsorted(ends, begins, side="right")], begins + FIRST_ROWS)
+        at = np.concatenate([np.arange(*pair) for pair in zip(begins, ends, strict=True)])
+        first = np.isin(at, begins)
+        window = np.cumsum(first) - 1
+        channels = self._channels_at(at)
+        misfit = []
+        for step in (0.0, np.inf):
+            channels["dt"] = np.where(first, step, channels["dt"])
+            wrong = r.torque[at] - self.known[at] - self.model.predictor.torque(values, **channels)
+            misfit.append(np.bincount(window, np.where(r.moving[at], wrong**2, 0.0)))
+        return np.asarray(misfit[1] < misfit[0])
 
     def predict(self, values: Array) -> Array:
         """Predicted torque of every row of the recording, array [n].
@@ -164,8 +194,8 @@ class Problem:
         FitError
             The model means nothing at these values, or has no answer in some row.
         """
-        everything = self._stretch(0, self.recording.time.size)
         try:
+            everything = self._stretch(0, self.recording.time.size, values)
             return self.model.predictor.torque(values, **everything) + self.known
         except _core.ModelError as error:
             raise FitError(f"{self.model.spec} on {self.recording.path}: {error}") from None
@@ -192,7 +222,7 @@ class Problem:
         else:
             start, stop = self.span or (0, self.recording.time.size)
             torque, jacobian = self.model.predictor.gradient(
-                values, **self._stretch(start, stop), wanted=chosen
+                values, **self._stretch(start, stop, values), wanted=chosen
             )
             torque, jacobian = torque[self.rows - start], jacobian[self.rows - start]
         return self.target - self.known[self.rows] - torque, jacobian
