@@ -157,5 +157,7 @@ def power(base: Dual, exponent: Number) -> Dual:
     if base.value == 0:
         return Dual(HUGE if p.value < 0 else int(p.value == 0))
     logarithm = mp.log(base.value)
+    if p.value * logarithm > OVERFLOW:
+        return Dual(HUGE)
     value = _exp(p.value * logarithm)
     return base._chain(value, p.value * value / base.value) + p._chain(mpf(0), value * logarithm)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from stribeck.model import Parameter, law_ids
+from stribeck.model import Parameter, catalog, law_ids
 
 from laws import dynamics, exact_steps
 from laws.dynamics import DYNAMIC, Motion
@@ -159,6 +160,35 @@ def test_steps_and_their_gradients_are_exact(spec: str) -> None:
         wrong = np.abs(model.gradient(**columns(motion)) - slope) / (scale + 1e-290)
         where = np.unravel_index(np.argmax(wrong), wrong.shape)
         assert np.all(wrong <= 1e-9), (name, symbols[where[1]], where[0], np.max(wrong))
+
+
+@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) in EXACT])
+def test_steps_in_single_precision(spec: str) -> None:
+    """2e-6 of the size of the torque and of the dry magnitudes it is made of, over 40 steps."""
+    motion, constants = steps(spec)
+    motion = Motion(
+        rounded(motion.dt),
+        rounded(motion.velocity),
+        {letter: rounded(column) for letter, column in motion.others.items()},
+    )
+    constants = {name: float(rounded(x)) for name, x in constants.items()}
+    for name, drawn in parameter_sets(spec).items():
+        parameters = {symbol: float(rounded(x)) for symbol, x in drawn.items()}
+        model = made(spec, parameters, constants)
+        duals = exact_steps.solve(EXACT[base(spec)], parameters, motion, constants)
+        value, _ = exact_steps.as_arrays(duals, list(parameters))
+        roles = {row["symbol"]: row["role"] for row in catalog()["laws"][base(spec)]["parameters"]}
+        dry = sum(abs(x) for symbol, x in parameters.items() if roles[symbol] == "dry")
+        size = np.max(np.abs(value)) + dry
+        size += np.array([sensitivity(d, parameters) for d in duals])
+        torque = model.torque(**columns(motion), precision="single")
+        error = np.abs(torque - value) / size
+        assert np.all(error <= 2e-6), (name, int(np.argmax(error)), np.max(error))
+
+
+def rounded(x: Any) -> Array:
+    """In single precision."""
+    return np.asarray(x, dtype=np.float32).astype(np.float64)
 
 
 def sensitivity(torque: exact_steps.Dual, parameters: dict[str, float]) -> float:

@@ -24,21 +24,21 @@ SMALLEST = {"double": 1e-290, "single": 1e-30}
 LARGEST = {"double": 1e300, "single": 1e37}
 
 
-def error_of_value(point: Point, precision: str) -> float:
-    """The error in multiples of what is allowed; 0 where the exact value is beyond the type."""
+def error_of_value(point: Point, precision: str) -> float | None:
+    """The error in multiples of what is allowed; None where the exact value is beyond the type."""
     given = point.rounded if precision == "single" else point
     try:
         exact = evaluate(STATIC[point.law], *given.exact)
     except Beyond:
-        return 0.0
+        return None
     if exact.size > LARGEST[precision]:
-        return 0.0
+        return None
     torque = given.model.torque(**given.channels, precision=precision)[0]
     allowed = {"double": DOUBLE, "single": SINGLE}[precision] * exact.size + SMALLEST[precision]
     return float(abs(float(torque) - exact.value) / allowed)
 
 
-def error_of_gradient(point: Point) -> float:
+def error_of_gradient(point: Point) -> float | None:
     """The largest error of a derivative by a parameter, in multiples of what is allowed."""
     parameters, inputs = point.exact
     try:
@@ -46,9 +46,9 @@ def error_of_gradient(point: Point) -> float:
         exact = evaluate(terms, parameters, inputs)
         size = gradient_size(PRINTED.get(point.law, terms), parameters, inputs)
     except Beyond:
-        return 0.0
+        return None
     if max(size.values()) > LARGEST["double"]:
-        return 0.0
+        return None
     model = point.model
     gradient = model.gradient(**point.channels)[0]
     return max(
@@ -57,14 +57,12 @@ def error_of_gradient(point: Point) -> float:
     )
 
 
-def worst(errors: Iterable[tuple[float, Point]]) -> tuple[float, Point | None]:
-    """The largest error and where; NaN counts as infinite."""
-    known = [(np.inf if np.isnan(e) else e, point) for e, point in errors]
-    return max(known, key=lambda pair: pair[0])
-
-
-def assert_within(errors: Iterable[tuple[float, Point]]) -> None:
-    error, point = worst(errors)
+def assert_within(errors: Iterable[tuple[float | None, Point]], share: float = 0.9) -> None:
+    """Every error is allowed, and at least this `share` of the points could be judged."""
+    points = list(errors)
+    judged = [(np.inf if np.isnan(e) else e, point) for e, point in points if e is not None]
+    assert len(judged) >= share * len(points), f"{len(judged)} of {len(points)} points judged"
+    error, point = max(judged, key=lambda pair: pair[0])
     assert error <= 1, f"{error:.3g} times the error allowed at {point}"
 
 
@@ -76,25 +74,25 @@ def test_every_law_has_a_reference() -> None:
 @pytest.mark.parametrize("precision", ["double", "single"])
 @pytest.mark.parametrize("law", STATIC_LAWS)
 def test_values_at_random_points(law: str, precision: str) -> None:
-    assert_within((error_of_value(p, precision), p) for p in random_points(law, 60))
+    assert_within(((error_of_value(p, precision), p) for p in random_points(law, 60)), share=1)
 
 
 @pytest.mark.parametrize("law", STATIC_LAWS)
 def test_gradients_at_random_points(law: str) -> None:
-    assert_within((error_of_gradient(p), p) for p in random_points(law, 60))
+    assert_within(((error_of_gradient(p), p) for p in random_points(law, 60)), share=1)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("precision", ["double", "single"])
 @pytest.mark.parametrize("law", STATIC_LAWS)
 def test_values_at_a_thousand_points(law: str, precision: str) -> None:
-    assert_within((error_of_value(p, precision), p) for p in random_points(law, 1000))
+    assert_within(((error_of_value(p, precision), p) for p in random_points(law, 1000)), share=1)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("law", STATIC_LAWS)
 def test_gradients_at_a_thousand_points(law: str) -> None:
-    assert_within((error_of_gradient(p), p) for p in random_points(law, 1000))
+    assert_within(((error_of_gradient(p), p) for p in random_points(law, 1000)), share=1)
 
 
 @pytest.mark.parametrize("precision", ["double", "single"])
