@@ -224,10 +224,12 @@ def _with_own_load(
     seed: int,
     effort: Effort,
 ) -> tuple[Model, Array | None]:
-    """A first load torque from a fit without the effect that depends on it."""
+    """A first load torque from a fit of friction that does not depend on it."""
     if not _needs_own_load(made):
         return made, None
     plain = made.without_effect("load")
+    if _needs_own_load(plain) and not np.all(np.isfinite(plain.values)):
+        plain = replace(made, law="coulomb", effects=(), values=np.empty(0))
     if not np.all(np.isfinite(plain.values)):
         solved = _identify(plain, recording, rows, None, min(starts, 4), seed, effort)
         plain = plain.with_values(solved.values)

@@ -31,9 +31,9 @@ parameters! {
         /// Torque per speed while hot.
         viscous_friction: "a10" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Torque per speed above that at 0 degC.
-        viscous_friction_cold: "a11" ["T s/X"] 0.0 .. 1000.0, start 0.1, Damping, Rate;
+        viscous_friction_cold: "a11" ["T s/X"] 0.0 .. 50.0, start 0.1, Damping, Rate;
         /// Temperature over which that falls to 1/e.
-        thinning_temperature: "a12" ["K"] 1.0 .. 500.0, start 20.0, None, Nonlinear;
+        thinning_temperature: "a12" ["K"] 3.0 .. 500.0, start 20.0, None, Nonlinear;
     }
 }
 
@@ -89,9 +89,9 @@ parameters! {
         /// Torque per speed while hot.
         viscous_friction: "Fv0" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Torque per speed above that at 0 degC.
-        viscous_friction_cold: "Fv_T" ["T s/X"] 0.0 .. 1000.0, start 0.1, Damping, Rate;
+        viscous_friction_cold: "Fv_T" ["T s/X"] 0.0 .. 50.0, start 0.1, Damping, Rate;
         /// Temperature over which that falls to 1/e.
-        thinning_temperature: "TV" ["K"] 1.0 .. 500.0, start 20.0, None, Nonlinear;
+        thinning_temperature: "TV" ["K"] 3.0 .. 500.0, start 20.0, None, Nonlinear;
     }
 }
 

@@ -1,6 +1,10 @@
 //! Friction laws, one file each: parameters, table and formula.
 //!
 //! A new law is one file here and one row in [`crate::catalog`].
+//!
+//! Bounds keep dry friction positive, but not where the paper's coefficients need either sign:
+//! `indri_a`, `makkar`, `bittencourt_b`, `m_star`, `hao_b`, `iskandar`, `simoni` and `indri_static`
+//! can take it below zero outside the data. A bristle around such a law is refused there.
 
 mod bam;
 mod bittencourt_2010;

@@ -15,9 +15,9 @@ parameters! {
         /// Torque per root of speed while hot.
         root_friction: "a3" ["T (s/X)^(1/2)"] 0.0 .. 100.0, start 0.1, RootDamping, Rate;
         /// Torque per root of speed above that at 0 degC.
-        root_friction_cold: "a4" ["T (s/X)^(1/2)"] 0.0 .. 1000.0, start 0.1, RootDamping, Rate;
+        root_friction_cold: "a4" ["T (s/X)^(1/2)"] 0.0 .. 50.0, start 0.1, RootDamping, Rate;
         /// Relative fall of that per kelvin.
-        thinning: "a5" ["1/K"] 0.001 .. 1.0, start 0.03, None, Nonlinear;
+        thinning: "a5" ["1/K"] 0.001 .. 0.3, start 0.03, None, Nonlinear;
     }
 }
 

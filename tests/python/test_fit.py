@@ -368,3 +368,17 @@ def test_motoring_and_generating_friction_are_told_apart_by_the_motor_torque(
     assert fit.estimates["coulomb_friction_motoring"].value == pytest.approx(COULOMB, rel=0.05)
     generating = fit.estimates["coulomb_friction_generating"].value
     assert generating < fit.estimates["coulomb_friction_motoring"].value - 0.5
+
+
+def test_a_law_of_the_load_finds_the_load_by_itself(tmp_path: Path) -> None:
+    """Without a recorded load torque, inertia and gravity are identified, and friction reads them."""
+    frame = joint()
+    _, q, v, a = motion()
+    load = 6.0 * np.sin(q + 0.4) + 0.3 * a
+    friction = (COULOMB + 0.15 * np.abs(load)) * np.sign(v) + VISCOUS * v
+    noise = ar1(np.random.default_rng(4), v.size, 0.0, 0.03)
+    unknown = frame.drop("load_torque").with_columns(torque=load + friction + noise)
+    fit = sb.fit("m1", record(tmp_path, unknown), starts=3)
+    assert fit.rmse_held_out == pytest.approx(0.03, rel=0.05)
+    assert fit.estimates["load_coulomb"].value == pytest.approx(0.15, abs=0.01)
+    assert fit.estimates["inertia"].value == pytest.approx(0.3, abs=0.02)
