@@ -21,19 +21,19 @@ parameters! {
         /// Dry friction, v < 0.
         coulomb_friction_backward: "Fc_minus" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
         /// What the viscous part tends to at 0 degC, v > 0.
-        viscous_level_forward: "s20_plus" ["T"] -20.0 .. 20.0, start 0.5, Torque, Rate;
+        viscous_level_forward: "s20_plus" ["T"] 0.0 .. 20.0, start 0.5, Torque, Rate;
         /// Change of that level with temperature, v > 0.
         viscous_level_slope_forward: "s2T_plus" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Rate;
         /// Speed over which the viscous part rises at 0 degC, v > 0.
-        viscous_speed_forward: "s30_plus" ["X/s"] -20.0 .. 20.0, start 0.5, Speed, Nonlinear;
+        viscous_speed_forward: "s30_plus" ["X/s"] 0.0 .. 20.0, start 0.5, Speed, Nonlinear;
         /// Change of that speed with temperature, v > 0.
         viscous_speed_slope_forward: "s3T_plus" ["X/s/K"] -0.5 .. 0.5, start 0.0, Speed, Nonlinear;
         /// What the viscous part tends to at 0 degC, v < 0.
-        viscous_level_backward: "s20_minus" ["T"] -20.0 .. 20.0, start 0.5, Torque, Rate;
+        viscous_level_backward: "s20_minus" ["T"] 0.0 .. 20.0, start 0.5, Torque, Rate;
         /// Change of that level with temperature, v < 0.
         viscous_level_slope_backward: "s2T_minus" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Rate;
         /// Speed over which the viscous part rises at 0 degC, v < 0.
-        viscous_speed_backward: "s30_minus" ["X/s"] -20.0 .. 20.0, start 0.5, Speed, Nonlinear;
+        viscous_speed_backward: "s30_minus" ["X/s"] 0.0 .. 20.0, start 0.5, Speed, Nonlinear;
         /// Change of that speed with temperature, v < 0.
         viscous_speed_slope_backward: "s3T_minus" ["X/s/K"]
             -0.5 .. 0.5, start 0.0, Speed, Nonlinear;
