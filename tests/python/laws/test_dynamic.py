@@ -30,6 +30,19 @@ SPECS = [
     for spec in ((f"{law}:1", f"{law}:4", f"{law}:16") if law in ("gms", "leuven") else (law,))
 ]
 
+
+def base(spec: str) -> str:
+    """The law's id."""
+    return spec.partition(":")[0]
+
+
+def cases(*, exact: bool | None = None) -> list[Any]:
+    """The specs that `exact_steps` holds, or that it does not, or all; 16 elements are slow."""
+    wanted = [spec for spec in SPECS if exact is None or (base(spec) in EXACT) == exact]
+    slow = pytest.mark.slow
+    return [pytest.param(spec, marks=slow if spec.endswith(":16") else ()) for spec in wanted]
+
+
 #: Deflection errors allowed, in multiples of max(D)/s0. The elastoplastic bristle has no closed
 #: form: a fixed number of Runge-Kutta stages steps it.
 DEFLECTION = {"elastoplastic": 1e-5}
@@ -37,10 +50,6 @@ DEFLECTION = {"elastoplastic": 1e-5}
 
 def allowed(spec: str) -> float:
     return DEFLECTION.get(base(spec), 1e-8)
-
-
-def base(spec: str) -> str:
-    return spec.partition(":")[0]
 
 
 #: A real joint's part of the bounds, where a stiff solver takes seconds instead of hours.
@@ -132,7 +141,7 @@ def test_every_law_with_a_memory_has_a_reference() -> None:
     assert not missing, f"no reference for {sorted(missing)}: write it in laws/dynamics.py"
 
 
-@pytest.mark.parametrize("spec", SPECS)
+@pytest.mark.parametrize("spec", cases())
 def test_steps_solve_the_differential_equation(spec: str) -> None:
     motion, constants = steps(spec)
     for name, parameters in parameter_sets(spec).items():
@@ -142,7 +151,7 @@ def test_steps_solve_the_differential_equation(spec: str) -> None:
         assert np.all(error <= allowed(spec)), (name, int(np.argmax(error)), np.max(error))
 
 
-@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) in EXACT])
+@pytest.mark.parametrize("spec", cases(exact=True))
 def test_steps_and_their_gradients_are_exact(spec: str) -> None:
     """Against the solution at 50 digits: 1e-11 of the size of the torque, gradients 1e-9 of their
     largest entry over the motion and of the torque per parameter."""
@@ -162,7 +171,7 @@ def test_steps_and_their_gradients_are_exact(spec: str) -> None:
         assert np.all(wrong <= 1e-9), (name, symbols[where[1]], where[0], np.max(wrong))
 
 
-@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) in EXACT])
+@pytest.mark.parametrize("spec", cases(exact=True))
 def test_steps_in_single_precision(spec: str) -> None:
     """2e-6 of the size of the torque and of the dry magnitudes it is made of, over 40 steps."""
     motion, constants = steps(spec)
@@ -196,7 +205,7 @@ def sensitivity(torque: exact_steps.Dual, parameters: dict[str, float]) -> float
     return float(sum(abs(parameters[name] * d) for name, d in torque.slope.items()))
 
 
-@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) in EXACT])
+@pytest.mark.parametrize("spec", cases(exact=True))
 def test_the_references_agree(spec: str) -> None:
     """Radau and the exact steps: neither shares a formula for the step with the other."""
     motion, constants = steps(spec, count=15)
@@ -207,7 +216,7 @@ def test_the_references_agree(spec: str) -> None:
         assert np.max(np.abs(value - solved.torque) / solved.size) <= 5e-9
 
 
-@pytest.mark.parametrize("spec", [spec for spec in SPECS if base(spec) not in EXACT])
+@pytest.mark.parametrize("spec", cases(exact=False))
 def test_gradients_are_slopes_of_the_solution(spec: str) -> None:
     """Against difference quotients of Radau, where no closed form gives the derivative."""
     motion, constants = steps(spec, count=15)
@@ -306,7 +315,7 @@ def sampled_torque(model: sb.Model, rows: int, *, mean: bool) -> Array:
 
 
 @pytest.mark.parametrize("mean", [False, True], ids=["end of step", "mean velocity"])
-@pytest.mark.parametrize("spec", SPECS)
+@pytest.mark.parametrize("spec", cases())
 def test_order_on_a_smooth_motion(spec: str, mean: bool) -> None:
     """First order in the step; second with the step's mean velocity.
 

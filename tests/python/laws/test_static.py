@@ -79,7 +79,7 @@ def test_values_at_random_points(law: str, precision: str) -> None:
 
 @pytest.mark.parametrize("law", STATIC_LAWS)
 def test_gradients_at_random_points(law: str) -> None:
-    assert_within(((error_of_gradient(p), p) for p in random_points(law, 60)), share=1)
+    assert_within(((error_of_gradient(p), p) for p in random_points(law, 30)), share=1)
 
 
 @pytest.mark.slow
