@@ -371,7 +371,7 @@ def test_motoring_and_generating_friction_are_told_apart_by_the_motor_torque(
 
 
 def test_a_law_of_the_load_finds_the_load_by_itself(tmp_path: Path) -> None:
-    """Without a recorded load torque, inertia and gravity are identified, and friction reads them."""
+    """Without a recorded load, inertia and gravity are identified, and friction reads them."""
     frame = joint()
     _, q, v, a = motion()
     load = 6.0 * np.sin(q + 0.4) + 0.3 * a
