@@ -206,7 +206,7 @@ impl Spec {
             value.unwrap_or_else(S::zero)
         };
         let law = self.law.read(&mut next);
-        let own = self.own.as_ref().map(|own| OwnTerms::read(own, || next(Presence::Always)));
+        let own = self.own.as_ref().map(|own| OwnTerms::read(own, || next(Presence::InFormula)));
         let effects = Effects::read(self.effects, &mut next);
         let bristle = effects.bristle();
         let memory = self.memory();
@@ -215,7 +215,7 @@ impl Spec {
 
     fn includes(&self, presence: Presence) -> bool {
         match presence {
-            Presence::Always => true,
+            Presence::Always | Presence::InFormula => true,
             Presence::WithStribeck => self.has(EffectId::Stribeck.info().id),
             Presence::WithLoad => self.effects.contains(EffectId::Load),
             Presence::WithoutOffset => !self.has(EffectId::Offset.info().id),

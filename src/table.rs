@@ -146,6 +146,8 @@ pub enum Presence {
     WithoutOffset,
     /// If the law has at least this many elements.
     Element(u8),
+    /// If a formula mentions it.
+    InFormula,
 }
 
 /// One parameter. Units: `T` is the unit of torque or force, `X` that of position.

@@ -249,8 +249,8 @@ fn refusals_say_what_and_where() {
                         that is less like it), at position 4",
         ),
         (
-            "c1*V",
-            "'V' is unknown (did you mean 'v'? a parameter needs a name that is less like \
+            "c1*Tanh",
+            "'Tanh' is unknown (did you mean 'tanh'? a parameter needs a name that is less like \
                   it), at position 4",
         ),
         (

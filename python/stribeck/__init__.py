@@ -23,7 +23,7 @@ from stribeck.errors import (
 )
 from stribeck.fit import Estimate, Fit, evaluate, fit
 from stribeck.improve import Addition, Improvement, add, improve
-from stribeck.model import Model, Parameter, catalog, model
+from stribeck.model import Model, Parameter, catalog, law, model
 from stribeck.model_file import ModelFile, load, read_model_file
 from stribeck.recording import Recording, read
 
@@ -86,6 +86,7 @@ __all__ = [
     "evaluate",
     "fit",
     "improve",
+    "law",
     "laws",
     "load",
     "model",

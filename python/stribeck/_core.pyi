@@ -35,7 +35,7 @@ class Model:
         law: str | None,
         effects: Sequence[str] = ...,
         constants: Mapping[str, float] = ...,
-        own: Sequence[str] = ...,
+        own: Sequence[tuple[str, Sequence[str]]] = ...,
     ) -> Model: ...
     @property
     def law(self) -> str: ...

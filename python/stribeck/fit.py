@@ -12,15 +12,17 @@ import polars as pl
 from numpy.typing import NDArray
 
 from stribeck.errors import FitError
+from stribeck.identify.choices import Choices
 from stribeck.identify.estimates import Errors, Estimate, estimates
 from stribeck.identify.figures import relative_residual, rms, torque_cutoff
 from stribeck.identify.held_out import held_out_prediction
 from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import bounds, check_channels, effect_constants, model_for
+from stribeck.identify.scaling import bounds as scaled_bounds
+from stribeck.identify.scaling import check_channels, effect_constants, model_for
 from stribeck.identify.search import QUICK, THOROUGH, Effort, multi_start
 from stribeck.identify.separable import minimise
 from stribeck.identify.transients import stretches, transient_rows
-from stribeck.model import Model
+from stribeck.model import Model, catalog
 from stribeck.recording import Recording
 
 __all__ = [
@@ -93,6 +95,7 @@ class Fit:
             "passive": None,
             "rigid_body": list(self.model.rigid_body),
             "drive": self.model.drive,
+            "formulas": {terms.name: terms.text for terms in self.model.own},
             "transients": [list(pair) for pair in stretches(self.recording, self.transient)],
             "scored": self.recording.scored(),
             "notes": [*self.recording.notes, *self.notes],
@@ -136,6 +139,9 @@ def fit(
     *,
     starts: int = 20,
     seed: int = 0,
+    start: Mapping[str, float] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    fix: Mapping[str, float] | None = None,
     errors: Errors = "robust",
     transient: NDArray[np.bool_] | None = None,
     effort: Effort = THOROUGH,
@@ -149,9 +155,13 @@ def fit(
     Parameters
     ----------
     spec : str or Model
-        ``"coulomb+load"``, or a model; a model's values are the first start.
+        ``"coulomb+load"``, a law by formula (``"c1*v + c2*tanh(v/c3)"``), or a model; a model's
+        values are the first start.
     starts, seed : int
         Random starts of the nonlinear parameters (review of 25 models, eqs 4-5: 20).
+    start, bounds, fix : mappings by parameter name or symbol
+        Where single parameters start, between which bounds they stay (infinite ones are none), and
+        which are held: ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``.
     errors : {"robust", "independent"}
         What standard errors assume of the residual: anything, right for a sampled motion; or that
         each row errs for itself and all alike, right for separately measured points, which gives
@@ -168,10 +178,11 @@ def fit(
         moving rows.
     """
     began = time.perf_counter()
-    made = model_for(spec, recording)
+    choices = Choices(start or {}, bounds or {}, fix or {})
+    made = choices.applied(model_for(spec, recording))
     marked = transient_rows(recording) if transient is None else transient
     rows = np.flatnonzero(recording.moving & ~marked)
-    lower, upper, _ = bounds(made, recording)
+    lower, upper, _ = scaled_bounds(made, recording)
     fewest = int((lower < upper).sum()) + 2
     if rows.size < fewest:
         raise FitError(
@@ -227,9 +238,7 @@ def _with_own_load(
     """A first load torque from a fit of friction that does not depend on it."""
     if not _needs_own_load(made):
         return made, None
-    plain = made.without_effect("load")
-    if _needs_own_load(plain) and not np.all(np.isfinite(plain.values)):
-        plain = replace(made, law="coulomb", effects=(), values=np.empty(0))
+    plain = made if np.all(np.isfinite(made.values)) else _without_load(made)
     if not np.all(np.isfinite(plain.values)):
         solved = _identify(plain, recording, rows, None, min(starts, 4), seed, effort)
         plain = plain.with_values(solved.values)
@@ -238,6 +247,18 @@ def _with_own_load(
     if "reference_load" not in constants or constants["reference_load"] == 1.0:
         constants.update(effect_constants("load", recording, load))
     return replace(made, constants=constants), load
+
+
+def _without_load(model: Model) -> Model:
+    """`model` without what depends on the load; where the law itself does, Coulomb and viscous."""
+    table = catalog()["effects"]
+    reading = [e for e in model.effects if "load_torque" in table[e]["channels"]]
+    reading += [terms.name for terms in model.own if "load_torque" in terms.channels]
+    for effect in reading:
+        model = model.without_effect(effect)
+    if "load_torque" in model.core.needs:
+        model = replace(model, law="coulomb", own=(), effects=(), values=np.empty(0))
+    return model
 
 
 def _identify(
@@ -250,7 +271,7 @@ def _identify(
     effort: Effort,
 ) -> _Solution:
     """Best values; where friction depends on the identified rigid body, to a fixed point."""
-    lower, upper, first = bounds(made, recording)
+    lower, upper, first = scaled_bounds(made, recording)
     known = made.values
     start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)
     problem = Problem(recording, made, rows, load)
@@ -313,8 +334,7 @@ def evaluate(
     load = own_load(model, recording)
     problem = Problem(recording, model, np.flatnonzero(recording.moving), load)
     prediction = problem.predict(model.values)
-    if not np.all(np.isfinite(prediction)):
-        raise FitError(f"{model.spec} predicts torques that are not finite on {recording.path}")
+    _refuse_infinite(problem, prediction)
     residual = recording.torque - prediction
     moving = recording.moving
     same = fitted_on is not None and fitted_on == recording.sha256
@@ -359,8 +379,7 @@ def _finish(
     values = made.values
     lower, upper = solution.lower, solution.upper
     prediction = problem.predict(values)
-    if not np.all(np.isfinite(prediction)):
-        raise FitError(f"{made.spec} predicts torques that are not finite on {recording.path}")
+    _refuse_infinite(problem, prediction)
     if made.has_state:
         _refuse_slack_bristle(problem)
     held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact)
@@ -378,6 +397,10 @@ def _finish(
         )
     if made.rigid_body:
         notes += (f"identified together with the friction: {' and '.join(made.rigid_body)}",)
+    held = [n for n, a, b in zip(made.names, lower, upper, strict=True) if a == b]
+    if held:
+        stated = ", ".join(f"{name} = {made.value(name):.6g}" for name in held)
+        notes += (f"held, not identified: {stated}",)
     return Fit(
         model=replace(
             made,
@@ -401,6 +424,22 @@ def _finish(
         transient=marked,
         load=load,
         notes=notes,
+    )
+
+
+def _refuse_infinite(problem: Problem, prediction: Array) -> None:
+    """Refuse a model whose torque is not a number somewhere, with the place."""
+    wrong = np.flatnonzero(~np.isfinite(prediction))
+    if wrong.size == 0:
+        return
+    model, recording = problem.model, problem.recording
+    row = wrong[0]
+    values = ", ".join(f"{n} = {v:.6g}" for n, v in zip(model.names, model.values, strict=True))
+    advice = "give other starts or bounds (--start, --bound)" if model.own else "check them"
+    raise FitError(
+        f"{model.spec} predicts no finite torque on {recording.path} at t = "
+        f"{recording.time[row]:.6g} s (velocity {recording.velocity[row]:.6g} "
+        f"{recording.position_unit}/s) with {values}: {advice}"
     )
 
 

@@ -23,6 +23,7 @@ from stribeck.diagnose.evidence import evidence
 from stribeck.diagnose.trial import SIGNIFICANCE, STARTS, add_effect
 from stribeck.diagnose.words import where
 from stribeck.fit import Fit, fit, on_recording
+from stribeck.formula_law import is_formula
 from stribeck.identify.figures import rms
 from stribeck.model import Model, check_effect
 from stribeck.recording import Recording
@@ -149,6 +150,11 @@ def add(
 ) -> Fit:
     """Add `effect` to a fitted model and refit it on `recording` (default: the fit's own).
 
+    Parameters
+    ----------
+    effect : str
+        An id of the catalog, or an effect by formula: ``"creep = c*abs(load)*sgn(v)"``.
+
     Raises
     ------
     SpecError
@@ -156,7 +162,8 @@ def add(
     FitError
         The recording lacks a channel that the effect needs.
     """
-    check_effect(effect)
+    if not is_formula(effect):
+        check_effect(effect)
     return add_effect(on_recording(fitted, recording, seed), effect, starts=starts, seed=seed)
 
 
@@ -169,6 +176,7 @@ def improve(
     least_fall: float = LEAST_FALL,
     most_steps: int = MOST_STEPS,
     rejected: Collection[str] = (),
+    candidates: Collection[str] = (),
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> Improvement:
     """Diagnose and add until nothing passes the test.
@@ -178,6 +186,9 @@ def improve(
 
     Parameters
     ----------
+    rejected, candidates : collections of str
+        Effects that are never added, and effects by formula that are tried too
+        (``"creep = c*abs(load)*sgn(v)"``).
     progress : callable
         Told what is being done, in one sentence.
     """
@@ -188,7 +199,9 @@ def improve(
     current = first
     while True:
         progress(f"looking for what {current.model.spec} misses")
-        found = diagnose(current, least_fall=least_fall, rejected=dropped, seed=seed)
+        found = diagnose(
+            current, least_fall=least_fall, rejected=dropped, candidates=candidates, seed=seed
+        )
         if not found.findings or len(steps) >= most_steps:
             break
         finding = found.findings[0]
@@ -220,7 +233,8 @@ def _without(idle: str, steps: list[Step], floor: NoiseFloor, seed: int) -> list
         effect = step.finding.effect
         if effect == idle:
             continue
-        after = add_effect(current, effect, starts=STARTS, seed=seed)
+        added = step.after.model.written(effect)
+        after = add_effect(current, added, starts=STARTS, seed=seed)
         finding = replace(
             step.finding,
             rmse_held_out_before=float(current.rmse_held_out or np.nan),

@@ -5,8 +5,9 @@ The mathematics lives in the compiled core; this module gives it names, units an
 
 from __future__ import annotations
 
+import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any, Literal
@@ -15,7 +16,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
+from stribeck.dimensions import Powers
 from stribeck.errors import SpecError, nearest
+from stribeck.formula_law import (
+    FormulaTerms,
+    check_names,
+    effect_terms,
+    is_formula,
+    law_terms,
+)
 from stribeck.servo.drive import ARMATURE, KNOWN, VoltageDrive
 
 Array = NDArray[np.float64]
@@ -36,6 +45,11 @@ def catalog() -> dict[str, dict[str, dict[str, Any]]]:
 def law_ids() -> tuple[str, ...]:
     """Every law of the catalog."""
     return tuple(catalog()["laws"])
+
+
+def law_row(law: str) -> dict[str, Any]:
+    """The catalog's row of a law, whatever its number of elements; empty for one by formula."""
+    return catalog()["laws"].get(law.partition(":")[0], {})
 
 
 def effect_ids() -> tuple[str, ...]:
@@ -69,11 +83,16 @@ def parse_spec(spec: str) -> tuple[str, tuple[str, ...]]:
         )
     if elements or law.endswith(":"):
         _check_elements(law, name, elements)
+    return law, parse_effects(effects)
+
+
+def parse_effects(effects: Sequence[str]) -> tuple[str, ...]:
+    """Check the ids of effects and bring them into catalog order."""
     for effect in effects:
         check_effect(effect)
         if effects.count(effect) > 1:
-            raise SpecError(f"effect {effect!r} is given twice in {spec!r}: leave one out")
-    return law, tuple(sorted(effects, key=effect_ids().index))
+            raise SpecError(f"effect {effect!r} is given twice: leave one out")
+    return tuple(sorted(effects, key=effect_ids().index))
 
 
 def _check_elements(law: str, name: str, elements: str) -> None:
@@ -92,7 +111,8 @@ class Parameter:
     """What one parameter is: its name, symbol in the literature, unit and bounds.
 
     `lower`, `upper` and `start` are in `unit` once the model is scaled to a recording, and
-    multiples of `scale` before.
+    multiples of `scale` before. A formula's parameter has no bounds unless they are said, and a
+    start that follows from its `dimension` where none is said (NaN).
     """
 
     name: str
@@ -105,6 +125,7 @@ class Parameter:
     linear: bool
     role: str
     description: str
+    dimension: Powers | None = None
 
 
 @dataclass(frozen=True)
@@ -127,6 +148,12 @@ class Model:
         ``"voltage"``: a fit predicts the voltage on the joint's motor, whose constants are
         parameters too; what is known of them stands in `constants`. `core`, `torque`, `gradient`
         and `split` speak of the friction alone, and so does `friction`, the model without a drive.
+    own
+        Terms by formula. Where the first has the name of `law`, it is the law; the others are
+        effects.
+    limits
+        Bounds that were said, by parameter; they win over those of the catalog, and equal ones
+        hold a parameter. `bounds` are those of the last fit.
 
     Examples
     --------
@@ -145,8 +172,12 @@ class Model:
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     box: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     drive: str | None = None
+    own: tuple[FormulaTerms, ...] = ()
+    limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if self.own:
+            check_names(self.names, self.spec)
         if self.values.shape != (len(self.names),):
             object.__setattr__(self, "values", np.full(len(self.names), np.nan))
 
@@ -177,7 +208,9 @@ class Model:
     def _compiled(self, effects: tuple[str, ...]) -> _core.Model:
         constants = {name: x for name, x in self.constants.items() if name not in KNOWN}
         try:
-            return _core.Model(self.law, list(effects), constants)
+            law = None if self.by_formula else self.law
+            own = [(terms.text, terms.names) for terms in self.own]
+            return _core.Model(law, list(effects), constants, own)
         except _core.ModelError as error:
             raise SpecError(str(error)) from None
 
@@ -200,14 +233,34 @@ class Model:
         return "N m" if self.position_unit == "rad" else "N"
 
     @property
+    def by_formula(self) -> bool:
+        """Whether the law itself is a formula."""
+        return bool(self.own) and self.own[0].name == self.law
+
+    def formula(self, name: str) -> FormulaTerms | None:
+        """The terms by formula of this name, if there are any."""
+        return next((terms for terms in self.own if terms.name == name), None)
+
+    def written(self, effect: str) -> str:
+        """What adds this effect to another model: its id, or ``"NAME = FORMULA"``."""
+        own = self.formula(effect)
+        return effect if own is None else f"{own.name} = {own.text}"
+
+    @property
+    def own_effects(self) -> tuple[str, ...]:
+        """Names of the effects by formula."""
+        return tuple(terms.name for terms in self.own if terms.effect)
+
+    @property
     def spec(self) -> str:
-        """``law+effect+...``, as commands take it."""
-        return "+".join((self.law, *self.effects))
+        """``law+effect+...``, as commands take it; formulas go by their names."""
+        return "+".join((self.law, *self.own_effects, *self.effects))
 
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """The parameters in the order of `values`."""
-        return tuple(
+        said = {name: row for terms in self.own for name, row in self._said(terms)}
+        rows = (
             Parameter(
                 name=row["name"],
                 symbol=row["symbol"],
@@ -222,6 +275,18 @@ class Model:
             )
             for row in self.predictor.parameters()
         )
+        return tuple(replace(row, **said.get(row.name, {})) for row in rows)
+
+    def _said(self, terms: FormulaTerms) -> Iterator[tuple[str, dict[str, Any]]]:
+        """What a formula and its user say about each of its parameters."""
+        units = terms.units(self.load_unit, self.position_unit)
+        declared = zip(terms.declarations, units, terms.dimensions, strict=True)
+        for name, (said, unit, dimension) in zip(terms.names, declared, strict=True):
+            start = math.nan if said.start is None else said.start
+            yield name, {
+                "unit": unit, "lower": said.lower, "upper": said.upper, "start": start,
+                "dimension": dimension,
+            }  # fmt: skip
 
     def _unit(self, unit: str) -> str:
         """Spell the catalog's unit (T torque or force, X position) for this joint."""
@@ -255,8 +320,7 @@ class Model:
 
     def has(self, effect: str) -> bool:
         """Whether the law has this effect by itself, or it was added."""
-        law = catalog()["laws"].get(self.law.partition(":")[0], {})
-        return effect in self.effects or effect in law.get("captures", ())
+        return effect in self.effects or effect in law_row(self.law).get("captures", ())
 
     def value(self, name: str) -> float:
         """The value of one parameter, by name."""
@@ -267,23 +331,45 @@ class Model:
         return replace(self, values=np.asarray(values, dtype=np.float64).copy())
 
     def with_effect(self, effect: str, constants: Mapping[str, float]) -> Model:
-        """The model with one more effect; values known before are kept, new ones are NaN."""
+        """The model with one more effect; values known before are kept, new ones are NaN.
+
+        Parameters
+        ----------
+        effect
+            An id of the catalog, or an effect by formula: ``"creep = c*abs(load)*sgn(v)"``.
+        """
+        if is_formula(effect):
+            return self.with_terms(effect_terms(effect))
         check_effect(effect)
         if effect in self.effects:
             raise SpecError(f"effect {effect!r} is in {self.spec} already")
         effects = tuple(sorted((*self.effects, effect), key=effect_ids().index))
-        wider = replace(
-            self, effects=effects, constants={**self.constants, **constants}, values=np.empty(0)
+        return self._keeping_values(
+            replace(
+                self, effects=effects, constants={**self.constants, **constants}, values=np.empty(0)
+            )
         )
-        known = dict(zip(self.names, self.values, strict=True))
-        return wider.with_values([known.get(name, np.nan) for name in wider.names])
+
+    def with_terms(self, terms: FormulaTerms) -> Model:
+        """The model with an effect by formula; values known before are kept, new ones are NaN."""
+        if terms.name in (*law_ids(), *effect_ids()):
+            raise SpecError(
+                f"{terms.name!r} is in the catalog already: give the effect another name"
+            )
+        if terms.name in (self.law, *self.own_effects):
+            raise SpecError(f"effect {terms.name!r} is in {self.spec} already")
+        return self._keeping_values(replace(self, own=(*self.own, terms), values=np.empty(0)))
 
     def without_effect(self, effect: str) -> Model:
         """The model with one effect fewer."""
         effects = tuple(e for e in self.effects if e != effect)
-        narrower = replace(self, effects=effects, values=np.empty(0))
+        own = tuple(terms for terms in self.own if not (terms.effect and terms.name == effect))
+        return self._keeping_values(replace(self, effects=effects, own=own, values=np.empty(0)))
+
+    def _keeping_values(self, other: Model) -> Model:
+        """`other` with the values of the parameters that it shares."""
         known = dict(zip(self.names, self.values, strict=True))
-        return narrower.with_values([known.get(name, np.nan) for name in narrower.names])
+        return other.with_values([known.get(name, np.nan) for name in other.names])
 
     def torque(
         self,
@@ -450,6 +536,56 @@ def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **value
     law, effects = parse_spec(spec)
     made = Model(law=law, effects=effects, constants=dict(constants or {}))
     return made.with_values(_place(made, values)) if values else made
+
+
+def law(formula: str, /, *effects: str, parameters: Iterable[str] = (), **values: float) -> Model:
+    """A friction law by formula, to be fitted, compared and saved like those of the catalog.
+
+    Parameters
+    ----------
+    formula : str
+        Over the channels v, q, a, T, tl, tm, te (or velocity, position, acceleration, temperature,
+        load, motor_torque, external_torque); every other name is a parameter. Nothing of it is
+        executed as code. ``"NAME = FORMULA"`` gives it a name other than ``formula``.
+    *effects : str
+        Effects that are added to it: ids of the catalog, or ``"NAME = FORMULA"``.
+    parameters : iterable of str
+        ``"c3: rad/s, 0.001..10, start 0.1"``: unit, bounds and start of a parameter, each of which
+        may be left out. Without bounds there are none; unit and start then follow from the formula
+        and the recording where they can.
+    **values : float
+        Values of parameters.
+
+    Raises
+    ------
+    SpecError
+        The text is no formula: what is wrong, and where.
+
+    Examples
+    --------
+    >>> law("c1*v + c2*tanh(v/c3)*abs(load)", c1=0.5, c2=0.1, c3=1e-3).torque(1.0, load_torque=-4.0)
+    array([0.9])
+    """
+    terms = law_terms(formula, parameters)
+    check_terms(terms)
+    made = Model(law=terms.name, own=(terms,))
+    for effect in effects:
+        made = made.with_effect(effect, {})
+    return made.with_values(_place(made, values)) if values else made
+
+
+def check_terms(terms: FormulaTerms) -> None:
+    """Refuse names that mean something else in the catalog."""
+    taken = (*law_ids(), *effect_ids())
+    if terms.name in taken:
+        raise SpecError(f"{terms.name!r} is in the catalog already: give the formula another name")
+    for symbol in terms.symbols:
+        if symbol in taken:
+            raise SpecError(
+                f"{symbol!r} in {terms.text!r} is a law or an effect of the catalog, and a formula "
+                f"holds neither: add effects beside it (--effect {symbol}), or give the parameter "
+                f"another name"
+            )
 
 
 def _place(made: Model, values: Mapping[str, float]) -> Sequence[float]:

@@ -15,7 +15,8 @@ import numpy as np
 import tomlkit
 
 from stribeck.errors import ModelFileError, SpecError, nearest
-from stribeck.model import Model, law_ids, parse_spec
+from stribeck.formula_law import Declaration, FormulaTerms
+from stribeck.model import Model, check_terms, law_ids, parse_effects, parse_spec
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -25,7 +26,7 @@ else:
 SCHEMA = 1
 TOP_KEYS = {
     "kind", "schema", "law", "effects", "rigid_body", "torque_unit", "position_unit",
-    "constants", "parameters", "fitted_on", "box", "drive",
+    "constants", "parameters", "fitted_on", "box", "drive", "formulas",
 }  # fmt: skip
 PARAMETER_KEYS = {"value", "symbol", "unit", "bounds", "stderr"}
 BOX_KEYS = {"velocity", "position", "acceleration", "temperature", "load_torque"}
@@ -61,11 +62,16 @@ class ModelFile:
         document.add("position_unit", tomlkit.item(m.position_unit))
         if m.drive is not None:
             document.add("drive", tomlkit.item(m.drive))
+        if m.own:
+            document.add("formulas", _table({terms.name: terms.text for terms in m.own}))
         if m.constants:
             document.add("constants", _table({k: float(v) for k, v in m.constants.items()}))
         rows = tomlkit.table(is_super_table=True)
+        own = {name for terms in m.own for name in terms.names}
         for p, value in zip(m.parameters, m.values, strict=True):
-            bounds = m.bounds.get(p.name)
+            bounds = m.bounds.get(p.name, (p.lower, p.upper) if p.name in own else None)
+            if bounds == (-math.inf, math.inf):
+                bounds = None
             row = {
                 "value": float(value),
                 "symbol": p.symbol,
@@ -176,15 +182,20 @@ class _Reader:
         self._known(data, TOP_KEYS)
         if not isinstance(data.get("law"), str):
             raise ModelFileError(f"{self.path}: the key 'law' is missing, or not a name")
-        for key in ("constants", "parameters", "fitted_on", "box"):
+        for key in ("constants", "parameters", "fitted_on", "box", "formulas"):
             if not isinstance(data.get(key, {}), dict):
                 raise self.stop(f"{key} is {data[key]!r}, a table is needed", key)
         self._known(data.get("box", {}), BOX_KEYS, "[box]")
         try:
-            law, effects = parse_spec("+".join([data["law"], *self._names(data, "effects")]))
+            own = self._formulas(data)
+            if own and own[0].name == data["law"]:
+                law, effects = data["law"], parse_effects(self._names(data, "effects"))
+            else:
+                law, effects = parse_spec("+".join([data["law"], *self._names(data, "effects")]))
             made = Model(
                 law=law,
                 effects=effects,
+                own=own,
                 constants=self._numbers(data.get("constants", {}), "constants"),
                 rigid_body=self._names(data, "rigid_body"),
                 torque_unit=self._choice(data, "torque_unit", ("N m", "N", "V", "%")),
@@ -193,11 +204,41 @@ class _Reader:
                 box={k: self._pair(v, "box", k) for k, v in data.get("box", {}).items()},
             )
         except SpecError as error:
-            wrong_law = data["law"] not in law_ids()
+            formulas = data.get("formulas", {})
+            wrong_law = data["law"] not in (*law_ids(), *formulas)
             raise self.stop(str(error), "law" if wrong_law else "effects") from None
         except KeyError as error:
             raise ModelFileError(f"{self.path}: the key {error} is missing") from None
         return self._with_parameters(made, data)
+
+    def _formulas(self, data: Mapping[str, Any]) -> tuple[FormulaTerms, ...]:
+        """Terms by formula, with what the rows of their parameters say about them."""
+        made = []
+        for name, text in data.get("formulas", {}).items():
+            if not isinstance(text, str):
+                raise self.stop(
+                    f"{name} is {text!r}, a formula is needed", "[formulas]", f"{name} ="
+                )
+            try:
+                terms = FormulaTerms(name, text, effect=name != data["law"])
+                said = zip(terms.symbols, terms.names, strict=True)
+                declared = tuple((symbol, self._declaration(data, n)) for symbol, n in said)
+                made.append(replace(terms, declared=declared))
+                check_terms(terms)
+            except SpecError as error:
+                raise self.stop(str(error), "[formulas]", f"{name} =") from None
+        return tuple(made)
+
+    def _declaration(self, data: Mapping[str, Any], name: str) -> Declaration:
+        """Unit and bounds of a formula's parameter."""
+        row = data.get("parameters", {}).get(name)
+        if not isinstance(row, dict):
+            return Declaration()
+        unit = row.get("unit")
+        bounds = (-math.inf, math.inf)
+        if "bounds" in row:
+            bounds = self._bounds(row["bounds"], f"parameters.{name}", "bounds")
+        return Declaration(None if unit is None else str(unit), *bounds)
 
     def _with_parameters(self, made: Model, data: Mapping[str, Any]) -> ModelFile:
         rows = data.get("parameters", {})
@@ -222,10 +263,12 @@ class _Reader:
             if "stderr" in row:
                 errors[p.name] = self._number(row["stderr"], f"parameters.{p.name}", "stderr")
             if "bounds" in row:
-                bounds[p.name] = self._pair(row["bounds"], f"parameters.{p.name}", "bounds")
+                bounds[p.name] = self._bounds(row["bounds"], f"parameters.{p.name}", "bounds")
+        # Equal bounds hold a parameter in every fit that follows.
+        limits = {name: pair for name, pair in bounds.items() if pair[0] == pair[1]}
         fitted = data.get("fitted_on", {})
         self._known(fitted, FITTED_KEYS, "fitted_on")
-        filled = replace(made, bounds=bounds).with_values(np.array(values))
+        filled = replace(made, bounds=bounds, limits=limits).with_values(np.array(values))
         return ModelFile(filled, errors, fitted)
 
     def _names(self, data: Mapping[str, Any], key: str) -> tuple[str, ...]:
@@ -255,6 +298,18 @@ class _Reader:
         if not isinstance(value, list) or len(value) != 2:
             raise self.stop(f"{where[-1]} is {value!r}, two numbers are needed", *where)
         return self._number(value[0], *where), self._number(value[1], *where)
+
+    def _bounds(self, value: Any, *where: str) -> tuple[float, float]:
+        """Two numbers in order; infinite ones are no bounds."""
+        if isinstance(value, list) and len(value) == 2:
+            free = [isinstance(end, float) and math.isinf(end) for end in value]
+            low, high = (
+                end if open_end else self._number(end, *where)
+                for end, open_end in zip(value, free, strict=True)
+            )
+            if low <= high:
+                return low, high
+        raise self.stop(f"{where[-1]} is {value!r}, two numbers in order are needed", *where)
 
     def _choice(self, data: Mapping[str, Any], key: str, options: tuple[str, ...]) -> str:
         value = str(data.get(key, options[0]))

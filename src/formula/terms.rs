@@ -298,7 +298,7 @@ const fn table(role: Role) -> [ParameterInfo; MAX_PARAMETERS] {
         start: 1.0,
         scale: Scale::None,
         role,
-        presence: Presence::Always,
+        presence: Presence::InFormula,
         description: "Parameter of a formula.",
     };
     let mut rows = [unnamed; MAX_PARAMETERS];

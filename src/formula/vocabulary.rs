@@ -112,8 +112,11 @@ pub(super) fn nearest_function(name: &str) -> Option<&'static str> {
 }
 
 /// The channel, function or constant that a parameter's name was probably meant to be: one that
-/// differs by case alone, or a long one with a letter or two wrong.
+/// differs by case alone, or a long one with a letter or two wrong. A single letter may be anything.
 pub(super) fn probably_meant(name: &str) -> Option<&'static str> {
+    if name.len() < 2 {
+        return None;
+    }
     let words = || CHANNELS.iter().map(|(word, _)| *word).chain(FUNCTIONS.iter().map(|w| w.0));
     let same = words().chain(["pi"]).find(|word| word.eq_ignore_ascii_case(name));
     if same.is_some() || name.len() < 4 {

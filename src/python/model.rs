@@ -1,4 +1,5 @@
 use std::collections::BTreeMap;
+use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
@@ -13,12 +14,15 @@ use super::{ModelError, refuse};
 use crate::batch;
 use crate::composed::Spec;
 use crate::formula::Formula;
+use crate::table::Presence;
 
 /// A friction law with effects and terms by formula. Which parameters it has is fixed; their
 /// values are arguments.
 #[pyclass(frozen, module = "stribeck._core")]
 pub struct Model {
     spec: Spec,
+    /// What the parameters of formulas are called, and what the formulas call them.
+    own: Vec<(String, String)>,
 }
 
 #[pymethods]
@@ -30,25 +34,37 @@ impl Model {
         law: Option<&str>,
         effects: Vec<String>,
         constants: BTreeMap<String, f64>,
-        own: Vec<String>,
+        own: Vec<(String, Vec<String>)>,
     ) -> PyResult<Self> {
-        let mut own = own.iter().map(|text| Ok(Formula::parse(text).map_err(refuse)?.0));
+        let mut called = Vec::new();
+        let mut formulas = Vec::new();
+        for (text, names) in &own {
+            let (formula, symbols) = Formula::parse(text).map_err(refuse)?;
+            if names.len() != symbols.as_slice().len() {
+                let message = format!("'{text}' has not {} parameters", names.len());
+                return Err(ModelError::new_err(message));
+            }
+            let symbols = symbols.as_slice().iter().map(ToString::to_string);
+            called.extend(names.iter().cloned().zip(symbols));
+            formulas.push(formula);
+        }
+        let mut formulas = formulas.iter();
         let effects = effects.iter().map(String::as_str);
         let mut spec = match law {
             Some(law) => Spec::new(law, effects).map_err(refuse)?,
             None => {
                 let missing = || ModelError::new_err("neither a law nor a formula is given");
-                let formula = own.next().unwrap_or_else(|| Err(missing()))?;
-                Spec::by_formula(&formula, effects).map_err(refuse)?
+                let formula = formulas.next().ok_or_else(missing)?;
+                Spec::by_formula(formula, effects).map_err(refuse)?
             }
         };
-        for formula in own {
-            spec.add_terms(&formula?).map_err(refuse)?;
+        for formula in formulas {
+            spec.add_terms(formula).map_err(refuse)?;
         }
         for (name, &value) in &constants {
             spec.set_constant(name, value).map_err(refuse)?;
         }
-        Ok(Self { spec })
+        Ok(Self { spec, own: called })
     }
 
     /// Id of the law.
@@ -95,11 +111,18 @@ impl Model {
 
     /// Its parameters in the order of `values`, one dict each.
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let mut own = self.own.iter();
         self.spec
             .parameters()
             .map(|info| {
                 let row = parameter(py, info)?;
                 row.set_item("linear", self.spec.is_linear(info))?;
+                if info.presence == Presence::InFormula
+                    && let Some((name, symbol)) = own.next()
+                {
+                    row.set_item("name", name)?;
+                    row.set_item("symbol", symbol)?;
+                }
                 Ok(row)
             })
             .collect()

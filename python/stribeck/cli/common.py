@@ -75,7 +75,16 @@ _RECORDING_OPTIONS = [
     ),
     click.option("--where", default=None, metavar="EXPR", help="Keep the rows for which it holds."),
     click.option(
-        "--average", type=click.Choice(["run"]), default=None, help="One median point a run."
+        "--average",
+        type=click.Choice(["run", "row"]),
+        default=None,
+        help="Steady-state points: the median of each run, or each row by itself.",
+    ),
+    click.option(
+        "--rows",
+        type=click.Choice(["moving", "all"]),
+        default=None,
+        help="Rows that count: those that move (default), or all.",
     ),
     click.option(
         "--unit", "units", multiple=True, metavar="COLUMN=UNIT", help="Unit of a file's column."
@@ -90,11 +99,15 @@ _RECORDING_OPTIONS = [
     click.option("--torque-constant", type=float, default=None, help="N m/A, for a current."),
     click.option("--inertia", type=float, default=None, help="Known inertia, kg m2 or kg."),
     click.option(
-        "--drive", type=click.Choice(["voltage"]), default=None,
+        "--drive",
+        type=click.Choice(["voltage"]),
+        default=None,
         help="The effort is the voltage on a DC motor.",
     ),
     click.option(
-        "--hold-out", default=None, metavar="COLUMN[=VALUE]",
+        "--hold-out",
+        default=None,
+        metavar="COLUMN[=VALUE]",
         help="Hold out by the values of a column of the file, not by time or run.",
     ),
     click.option("--km", type=float, default=None, help="Motor constant, N m/W^0.5 (energy)."),
@@ -115,6 +128,7 @@ def recording_options(command: F) -> F:
             "derive": given.pop("derives"),
             "where": given.pop("where"),
             "average": given.pop("average"),
+            "rows": given.pop("rows"),
             "unit": given.pop("units"),
             "joint_kind": given.pop("joint_kind"),
             "gear_ratio": given.pop("gear_ratio"),

@@ -161,7 +161,7 @@ def _missing(improvement: Improvement) -> str:
         before = "" if step is improvement.steps[0] else "Then, with that added, "
         text = f"{before}{finding.effect}: {confidence_words(finding.confidence)}."
         lines.append(paragraph(text, 3))
-        lines.append(paragraph(physically(finding.effect), 5))
+        lines.append(paragraph(physically(finding.effect, finding.fit.model), 5))
         lines.append(paragraph(f"Here: {finding.where}.", 5))
         if finding.indistinguishable_from:
             lines.append(paragraph(indistinguishable_sentence(finding), 5))

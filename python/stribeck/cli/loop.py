@@ -20,18 +20,37 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.formulas import (
+    Written,
+    candidate_option,
+    check_candidates,
+    formula_options,
+    model_options,
+    written_fit,
+)
 from stribeck.cli.methods import Method, method_options
 from stribeck.compare import compare as compare_fits
 from stribeck.diagnose import diagnose as diagnose_fit
+from stribeck.errors import SpecError
+from stribeck.fit import fit as fit_model
+from stribeck.formula_law import effect_name
+from stribeck.identify.estimates import Errors
 from stribeck.improve import Addition
 from stribeck.improve import add as add_to
 from stribeck.improve import improve as improve_from
-from stribeck.model_file import read_model_file
 
 
 @click.command()
 @click.argument("data")
-@click.option("--model", "spec", required=True, help="LAW[+effect...] or a model file to start.")
+@click.option("--model", "spec", default=None, help="LAW[+effect...] or a model file to start.")
+@model_options
+@click.option(
+    "--errors",
+    type=click.Choice(["robust", "independent"]),
+    default="robust",
+    show_default=True,
+    help="Standard errors: robust for a sampled motion, independent for separate points.",
+)
 @output_option
 @method_options
 @starts_option
@@ -39,16 +58,17 @@ from stribeck.model_file import read_model_file
 @seed_option
 @json_option
 def fit(
-    data: str, spec: str, output: str | None, method: Method, starts: int,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    data: str, spec: str | None, written: Written, errors: Errors, output: str | None,
+    method: Method, starts: int, reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Identify a model's parameters on DATA."""
     check_output(output)
     recording = read_recording(data, reading)
     if method.name == "rms":
-        fitted = model_fit(spec, recording, starts=starts, seed=seed, refit=True)
+        fitted = written_fit(spec, written, recording, starts=starts, seed=seed, errors=errors)
     else:
-        fitted = method.fit(spec, recording, reading, starts=starts, seed=seed)
+        model = written.choices.applied(written.model(spec))
+        fitted = method.fit(model, recording, reading, starts=starts, seed=seed)
     if output is not None:
         save_fit(fitted, output)
     if as_json:
@@ -59,23 +79,30 @@ def fit(
 
 @click.command()
 @click.argument("data")
-@click.argument("models", nargs=-1, required=True)
+@click.argument("models", nargs=-1)
+@formula_options
 @click.option("--plot", "picture", default=None, help="Write the residuals' picture (PNG).")
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def compare(
-    data: str, models: tuple[str, ...], picture: str | None, starts: int,
+    data: str, models: tuple[str, ...], written: Written, picture: str | None, starts: int,
     reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
-    """Compare MODELS (specs or model files) with DATA, and show where each fails."""
+    """Compare MODELS (specs, model files or formulas) with DATA, and show where each fails."""
     check_output(picture)
+    own = written.by_formula()
+    if not (models or own):
+        raise SpecError("no model is given: name laws or model files, or write laws with --law")
     recording = read_recording(data, reading)
     fits = []
     for argument in models:
         say(f"note: {argument} ...")
         fits.append(model_fit(argument, recording, starts=starts, seed=seed, refit=False))
+    for model in own:
+        say(f"note: {model.own[0].text} ...")
+        fits.append(fit_model(model, recording, starts=starts, seed=seed))
     comparison = compare_fits(fits, recording)
     if picture is not None:
         from stribeck.report.figures import save_figure
@@ -90,20 +117,25 @@ def compare(
 
 @click.command()
 @click.argument("data")
-@click.argument("model")
+@click.argument("model", required=False)
+@model_options
+@candidate_option
 @least_fall_option
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def diagnose(
-    data: str, model: str, least_fall: float, starts: int, reading: dict[str, Any], seed: int,
-    as_json: bool,
+    data: str, model: str | None, written: Written, candidates: tuple[str, ...],
+    least_fall: float, starts: int, reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
-    """Find which physical effect MODEL is missing on DATA."""
+    """Find which physical effect MODEL (or the law of --law) is missing on DATA."""
+    check_candidates(candidates)
     recording = read_recording(data, reading)
-    fitted = model_fit(model, recording, starts=starts, seed=seed, refit=True)
-    diagnosis = diagnose_fit(fitted, recording, least_fall=least_fall, seed=seed)
+    fitted = written_fit(model, written, recording, starts=starts, seed=seed)
+    diagnosis = diagnose_fit(
+        fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed
+    )
     if as_json:
         echo_json(diagnosis.to_dict())
     else:
@@ -114,21 +146,25 @@ def diagnose(
 @click.argument("model")
 @click.argument("effect")
 @click.argument("data")
+@model_options
 @output_option
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def add(
-    model: str, effect: str, data: str, output: str | None, starts: int,
+    model: str, effect: str, data: str, written: Written, output: str | None, starts: int,
     reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
-    """Add EFFECT to MODEL, refit on DATA, and show the error before and after."""
+    """Add EFFECT to MODEL, refit on DATA, and show the error before and after.
+
+    Both may be formulas: MODEL a law, EFFECT 'NAME = FORMULA'.
+    """
     check_output(output)
     recording = read_recording(data, reading)
-    before = model_fit(model, recording, starts=starts, seed=seed, refit=True)
+    before = written_fit(model, written, recording, starts=starts, seed=seed)
     after = add_to(before, effect, recording, starts=starts, seed=seed)
-    addition = Addition(effect, before, after)
+    addition = Addition(effect_name(effect), before, after)
     if output is not None:
         save_fit(after, output)
     if as_json:
@@ -139,7 +175,8 @@ def add(
 
 @click.command()
 @click.argument("data")
-@click.option("--base", default="coulomb", show_default=True, help="Spec or model file.")
+@click.option("--base", default=None, help="Spec, model file or formula; default: coulomb.")
+@model_options
 @output_option
 @click.option("--report", default=None, help="Write a self-contained page (HTML).")
 @click.option("--plot", "picture", default=None, help="Write the picture (PNG).")
@@ -148,29 +185,33 @@ def add(
     "--max-steps", type=click.IntRange(min=0), default=8, show_default=True,
     help="Most effects to add.",
 )  # fmt: skip
+@candidate_option
 @click.option("--reject", multiple=True, metavar="EFFECT", help="Never add this effect.")
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def improve(
-    data: str, base: str, output: str | None, report: str | None, picture: str | None,
-    least_fall: float, max_steps: int, reject: tuple[str, ...], starts: int,
+    data: str, base: str | None, written: Written, output: str | None, report: str | None,
+    picture: str | None, least_fall: float, max_steps: int, candidates: tuple[str, ...],
+    reject: tuple[str, ...], starts: int,
     reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Diagnose and add effects to a base model until what is left is noise."""
-    from stribeck.cli.common import is_model_file
     from stribeck.model import check_effect
 
     for path in (output, report, picture):
         check_output(path)
+    check_candidates(candidates)
     for effect in reject:
         check_effect(effect)
     recording = read_recording(data, reading)
-    start = read_model_file(base).model if is_model_file(base) else base
+    if base is None and not written.laws:
+        base = "coulomb"
+    start = written.choices.applied(written.model(base))
     improvement = improve_from(
         start, recording, starts=starts, seed=seed, least_fall=least_fall,
-        most_steps=max_steps, rejected=reject, progress=say,
+        most_steps=max_steps, rejected=reject, candidates=candidates, progress=say,
     )  # fmt: skip
     if output is not None:
         save_fit(improvement.final, output)

@@ -12,7 +12,6 @@ import click
 from stribeck.cli.common import (
     check_output,
     echo_json,
-    is_model_file,
     json_option,
     read_recording,
     recording_options,
@@ -30,7 +29,7 @@ from stribeck.methods import (
     segment_points,
     three_step_fit,
 )
-from stribeck.model_file import read_model_file
+from stribeck.model import Model
 from stribeck.recording import Recording
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -58,10 +57,9 @@ class Method:
             )
 
     def fit(
-        self, spec: str, recording: Recording, reading: dict[str, Any], *, starts: int, seed: int
+        self, model: Model, recording: Recording, reading: dict[str, Any], *, starts: int, seed: int
     ) -> Fit:
-        """Identify `spec`, or the law of a model file, by a method other than `rms`."""
-        model = read_model_file(spec).model if is_model_file(spec) else spec
+        """Identify `model` by a method other than `rms`."""
         if self.loaded is None or self.presliding is None:
             return grid_fit(model, recording, grid=self.grid)
         loaded = read_recording(self.loaded, reading)

@@ -26,6 +26,8 @@ from stribeck.diagnose.trial import (
 from stribeck.diagnose.unexplained import Unexplained, unexplained
 from stribeck.diagnose.words import where
 from stribeck.fit import Fit, on_recording, own_load
+from stribeck.formula_law import effect_name
+from stribeck.identify.scaling import check_channels
 from stribeck.model import Model, catalog, effect_ids
 from stribeck.recording import Recording
 
@@ -124,6 +126,7 @@ def diagnose(
     *,
     least_fall: float = LEAST_FALL,
     rejected: Collection[str] = (),
+    candidates: Collection[str] = (),
     seed: int = 0,
 ) -> Diagnosis:
     """Find the effects that are missing from `fitted`.
@@ -139,20 +142,26 @@ def diagnose(
         Default: the fit's own. On another one the model is fitted again first.
     rejected : collection of str
         Effects that are not to be tried.
+    candidates : collection of str
+        Effects by formula that are to be tried too: ``"creep = c*abs(load)*sgn(v)"``.
     """
     fitted = on_recording(fitted, recording, seed)
     recording, model = fitted.recording, fitted.model
     cannot = untestable(recording, own_load(model, recording))
     inside = set(model.effects) | set(model.rigid_body)
-    candidates = [
+    inside.update(model.own_effects)
+    for effect in candidates:
+        if effect_name(effect) not in inside:
+            check_channels(model.with_effect(effect, {}), recording)
+    possible = [
         effect
-        for effect in effect_ids()
-        if effect not in inside and effect not in cannot and effect not in rejected
+        for effect in (*effect_ids(), *candidates)
+        if not {effect_name(effect)} & {*inside, *cannot, *rejected}
     ]
-    alone = [e for e in candidates if _contained(e, model) is None]
+    alone = [e for e in possible if _contained(e, model) is None]
     trials = [t for e in alone if (t := try_effect(fitted, e, seed=seed)) is not None]
     tried = max(len(trials), 1)
-    for effect in candidates:
+    for effect in possible:
         simpler = next((t for t in trials if t.effect == _contained(effect, model)), None)
         if simpler is not None and passes(simpler, tried, least_fall):
             beyond = try_beyond(simpler, effect, fitted, seed=seed)
@@ -177,7 +186,7 @@ def diagnose(
 
 def _contained(effect: str, model: Model) -> str | None:
     """The simpler effect that `effect` contains and `model` lacks, if there is one."""
-    simpler: str | None = catalog()["effects"][effect]["beyond"]
+    simpler: str | None = catalog()["effects"].get(effect, {}).get("beyond")
     return None if simpler is None or model.has(simpler) else simpler
 
 

@@ -11,6 +11,7 @@ from stribeck.diagnose.evidence import Evidence, added_torque_test, difference, 
 from stribeck.diagnose.shape import flexible_columns
 from stribeck.errors import StribeckError
 from stribeck.fit import QUICK, THOROUGH, Effort, Fit, fit, own_load
+from stribeck.formula_law import effect_name
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import effect_constants
@@ -54,8 +55,9 @@ class Trial:
         Its first parameter is its size (a height, a slope, a stiffness, a delay); at a bound the
         fit has used the effect as a stand-in for something else.
         """
-        row = catalog()["effects"][self.effect]
-        size = row["parameters"][0]["name"]
+        own = self.fit.model.formula(self.effect)
+        row = catalog()["effects"].get(self.effect, {})
+        size = row["parameters"][0]["name"] if own is None else own.names[0]
         return size in self.fit.estimates and self.fit.estimates[size].at_bound
 
     @property
@@ -81,7 +83,7 @@ def add_effect(
     """
     load = own_load(before.model, before.recording)
     wider = before.model
-    simpler = catalog()["effects"][effect]["beyond"]
+    simpler = catalog()["effects"].get(effect, {}).get("beyond")
     for one in (simpler, effect):
         if one == effect or (one is not None and not wider.has(one)):
             wider = wider.with_effect(one, effect_constants(one, before.recording, load))
@@ -96,14 +98,14 @@ def add_effect(
 
 
 def try_effect(before: Fit, effect: str, *, seed: int = 0) -> Trial | None:
-    """Try `effect`; None where the model cannot take it."""
+    """Try `effect`, an id or ``"NAME = FORMULA"``; None where the model cannot take it."""
     try:
         after = add_effect(before, effect, seed=seed, effort=QUICK)
     except StribeckError:
         return None
     if after.rmse_held_out is None or before.rmse_held_out is None:
         return None
-    return Trial(effect, after, evidence(before, after))
+    return Trial(effect_name(effect), after, evidence(before, after))
 
 
 def try_beyond(
@@ -153,7 +155,7 @@ def tie_weight(statistic: float) -> float:
 
 def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:
     """Whether `other`'s effect explains something that `first`'s, once in the model, does not."""
-    again = try_effect(first.fit, other.effect, seed=seed)
+    again = try_effect(first.fit, other.fit.model.written(other.effect), seed=seed)
     return again is not None and passes(again, tried, least)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.fit import Fit
-from stribeck.model import catalog
+from stribeck.model import Model, catalog
 
 Array = NDArray[np.float64]
 
@@ -20,12 +20,17 @@ def number(value: float) -> str:
 
 def where(effect: str, before: Fit, after: Fit) -> str:
     """One sentence that says where `effect` shows, from the fitted values and the data."""
+    own = after.model.formula(effect)
+    if own is not None:
+        found = (f"{n} = {number(after.model.value(n))}" for n in own.names)
+        return f"{own.text} fits with {', '.join(found)}"
     return SENTENCES[effect](before, after)
 
 
-def physically(effect: str) -> str:
-    """What the effect is, in one sentence, from the catalog."""
-    return str(catalog()["effects"][effect]["what"])
+def physically(effect: str, model: Model) -> str:
+    """What the effect of a model is, in one sentence: the catalog's, or its formula."""
+    own = model.formula(effect)
+    return str(catalog()["effects"][effect]["what"]) if own is None else f"{effect} = {own.text}."
 
 
 def _stribeck(before: Fit, after: Fit) -> str:

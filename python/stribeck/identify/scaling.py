@@ -12,9 +12,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.dimensions import CHANNELS, natural_size
 from stribeck.errors import FitError
+from stribeck.formula_law import is_formula
 from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
-from stribeck.model import RIGID_BODY_EFFECTS, Model, Parameter, catalog, parse_spec
+from stribeck.model import RIGID_BODY_EFFECTS, Model, Parameter, law_row, model
+from stribeck.model import law as formula_law
 from stribeck.recording import Recording
 from stribeck.servo.scaling import drive_scales, known_constants
 
@@ -48,26 +51,43 @@ def scale_values(recording: Recording) -> dict[str, float]:
 
 
 def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ...]:
-    """The model's parameters with bounds and starts in their own units."""
+    """The model's parameters with bounds and starts in their own units.
+
+    Bounds that were said win (`Model.limits`). A parameter that the catalog holds has its known
+    value, or its start, for both bounds.
+    """
     scales = scale_values(recording)
-    return tuple(
-        replace(
-            p,
-            lower=p.lower * scales[p.scale],
-            upper=p.upper * scales[p.scale],
-            start=p.start * scales[p.scale],
-        )
-        for p in model.parameters
-    )
+    made = []
+    for p, value in zip(model.parameters, model.values, strict=True):
+        scale = scales[p.scale]
+        start = _formula_start(p, recording) if math.isnan(p.start) else p.start * scale
+        lower, upper = p.lower * scale, p.upper * scale
+        if p.name in model.limits:
+            lower, upper = model.limits[p.name]
+        elif p.role == "held":
+            lower = upper = float(value) if math.isfinite(value) else start
+        start = min(max(start, lower), upper)
+        made.append(replace(p, lower=lower, upper=upper, start=start))
+    return tuple(made)
+
+
+def _formula_start(parameter: Parameter, recording: Recording) -> float:
+    """A start for a formula's parameter of which none is said: the size that its unit has here.
+
+    A speed starts a tenth below the largest one, where a Stribeck curve or a smoothed sign bends.
+    """
+    if parameter.dimension is None:
+        return 1.0
+    share = 0.1 if parameter.dimension == CHANNELS["velocity"] else 1.0
+    return share * natural_size(parameter.dimension, recording.scales())
 
 
 def bounds(model: Model, recording: Recording) -> tuple[Array, Array, Array]:
     """Lower bounds, upper bounds and starts, arrays [p]; all three are equal where one is held."""
     rows = scaled_parameters(model, recording)
-    start = np.array([p.start for p in rows])
-    held = np.array([p.role == "held" for p in rows], dtype=bool)
-    lower = np.where(held, start, [p.lower for p in rows])
-    upper = np.where(held, start, [p.upper for p in rows])
+    lower = np.array([p.lower for p in rows], dtype=np.float64)
+    upper = np.array([p.upper for p in rows], dtype=np.float64)
+    start = np.array([p.start for p in rows], dtype=np.float64)
     return lower, upper, start
 
 
@@ -114,9 +134,9 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
     The base temperature is the mean, about which a factor of temperature is least tied to the
     friction it multiplies; for a law that has no limit there it lies well below the data. The sign
     is smoothed where noise leaves it in doubt, so that tanh is 1 on all rows that move. An exponent
-    that a law does not identify stays what its paper says.
+    that a law does not identify stays what its paper says. A law by formula has none.
     """
-    row = catalog()["laws"][law]
+    row = law_row(law)
     speed = recording.scales()["speed"] or 1.0
     given = {
         "smoothing_velocity": min(SMOOTHING * speed, recording.velocity_threshold / 3.0)
@@ -127,9 +147,9 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
     if recording.temperature is not None:
         coldest = float(np.min(recording.temperature))
         mean = float(np.mean(recording.temperature[recording.moving]))
-        below = row["pole"] == "base_temperature"
+        below = row.get("pole") == "base_temperature"
         given["base_temperature"] = coldest - COLD_MARGIN if below else mean
-    return {name: given[name] for name in row["constants"] if name in given}
+    return {name: given[name] for name in row.get("constants", ()) if name in given}
 
 
 def rigid_body_terms(recording: Recording, effects: tuple[str, ...]) -> tuple[str, ...]:
@@ -149,33 +169,37 @@ def rigid_body_terms(recording: Recording, effects: tuple[str, ...]) -> tuple[st
 
 
 def model_for(spec: str | Model, recording: Recording) -> Model:
-    """A model of `spec` with units, constants and rigid-body terms for this recording."""
-    if isinstance(spec, Model):
-        law, effects, constants = spec.law, spec.effects, dict(spec.constants)
-    else:
-        law, effects = parse_spec(spec)
-        constants = {}
-    if not isinstance(spec, Model) or not np.any(np.isfinite(spec.values)):
+    """A model of `spec` with units, constants and rigid-body terms for this recording.
+
+    Parameters
+    ----------
+    spec
+        ``"coulomb+load"``, a law by formula, or a model.
+    """
+    if isinstance(spec, str):
+        spec = formula_law(spec) if is_formula(spec) else model(spec)
+    constants = dict(spec.constants)
+    if not np.any(np.isfinite(spec.values)):
         # Values that are known already mean something only with the constants they came with.
-        constants = {**law_constants(law, recording), **constants}
-    for effect in effects:
+        constants = {**law_constants(spec.law, recording), **constants}
+    for effect in spec.effects:
         needed = effect_constants(effect, recording)
         constants = {**needed, **constants}
     constants.update(known_constants(recording))
     made = Model(
-        law=law,
-        effects=effects,
+        law=spec.law,
+        own=spec.own,
+        effects=spec.effects,
         constants=constants,
-        rigid_body=rigid_body_terms(recording, effects),
+        limits=spec.limits,
+        rigid_body=rigid_body_terms(recording, spec.effects),
         torque_unit=recording.torque_unit,
         position_unit=recording.position_unit,
         drive=recording.drive,
     )
     check_channels(made, recording)
-    if isinstance(spec, Model):
-        known = dict(zip(spec.names, spec.values, strict=True))
-        made = made.with_values([known.get(name, np.nan) for name in made.names])
-    return made
+    known = dict(zip(spec.names, spec.values, strict=True))
+    return made.with_values([known.get(name, np.nan) for name in made.names])
 
 
 def check_channels(model: Model, recording: Recording) -> None:
@@ -217,7 +241,7 @@ def check_channels(model: Model, recording: Recording) -> None:
 
 def _check_pole(model: Model, recording: Recording) -> None:
     """Refuse temperatures on both sides of one at which the law has no limit."""
-    name = catalog()["laws"][model.law]["pole"]
+    name = law_row(model.law).get("pole")
     if name is None or recording.temperature is None:
         return
     pole = 0.0 if name == "zero" else model.core.constants[name]

@@ -24,7 +24,9 @@ MOST_ROUNDS = 50
 #: A fall of the sum of squares by less than this share, foreseen by the undamped step, ends it.
 TOLERANCE = 1e-18
 #: First damping where the search starts far away, in squared lengths of the columns.
-CAUTIOUS = 1e-3
+CAUTIOUS = 1e-2
+#: Damping from which a step that is taken back goes on.
+LEAST_RETREAT = 5e-4
 #: A damping beyond which no step can be told from standing still.
 MOST_DAMPING = 1e20
 #: A linear step that lowers the sum of squares by more than this share bends the columns of the
@@ -86,11 +88,14 @@ class _Separable:
         except _core.ModelError:
             # A law of the catalog refuses values at which it means nothing.
             return None
-        if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(jacobian))):
-            return None
         slope = np.where(self.logarithmic, values[self.order], 1.0)
-        point = _Point(values, Triangle.of(jacobian * slope, residual))
-        return point if np.isfinite(point.square) else None
+        with np.errstate(all="ignore"):
+            columns = jacobian * slope
+            if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(columns))):
+                return None
+            triangle = Triangle.of(columns, residual)
+            finite = np.isfinite(triangle.square) and np.all(np.isfinite(triangle.factor))
+        return _Point(values, triangle) if finite else None
 
     def _with_linear_solved(self, point: _Point) -> tuple[_Point, float]:
         """Move the linear parameters to their best; the torque is linear in them, so R stays."""
@@ -165,11 +170,20 @@ def minimise(
         logarithmic = np.zeros(values.size, dtype=bool)
     search = _Separable(problem, lower, upper, logarithmic)
     start = np.clip(values, lower, upper)
+    with np.errstate(all="ignore"):
+        # Steps that leave the range of numbers are taken back.
+        return _descend(search, start, tolerance, most, damping), search.evaluations
+
+
+def _descend(
+    search: _Separable, start: Array, tolerance: float, most: int, damping: float
+) -> Search:
+    """Damped steps from `start` until the next one would change nothing."""
     point = search.at(start)
     if point is None:
-        return Search(start, np.inf, False, "the model is not finite at the start"), 1
+        return Search(start, np.inf, False, "the model is not finite at the start")
     # Below this a fall cannot be told from the rounding of the torque itself.
-    noise = 4.0 * np.finfo(float).eps * float(np.linalg.norm(problem.target))
+    noise = 4.0 * np.finfo(float).eps * float(np.linalg.norm(search.problem.target))
     scale = np.zeros(search.order.size)
     growth = 2.0
     outcome = "stopped at the largest number of steps"
@@ -191,10 +205,10 @@ def minimise(
             damping = 0.0 if damping < 1e-12 else damping
             growth = 2.0
         else:
-            damping = max(damping, CAUTIOUS / 2.0) * growth
+            damping = max(damping, LEAST_RETREAT) * growth
             growth *= 2.0
             if damping > MOST_DAMPING:
                 outcome = "converged (to rounding)"
                 break
     converged = outcome.startswith("converged")
-    return Search(point.values, point.square, converged, outcome), search.evaluations
+    return Search(point.values, point.square, converged, outcome)

@@ -120,11 +120,16 @@ def triangles(
 
 
 def least_squares(matrix: Array, right: Array, lower: Array, upper: Array) -> Array:
-    """Minimise ``|A x - b|`` within bounds, from A [m, p] and b [m]."""
+    """Minimise ``|A x - b|`` within bounds, from A [m, p] and b [m].
+
+    Where A has left the range of numbers there is no step: zeros.
+    """
     if matrix.shape[1] == 0:
         return np.zeros(0)
     scale = _lengths(matrix)
     scaled = matrix / scale
+    if not (np.all(np.isfinite(scaled)) and np.all(np.isfinite(right))):
+        return np.zeros(matrix.shape[1])
     free = np.linalg.lstsq(scaled, right, rcond=UNSEEN)[0] / scale
     if np.all(free >= lower) and np.all(free <= upper):
         return np.asarray(free)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -41,7 +42,8 @@ def require(prepared: Prepared) -> None:
     there = f"the file has {', '.join(prepared.table.columns)}"
     if "time" not in have and not prepared.options.average:
         raise RecordingError(
-            f"{path}: there is no time column; {there}: say which with --map time=COLUMN"
+            f"{path}: there is no time column; {there}: say which with --map time=COLUMN, or, "
+            "where each row is a steady-state point by itself, --average row"
         )
     if "velocity" not in have and "position" not in have:
         raise RecordingError(
@@ -173,8 +175,9 @@ def build(
         data.notes.append(f"{rows_are} removed by where: {options.where}")
     if options.average:
         made = _averaged(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
-        return with_drive(made, prepared, data.values)
+        return with_drive(_with_rows(made, options.rows), prepared, data.values)
     made = _sampled(data, joint, kind, torque_unit, position_unit, run, run_names, dropped)
+    made = _with_rows(made, options.rows)
     if not (standstill or made.moving.any()):
         raise _nothing_moves(made)
     made = with_drive(made, prepared, data.values)
@@ -187,7 +190,21 @@ def make_column(name: str, source: str, unit: str, derived: bool, values: Floats
     return Column(name, source, unit, derived, float(values.min()), float(values.max()))
 
 
+def _with_rows(recording: Recording, rows: str) -> Recording:
+    """The recording with the rows that are said to count."""
+    if rows != "all":
+        return recording
+    return replace(
+        recording,
+        moving=_frozen(np.ones(len(recording.time)), np.bool_),
+        velocity_threshold=0.0,
+        notes=(*recording.notes, "every row counts, whether it moves or not, as said"),
+    )
+
+
 def _runs(data: _Channels) -> tuple[tuple[str, ...], Ints]:
+    if data.prepared.options.average == "row":
+        return tuple(map(str, range(1, len(data.rows) + 1))), np.arange(len(data.rows))
     choice = data.prepared.choices.get("run")
     if choice is None:
         if data.prepared.options.average:
@@ -591,7 +608,9 @@ def _averaged(
         "acceleration", "steady runs", f"{position_unit}/s2", True, 0.0, 0.0
     )
     data.notes.append(
-        f"one row per run: the median of each channel over {n} runs, acceleration zero"
+        f"each of {n} rows is a steady-state point, acceleration zero"
+        if data.prepared.options.average == "row"
+        else f"one row per run: the median of each channel over {n} runs, acceleration zero"
     )
     torque, load = _torque(data)
     if load is None:
@@ -605,7 +624,7 @@ def _averaged(
     top = float(np.abs(velocity).max())
     threshold = max(SIGMAS * sigma, 1e-6 * top)
     moving = np.abs(velocity) > threshold
-    if not moving.any():
+    if not moving.any() and data.prepared.options.rows != "all":
         raise RecordingError(f"{data.path}: nothing moves in any run: give a recording with motion")
     order = np.arange(n)
     for name in ("position", "velocity", "torque", "load_torque", "friction_torque", "temperature"):

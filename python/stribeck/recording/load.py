@@ -34,6 +34,7 @@ def read(
     average: str | None = None,
     drive: str | None = None,
     hold_out: str | None = None,
+    rows: str | None = None,
     standstill: bool = False,
 ) -> Recording:
     """Read one joint of a recording.
@@ -64,13 +65,17 @@ def read(
     where
         Condition on the columns; rows that fail it become gaps.
     average
-        ``"run"``: one row per run, the median of each channel.
+        ``"run"``: one row per run, the median of each channel. ``"row"``: each row of the file is a
+        steady-state point by itself, a friction map; it needs no time.
     drive
         ``"voltage"``: the effort is the mean voltage on a DC motor. The load torque must then be
         known, by rigid-body terms or a column; a column `enabled` says where the motor is on.
     hold_out
         ``"COLUMN"``: held-out blocks are the rows that share a value of this column of the file,
         whichever runs they are in; ``"COLUMN=VALUE"``: of them, this one alone counts.
+    rows
+        ``"moving"``: rows at rest do not count, since what holds a joint at rest is not its
+        friction in motion. ``"all"``: every row counts, for points of which none is at rest.
     standstill
         Take a recording in which no row is faster than its velocity noise: presliding, or passes
         so slow that only a line through many samples shows them.
@@ -84,10 +89,11 @@ def read(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
         torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
         derive=derive, where=where, average=average, drive=drive, hold_out=hold_out,
+        rows=rows,
     )  # fmt: skip
     prepared = prepare(str(path), options)
-    name, rows = joint_rows(prepared, options.joint)
-    return build(_of_joint(prepared, name), name, rows, standstill=standstill)
+    name, own = joint_rows(prepared, options.joint)
+    return build(_of_joint(prepared, name), name, own, standstill=standstill)
 
 
 def read_all(
@@ -109,12 +115,14 @@ def read_all(
     average: str | None = None,
     drive: str | None = None,
     hold_out: str | None = None,
+    rows: str | None = None,
 ) -> list[Recording]:
     """Read every joint of a recording, in order of appearance; see `read`."""
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
         torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
         derive=derive, where=where, average=average, drive=drive, hold_out=hold_out,
+        rows=rows,
     )  # fmt: skip
     prepared = prepare(str(path), options)
     wanted: Iterable[str | None] = joints_of(prepared) or [None]

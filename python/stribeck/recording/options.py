@@ -21,6 +21,11 @@ _KINDS = {
 #: What `torque` may be of a motor that is not driven by its torque or current.
 DRIVES = ("voltage",)
 
+#: What makes a steady-state point: the median of a run, or a row, which is one already.
+AVERAGES = ("run", "row")
+#: Which rows count: those that move, or all of them.
+SCORED = ("moving", "all")
+
 Pairs = Sequence[str] | Mapping[str, str] | str
 
 
@@ -49,6 +54,7 @@ class Options(Mechanics):
     sidecar: str | None
     drive: str | None = None
     hold_out: str | None = None
+    rows: str = "moving"
     joints: dict[str, Mechanics] = field(default_factory=dict)  # where they differ by joint
 
     @property
@@ -113,6 +119,7 @@ def gather(
     average: str | None,
     drive: str | None = None,
     hold_out: str | None = None,
+    rows: str | None = None,
 ) -> Options:
     """Join the flags with the sidecar; a flag wins over what the sidecar says."""
     beside = sidecar if sidecar is not None else find_sidecar(path)
@@ -150,8 +157,11 @@ def gather(
         raise RecordingError(f"--inertia {inertia}: must not be negative")
     given = {name: value for name, value in flags.items() if value is not None}
     one_per = average if average is not None else said.texts.get("average")
-    if one_per is not None and one_per != "run":
-        raise RecordingError(f"--average {one_per}: only 'run' can be averaged over")
+    if one_per not in (None, *AVERAGES):
+        raise RecordingError(f"--average {one_per}: only 'run' and 'row' make points")
+    scored = rows if rows is not None else said.texts.get("rows", SCORED[0])
+    if scored not in SCORED:
+        raise RecordingError(f"--rows {scored}: it is {' or '.join(SCORED)}")
     driven = drive if drive is not None else said.texts.get("drive")
     if driven not in (None, *DRIVES):
         source = "--drive" if drive is not None else f"{said.path}: drive"
@@ -177,6 +187,7 @@ def gather(
         sidecar=said.path,
         drive=driven,
         hold_out=hold_out,
+        rows=scored,
         joints={
             name: _mechanics({**said.numbers, **numbers, **given})
             for name, numbers in said.joints.items()

@@ -95,12 +95,14 @@ def scan(
     average: str | None = None,
     drive: str | None = None,
     hold_out: str | None = None,
+    rows: str | None = None,
 ) -> Table:
     """Look at a file without selecting a joint; see `read` for the options."""
     options = gather(
         path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
         torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
         derive=derive, where=where, average=average, drive=drive, hold_out=hold_out,
+        rows=rows,
     )  # fmt: skip
     problem: str | None = None
     prepared: Prepared | None

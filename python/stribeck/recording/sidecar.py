@@ -17,7 +17,9 @@ _NUMBERS = (
     "gear_ratio", "torque_constant", "km", "kb", "kt", "screw_pitch",
     "inertia", "gravity_cos", "gravity_sin", "gravity",
 )  # fmt: skip
-_TEXTS = ("kind", "joint_kind", "where", "average", "joint", "effort_unit", "drive", "note")
+_TEXTS = (
+    "kind", "joint_kind", "where", "average", "rows", "joint", "effort_unit", "drive", "note",
+)  # fmt: skip
 _TABLES = ("units", "map", "derive")
 _JOINTS = "joints"  # [joints.NAME]: numbers of one joint of a file that holds several
 _POSITIVE = ("torque_constant", "screw_pitch", "kt", "km", "kb")

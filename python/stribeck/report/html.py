@@ -103,9 +103,9 @@ def _findings(improvement: Improvement) -> list[dict[str, Any]]:
         found.append(
             {
                 "effect": finding.effect,
-                "title": catalog()["effects"][finding.effect]["title"],
+                "title": _title(finding.effect),
                 "confidence": confidence_words(finding.confidence),
-                "physically": physically(finding.effect),
+                "physically": physically(finding.effect, finding.fit.model),
                 "where": finding.where[:1].upper() + finding.where[1:] + ".",
                 "share": percent(share) if share is not None else None,
                 "ties": (
@@ -114,6 +114,11 @@ def _findings(improvement: Improvement) -> list[dict[str, Any]]:
             }
         )
     return found
+
+
+def _title(effect: str) -> str:
+    """The catalog's title of an effect; an effect by formula goes by its name."""
+    return str(catalog()["effects"].get(effect, {"title": effect})["title"])
 
 
 def improvement_page(improvement: Improvement) -> str:

@@ -131,6 +131,8 @@ def file_name(recording: Recording) -> str:
 def scored_sentence(r: Recording) -> str:
     """Which rows count, in one sentence."""
     scored = r.scored()
+    if r.velocity_threshold == 0.0:
+        return f"All {thousands(r.time.size)} rows count, moving or not."
     return (
         f"{thousands(int(scored['rows']))} of {thousands(r.time.size)} rows count "
         f"({percent(scored['share'])}): those moving faster than "
@@ -151,6 +153,8 @@ def held_out_meaning(r: Recording) -> str:
 
 def _flags(e: Estimate) -> str:
     flags = []
+    if e.held:
+        return "held"
     if not e.identifiable:
         flags.append("not identifiable on this data")
     if e.at_bound:
@@ -407,7 +411,7 @@ def finding_text(finding: Finding, unit: str, number: int | None = None) -> str:
     lead = "" if number is None else f"{number}. "
     parts = [
         f"  {lead}{finding.effect}: {confidence_words(finding.confidence)}",
-        paragraph(physically(finding.effect), 5),
+        paragraph(physically(finding.effect, finding.fit.model), 5),
         paragraph(f"Here: {finding.where}.", 5),
         paragraph(
             f"Held-out error {plain(finding.rmse_held_out_before)} → "
@@ -524,7 +528,7 @@ def addition_text(before: Fit, after: Fit, effect: str) -> str:
     advice = "" if fell else ": the effect does not help on data it has not seen"
     return _joined(
         f"{effect} added to {before.model.spec} on {file_name(after.recording)}",
-        paragraph(physically(effect)),
+        paragraph(physically(effect, after.model)),
         bars([before.model.spec, f"+ {effect}"], [first, second], None, unit),
         paragraph(f"{verdict}{advice}."),
         parameters_text(after.estimates),

@@ -1,0 +1,149 @@
+"""Models that a command line writes out: by formula, with starts, bounds and held values."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
+
+import click
+
+from stribeck.cli.common import is_model_file, say
+from stribeck.errors import SpecError, nearest
+from stribeck.fit import Fit, fit
+from stribeck.formula_law import LAW, FormulaTerms, declarations, effect_terms, is_formula
+from stribeck.identify.choices import Choices
+from stribeck.model import Model, check_terms, law, model
+from stribeck.model_file import read_model_file
+from stribeck.recording import Recording
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+_LAW = click.option(
+    "--law", "laws", multiple=True, metavar="FORMULA",
+    help="A law by formula: 'c1*v + c2*tanh(v/c3)*abs(load)'.",
+)  # fmt: skip
+_EFFECT = click.option(
+    "--effect", "effects", multiple=True, metavar="EFFECT",
+    help="Add an effect to the model: its id, or 'NAME = FORMULA'.",
+)  # fmt: skip
+_PARAMETER = click.option(
+    "--parameter", "parameters", multiple=True, metavar="TEXT",
+    help="Unit, bounds, start of a formula's parameter: 'c3: rad/s, 0.001..10, start 0.1'.",
+)  # fmt: skip
+_CHOICES = [
+    click.option("--start", multiple=True, metavar="NAME=VALUE", help="Where a parameter starts."),
+    click.option(
+        "--bound", multiple=True, metavar="NAME=LOW:HIGH",
+        help="Bounds of a parameter; an end that is left out is open.",
+    ),
+    click.option("--fix", multiple=True, metavar="NAME=VALUE", help="Hold a parameter."),
+]  # fmt: skip
+
+
+candidate_option = click.option(
+    "--candidate", "candidates", multiple=True, metavar="'NAME = FORMULA'",
+    help="An effect by formula that may be missing too.",
+)  # fmt: skip
+
+
+def check_candidates(texts: tuple[str, ...]) -> None:
+    """Refuse candidates that are no effects by formula."""
+    for text in texts:
+        check_terms(effect_terms(text))
+
+
+@dataclass(frozen=True)
+class Written:
+    """What a command line says about its models."""
+
+    laws: tuple[str, ...] = ()
+    effects: tuple[str, ...] = ()
+    parameters: tuple[str, ...] = ()
+    choices: Choices = field(default_factory=Choices)
+
+    def model(self, argument: str | None) -> Model:
+        """The model that a command is about: a spec, a model file or a formula, or that of `--law`,
+        with the effects that are added and what is said about its formulas' parameters.
+        """
+        given = [text for text in (argument, *self.laws) if text is not None]
+        if not given:
+            raise SpecError(
+                "no model is given: name a law of `stribeck models` or a model file (in fit with "
+                "--model), or write a law with --law FORMULA"
+            )
+        if len(given) > 1:
+            raise SpecError(f"one model is needed, {len(given)} are given: {', '.join(given)}")
+        made = _model(given[0])
+        for effect in self.effects:
+            made = made.with_effect(effect, {})
+        return self._declared([made])[0]
+
+    def by_formula(self) -> list[Model]:
+        """The models of all `--law`; those without a name are numbered from the second on."""
+        named: list[str] = []
+        for text in self.laws:
+            taken = [text.partition("=")[0].strip() for text in named]
+            number = len(taken) + 1
+            free = LAW if LAW not in taken else f"{LAW}_{number}"
+            named.append(text if "=" in text else f"{free} = {text}")
+        return self._declared([law(text) for text in named])
+
+    def _declared(self, models: list[Model]) -> list[Model]:
+        """The models with what is said about their formulas' parameters."""
+        said = declarations(self.parameters)
+        known = {symbol for made in models for terms in made.own for symbol in terms.symbols}
+        for symbol, _ in said:
+            if symbol not in known:
+                has = f"; there are {', '.join(sorted(known))}" if known else ""
+                raise SpecError(
+                    f"--parameter {symbol}: no formula has this parameter"
+                    f"{nearest(symbol, sorted(known)) or has}"
+                )
+
+        def heard(terms: FormulaTerms) -> FormulaTerms:
+            own = tuple(row for row in said if row[0] in terms.symbols)
+            return replace(terms, declared=(*terms.declared, *own))
+
+        return [replace(made, own=tuple(map(heard, made.own))) for made in models]
+
+
+def _model(argument: str) -> Model:
+    if is_model_file(argument):
+        return read_model_file(argument).model
+    return law(argument) if is_formula(argument) else model(argument)
+
+
+def written_fit(
+    argument: str | None, written: Written, recording: Recording, **options: Any
+) -> Fit:
+    """Fit the model that a command is about; a model file is the start."""
+    made = written.model(argument)
+    if argument is not None and is_model_file(argument):
+        say(f"note: the parameters of {argument} are fitted again to {recording.path}")
+    said = written.choices
+    return fit(made, recording, start=said.start, bounds=said.bounds, fix=said.fix, **options)
+
+
+def formula_options(command: F) -> F:
+    """Add `--law` and `--parameter`; the command gets them as `written`."""
+    return _gathered(command, [_LAW, _PARAMETER])
+
+
+def model_options(command: F) -> F:
+    """Add all options about one model; the command gets them as `written`."""
+    return _gathered(command, [_LAW, _EFFECT, _PARAMETER, *_CHOICES])
+
+
+def _gathered(command: F, options: list[Any]) -> F:
+    @functools.wraps(command)
+    def wrapper(**given: Any) -> Any:
+        said = {name: given.pop(name, ()) for name in ("laws", "effects", "parameters")}
+        choices = {name: given.pop(name, ()) for name in ("start", "bound", "fix")}
+        return command(written=Written(**said, choices=Choices.parse(**choices)), **given)
+
+    decorated: Any = wrapper
+    for option in reversed(options):
+        decorated = option(decorated)
+    return decorated
