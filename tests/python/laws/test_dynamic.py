@@ -82,6 +82,13 @@ def parameter_sets(spec: str, *, wide: bool = False) -> dict[str, dict[str, floa
     return sets
 
 
+def vanishing_sets(spec: str) -> dict[str, dict[str, float]]:
+    """Each parameter that may be 0 at 0: the end of its bounds, where a fit may come to rest."""
+    drawn = parameter_sets(spec, wide=True)["drawn 1"]
+    sets = {p.symbol: {**drawn, p.symbol: 0.0} for p in sb.model(spec).parameters if p.lower == 0}
+    return {f"{name} = 0": values for name, values in sets.items() if least_dry(spec, values) > 0.1}
+
+
 def replace_bounds(p: Parameter) -> Parameter:
     """The parameter between plausible bounds."""
     if p.name not in PLAUSIBLE:
@@ -156,10 +163,12 @@ def test_steps_and_their_gradients_are_exact(spec: str) -> None:
     """Against the solution at 50 digits: 1e-11 of the size of the torque, gradients 1e-9 of their
     largest entry over the motion and of the torque per parameter."""
     motion, constants = steps(spec)
-    for name, parameters in parameter_sets(spec, wide=True).items():
+    sets = parameter_sets(spec, wide=True) | vanishing_sets(spec)
+    for name, parameters in sets.items():
         model = made(spec, parameters, constants)
         symbols = [p.symbol for p in model.parameters]
-        duals = exact_steps.solve(EXACT[base(spec)], parameters, motion, constants)
+        inside = {symbol: x or INSIDE for symbol, x in parameters.items()}
+        duals = exact_steps.solve(EXACT[base(spec)], inside, motion, constants)
         value, slope = exact_steps.as_arrays(duals, symbols)
         size = np.max(np.abs(value)) + np.array([sensitivity(d, parameters) for d in duals])
         error = np.abs(model.torque(**columns(motion)) - value) / size
@@ -198,6 +207,11 @@ def test_steps_in_single_precision(spec: str) -> None:
 def rounded(x: Any) -> Array:
     """In single precision."""
     return np.asarray(x, dtype=np.float32).astype(np.float64)
+
+
+#: Stands for a parameter of 0 in the reference: a derivative at the end of the bounds is the one
+#: from inside, where elements that reach their limit all at once at 0 do so one after the other.
+INSIDE = 1e-30
 
 
 def sensitivity(torque: exact_steps.Dual, parameters: dict[str, float]) -> float:
