@@ -61,6 +61,7 @@ class Fit:
     transient: NDArray[np.bool_]
     load: Array | None
     notes: tuple[str, ...] = field(default=())
+    errors: Errors = "robust"
 
     @property
     def residual(self) -> Array:
@@ -92,6 +93,7 @@ class Fit:
             "outcome": self.outcome,
             "evaluations": self.evaluations,
             "seconds": self.seconds,
+            "errors": self.errors,
             "passive": None,
             "rigid_body": list(self.model.rigid_body),
             "drive": self.model.drive,
@@ -424,6 +426,7 @@ def _finish(
         transient=marked,
         load=load,
         notes=notes,
+        errors=errors,
     )
 
 

@@ -264,9 +264,12 @@ def fit_text(fit: Fit) -> str:
     head = f"{fit.model.spec} {'fitted to' if refitted else 'evaluated on'} {file_name(r)}"
     legend = ""
     if any(e.stderr is not None for e in fit.estimates.values()):
+        assumed = (
+            "if every row errs for itself" if fit.errors == "independent"
+            else "allowing for noise that is correlated in time"
+        )  # fmt: skip
         legend = paragraph(
-            "± is one standard error, allowing for noise that is correlated in time; it knows "
-            "nothing of effects the model lacks."
+            f"± is one standard error, {assumed}; it knows nothing of effects the model lacks."
         )
     trouble = (
         "" if fit.converged else paragraph(f"The search did not converge ({fit.outcome}).", 2, 2)
