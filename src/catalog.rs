@@ -72,19 +72,19 @@ macro_rules! laws {
                 }
             }
 
-            /// Steps over an interval, with the splits of what is held and of its end.
+            /// Steps over an interval over which dry friction is held.
             #[inline]
             pub fn step(
                 &self,
                 state: &mut State<S>,
-                held: &Split<S>,
-                end: &Split<S>,
+                dry: S,
+                split: &Split<S>,
                 interval: &Interval<S::Plain>,
                 constants: &Constants<S::Plain>,
             ) -> Step<S> {
                 match self {
-                    $(Self::$law(law) => law.step(state, held, end, interval, constants),)+
-                    Self::$own(law) => law.step(state, held, end, interval, constants),
+                    $(Self::$law(law) => law.step(state, dry, split, interval, constants),)+
+                    Self::$own(law) => law.step(state, dry, split, interval, constants),
                 }
             }
         }

@@ -319,31 +319,27 @@ impl<S: Real> Composed<S> {
     pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
         let mut state = State::default();
         let dt = S::Plain::from_f64(LONG);
-        self.over(&mut state, &Interval { sample: *sample, held: None, dt, mean: false });
+        self.over(&mut state, &Interval { sample: *sample, mean_velocity: None, dt, mean: false });
         state
     }
 
     /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.
     #[inline]
     pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
-        self.over(state, &Interval { sample: *sample, held: None, dt, mean: true })
+        self.over(state, &Interval { sample: *sample, mean_velocity: None, dt, mean: true })
     }
 
     /// As [`step`](Self::step), over an interval.
     #[inline]
     pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
-        let end = self.split(&interval.sample);
-        let other;
-        let held = match &interval.held {
-            Some(sample) => {
-                other = self.split(sample);
-                &other
-            }
-            None => &end,
-        };
+        let split = self.split(&interval.sample);
+        if !self.has_state() {
+            return Step::same(split.torque(interval.sample.velocity.sign()));
+        }
+        let dry = state.dry_over(split.dry(), interval);
         match &self.bristle {
-            Some(bristle) => bristle.over(&mut state.bristle, held, &end, interval),
-            None => self.law.step(state, held, &end, interval, &self.constants),
+            Some(bristle) => bristle.over(&mut state.bristle, dry, &split, interval),
+            None => self.law.step(state, dry, &split, interval, &self.constants),
         }
     }
 }

@@ -52,23 +52,6 @@ impl<S: Real> Sample<S> {
             (true, false) => Some(Quadrant::Fourth),
         }
     }
-
-    /// Halfway between two samples.
-    #[inline]
-    #[must_use]
-    pub fn midway(&self, other: &Self) -> Self {
-        let half = S::from_f64(0.5);
-        let mean = |a: S, b: S| (a + b) * half;
-        Self {
-            velocity: mean(self.velocity, other.velocity),
-            position: mean(self.position, other.position),
-            acceleration: mean(self.acceleration, other.acceleration),
-            temperature: mean(self.temperature, other.temperature),
-            load_torque: mean(self.load_torque, other.load_torque),
-            motor_torque: mean(self.motor_torque, other.motor_torque),
-            external_torque: mean(self.external_torque, other.external_torque),
-        }
-    }
 }
 
 /// Which way a joint moves and which way it is loaded.

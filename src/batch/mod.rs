@@ -17,7 +17,6 @@ use std::vec::Vec;
 
 use crate::composed::{Composed, Spec};
 use crate::dynamics::Interval;
-use crate::sample::Sample;
 use crate::scalar::{Dual, Real};
 use balance::Balance;
 use columns::Rows;
@@ -193,11 +192,13 @@ fn evaluate<S: Real>(
             state = fresh;
         }
         let dt = if settled { 0.0 } else { dt };
-        let held = columns.mean_velocity.and_then(|mean| mean.get(i)).map(|&velocity| {
-            let before = if starts { sample } else { channels.sample(i - 1) };
-            Sample { velocity: S::Plain::from_f64(velocity), ..before.midway(&sample) }
-        });
-        let interval = Interval { sample, held, dt: S::Plain::from_f64(dt), mean: false };
+        let mean_velocity = columns.mean_velocity.and_then(|mean| mean.get(i));
+        let interval = Interval {
+            sample,
+            mean_velocity: mean_velocity.map(|&v| S::Plain::from_f64(v)),
+            dt: S::Plain::from_f64(dt),
+            mean: false,
+        };
         sink(&model.over(&mut state, &interval).torque);
     }
 }

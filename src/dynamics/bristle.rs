@@ -34,31 +34,32 @@ impl<S: Real> Default for BristleState<S> {
 }
 
 impl<S: Real> Bristle<S> {
-    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
-    /// the end, with which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
+    /// which the torque is read.
     #[inline]
     pub fn over(
         &self,
         state: &mut BristleState<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
         let (velocity, dt) = (interval.velocity(), interval.dt);
         let before = state.z;
-        let path = self.advance(state, held, velocity, dt);
-        let torque = if interval.held.is_some() {
-            let moved = (end.dry() - held.dry()) / self.stiffness;
+        let path = self.advance(state, dry, velocity, dt);
+        let torque = if interval.mean_velocity.is_some() {
+            let end = split.dry();
+            let moved = (end - dry) / self.stiffness;
             state.z += moved.scale(velocity.sign()) * path.following();
             let rate = self.rate(state.z, end, interval.sample.velocity);
-            self.stiffness * state.z + self.damping * rate + end.rate + end.additive
+            self.stiffness * state.z + self.damping * rate + split.rate + split.additive
         } else {
-            self.torque(state, end, &path)
+            self.torque(state, split, &path)
         };
         if !interval.mean {
             return Step::same(torque);
         }
-        Step { torque, mean_torque: self.mean_torque(before, state, held, dt, &path) }
+        Step { torque, mean_torque: self.mean_torque(before, state, split, dt, &path) }
     }
 
     /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
@@ -74,7 +75,7 @@ impl<S: Real> Bristle<S> {
         dt: S::Plain,
     ) -> Step<S> {
         let before = state.z;
-        let path = self.advance(state, split, velocity, dt);
+        let path = self.advance(state, split.dry(), velocity, dt);
         let torque = self.torque(state, split, &path);
         Step { torque, mean_torque: self.mean_torque(before, state, split, dt, &path) }
     }
@@ -83,7 +84,7 @@ impl<S: Real> Bristle<S> {
     fn advance(
         &self,
         state: &mut BristleState<S>,
-        split: &Split<S>,
+        dry: S,
         velocity: S::Plain,
         dt: S::Plain,
     ) -> Path<S> {
@@ -91,7 +92,6 @@ impl<S: Real> Bristle<S> {
         if speed.value() == 0.0 {
             return Path::Rest;
         }
-        let dry = split.dry();
         let dt = if dt.value() > 0.0 { dt } else { S::Plain::zero() };
         let pull = self.stiffness.scale(speed);
         if pull.value() * dt.value().max(SHORTEST) >= SATURATED * dry.value() {
@@ -124,9 +124,8 @@ impl<S: Real> Bristle<S> {
 
     /// `dz/dt` at `z`; 0 of a bristle that has settled at once.
     #[inline]
-    fn rate(&self, z: S, split: &Split<S>, velocity: S::Plain) -> S {
+    fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
         let pull = self.stiffness.scale(velocity.abs());
-        let dry = split.dry();
         if pull.value() * SHORTEST >= SATURATED * dry.value() {
             return S::zero();
         }

@@ -29,26 +29,26 @@ pub struct DahlBristle<S> {
 }
 
 impl<S: Real> DahlBristle<S> {
-    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
-    /// the end, with which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
+    /// which the torque is read.
     #[inline]
     pub fn over(
         &self,
         state: &mut BristleState<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
-        let Slid { mean, following } = self.advance(state, held, interval);
-        if interval.held.is_some() {
-            let moved = (end.dry() - held.dry()) / self.stiffness;
+        let Slid { mean, following } = self.advance(state, dry, interval);
+        if interval.mean_velocity.is_some() {
+            let moved = (split.dry() - dry) / self.stiffness;
             state.z += moved.scale(interval.velocity().sign()) * following;
         }
-        let torque = self.stiffness * state.z + end.rate + end.additive;
+        let torque = self.stiffness * state.z + split.rate + split.additive;
         if !interval.mean {
             return Step::same(torque);
         }
-        Step { torque, mean_torque: self.stiffness * mean + held.rate + held.additive }
+        Step { torque, mean_torque: self.stiffness * mean + split.rate + split.additive }
     }
 
     /// Moves the state.
@@ -56,7 +56,7 @@ impl<S: Real> DahlBristle<S> {
     fn advance(
         &self,
         state: &mut BristleState<S>,
-        split: &Split<S>,
+        dry: S,
         interval: &Interval<S::Plain>,
     ) -> Slid<S> {
         let travel = interval.travel();
@@ -64,7 +64,6 @@ impl<S: Real> DahlBristle<S> {
             return Slid { mean: state.z, following: S::zero() };
         }
         let before = state.z;
-        let dry = split.dry();
         let pull = self.stiffness.scale(travel);
         let target = (dry / self.stiffness).scale(interval.velocity().sign());
         if pull.value() >= VANISHED * dry.value() {

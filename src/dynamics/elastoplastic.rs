@@ -42,29 +42,29 @@ pub struct ElastoplasticBristle<S> {
 }
 
 impl<S: Real> ElastoplasticBristle<S> {
-    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
-    /// the end, with which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
+    /// which the torque is read.
     #[inline]
     pub fn over(
         &self,
         state: &mut BristleState<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
         let before = state.z;
-        let glide = self.advance(state, held, interval);
-        if interval.held.is_some() {
-            let moved = (end.dry() - held.dry()) / self.stiffness;
+        let glide = self.advance(state, dry, interval);
+        if interval.mean_velocity.is_some() {
+            let moved = (split.dry() - dry) / self.stiffness;
             state.z += moved.scale(interval.velocity().sign()) * glide.following;
         }
         let velocity = interval.sample.velocity;
-        let rate = self.slope(state.z, end, velocity).scale(velocity);
-        let torque = self.stiffness * state.z + self.damping * rate + end.rate + end.additive;
+        let rate = self.slope(state.z, split.dry(), velocity).scale(velocity);
+        let torque = self.stiffness * state.z + self.damping * rate + split.rate + split.additive;
         if !interval.mean {
             return Step::same(torque);
         }
-        let mut mean_torque = self.stiffness * glide.mean + held.rate + held.additive;
+        let mut mean_torque = self.stiffness * glide.mean + split.rate + split.additive;
         if interval.dt.value() > 0.0 {
             mean_torque += self.damping * (state.z - before).scale(S::Plain::one() / interval.dt);
         }
@@ -79,9 +79,8 @@ impl<S: Real> ElastoplasticBristle<S> {
 
     /// `dz/dt` over `v`.
     #[inline]
-    fn slope(&self, z: S, split: &Split<S>, velocity: S::Plain) -> S {
+    fn slope(&self, z: S, dry: S, velocity: S::Plain) -> S {
         let one = S::Plain::one();
-        let dry = split.dry();
         if self.stiffness.value() >= VANISHED * dry.value() {
             return S::zero();
         }
@@ -102,7 +101,7 @@ impl<S: Real> ElastoplasticBristle<S> {
     fn advance(
         &self,
         state: &mut BristleState<S>,
-        split: &Split<S>,
+        dry: S,
         interval: &Interval<S::Plain>,
     ) -> Glide<S> {
         let one = S::Plain::one();
@@ -112,7 +111,6 @@ impl<S: Real> ElastoplasticBristle<S> {
             return Glide { mean: state.z, following: S::zero() };
         }
         let direction = interval.velocity().sign();
-        let dry = split.dry();
         let pull = self.stiffness.scale(travel);
         if pull.value() >= VANISHED * dry.value() {
             state.z = (dry / self.stiffness).scale(direction);

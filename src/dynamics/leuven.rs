@@ -10,6 +10,9 @@ use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step, following, logar
 use crate::sample::Split;
 use crate::scalar::Real;
 
+/// An element so near its limit, relative to it, has reached it.
+const ROUNDING: f64 = 1e-12;
+
 /// Above this ratio of a force per travel to dry friction, dry friction has vanished.
 const VANISHED: f64 = 1e30;
 
@@ -27,52 +30,40 @@ pub struct LeuvenBristle<'a, S> {
 }
 
 impl<S: Real> LeuvenBristle<'_, S> {
-    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
-    /// the end, with which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
+    /// which the torque is read.
     #[inline]
     pub fn over(
         &self,
         state: &mut Elements<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
         let direction = interval.velocity().sign();
         let travel = interval.travel();
-        let glide = self.advance(state, held, direction, travel);
-        if interval.held.is_some() {
-            self.follow(state, held, end, direction, glide.following);
+        let (limit, end) = (self.limit(split), split.dry());
+        let glide = self.advance(state, limit, dry, direction, travel);
+        if interval.mean_velocity.is_some() {
+            let change = (end - dry) * glide.following;
+            let toward = if change.value() > 0.0 { direction } else { -direction };
+            if let Some(free) = self.free(state, limit, toward) {
+                let way = change.scale(toward * direction) / free.stiffness;
+                let way = if way.value() < free.room.value() { way } else { free.room };
+                self.shift(state, limit, toward, way);
+            }
         }
         let velocity = interval.sample.velocity;
         let force = self.total(state);
-        let rate = slope(force.scale(velocity.sign()), end.dry()).scale(velocity);
-        let torque = force + self.damping * rate + end.rate + end.additive;
+        let rate = slope(force.scale(velocity.sign()), end).scale(velocity);
+        let torque = force + self.damping * rate + split.rate + split.additive;
         if !interval.mean || travel.value() == 0.0 {
             return Step::same(torque);
         }
         let mean = glide.area.scale(S::Plain::one() / travel);
-        let mean_rate = slope(mean, held.dry()).scale(interval.velocity());
-        let mean_torque =
-            mean.scale(direction) + self.damping * mean_rate + held.rate + held.additive;
-        Step { torque, mean_torque }
-    }
-
-    /// Lets the force follow `D` from what was held to the end.
-    #[inline]
-    fn follow(
-        &self,
-        state: &mut Elements<S>,
-        held: &Split<S>,
-        end: &Split<S>,
-        direction: S::Plain,
-        following: S,
-    ) {
-        let limit = self.limit(end);
-        let change = (end.dry() - held.dry()) * following;
-        let toward = if change.value() > 0.0 { direction } else { -direction };
-        if let Some(free) = self.free(state, limit, toward) {
-            self.shift(state, limit, toward, change.abs() / free.stiffness);
-        }
+        let mean_rate = slope(mean, dry).scale(interval.velocity());
+        let mean = mean.scale(direction) + self.damping * mean_rate;
+        Step { torque, mean_torque: mean + split.rate + split.additive }
     }
 
     #[inline]
@@ -98,20 +89,19 @@ impl<S: Real> LeuvenBristle<'_, S> {
     fn advance(
         &self,
         state: &mut Elements<S>,
-        split: &Split<S>,
+        limit: S,
+        dry: S,
         direction: S::Plain,
         travel: S::Plain,
     ) -> Glide<S> {
-        let dry = split.dry();
         let dry = if dry.value() > 0.0 { dry } else { S::zero() };
-        let limit = self.limit(split);
         let mut left = S::from_plain(travel);
         let mut glide = Glide { area: S::zero(), following: S::zero() };
         for _ in 0..=self.count() {
             let force = self.total(state).scale(direction);
             let gap = dry - force;
             let toward = if gap.value() > 0.0 { direction } else { -direction };
-            let free = self.free(state, limit, toward).filter(|_| gap.value() != 0.0);
+            let free = self.free(state, limit, toward).filter(|_| !gap.is_zero());
             let Some(free) = free.filter(|_| left.value() > 0.0) else {
                 glide.area += force * left;
                 break;
@@ -120,12 +110,13 @@ impl<S: Real> LeuvenBristle<'_, S> {
             match piece.travel_to(free.room).filter(|reach| reach.value() < left.value()) {
                 Some(reach) => {
                     self.shift(state, limit, toward, free.room);
+                    self.stop(state, limit, toward);
                     glide.area += dry * (reach - free.room.scale(toward * direction));
                     left += -reach;
                 }
                 None => {
                     let (way, following) = piece.over(left);
-                    self.shift(state, limit, toward, way.abs());
+                    self.shift(state, limit, toward, way.scale(toward * direction));
                     glide.area += dry * (left - way);
                     glide.following = following;
                     break;
@@ -155,19 +146,25 @@ impl<S: Real> LeuvenBristle<'_, S> {
         free
     }
 
-    /// Moves `z` by `way >= 0` along `toward`: each element up to its limit.
+    /// Moves `z` by `way` along `toward`, no further than the first element's limit.
     #[inline]
     fn shift(&self, state: &mut Elements<S>, limit: S, toward: S::Plain, way: S) {
         for (k, force) in state.force[..self.count()].iter_mut().enumerate() {
+            let room = self.friction[k] * limit - force.scale(toward);
+            if room.value() > 0.0 {
+                *force += (self.stiffness[k] * way).scale(toward);
+            }
+        }
+    }
+
+    /// Puts elements that have come to their limit, but for rounding, exactly there.
+    #[inline]
+    fn stop(&self, state: &mut Elements<S>, limit: S, toward: S::Plain) {
+        for (k, force) in state.force[..self.count()].iter_mut().enumerate() {
             let most = self.friction[k] * limit;
             let room = most - force.scale(toward);
-            if room.value() > 0.0 {
-                let rise = self.stiffness[k] * way;
-                if rise.value() < room.value() * (1.0 - 1e-12) {
-                    *force += rise.scale(toward);
-                } else {
-                    *force = most.scale(toward);
-                }
+            if room.value().abs() <= ROUNDING * most.value() {
+                *force = most.scale(toward);
             }
         }
     }

@@ -23,40 +23,39 @@ pub struct MaxwellSlip<'a, S> {
 }
 
 impl<S: Real> MaxwellSlip<'_, S> {
-    /// Steps over `interval`; `held` is the split of what is held, `end` that of the sample at
-    /// the end, with which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
+    /// which the torque is read.
     #[inline]
     pub fn over(
         &self,
         state: &mut Elements<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
         let count = self.count.min(MOST_ELEMENTS);
-        let slide = self.slide(held, end, interval);
+        let slide = self.slide(dry, split.dry(), interval);
         let (mut force, mut mean) = (S::zero(), S::zero());
         for k in 0..count {
             let element = Element { friction: self.friction[k], stiffness: self.stiffness[k] };
             mean += element.advance(&mut state.force[k], &mut state.sliding[k], &slide);
             force += state.force[k];
         }
-        let torque = force + end.rate + end.additive;
+        let torque = force + split.rate + split.additive;
         if !interval.mean {
             return Step::same(torque);
         }
-        Step { torque, mean_torque: mean + held.rate + held.additive }
+        Step { torque, mean_torque: mean + split.rate + split.additive }
     }
 
-    /// What all elements have in common over the step.
+    /// What all elements have in common over a step at whose end dry friction is `end`.
     #[inline]
-    fn slide(&self, held: &Split<S>, end: &Split<S>, interval: &Interval<S::Plain>) -> Slide<S> {
+    fn slide(&self, dry: S, end: S, interval: &Interval<S::Plain>) -> Slide<S> {
         let mut total = S::zero();
         for &friction in &self.friction[..self.count.min(MOST_ELEMENTS)] {
             total += friction;
         }
-        let dry = held.dry();
-        let change = if interval.held.is_some() { end.dry() - dry } else { S::zero() };
+        let change = if interval.mean_velocity.is_some() { end - dry } else { S::zero() };
         let dt = if interval.dt.value() > 0.0 { interval.dt } else { S::Plain::zero() };
         let settling = Settling { pull: self.attraction.scale(dt), dry, mean: interval.mean };
         Slide {

@@ -29,30 +29,23 @@ const SATURATED: f64 = 700.0;
 /// A stretch of time over which a sample is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval<P> {
-    /// The sample at the end, at which the torque is read.
+    /// The sample, at the end of the step.
     pub sample: Sample<P>,
-    /// What is held instead, where it is known: the mean over the step, from positions say. It
-    /// carries the state, which makes the step second order.
-    pub held: Option<Sample<P>>,
+    /// Mean velocity over the step (X/s), where it is known, from positions say. It carries the
+    /// state instead of the sample's velocity, which makes the step second order.
+    pub mean_velocity: Option<P>,
     /// Length (s); with `dt <= 0` a state stays as it is.
     pub dt: P,
-    /// Whether the mean torque is wanted too.
+    /// Whether the mean torque is wanted too: exact work where the sample's own velocity is held.
     pub mean: bool,
 }
 
 impl<P: Real> Interval<P> {
-    /// The sample that is held, which carries the state.
-    #[inline]
-    #[must_use]
-    pub fn carrier(&self) -> &Sample<P> {
-        self.held.as_ref().unwrap_or(&self.sample)
-    }
-
-    /// The velocity that is held (X/s).
+    /// The velocity that carries the state (X/s).
     #[inline]
     #[must_use]
     pub fn velocity(&self) -> P {
-        self.carrier().velocity
+        self.mean_velocity.unwrap_or(self.sample.velocity)
     }
 
     /// What the state goes through: `|v| dt` (X), and 0 where time does not pass.
@@ -115,6 +108,8 @@ pub struct State<S> {
     pub bristle: BristleState<S>,
     /// Forces of elements in parallel.
     pub elements: Elements<S>,
+    /// Dry magnitude at the end of the step before (T).
+    dry: Option<S>,
 }
 
 impl<S: Real> State<S> {
@@ -122,7 +117,15 @@ impl<S: Real> State<S> {
     #[inline]
     #[must_use]
     pub fn deflected(z: S) -> Self {
-        Self { bristle: BristleState { z }, elements: Elements::default() }
+        Self { bristle: BristleState { z }, elements: Elements::default(), dry: None }
+    }
+
+    /// The dry magnitude that acts over a step at whose end it is `end` (T): the mean over the step
+    /// where the velocity is a mean too, else that of the sample that is held.
+    #[inline]
+    pub(crate) fn dry_over(&mut self, end: S, interval: &Interval<S::Plain>) -> S {
+        let before = self.dry.replace(end).filter(|_| interval.mean_velocity.is_some());
+        before.map_or(end, |before| (before + end).scale(S::Plain::from_f64(0.5)))
     }
 
     /// The state of elements that stick with these forces (T).

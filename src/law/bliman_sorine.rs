@@ -45,24 +45,24 @@ impl<S: Real> FrictionLaw<S> for BlimanSorine<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Step<S> {
         let direction = interval.velocity().sign();
         let fast = self.overshoot_ratio.shift(S::Plain::one());
         let slow = -self.overshoot_ratio;
-        let (mut torque, mut mean) = (end.rate + end.additive, held.rate + held.additive);
+        let (mut torque, mut mean) = (split.rate + split.additive, split.rate + split.additive);
         let parts =
             [(fast, self.distance_ratio * self.sliding_distance), (slow, self.sliding_distance)];
         for ((share, hold), force) in parts.into_iter().zip(&mut state.elements.force) {
-            let target = (share * held.dry()).scale(direction);
+            let target = (share * dry).scale(direction);
             let relaxation = Relaxation { target, pull: S::one(), hold };
             let relaxed = relaxation.over(*force, interval.travel());
             *force = relaxed.end;
-            if interval.held.is_some() {
-                let moved = (share * (end.dry() - held.dry())).scale(direction);
+            if interval.mean_velocity.is_some() {
+                let moved = (share * (split.dry() - dry)).scale(direction);
                 *force += moved * relaxed.following();
             }
             torque += *force;

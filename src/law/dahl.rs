@@ -39,13 +39,13 @@ impl<S: Real> FrictionLaw<S> for Dahl<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Step<S> {
         let bristle =
             DahlBristle { stiffness: self.bristle_stiffness, exponent: self.dahl_exponent };
-        bristle.over(&mut state.bristle, held, end, interval)
+        bristle.over(&mut state.bristle, dry, split, interval)
     }
 }

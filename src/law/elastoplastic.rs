@@ -57,8 +57,8 @@ impl<S: Real> FrictionLaw<S> for Elastoplastic<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Step<S> {
@@ -67,6 +67,6 @@ impl<S: Real> FrictionLaw<S> for Elastoplastic<S> {
             damping: self.bristle_damping,
             breakaway: self.breakaway_ratio,
         };
-        bristle.over(&mut state.bristle, held, end, interval)
+        bristle.over(&mut state.bristle, dry, split, interval)
     }
 }

@@ -72,8 +72,8 @@ impl<S: Real> FrictionLaw<S> for Gms<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
     ) -> Step<S> {
@@ -83,6 +83,6 @@ impl<S: Real> FrictionLaw<S> for Gms<S> {
             count: constants.element_count(),
             attraction: self.shared.attraction,
         };
-        slip.over(&mut state.elements, held, end, interval)
+        slip.over(&mut state.elements, dry, split, interval)
     }
 }

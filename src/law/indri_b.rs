@@ -41,9 +41,8 @@ impl<S: Real> IndriB<S> {
 
     /// The bristle along the travel: `dz/d(|v| t)` relaxes to `S0 g/a1` at the rate `a1 |S0|/g`.
     #[inline]
-    fn relaxation(&self, velocity: S::Plain, split: &Split<S>) -> Relaxation<S> {
+    fn relaxation(&self, velocity: S::Plain, hold: S) -> Relaxation<S> {
         let sign = self.smooth_sign(velocity);
-        let hold = split.dry();
         Relaxation {
             target: sign * hold / self.bristle_stiffness,
             pull: self.bristle_stiffness * sign.abs(),
@@ -53,10 +52,13 @@ impl<S: Real> IndriB<S> {
 
     /// `f |v|`: finite at rest, where `f` is not.
     #[inline]
-    fn damping(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> S {
-        let speed = sample.velocity.abs();
-        let scaled =
-            sample.acceleration * (constants.largest_velocity / constants.largest_acceleration);
+    fn damping(
+        &self,
+        speed: S::Plain,
+        acceleration: S::Plain,
+        constants: &Constants<S::Plain>,
+    ) -> S {
+        let scaled = acceleration * (constants.largest_velocity / constants.largest_acceleration);
         let ratio = scaled.abs() / speed;
         // Beyond this ratio the square overflows in single precision and the term is nothing.
         let most = S::Plain::from_f64(1e15);
@@ -99,36 +101,37 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
     ) -> Step<S> {
-        let (sample, carrier) = (&interval.sample, interval.carrier());
-        let travel = interval.travel();
+        let (velocity, travel) = (interval.velocity(), interval.travel());
+        let own = interval.sample.velocity;
+        let damping = |v: S::Plain| self.damping(v.abs(), interval.sample.acceleration, constants);
         let before = state.bristle.z;
-        let relaxation = self.relaxation(carrier.velocity, held);
+        let relaxation = self.relaxation(velocity, dry);
         let relaxed = relaxation.over(before, travel);
         let mut z = relaxed.end;
         let mut reading = relaxation;
-        if interval.held.is_some() {
-            reading = self.relaxation(sample.velocity, end);
-            let along = carrier.velocity.sign() * sample.velocity.sign();
+        if interval.mean_velocity.is_some() {
+            reading = self.relaxation(own, split.dry());
+            let along = velocity.sign() * own.sign();
             z += (reading.target.scale(along) - relaxation.target) * relaxed.following();
         }
         state.bristle.z = z;
 
-        let mut torque = self.bristle_stiffness * z + end.rate + end.additive;
-        if sample.velocity.value() != 0.0 {
-            torque += self.damping(sample, constants) * reading.slope(z);
+        let mut torque = self.bristle_stiffness * z + split.rate + split.additive;
+        if own.value() != 0.0 {
+            torque += damping(own) * reading.slope(z);
         }
         if !interval.mean {
             return Step::same(torque);
         }
-        let mut mean_torque = self.bristle_stiffness * relaxed.mean + held.rate + held.additive;
+        let mut mean_torque = self.bristle_stiffness * relaxed.mean + split.rate + split.additive;
         if travel.value() > 0.0 {
             let slope = (z - before).scale(S::Plain::one() / travel);
-            mean_torque += self.damping(carrier, constants) * slope;
+            mean_torque += damping(velocity) * slope;
         }
         Step { torque, mean_torque }
     }

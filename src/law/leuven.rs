@@ -72,8 +72,8 @@ impl<S: Real> FrictionLaw<S> for Leuven<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
     ) -> Step<S> {
@@ -83,6 +83,6 @@ impl<S: Real> FrictionLaw<S> for Leuven<S> {
             count: constants.element_count(),
             damping: self.shared.bristle_damping,
         };
-        bristle.over(&mut state.elements, held, end, interval)
+        bristle.over(&mut state.elements, dry, split, interval)
     }
 }

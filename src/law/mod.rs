@@ -93,8 +93,9 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     /// The torque at one instant, taken apart: in steady sliding where the law has a memory.
     fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S>;
 
-    /// Steps over an interval. `held` is the split of what is held, `end` that of the sample at
-    /// the end, both with what effects have added.
+    /// Steps over an interval over which the dry magnitude `dry` is held. `split` is that of the
+    /// sample, with what effects have added; its dry magnitude is another where a mean velocity is
+    /// held: the state tends to it towards the end.
     ///
     /// A law whose `captures` name `presliding` has a memory and steps by itself; in all others
     /// dry friction acts along the sign of the velocity.
@@ -102,11 +103,11 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     fn step(
         &self,
         _state: &mut State<S>,
-        _held: &Split<S>,
-        end: &Split<S>,
+        _dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         _constants: &Constants<S::Plain>,
     ) -> Step<S> {
-        Step::same(end.torque(interval.sample.velocity.sign()))
+        Step::same(split.torque(interval.sample.velocity.sign()))
     }
 }

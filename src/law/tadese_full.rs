@@ -198,21 +198,13 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Step<S> {
-        let before = state.bristle.z;
         let damping = self.damping(interval.sample.velocity);
         let bristle = Bristle { stiffness: self.bristle_stiffness, damping };
-        let mut step = bristle.over(&mut state.bristle, held, end, interval);
-        if let (true, Some(carrier), true) =
-            (interval.mean, &interval.held, interval.dt.value() > 0.0)
-        {
-            let slope = (state.bristle.z - before).scale(S::Plain::one() / interval.dt);
-            step.mean_torque += (self.damping(carrier.velocity) - damping) * slope;
-        }
-        step
+        bristle.over(&mut state.bristle, dry, split, interval)
     }
 }

@@ -79,12 +79,12 @@ impl<S: Real> FrictionLaw<S> for Xiao<S> {
     fn step(
         &self,
         state: &mut State<S>,
-        held: &Split<S>,
-        end: &Split<S>,
+        dry: S,
+        split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Step<S> {
         let bristle = Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping };
-        bristle.over(&mut state.bristle, held, end, interval)
+        bristle.over(&mut state.bristle, dry, split, interval)
     }
 }
