@@ -165,6 +165,23 @@ def test_state_says_where_to_start() -> None:
     assert m.torque([0.2, 0.2], dt=0.01)[-1] == pytest.approx(whole, rel=1e-12)
 
 
+def test_laws_of_several_elements_start_from_several_forces() -> None:
+    m = sb.model(
+        "gms:2", dFs=0.0, vs=0.1, alpha=2.0, C=50.0, s2=0.0, F1=2.0, k1=100.0, F2=1.0, k2=900.0
+    )
+    assert m.torque([0.0], dt=0.01, state=[0.5, -0.2]) == pytest.approx([0.3])
+    # Both stick, the first up to its 2 N m.
+    assert m.torque([0.1], dt=0.01, state=[1.95, -0.2]) == pytest.approx([2.0 - 0.2 + 0.9])
+    assert m.torque([0.0], dt=0.01, state=0.0) == [0.0]
+    for given in (0.3, [0.3], [0.1, 0.2, 0.3]):
+        with pytest.raises(ValueError, match="the model takes 2, one force an element"):
+            m.torque([0.0], dt=0.01, state=given)
+    with pytest.raises(ValueError, match="the model has no memory"):
+        sb.model("coulomb", a1=1.0, a2=2.0).torque([0.1], state=[1e-3])
+    with pytest.raises(ValueError, match="not finite"):
+        m.torque([0.0], dt=0.01, state=[np.nan, 0.0])
+
+
 def test_scalars_are_spread_over_the_rows() -> None:
     m = filled("coulomb+load+temperature_dry")
     spread = m.torque(V, load_torque=3.0, temperature=40.0)

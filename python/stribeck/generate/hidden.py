@@ -99,6 +99,8 @@ def generate(
         "position_start": -1.5 * joint.stroke,
         "position_length": 3.0 * joint.stroke,
         "position_periodic": 0.0,
+        "largest_velocity": joint.speed,
+        "largest_acceleration": joint.speed**2 / joint.stroke,
     }
     # The delay is made by sampling the joint at another time, so that nothing is interpolated.
     inner = tuple(e for e in hidden if e != "delay")
@@ -155,7 +157,7 @@ def generate(
         "law": law,
         "hidden": list(hidden),
         "parameters": {p.name: {"value": values[p.name], "unit": p.unit} for p in model.parameters},
-        "constants": {name: constants[name] for name in model.core.constants},
+        "constants": dict(model.core.constants),
         "noise_rms": level,
         "velocity_noise": sigma,
         "torque_unit": torque_unit,

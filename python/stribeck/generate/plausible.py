@@ -14,6 +14,7 @@ def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> di
     scales = {
         "none": 1.0,
         "speed": joint.speed,
+        "position": joint.stroke,
         "torque": 2.0 * c,
         "stiffness": c / joint.stroke,
         "damping": b,
