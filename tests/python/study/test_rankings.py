@@ -4,8 +4,9 @@ Review, section 6: among the velocity laws Gaz (B) "is evidently the less accura
 temperature represent a robot that warms up better; dynamic laws represent friction at low speed
 better than static ones; Dahl's "is by far the less accurate" of the dynamic ones.
 
-Gaz (A) and Li have a constant term, which takes the difference between the directions that other
-static laws lack: a thermal law without one need not be ahead of Gaz (A).
+Two static laws know more than velocity. Clochiatti's is told by the measured motor torque whether
+the motor drives. Gaz (A) has a constant term, which takes the difference between the directions;
+of the thermal laws only Li's has one too.
 """
 
 from __future__ import annotations
@@ -41,15 +42,13 @@ def check_rankings(made: Study) -> None:
     order = {table.group: [row.law for row in table.rows] for table in made.tables}
     assert order[STATIC][-1] == "gaz_b"
     assert order[DYNAMIC][-1] == "dahl"
-    assert order[STATIC][0] == "gaz_a"
     for joint in made.joints:
         static, thermal, dynamic = (of_group(made, g, joint) for g in (STATIC, THERMAL, DYNAMIC))
-        worst = max(static, key=lambda law: static[law].whole.rms)
-        assert worst == "gaz_b"
+        assert max(static, key=lambda law: static[law].whole.rms) == "gaz_b"
         assert max(dynamic, key=lambda law: dynamic[law].whole.rms) == "dahl"
-        without_offset = min(e.whole.rms for law, e in static.items() if law != "gaz_a")
-        assert max(e.whole.rms for e in thermal.values()) < without_offset
-        assert thermal["li"].whole.rms < static["gaz_a"].whole.rms
+        velocity_alone = {law: e.whole.rms for law, e in static.items() if law != "clochiatti"}
+        assert thermal["li"].whole.rms < velocity_alone.pop("gaz_a")
+        assert max(e.whole.rms for e in thermal.values()) < min(velocity_alone.values())
         slow = min(e.low_speed.rms for e in (*static.values(), *thermal.values()))
         assert max(e.low_speed.rms for law, e in dynamic.items() if law != "dahl") < slow
 
@@ -63,7 +62,7 @@ def test_a_few_laws_on_one_joint(tmp_path: Path) -> None:
 def test_all_laws_on_all_joints(tmp_path: Path) -> None:
     """The 25 laws of the review, six joints, every fifteenth of ninety cycles."""
     path = warm_arm(tmp_path, every=15, rate=100.0)
-    made = study(path, tmp_path / "out", starts=5, workers=None)
+    made = study(path, tmp_path / "out", starts=3, workers=None)
     assert made.failed == () and made.skipped == ()
     assert {row.law for table in made.tables for row in table.rows} == set(REVIEW)
     check_rankings(made)
