@@ -134,4 +134,3 @@ def _algebraic(velocity: Array, temperature: Array, load: Array) -> Array:
     slope = np.where(motoring, 0.13 + 0.03 * speed, 0.02 + 0.01 * speed)
     base = np.where(motoring, 0.5 * (1.0 - np.exp(-3.0 * speed)) + 0.1, 0.1)
     return viscous + np.sign(velocity) * (base + slope * np.abs(load))
-

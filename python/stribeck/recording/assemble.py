@@ -525,9 +525,7 @@ def _sampled(
     if load is None:
         load = _load(data, position, acceleration, load_unit, smooth=False)
         if load is not None:
-            load_smooth = _load(
-                data, position_smooth, acceleration_smooth, load_unit, smooth=True
-            )
+            load_smooth = _load(data, position_smooth, acceleration_smooth, load_unit, smooth=True)
     top = float(np.abs(velocity).max())
     threshold = max(SIGMAS * sigma, 1e-6 * top)
     moving = np.abs(velocity) > threshold

@@ -284,7 +284,8 @@ def fit_text(fit: Fit) -> str:
         parameters_text(fit.estimates) + ("\n" + legend if legend else ""),
         "\n".join(
             paragraph(f"{name} is not identifiable: {e.why}.", 2, 2)
-            for name, e in fit.estimates.items() if e.why is not None
+            for name, e in fit.estimates.items()
+            if e.why is not None
         ),
         _errors_text(fit),
         trouble,
