@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.identify.problem import Problem
@@ -76,3 +79,28 @@ def test_fewer_rows_are_spread_and_windows_are_where_it_turns(recording: sb.Reco
     part = p.window(1000)
     assert part.span is not None and part.span[1] - part.span[0] == 1000
     assert part.rows.min() >= part.span[0] and part.rows.max() < part.span[1]
+
+
+@pytest.mark.parametrize("slides", [False, True])
+def test_first_rows_tell_how_a_run_in_motion_began(slides: bool, tmp_path: Path) -> None:
+    """A bristle without viscous friction, from its path alone; two runs alike."""
+    stiffness, coulomb, rows = 40.0, 3.0, 1500
+    q, v = motion(rows)[1:3]
+    z = np.sign(v[0]) * coulomb / stiffness if slides else 0.0
+    bristle = [stiffness * z]
+    for path in np.diff(q):
+        steady = np.sign(path) * coulomb / stiffness
+        z = steady + (z - steady) * np.exp(-np.abs(path) * stiffness / coulomb)
+        bristle.append(stiffness * z)
+    frame = joint(rows=rows, noise=0.0, velocity_noise=0.0).with_columns(
+        torque=pl.col("load_torque") + np.array(bristle)
+    )
+    both = pl.concat(
+        [
+            frame.with_columns(run=pl.lit("a")),
+            frame.with_columns(pl.col("time") + 100.0, run=pl.lit("b")),
+        ]
+    )
+    p, _, _ = problem(record(tmp_path, both, map={"run": "run"}), "coulomb+presliding")
+    residual, _ = p.linearise(np.array([0.0, coulomb, stiffness, 0.0]))
+    assert np.abs(residual).max() < 1e-9
