@@ -191,12 +191,13 @@ struct Piece<S> {
 }
 
 impl<S: Real> Piece<S> {
-    /// The travel after which `z` has moved by `room`, if it ever does.
+    /// The travel after which `z` has moved by `room`, if it ever does: together the elements carry
+    /// `D` at least, so that the last one never comes to its limit, whatever the rounding.
     #[inline]
     fn travel_to(&self, room: S) -> Option<S> {
         let size = self.gap.abs();
         let share = self.stiffness * room / size;
-        (share.value() < 1.0).then(|| room * (self.dry / size) * logarithm_ratio(-share))
+        (share.value() < 1.0 - ROUNDING).then(|| room * (self.dry / size) * logarithm_ratio(-share))
     }
 
     /// How far `z` moves over a travel, and how far the force has followed where it tends to.
