@@ -185,9 +185,9 @@ def _left(last: Diagnosis, truth: dict[str, Any], final: Fit) -> str:
     found = set(final.model.effects) == set(hidden)
     rows = [["parameter", "in the recording", "found", "unit"]]
     for name, p in truth["parameters"].items():
-        if name not in final.estimates or p["value"] == 0.0:
+        e = final.estimates.get(name)
+        if e is None or p["value"] == 0.0 or not e.identifiable or e.at_bound:
             continue
-        e = final.estimates[name]
         error = f" ± {plain(e.stderr, 2)}" if e.stderr is not None else ""
         rows.append([name, plain(p["value"]), f"{plain(e.value)}{error}", p["unit"]])
     noise = f"{plain(truth['noise_rms'])} {truth['torque_unit']}"
