@@ -243,6 +243,7 @@ fn refusals_say_what_and_where() {
         ("c1*(v]", "']' closes no bracket, at position 6"),
         ("c1, v", "',' closes no bracket, at position 3"),
         ("c1*tanhh(v)", "'tanhh' is not a function (did you mean 'tanh'?), at position 4"),
+        ("c1*tnah(v)", "'tnah' is not a function (did you mean 'tanh'?), at position 4"),
         (
             "c1*velocty",
             "'velocty' is unknown (did you mean 'velocity'? a parameter needs a name \

@@ -138,25 +138,30 @@ fn nearest(
 /// The longest name that is compared with others.
 const LONGEST: usize = 24;
 
-/// Letters to insert, delete or replace (Levenshtein 1966); `None` if a name is too long.
+/// Letters to insert, delete, replace or exchange with the next (Damerau 1964, each letter touched
+/// once); `None` if a name is too long.
 fn distance(a: &str, b: &str) -> Option<usize> {
-    let mut row = [0; LONGEST + 1];
     if a.len() > LONGEST || b.len() > LONGEST {
         return None;
     }
-    for (j, cell) in row.iter_mut().enumerate() {
-        *cell = j;
-    }
+    let mut before = [0; LONGEST + 1];
+    let mut last: [usize; LONGEST + 1] = core::array::from_fn(|j| j);
+    let mut previous = None;
     for (i, x) in a.bytes().enumerate() {
-        let mut diagonal = i;
-        let mut left = i + 1;
-        for (y, above) in b.bytes().zip(row.iter_mut().skip(1)) {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = *above;
-            left = replaced.min(left + 1).min(*above + 1);
-            *above = left;
+        let mut row = [i + 1; LONGEST + 1];
+        let mut beside = None;
+        for (j, y) in b.bytes().enumerate() {
+            let replaced = last[j] + usize::from(x != y);
+            let mut least = replaced.min(row[j] + 1).min(last[j + 1] + 1);
+            if beside == Some(x) && previous == Some(y) && j > 0 {
+                least = least.min(before[j - 1] + 1);
+            }
+            row[j + 1] = least;
+            beside = Some(y);
         }
-        row[0] = i + 1;
+        before = last;
+        last = row;
+        previous = Some(x);
     }
-    row.get(b.len()).copied()
+    last.get(b.len()).copied()
 }

@@ -73,7 +73,7 @@ def independent(jacobian: Array, residual: Array, free: NDArray[np.bool_]) -> Ar
     covariance = np.zeros((p, p))
     freedom = residual.size - int(free.sum())
     if free.any() and freedom > 0:
-        variance = float(residual @ residual) / freedom
+        variance = float(np.sum(residual**2)) / freedom
         inverse = Triangle.of(jacobian[:, free], residual).covariance()
         covariance[np.ix_(free, free)] = variance * inverse
     return covariance

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import ReducedProblem, Search
-from stribeck.identify.separable import CAUTIOUS, TOLERANCE, minimise
+from stribeck.identify.separable import CAUTIOUS, TOLERANCE, minimise, rounding
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -103,13 +103,13 @@ def multi_start(
         tried, evaluations = _between_bounds(reduced, start, moved, starts, rng, effort)
     else:
         tried, evaluations = _without_bounds(reduced, start, moved, starts, rng, effort)
-    rounding = np.finfo(float).eps * float(np.linalg.norm(problem.target))
+    noise = rounding(problem.target)
     finished = []
-    for search in _distinct(tried, rounding)[: effort.finished]:
+    for search in _distinct(tried, noise)[: effort.finished]:
         done, count = minimise(problem, search.values, lower, upper, tolerance=effort.tolerance)
         evaluations += count
         finished.append(done)
-    return _winner(finished, rounding), starts, evaluations
+    return _winner(finished, noise), starts, evaluations
 
 
 def _coarse(problem: Problem, effort: Effort) -> Problem:
@@ -151,7 +151,8 @@ def _without_bounds(
 ) -> tuple[list[Search], int]:
     """Coarse searches by Levenberg and Marquardt's method in order, and their evaluations."""
     lower, upper = reduced.lower, reduced.upper
-    coarse = _coarse(reduced.problem, replace(effort, rows=effort.rows // FEWER))
+    fewer = replace(effort, rows=effort.rows // FEWER, samples=effort.samples // FEWER)
+    coarse = _coarse(reduced.problem, fewer)
     signed = reduced.nonlinear & (start != 0.0)
     evaluations = 0
     tried = []
@@ -176,7 +177,7 @@ def _without_bounds(
     return tried, evaluations
 
 
-def _distinct(tried: list[Search], rounding: float) -> list[Search]:
+def _distinct(tried: list[Search], noise: float) -> list[Search]:
     """The searches that ended in different places, best first.
 
     The first of those that found the same stands for them.
@@ -184,25 +185,25 @@ def _distinct(tried: list[Search], rounding: float) -> list[Search]:
     kept: list[Search] = []
     for search in sorted(tried, key=lambda search: search.square):
         if not any(abs(search.square - k.square) <= SAME * k.square for k in kept):
-            kept.append(next(first for first in tried if _same(first, search, rounding)))
+            kept.append(next(first for first in tried if _same(first, search, noise)))
     return kept
 
 
-def _winner(finished: list[Search], rounding: float) -> Search:
+def _winner(finished: list[Search], noise: float) -> Search:
     """The lowest; of those that found the same, the first."""
     best = min(finished, key=lambda search: search.square)
-    return next(search for search in finished if _same(search, best, rounding))
+    return next(search for search in finished if _same(search, best, noise))
 
 
-def _same(one: Search, other: Search, rounding: float) -> bool:
+def _same(one: Search, other: Search, noise: float) -> bool:
     """Whether two sums of squares differ by rounding alone.
 
     Parameters
     ----------
-    rounding : float
-        Norm of the torque's rounding, which is all that is left where a model fits exactly.
+    noise : float
+        Norm of the torque's rounding.
     """
     if one is other:
         return True
-    margin = TIE * other.square + 16.0 * rounding * np.sqrt(other.square) + rounding**2
+    margin = TIE * other.square + 16.0 * noise * np.sqrt(other.square) + noise**2
     return bool(abs(one.square - other.square) <= margin)

@@ -175,6 +175,11 @@ def minimise(
         return _descend(search, start, tolerance, most, damping), search.evaluations
 
 
+def rounding(torque: Array) -> float:
+    """Norm of the rounding of a torque [n]: what is left where a model fits exactly."""
+    return float(np.finfo(float).eps * np.sqrt(np.sum(torque**2)))
+
+
 def _descend(
     search: _Separable, start: Array, tolerance: float, most: int, damping: float
 ) -> Search:
@@ -183,7 +188,7 @@ def _descend(
     if point is None:
         return Search(start, np.inf, False, "the model is not finite at the start")
     # Below this a fall cannot be told from the rounding of the torque itself.
-    noise = 4.0 * np.finfo(float).eps * float(np.linalg.norm(search.problem.target))
+    noise = 4.0 * rounding(search.problem.target)
     scale = np.zeros(search.order.size)
     growth = 2.0
     outcome = "stopped at the largest number of steps"

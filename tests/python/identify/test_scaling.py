@@ -124,3 +124,17 @@ def test_a_held_parameter_keeps_its_start(plain: sb.Recording) -> None:
     assert lower[k] == upper[k] == start[k] == 1.0
     scale = sb.fit("simoni", plain, starts=2).estimates["scale"]
     assert scale.value == 1.0 and scale.stderr is None and not scale.at_bound
+
+
+def test_what_the_catalog_holds_is_held_and_said(plain: sb.Recording) -> None:
+    """Simoni's a5 scales all other parameters: it stays 1, or what is said."""
+    fitted = sb.fit("simoni", plain, starts=1)
+    assert fitted.estimates["scale"].held and fitted.model.value("scale") == 1.0
+    assert "held, not identified: scale = 1" in fitted.notes
+    twice = sb.fit("simoni", plain, starts=1, fix={"a5": 2.0})
+    assert twice.rmse == pytest.approx(fitted.rmse, rel=1e-9)
+    assert twice.model.value("viscous_friction") == pytest.approx(
+        fitted.model.value("viscous_friction") / 2.0, rel=1e-6
+    )
+    free = sb.fit("simoni", plain, starts=1, bounds={"a5": (0.5, 2.0)})
+    assert not free.estimates["scale"].held and not free.estimates["scale"].identifiable

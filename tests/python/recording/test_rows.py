@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time as clock
+from pathlib import Path
 
 import numpy as np
 import polars as pl
@@ -253,3 +254,21 @@ def test_sixty_thousand_rows_are_quick(write):
     start = clock.perf_counter()
     read(path)
     assert clock.perf_counter() - start < 2.0
+
+
+def test_a_table_of_points_needs_no_time_and_may_count_every_row(tmp_path: Path) -> None:
+    path = tmp_path / "map.csv"
+    path.write_text("v,tau\n0.5,2.5\n-1,-3\n0,0.1\n2,4\n1,3\n")
+    said = {"map": ["velocity=v", "friction_torque=tau"]}
+    with pytest.raises(RecordingError, match=r"no time column.* --average row"):
+        read(path, **said)
+    points = read(path, **said, average="row")
+    assert points.velocity.tolist() == [0.5, -1.0, 0.0, 2.0, 1.0] and points.averaged
+    assert points.moving.tolist() == [True, True, False, True, True]
+    assert points.block_count == 5 and "each of 5 rows is a steady-state point" in points.notes[-2]
+    every = read(path, **said, average="row", rows="all")
+    assert every.moving.all()
+    assert every.scored() == {"rows": 5, "share": 1.0, "velocity_threshold": 0.0}
+    assert every.notes[-1] == "every row counts, whether it moves or not, as said"
+    with pytest.raises(RecordingError, match="--rows most: it is moving or all"):
+        read(path, **said, rows="most")
