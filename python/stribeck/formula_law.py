@@ -5,6 +5,17 @@ Channels are v, q, a, T, tl, tm and te, or velocity, position, acceleration, tem
 motor_torque and external_torque; functions are sgn, abs, exp, expm1, log, log10, sqrt, cbrt, sin,
 cos, tan, atan, tanh, pow, min and max; ``pi`` is a constant; powers are written ``^`` or ``**``.
 Every other name is a parameter.
+
+The terms of the formula's sum are told apart, so that effects act on them as on any law:
+
+* dry: with the factor ``sgn(v)``; what else is in the product is the magnitude,
+* dry with a smoothed sign: with the factor ``tanh`` or ``atan`` of a multiple of v; a bristle
+  (effect ``presliding``) takes the amplitude and drops the smoothing,
+* rate: what is zero at v = 0, ``c1*v`` or ``c1*abs(v)^c2*sgn(v)``,
+* additive: the rest.
+
+A factor counts in products, not inside a bracketed sum: write a dry and a rate-dependent part as
+two terms. Parameters in which the torque is linear are found by the formula's structure.
 """
 
 from __future__ import annotations
