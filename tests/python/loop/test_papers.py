@@ -14,7 +14,6 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[2] / "hidden"))
 
 import papers
-
 import stribeck as sb
 
 
