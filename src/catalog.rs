@@ -154,6 +154,21 @@ macro_rules! effects {
                 })+
             }
 
+            /// What the torque channel shows of `friction`.
+            #[inline]
+            pub fn measured(
+                &self,
+                friction: S,
+                sample: &Sample<S::Plain>,
+                constants: &Constants<S::Plain>,
+            ) -> S {
+                $(let friction = match &self.$id {
+                    Some(effect) => effect.measured(friction, sample, constants),
+                    None => friction,
+                };)+
+                friction
+            }
+
             /// The bristle that an effect adds.
             #[inline]
             pub fn bristle(&self) -> Option<Bristle<S>> {
@@ -176,14 +191,20 @@ effects! {
     quadrant: Quadrant,
     position: Position,
     direction: Direction,
-    // After all that dry friction depends on: temperature changes all of it alike.
+    // After all that dry friction depends on: time and temperature change all of it alike.
+    drift: Drift,
     temperature_dry: TemperatureDry,
     nonlinear_viscous: NonlinearViscous,
     temperature_viscous: TemperatureViscous,
     offset: Offset,
     inertia: Inertia,
     gravity: Gravity,
+    spring: Spring,
+    ripple: Ripple,
     presliding: Presliding,
+    // Of the whole torque, whatever it consists of.
+    saturation: Saturation,
+    gain: Gain,
     delay: Delay,
 }
 

@@ -172,10 +172,11 @@ impl Spec {
     }
 
     /// Whether the torque is linear in a parameter, all nonlinear ones held. Where friction depends
-    /// on the motor torque, which itself follows from it, it is not.
+    /// on the motor torque, which itself follows from it, or where that saturates, it is not.
     #[must_use]
     pub fn is_linear(&self, parameter: &ParameterInfo) -> bool {
-        if self.channels().any(|channel| channel == Channel::MotorTorque) {
+        let balanced = self.channels().any(|channel| channel == Channel::MotorTorque);
+        if balanced || self.effects.contains(EffectId::Saturation) {
             return false;
         }
         match parameter.role {
@@ -307,11 +308,12 @@ impl<S: Real> Composed<S> {
         altered
     }
 
-    /// The torque in steady sliding, where dry friction acts along `sgn v` (T).
+    /// The torque in steady sliding, where dry friction acts along `sgn v` (T), as it is measured.
     #[inline]
     #[must_use]
     pub fn static_torque(&self, sample: &Sample<S::Plain>) -> S {
-        self.split(sample).torque(sample.velocity.sign())
+        let friction = self.split(sample).torque(sample.velocity.sign());
+        self.effects.measured(friction, sample, &self.constants)
     }
 
     /// The state that a sample held for long leaves behind; at rest one without tension.
@@ -329,17 +331,21 @@ impl<S: Real> Composed<S> {
         self.over(state, &Interval { sample: *sample, mean_velocity: None, dt, mean: true })
     }
 
-    /// As [`step`](Self::step), over an interval.
+    /// As [`step`](Self::step), over an interval. The torque at its end is as it is measured; the
+    /// mean, which does the work, as it acts.
     #[inline]
     pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
         let split = self.split(&interval.sample);
-        if !self.has_state() {
-            return Step::same(split.torque(interval.sample.velocity.sign()));
-        }
-        let dry = state.dry_over(split.dry(), interval);
-        match &self.bristle {
-            Some(bristle) => bristle.over(&mut state.bristle, dry, &split, interval),
-            None => self.law.step(state, dry, &split, interval, &self.constants),
-        }
+        let step = if self.has_state() {
+            let dry = state.dry_over(split.dry(), interval);
+            match &self.bristle {
+                Some(bristle) => bristle.over(&mut state.bristle, dry, &split, interval),
+                None => self.law.step(state, dry, &split, interval, &self.constants),
+            }
+        } else {
+            Step::same(split.torque(interval.sample.velocity.sign()))
+        };
+        let torque = self.effects.measured(step.torque, &interval.sample, &self.constants);
+        Step { torque, ..step }
     }
 }

@@ -76,6 +76,12 @@ constants! {
     position_length ["X"] = core::f64::consts::TAU, |x| x > 0.0;
     /// 1 if friction repeats with the length, 0 if the length is the whole stroke.
     position_periodic ["1"] = 1.0, |x| x == 0.0 || x == 1.0;
+    /// Period of a ripple as found beforehand; a fit refines it.
+    ripple_period ["X"] = 1.0, |x| x > 0.0;
+    /// Time over which drift is counted: that of the recording.
+    duration ["s"] = 3600.0, |x| x > 0.0;
+    /// Torque at which every saturation exponent gives the same excess.
+    reference_torque ["T"] = 1.0, |x| x > 0.0;
     /// Temperature from which a law counts; outside the data where it has a pole there.
     base_temperature ["degC"] = 0.0, |_| true;
     /// Speed over which a law smooths the sign of the velocity.

@@ -20,6 +20,8 @@ pub struct Sample<S> {
     /// Torque `te` that the environment exerts on the joint (T): minus the gravity and external
     /// part of `tl`, without inertia.
     pub external_torque: S,
+    /// Time since the start of the recording (s).
+    pub time: S,
 }
 
 impl<S: Real> Sample<S> {
@@ -36,6 +38,7 @@ impl<S: Real> Sample<S> {
             load_torque: zero,
             motor_torque: zero,
             external_torque: zero,
+            time: zero,
         }
     }
 

@@ -13,11 +13,12 @@ pub enum Channel {
     LoadTorque,
     MotorTorque,
     ExternalTorque,
+    Time,
 }
 
 impl Channel {
     /// Every channel.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Velocity,
         Self::Position,
         Self::Acceleration,
@@ -25,6 +26,7 @@ impl Channel {
         Self::LoadTorque,
         Self::MotorTorque,
         Self::ExternalTorque,
+        Self::Time,
     ];
 
     /// The name users write.
@@ -38,6 +40,7 @@ impl Channel {
             Self::LoadTorque => "load_torque",
             Self::MotorTorque => "motor_torque",
             Self::ExternalTorque => "external_torque",
+            Self::Time => "time",
         }
     }
 }
@@ -250,7 +253,7 @@ pub struct LawInfo {
 pub struct EffectInfo {
     /// Id users write.
     pub id: &'static str,
-    /// Where the cause lies: friction, measurement, rigid body.
+    /// Where the cause lies: friction, measurement, actuator, rigid body.
     pub group: &'static str,
     /// Title.
     pub title: &'static str,

@@ -50,6 +50,7 @@ const SAMPLE: Sample<f64> = Sample {
     load_torque: -4.0,
     motor_torque: 5.0,
     external_torque: 0.7,
+    time: 0.0,
 };
 
 #[test]

@@ -129,6 +129,7 @@ fn all_static_effects_together() {
         load_torque: -7.5,
         motor_torque: 0.0,
         external_torque: 0.0,
+        time: 0.0,
     };
     let effects = [
         "gravity",
@@ -151,6 +152,62 @@ fn all_static_effects_together() {
         0.8, 1.1, -0.6, // inertia, gravity
     ];
     close(at("coulomb", &effects, &values, &sample), -4.839884568237191, 1e-14);
+}
+
+/// Viscous and Coulomb friction with `effects` at one sample under load, where nothing cancels.
+fn at_one_sample(effects: &[&str], values: &[f64]) -> f64 {
+    let mut spec = Spec::new("coulomb", effects.iter().copied()).unwrap();
+    for (name, value) in [
+        ("position_start", -0.4),
+        ("position_length", 2.5),
+        ("ripple_period", 0.21),
+        ("duration", 80.0),
+        ("reference_torque", 9.0),
+    ] {
+        spec.set_constant(name, value).unwrap();
+    }
+    let sample = Sample { position: 0.9, load_torque: -7.5, time: 31.0, ..Sample::at(-0.25) };
+    let values: Vec<f64> = [2.0, 5.0].iter().chain(values).copied().collect();
+    spec.with(&values).unwrap().static_torque(&sample)
+}
+
+#[test]
+fn effects_of_time_and_position() {
+    close(at_one_sample(&["drift"], &[-0.3, 2.5]), -4.4861106787337049, 1e-15);
+    close(at_one_sample(&["drift"], &[-0.3, 0.0]), -4.91875, 1e-15);
+    close(at_one_sample(&["spring"], &[0.8, 0.3, -0.5]), -5.58736, 1e-15);
+    let ripple = [0.6, -0.4, 0.2, 0.1, 0.37];
+    close(at_one_sample(&["ripple"], &ripple), -5.7834234052076721, 1e-14);
+}
+
+#[test]
+fn effects_of_the_whole_torque() {
+    close(at_one_sample(&["gain"], &[0.08]), -6.54, 1e-15);
+    close(at_one_sample(&["saturation"], &[0.15, 2.3]), -10.043039888108621, 1e-15);
+    let effects = ["gain", "saturation", "ripple", "spring", "drift"];
+    let values = [
+        -0.3, 2.5, // drift
+        0.8, 0.3, -0.5, // spring
+        0.6, -0.4, 0.2, 0.1, 0.37, // ripple
+        0.15, 2.3,  // saturation
+        0.08, // gain
+    ];
+    close(at_one_sample(&effects, &values), -9.9955403653316986, 1e-14);
+}
+
+#[test]
+fn a_bristle_is_measured_like_a_static_law() {
+    let values = [2.0, 5.0, 900.0, 1.5, 0.15, 2.3, 0.08];
+    let mut spec = Spec::new("coulomb", ["presliding", "saturation", "gain"]).unwrap();
+    spec.set_constant("reference_torque", 9.0).unwrap();
+    let sample = Sample { load_torque: -7.5, ..Sample::at(-0.25) };
+    let mut state = State::default();
+    let step = spec.with(&values).unwrap().step(&mut state, &sample, 10.0);
+    let acting = -5.5;
+    let measured = at_one_sample(&["saturation", "gain"], &[0.15, 2.3, 0.08]);
+    close(step.torque, measured, 1e-14);
+    // The bristle bends 5/900 first, with its damping: the work is that of the friction that acts.
+    assert!((step.mean_torque - acting).abs() < 0.02, "{}", step.mean_torque);
 }
 
 #[test]

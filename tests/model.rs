@@ -79,7 +79,18 @@ fn refusals_say_what_and_why() {
 #[test]
 fn laws_without_direction_are_odd() {
     for spec in common::every_model() {
-        let even = ["direction", "quadrant", "offset", "inertia", "gravity", "delay"];
+        let even = [
+            "direction",
+            "quadrant",
+            "offset",
+            "inertia",
+            "gravity",
+            "spring",
+            "ripple",
+            "saturation",
+            "gain",
+            "delay",
+        ];
         if even.iter().any(|id| spec.has(id)) {
             continue;
         }

@@ -63,6 +63,7 @@ class Model:
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
         external_torque: ArrayLike | None = None,
+        time: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
@@ -81,6 +82,7 @@ class Model:
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
         external_torque: ArrayLike | None = None,
+        time: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
@@ -98,4 +100,5 @@ class Model:
         load_torque: ArrayLike | None = None,
         motor_torque: ArrayLike | None = None,
         external_torque: ArrayLike | None = None,
+        time: ArrayLike | None = None,
     ) -> dict[str, NDArray[np.float64]]: ...

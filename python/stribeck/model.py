@@ -383,6 +383,7 @@ class Model:
         state: float | ArrayLike = 0.0,
         *,
         external_torque: ArrayLike | None = None,
+        time: ArrayLike | None = None,
         precision: Literal["double", "single"] = "double",
     ) -> Array:
         """Friction torque of each sample, and identified rigid-body terms where there are any.
@@ -402,6 +403,8 @@ class Model:
         external_torque : array [n]
             What the environment exerts on the joint, for the servo laws; default: minus the load
             torque, which is right where nothing accelerates.
+        time : array [n]
+            Since the start of the recording, s, for `drift`.
         precision
             ``"single"`` gives the bits of a controller that computes in 32 bits.
 
@@ -413,7 +416,7 @@ class Model:
             self._known_values(),
             **self._channels(
                 velocity, position, acceleration, temperature, load_torque, motor_torque,
-                external_torque, dt,
+                external_torque, dt, time,
             ),
             state=state,
             single=precision == "single",
@@ -431,13 +434,14 @@ class Model:
         state: float | ArrayLike = 0.0,
         *,
         external_torque: ArrayLike | None = None,
+        time: ArrayLike | None = None,
     ) -> Array:
         """Derivative of `torque` with respect to the parameters, array [n, p]."""
         _, jacobian = self.core.gradient(
             self._known_values(),
             **self._channels(
                 velocity, position, acceleration, temperature, load_torque, motor_torque,
-                external_torque, dt,
+                external_torque, dt, time,
             ),
             state=state,
         )  # fmt: skip
@@ -452,15 +456,18 @@ class Model:
             rad/s or m/s.
         **channels : arrays [n]
             ``position``, ``acceleration``, ``temperature``, ``load_torque``, ``motor_torque``,
-            ``external_torque``. One that is left out stands at the middle of the operating box.
+            ``external_torque``, ``time``. One that is left out stands at the middle of the
+            operating box, time at that of the recording.
         """
         speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
         filled: dict[str, Array] = {}
         for name in (
             "position", "acceleration", "temperature", "load_torque", "motor_torque",
-            "external_torque",
+            "external_torque", "time",
         ):  # fmt: skip
             given = channels.get(name)
+            if given is None and name == "time" and name in self.core.needs:
+                given = 0.5 * self.core.constants["duration"]
             if given is None and name in self.box:
                 given = 0.5 * sum(self.box[name])
             if given is not None:
@@ -484,6 +491,7 @@ class Model:
         motor_torque: ArrayLike | None,
         external_torque: ArrayLike | None,
         dt: ArrayLike | None,
+        time: ArrayLike | None,
     ) -> dict[str, Any]:
         speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
 
@@ -504,6 +512,7 @@ class Model:
             "load_torque": load,
             "motor_torque": column(motor_torque),
             "external_torque": external,
+            "time": column(time),
         }
 
     def _known_values(self) -> Array:

@@ -21,6 +21,7 @@ pub struct Channels<'a> {
     pub load_torque: Option<&'a [f64]>,
     pub motor_torque: Option<&'a [f64]>,
     pub external_torque: Option<&'a [f64]>,
+    pub time: Option<&'a [f64]>,
 }
 
 impl<'a> Channels<'a> {
@@ -35,6 +36,7 @@ impl<'a> Channels<'a> {
             Channel::LoadTorque => self.load_torque,
             Channel::MotorTorque => self.motor_torque,
             Channel::ExternalTorque => self.external_torque,
+            Channel::Time => self.time,
         }
     }
 
@@ -53,6 +55,7 @@ impl<'a> Channels<'a> {
             load_torque: at(self.load_torque),
             motor_torque: at(self.motor_torque),
             external_torque: at(self.external_torque),
+            time: at(self.time),
         }
     }
 }
@@ -117,6 +120,7 @@ impl<'a> Columns<'a> {
             load_torque: smooth.load_torque.or(plain.load_torque),
             motor_torque: smooth.motor_torque.or(plain.motor_torque),
             external_torque: smooth.external_torque.or(plain.external_torque),
+            time: smooth.time.or(plain.time),
         }
     }
 

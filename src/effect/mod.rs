@@ -4,7 +4,9 @@
 
 mod delay;
 mod direction;
+mod drift;
 mod factor;
+mod gain;
 mod gravity;
 mod inertia;
 mod load;
@@ -13,12 +15,17 @@ mod offset;
 mod position;
 mod presliding;
 mod quadrant;
+mod ripple;
+mod saturation;
+mod spring;
 mod stribeck;
 mod temperature_dry;
 mod temperature_viscous;
 
 pub use delay::Delay;
 pub use direction::Direction;
+pub use drift::Drift;
+pub use gain::Gain;
 pub use gravity::Gravity;
 pub use inertia::Inertia;
 pub use load::Load;
@@ -27,6 +34,9 @@ pub use offset::Offset;
 pub use position::Position;
 pub use presliding::Presliding;
 pub use quadrant::Quadrant;
+pub use ripple::Ripple;
+pub use saturation::Saturation;
+pub use spring::Spring;
 pub use stribeck::Stribeck;
 pub use temperature_dry::TemperatureDry;
 pub use temperature_viscous::TemperatureViscous;
@@ -42,7 +52,8 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
     /// The effect's table.
     const INFO: EffectInfo;
 
-    /// Changes the split; effects that are no part of it (a bristle, a delay) leave it alone.
+    /// Changes the split; effects that are no part of it (a bristle, a gain, a delay) leave it
+    /// alone.
     #[inline]
     fn apply(
         &self,
@@ -50,6 +61,18 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
         _sample: &Sample<S::Plain>,
         _constants: &Constants<S::Plain>,
     ) {
+    }
+
+    /// What the torque channel shows of `friction` where the way from the motor's current to a
+    /// torque is wrong: it distorts all torque `tl + tf` alike, of which `tl` is known.
+    #[inline]
+    fn measured(
+        &self,
+        friction: S,
+        _sample: &Sample<S::Plain>,
+        _constants: &Constants<S::Plain>,
+    ) -> S {
+        friction
     }
 
     /// The bristle, if that is what the effect adds.

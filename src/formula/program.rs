@@ -375,5 +375,6 @@ fn channel_of<P: Real>(sample: &Sample<P>, channel: Channel) -> P {
         Channel::LoadTorque => sample.load_torque,
         Channel::MotorTorque => sample.motor_torque,
         Channel::ExternalTorque => sample.external_torque,
+        Channel::Time => sample.time,
     }
 }

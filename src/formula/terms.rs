@@ -267,6 +267,7 @@ impl Formula {
             load_torque: sign * 2.7193,
             motor_torque: sign * 3.1871,
             external_torque: sign * 1.9177,
+            time: 0.0,
         };
         [1.0, -1.0]
             .iter()

@@ -57,6 +57,7 @@ pub(super) struct Arguments<'py> {
     pub load_torque: Option<Array<'py>>,
     pub motor_torque: Option<Array<'py>>,
     pub external_torque: Option<Array<'py>>,
+    pub time: Option<Array<'py>>,
     pub smooth: Option<BTreeMap<String, Array<'py>>>,
     pub shift_load: bool,
     pub mean_velocity: Option<Array<'py>>,
@@ -77,6 +78,7 @@ impl Arguments<'_> {
         let load_torque = self.load_torque.as_ref().map(contiguous);
         let motor_torque = self.motor_torque.as_ref().map(contiguous);
         let external_torque = self.external_torque.as_ref().map(contiguous);
+        let time = self.time.as_ref().map(contiguous);
         let mean_velocity = self.mean_velocity.as_ref().map(contiguous);
         let state = self.state.as_ref().map(Start::values).unwrap_or_default();
         let dt = match &self.dt {
@@ -106,6 +108,7 @@ impl Arguments<'_> {
                 load_torque: load_torque.as_deref(),
                 motor_torque: motor_torque.as_deref(),
                 external_torque: external_torque.as_deref(),
+                time: time.as_deref(),
             },
             smooth: Channels {
                 velocity: smooth(Channel::Velocity).unwrap_or_default(),
@@ -115,6 +118,7 @@ impl Arguments<'_> {
                 load_torque: smooth(Channel::LoadTorque),
                 motor_torque: smooth(Channel::MotorTorque),
                 external_torque: smooth(Channel::ExternalTorque),
+                time: smooth(Channel::Time),
             },
             shift_load: self.shift_load,
             mean_velocity: mean_velocity.as_deref(),

@@ -131,8 +131,8 @@ impl Model {
     /// Friction torque of every row; with a memory, at the end of the row's step. `single` computes
     /// in single precision throughout.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, external_torque=None, smooth=None, shift_load=true,
-        mean_velocity=None, state=None, *, single=false))]
+        load_torque=None, motor_torque=None, external_torque=None, time=None, smooth=None,
+        shift_load=true, mean_velocity=None, state=None, *, single=false))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -146,6 +146,7 @@ impl Model {
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
         external_torque: Option<Array<'py>>,
+        time: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
@@ -162,6 +163,7 @@ impl Model {
             load_torque,
             motor_torque,
             external_torque,
+            time,
             smooth,
             shift_load,
             mean_velocity,
@@ -176,8 +178,8 @@ impl Model {
     /// Friction torque of every row and its derivatives by the `wanted` parameters (indices, by
     /// default all) in that order, one column each.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, external_torque=None, smooth=None, shift_load=true,
-        mean_velocity=None, state=None, *, wanted=None))]
+        load_torque=None, motor_torque=None, external_torque=None, time=None, smooth=None,
+        shift_load=true, mean_velocity=None, state=None, *, wanted=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -191,6 +193,7 @@ impl Model {
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
         external_torque: Option<Array<'py>>,
+        time: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
@@ -207,6 +210,7 @@ impl Model {
             load_torque,
             motor_torque,
             external_torque,
+            time,
             smooth,
             shift_load,
             mean_velocity,
@@ -225,7 +229,7 @@ impl Model {
 
     /// Parts of the torque in steady sliding: dict of `dry`, `rate` and `additive`.
     #[pyo3(signature = (values, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, external_torque=None))]
+        load_torque=None, motor_torque=None, external_torque=None, time=None))]
     #[allow(clippy::too_many_arguments)]
     fn split<'py>(
         &self,
@@ -238,6 +242,7 @@ impl Model {
         load_torque: Option<Array<'py>>,
         motor_torque: Option<Array<'py>>,
         external_torque: Option<Array<'py>>,
+        time: Option<Array<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -249,6 +254,7 @@ impl Model {
             load_torque,
             motor_torque,
             external_torque,
+            time,
             smooth: None,
             shift_load: true,
             mean_velocity: None,

@@ -28,6 +28,9 @@ pub fn every_model() -> Vec<Spec> {
         spec.set_constant("reference_load", 4.0).unwrap();
         spec.set_constant("reference_velocity", 0.7).unwrap();
         spec.set_constant("position_length", 2.5).unwrap();
+        spec.set_constant("ripple_period", 0.21).unwrap();
+        spec.set_constant("duration", 2.2).unwrap();
+        spec.set_constant("reference_torque", 80.0).unwrap();
     }
     specs
 }
@@ -61,6 +64,7 @@ pub struct Motion {
     pub load_torque: Vec<f64>,
     pub motor_torque: Vec<f64>,
     pub external_torque: Vec<f64>,
+    pub time: Vec<f64>,
 }
 
 #[allow(clippy::disallowed_methods)]
@@ -78,6 +82,7 @@ pub fn motion(rows: usize) -> Motion {
         load_torque: column(&|i| 6.0 * (1.7 * time(i)).cos()),
         motor_torque: column(&|i| 7.0 * (1.9 * time(i)).cos()),
         external_torque: column(&|i| -5.0 * (1.7 * time(i)).cos()),
+        time: column(&time),
     }
 }
 
@@ -95,6 +100,7 @@ impl Motion {
                 load_torque: Some(&self.load_torque),
                 motor_torque: Some(&self.motor_torque),
                 external_torque: Some(&self.external_torque),
+                time: Some(&self.time),
             },
             ..Columns::default()
         }

@@ -23,6 +23,11 @@ PAIRS = (
     ("direction", "stribeck"),
     ("nonlinear_viscous", "temperature_dry"),
     ("presliding", "load"),
+    ("gain", "load"),
+    ("spring", "stribeck"),
+    ("ripple", "position"),
+    ("drift", "temperature_dry"),
+    ("saturation", "temperature_viscous"),
 )
 
 #: A presliding distance that the samples resolve is never a small effect: its sizes are larger.
@@ -47,6 +52,9 @@ LIMITED = (
     ("warm_up_only", "load"),
     ("short_range", "none"),
     ("short_range", "load"),
+    ("constant_load", "gain"),
+    ("one_direction", "ripple"),
+    ("warm_up_only", "drift"),
 )
 
 
@@ -127,7 +135,7 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
     steps = answer["steps"]
     found = [s["effect"] for s in steps]
     hidden = [e for e in truth["hidden"] if e != "none"]
-    # A motion hides effects that nobody looks for yet (drift, ripple ...) as well.
+    # A motion hides effects that nobody makes here (quadrant, frictional_lag) as well.
     cannot = set(truth["cannot_show"]) & set(generator.EFFECTS)
     visible = [e for e in hidden if e not in cannot]
     problems: list[str] = []

@@ -26,6 +26,19 @@ offset
     A constant in the torque channel.
 inertia, gravity
     The given load_torque lacks a part of the true one.
+gain
+    The recording multiplies the current by a nominal torque constant, the joint gets the true one.
+saturation
+    The current that a torque takes where iron saturates: Froelich's ``T/(1 - abs T/b)`` or
+    ``T/sqrt(1 - (T/b)^2)``; the recording multiplies it by the torque constant of small currents.
+spring
+    A cable pack that stiffens (``sinh``), gives way (``atan``) or hangs slack (softplus), its rest
+    position anywhere; its mean over the stroke is taken out.
+ripple
+    ``sin(x + b sin(x + c))`` of the angle of a magnet or a pole: more than two harmonics, without
+    its mean.
+drift
+    Run-in ``t/(t + c)``, wear ``log(1 + t/c)`` or a power law; never an exponential.
 delay
     The torque channel shows the joint at t - tau. The motion is analytic in t, so the joint is
     evaluated there and nothing is interpolated, however fine tau is.
@@ -66,13 +79,18 @@ EFFECTS = (
     "inertia",
     "gravity",
     "delay",
+    "gain",
+    "spring",
+    "ripple",
+    "drift",
+    "saturation",
 )
 
 #: What each limited motion cannot show, by the column "needs" of the table of effects.
 LIMITS: dict[str, list[str]] = {
     "isothermal": ["temperature_viscous", "temperature_dry"],
     "one_direction": ["direction", "offset", "position", "ripple", "spring"],
-    "constant_load": ["load", "quadrant", "gain"],
+    "constant_load": ["load", "quadrant", "gain", "saturation"],
     "no_slow_motion": [
         "stribeck",
         "nonlinear_viscous",
@@ -98,6 +116,11 @@ CAPS = {
     "inertia": 0.7,
     "gravity": 0.5,
     "delay": 2.6,
+    "gain": 0.35,
+    "spring": 2.0,
+    "ripple": 1.5,
+    "drift": 0.7,
+    "saturation": 0.75,
 }
 
 #: Shorter presliding distances (in half strokes) drown in the encoder: raise the noise instead.
@@ -492,6 +515,44 @@ def _draw_shapes(rng: np.random.Generator, joint: Joint, loads: Array, temps: Ar
     }
 
 
+def _draw_further_shapes(rng: np.random.Generator, joint: Joint, loads: Array, end: float) -> dict:
+    """Shapes of the effects that are no part of the friction's dependence on v, tl and T."""
+    neutral, stiff = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.8, 1.6))
+    springs: list[Shape] = [
+        lambda u: np.sinh(stiff * (u - neutral)),
+        lambda u: np.arctan(2.0 * stiff * (u - neutral)),
+        lambda u: np.logaddexp(0.0, 4.0 * (u - neutral)) / 4.0,
+    ]
+    pull, stroke = springs[int(rng.integers(3))], np.linspace(-1.0, 1.0, 401)
+    mean, spread = float(pull(stroke).mean()), float(pull(stroke).std())
+    towards = float(rng.choice([-1.0, 1.0]))
+    wave = 2 * math.pi * _log_uniform(rng, 6.0, 40.0) / (2 * joint.half)
+    bend, phase, second = rng.uniform(0.2, 0.45), *rng.uniform(0, 2 * math.pi, 2)
+    turn = np.linspace(0.0, 2 * math.pi, 720, endpoint=False)
+    level = float(np.mean(np.sin(turn + bend * np.sin(turn - phase + second))))
+    slow = end * rng.uniform(0.1, 0.5)
+    ageing: list[Shape] = [
+        lambda t: -t / (t + slow),
+        lambda t: np.log1p(t / slow) / math.log1p(end / slow),
+        lambda t: (1 + t / slow) ** -0.6 - 1,
+    ]
+    age = ageing[int(rng.integers(3))]
+    largest = float(np.abs(loads).max()) + joint.coulomb + joint.viscous * joint.vmax
+    root = bool(rng.integers(2))
+
+    def saturated(torque: Array, x: float) -> Array:
+        r = x * np.minimum(np.abs(torque) / largest, 1.2)
+        return torque / (np.sqrt(1 - r * r) if root else 1 - r)
+
+    return {
+        "spring": lambda q: towards * (pull((q - joint.centre) / joint.half) - mean) / spread,
+        "ripple": lambda q: np.sin(wave * q + phase + bend * np.sin(wave * q + second)) - level,
+        "drift": lambda t: age(np.maximum(t, 0.0)),
+        "saturation": saturated,
+        "gain": float(rng.choice([-1.0, 1.0])),
+    }
+
+
 def maxwell_slip(q: Array, reach: float, exponent: float) -> Array:
     """Direction of dry friction, in -1..1, of parallel elastic-slip elements along a path `q`.
 
@@ -576,7 +637,7 @@ class World:
     def friction(
         self, t: Array, q: Array, v: Array, a: Array, tl: Array, amps: dict[str, float]
     ) -> Array:
-        """Friction torque, offset included."""
+        """Friction torque, and what else acts without being known: offset, spring, ripple."""
         j, s = self.joint, self.shapes
         dry = np.full_like(q, j.coulomb)
         if x := amps.get("stribeck"):
@@ -587,6 +648,8 @@ class World:
             dry *= 1 + x * s["dry"](self.heat(t))
         if x := amps.get("position"):
             dry *= np.maximum(1 + x * s["position"](q), 0.05)
+        if x := amps.get("drift"):
+            dry *= 1 + x * s["drift"](t)
         rate = s["rate"](v, amps.get("nonlinear_viscous", 0.0))
         if x := amps.get("temperature_viscous"):
             rate = rate * s["viscosity"](self.heat(t), x)
@@ -595,6 +658,9 @@ class World:
             dry *= 1 + 0.5 * x * of_dry * np.sign(v)
             rate = rate * (1 + 0.5 * x * of_rate * np.sign(v))
         constant = s["offset"] * amps.get("offset", 0.0) * j.coulomb
+        for name in ("spring", "ripple"):
+            if x := amps.get(name):
+                constant = constant + x * j.coulomb * s[name](q)
         return dry * self.direction(t, q, v, amps) + rate + constant
 
     def known_load(self, q: Array, a: Array, tl: Array, amps: dict[str, float]) -> Array:
@@ -613,7 +679,15 @@ class World:
         if late is not t:
             q, v, a = self.motion(late)
         tl = self.true_load(late, q, a)
-        return tl + self.friction(late, q, v, a, tl, amps), given
+        return self.shown(tl + self.friction(late, q, v, a, tl, amps), amps), given
+
+    def shown(self, torque: Array, amps: dict[str, float]) -> Array:
+        """The torque channel where `torque` acts: current times a nominal torque constant."""
+        if x := amps.get("saturation"):
+            torque = self.shapes["saturation"](torque, x)
+        if x := amps.get("gain"):
+            torque = torque / (1 - self.shapes["gain"] * x)
+        return torque
 
 
 def _beyond(y: Array, basis: Array) -> float:
@@ -666,6 +740,8 @@ def record(
     q, v, a = motion(t)
     tl = world.true_load(t, q, a)
     world.shapes = _draw_shapes(rng, joint, tl, heat(t))
+    # Drawn apart, so that recordings without these effects stay what they were.
+    world.shapes |= _draw_further_shapes(np.random.default_rng([seed, 11]), joint, tl, duration)
     keep = np.ones(len(t), bool)
     if limit == "no_slow_motion":
         keep = (np.abs(v) > 0.69 * joint.vmax) & (a == 0)
@@ -811,7 +887,9 @@ def _lookup(f: Shape, low: float, high: float, n: int = 16001) -> Callable[[floa
     return at
 
 
-CLOSED_LOOP_EFFECTS = tuple(e for e in EFFECTS if e not in ("presliding", "delay"))
+#: What the loop below does not simulate.
+NOT_IN_CLOSED_LOOP = ("presliding", "delay", "gain", "spring", "ripple", "drift", "saturation")
+CLOSED_LOOP_EFFECTS = tuple(e for e in EFFECTS if e not in NOT_IN_CLOSED_LOOP)
 
 
 def make_closed_loop(

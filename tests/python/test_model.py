@@ -20,6 +20,9 @@ CONSTANTS = {
     "position_start": -1.0,
     "position_length": 2.0,
     "position_periodic": 0.0,
+    "ripple_period": 0.3,
+    "duration": 2.0,
+    "reference_torque": 10.0,
 }
 
 
@@ -34,6 +37,7 @@ def channels(rows: int, rate: float = 200.0) -> dict[str, Array]:
         "temperature": 25.0 + 10.0 * t,
         "load_torque": 5.0 * np.sin(0.6 * w * t + 0.3),
         "motor_torque": 5.0 * np.sin(0.6 * w * t + 0.1),
+        "time": t,
         "dt": np.full(rows, 1.0 / rate),
     }
 

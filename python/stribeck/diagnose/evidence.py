@@ -17,6 +17,7 @@ from scipy.stats import f as fisher
 from stribeck.fit import Fit
 from stribeck.identify.covariance import batches, correlation_length
 from stribeck.identify.figures import bridged, rms, zero_phase
+from stribeck.identify.periodogram import most_periods
 
 Array = NDArray[np.float64]
 
@@ -34,7 +35,8 @@ class Evidence:
     fall_in_band : float
         The same in the band of the motion, where friction acts and vibration does not.
     p_value : float
-        Probability of added torque this large if noise were all there is to explain.
+        Probability of added torque this large if noise were all there is to explain, times the
+        number of forms that were guessed at; above 1 it means nothing but "by chance".
     """
 
     fall: float
@@ -62,8 +64,16 @@ def evidence(before: Fit, after: Fit) -> Evidence:
             added,
             after.residual[rows],
             len(after.model.names) - len(before.model.names),
-        ),
+        )
+        * _guesses(before, after),
     )
+
+
+def _guesses(before: Fit, after: Fit) -> int:
+    """How many forms the wider model was chosen from by looking at the data: a ripple's periods."""
+    if "ripple" in after.model.effects and "ripple" not in before.model.effects:
+        return max(most_periods(after.recording), 1)
+    return 1
 
 
 def added_torque_test(added: Array, residual: Array, parameters: int) -> float:

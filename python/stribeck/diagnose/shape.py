@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.fit import Fit
+from stribeck.identify.periodogram import FEWEST_PERIODS
+from stribeck.model import Model
 from stribeck.recording import Recording
 
 Array = NDArray[np.float64]
@@ -36,6 +38,13 @@ def displacement_since_reversal(recording: Recording) -> Array:
     start = np.maximum.accumulate(np.where(new, index, 0))
     travel = np.cumsum(np.abs(v) * recording.dt)
     return np.asarray(travel - travel[start])
+
+
+def ripple_period_of(model: Model) -> float:
+    """Period of the fitted ripple, in the unit of position."""
+    constants = model.constants
+    detuning = model.value("ripple_detuning") / constants["position_length"]
+    return 1.0 / (1.0 / constants["ripple_period"] + detuning)
 
 
 def flexible_columns(fit: Fit) -> Array:
@@ -68,6 +77,19 @@ def _columns(effect: str, fit: Fit, v: Array, sign: Array, speed: Array) -> list
     if effect == "position" and r.position is not None:
         u = (r.position[rows] - r.position[rows].min()) / (np.ptp(r.position[rows]) or 1.0)
         return [sign * np.cos(k * np.pi * u) for k in range(1, 15)]
+    if effect == "spring" and r.position is not None:
+        u = (r.position[rows] - r.position[rows].min()) / (np.ptp(r.position[rows]) or 1.0)
+        # Slower than a ripple, and without the constant: that is an offset.
+        return [np.cos(k * np.pi * u) for k in range(1, 2 * FEWEST_PERIODS)]
+    if effect == "ripple" and r.position is not None:
+        phase = 2.0 * np.pi * r.position[rows] / ripple_period_of(fit.model)
+        return [wave(k * phase) for k in (3, 4) for wave in (np.cos, np.sin)]
+    if effect == "drift":
+        return [sign * h for h in hats(r.elapsed[rows], 6)]
+    if effect == "saturation":
+        total = fit.prediction[rows]
+        ratio = np.abs(total) / fit.model.constants["reference_torque"]
+        return [total * ratio**power for power in (1.0, 2.0, 4.0, 8.0)]
     if effect == "presliding":
         travel = displacement_since_reversal(r)[rows]
         return [sign * h for h in hats(np.log(travel + 1e-9 * (travel.max() or 1.0)), 8)]

@@ -11,7 +11,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import spearmanr
 
+from stribeck.identify.periodogram import FEWEST_PERIODS, most_periods
 from stribeck.model import effect_ids
 from stribeck.recording import Recording
 
@@ -33,6 +35,12 @@ QUADRANT_SHARE = 0.1
 REVERSALS = 4
 #: Range of a revolute joint in rad below which gravity cannot be told from an offset.
 GRAVITY_RANGE = 0.3
+#: Temperature span in K below which temperature cannot pass for a drift.
+DRIFT_TEMPERATURE = 1.0
+#: Rank correlation of temperature and time from which one passes for the other.
+DRIFT_FOLLOWS = 0.9
+#: Ratio of the largest torque to the usual one from which a curve over torque shows.
+TORQUE_RATIO = 2.0
 
 
 @dataclass(frozen=True)
@@ -242,6 +250,87 @@ def _gravity(f: _Facts) -> Answer:
     return None
 
 
+def _spring(f: _Facts) -> Answer:
+    if (why := _position(f)) is not None:
+        return why
+    q = f.channel("position")
+    assert q is not None
+    if f.recording.joint_kind == "revolute" and float(np.ptp(q)) < GRAVITY_RANGE:
+        return (
+            f"the joint moves through {np.ptp(q):.2g} rad only, where a spring equals the slope of "
+            "gravity",
+            "move through at least a quarter of a turn",
+        )
+    return None
+
+
+def _ripple(f: _Facts) -> Answer:
+    if (why := _position(f)) is not None:
+        return why
+    most = most_periods(f.recording)
+    if most <= FEWEST_PERIODS:
+        return (
+            "the samples are too far apart to show a torque that repeats along the stroke",
+            "record slow passes in both directions, at a higher rate",
+        )
+    return None
+
+
+def _drift(f: _Facts) -> Answer:
+    if f.recording.averaged:
+        return (
+            "steady-state points do not say when they were measured",
+            "record the same motion again and again",
+        )
+    temperature = f.channel("temperature")
+    if temperature is None:
+        return (
+            "no temperature was recorded, which may change friction as slowly as time",
+            "record the joint's temperature",
+        )
+    if _spread(temperature) < DRIFT_TEMPERATURE:
+        return None
+    follows = float(spearmanr(f.recording.elapsed[f.recording.moving], temperature).statistic)
+    if abs(follows) > DRIFT_FOLLOWS:
+        way = "warms up" if follows > 0 else "cools down"
+        return (
+            f"the joint only {way}, so that time cannot be told from temperature",
+            "let the joint cool down and warm up again",
+        )
+    return None
+
+
+def _gain(f: _Facts) -> Answer:
+    if (why := _load(f)) is not None:
+        return why
+    if f.recording.load_torque is None:
+        return (
+            "the load torque is identified together with the friction, and takes up any error of "
+            "the torque constant",
+            "give the load torque, or inertia and gravity from a weighing or a CAD model",
+        )
+    if not f.recording.torque_holds_load:
+        return (
+            "the motor torque itself, load included, was not recorded",
+            "record the motor torque, or the current with its torque constant",
+        )
+    return None
+
+
+def _saturation(f: _Facts) -> Answer:
+    if (why := _gain(f)) is not None:
+        return why
+    size = np.abs(f.recording.torque[f.recording.moving])
+    usual, top = np.quantile(size, [0.5, 0.99])
+    if top < TORQUE_RATIO * usual:
+        unit = f.recording.torque_unit
+        return (
+            f"the largest torque of {top:.3g} {unit} is hardly above the usual {usual:.3g} {unit}",
+            "add fast accelerations or heavy payloads, up to the largest torque of the motor",
+        )
+    return None
+
+
 def _delay(f: _Facts) -> Answer:
     if f.recording.averaged:
         return ("steady-state points hold no timing", "record accelerated motion")
@@ -258,9 +347,14 @@ CHECKS: dict[str, Callable[[_Facts], Answer]] = {
     "temperature_dry": _temperature,
     "presliding": _presliding,
     "position": _position,
+    "drift": _drift,
     "offset": _one_direction,
     "inertia": _inertia,
     "gravity": _gravity,
+    "spring": _spring,
+    "ripple": _ripple,
+    "saturation": _saturation,
+    "gain": _gain,
     "delay": _delay,
 }
 

@@ -86,7 +86,8 @@ def add_effect(
     simpler = catalog()["effects"].get(effect, {}).get("beyond")
     for one in (simpler, effect):
         if one == effect or (one is not None and not wider.has(one)):
-            wider = wider.with_effect(one, effect_constants(one, before.recording, load))
+            constants = effect_constants(one, before.recording, load, before.residual)
+            wider = wider.with_effect(one, constants)
     return fit(
         wider,
         before.recording,

@@ -7,10 +7,14 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.diagnose.shape import ripple_period_of
 from stribeck.fit import Fit
 from stribeck.model import Model, catalog
 
 Array = NDArray[np.float64]
+
+#: Groups of effects whose cause is not friction.
+ELSEWHERE = ("measurement", "actuator", "rigid body")
 
 
 def number(value: float) -> str:
@@ -19,12 +23,18 @@ def number(value: float) -> str:
 
 
 def where(effect: str, before: Fit, after: Fit) -> str:
-    """One sentence that says where `effect` shows, from the fitted values and the data."""
+    """One sentence that says where `effect` shows, from the fitted values and the data.
+
+    Of a cause outside the friction it says so first.
+    """
     own = after.model.formula(effect)
     if own is not None:
         found = (f"{n} = {number(after.model.value(n))}" for n in own.names)
         return f"{own.text} fits with {', '.join(found)}"
-    return SENTENCES[effect](before, after)
+    sentence = SENTENCES[effect](before, after)
+    if catalog()["effects"][effect]["group"] in ELSEWHERE:
+        return f"this is not friction: {sentence}"
+    return sentence
 
 
 def physically(effect: str, model: Model) -> str:
@@ -150,6 +160,78 @@ def _position(before: Fit, after: Fit) -> str:
     )
 
 
+def _drift(before: Fit, after: Fit) -> str:
+    m = after.model
+    start, end = 0.0, m.constants["duration"]
+    top = max(abs(x) for x in m.box["velocity"])
+    first, last = m.split(top, time=np.array([start, end]))["dry"]
+    way = "falls" if last < first else "rises"
+    return (
+        f"dry friction {way} from {number(float(first))} to {number(float(last))} {m.torque_unit} "
+        f"over the {number(end)} s of the recording, more than temperature explains"
+    )
+
+
+def _along_stroke(after: Fit) -> tuple[float, float, Array]:
+    """Ends of the stroke, and 2000 positions between them."""
+    low, high = after.model.box["position"]
+    return low, high, np.linspace(low, high, 2000)
+
+
+def _spring(before: Fit, after: Fit) -> str:
+    m = after.model
+    low, high, q = _along_stroke(after)
+    constants = m.constants
+    u = 2.0 * (q - constants["position_start"]) / constants["position_length"] - 1.0
+    names = ("spring_linear", "spring_quadratic", "spring_cubic")
+    size = np.ptp(np.polynomial.legendre.legval(u, [0.0, *(m.value(name) for name in names)]))
+    return (
+        f"what is left is a torque of position alone, the same in both directions, that varies by "
+        f"{number(float(size))} {m.torque_unit} between {number(low)} and {number(high)} "
+        f"{m.position_unit}"
+    )
+
+
+def _ripple(before: Fit, after: Fit) -> str:
+    m = after.model
+    period = ripple_period_of(m)
+    first, second = (
+        float(np.hypot(m.value(f"ripple_{part}cos"), m.value(f"ripple_{part}sin")))
+        for part in ("", "second_")
+    )
+    turn = ""
+    if after.recording.joint_kind == "revolute":
+        turn = f" ({number(2.0 * np.pi / period)} to a turn)"
+    return (
+        f"a torque of {number(np.hypot(first, second))} {m.torque_unit} repeats every "
+        f"{number(period)} {m.position_unit}{turn}, the same in both directions"
+    )
+
+
+def _gain(before: Fit, after: Fit) -> str:
+    m = after.model
+    share = m.value("gain")
+    low, high = m.box["load_torque"]
+    most = max(abs(low), abs(high))
+    error = "too much" if share > 0 else "too little"
+    return (
+        f"the torque channel shows {number(100 * abs(share))} % {error} of all torque, "
+        f"{number(abs(share) * most)} {m.load_unit} under {number(most)} "
+        f"{m.load_unit} of load, at any speed"
+    )
+
+
+def _saturation(before: Fit, after: Fit) -> str:
+    m = after.model
+    top = m.constants["reference_torque"]
+    return (
+        f"at {number(top)} {m.load_unit} the torque channel shows "
+        f"{number(100 * m.value('saturation'))} % more than the motor yields, and "
+        f"{number(100 * m.value('saturation') * 0.5 ** m.value('saturation_exponent'))} % at half "
+        f"of it"
+    )
+
+
 def _offset(before: Fit, after: Fit) -> str:
     m = after.model
     return (
@@ -198,6 +280,11 @@ SENTENCES: dict[str, Callable[[Fit, Fit], str]] = {
     "temperature_dry": _temperature("dry"),
     "presliding": _presliding,
     "position": _position,
+    "drift": _drift,
+    "spring": _spring,
+    "ripple": _ripple,
+    "saturation": _saturation,
+    "gain": _gain,
     "offset": _offset,
     "inertia": _inertia,
     "gravity": _gravity,

@@ -101,6 +101,9 @@ def generate(
         "position_periodic": 0.0,
         "largest_velocity": joint.speed,
         "largest_acceleration": joint.speed**2 / joint.stroke,
+        "ripple_period": joint.stroke / 7.0,
+        "duration": seconds,
+        "reference_torque": 2.0 * joint.gravity,
     }
     # The delay is made by sampling the joint at another time, so that nothing is interpolated.
     inner = tuple(e for e in hidden if e != "delay")
@@ -129,7 +132,7 @@ def generate(
     step = np.full(n * fine, 1.0 / (rate * fine))
     friction = model.torque(
         fv, fq, fa, _temperature(inside, seconds, warming), fload, dt=step,
-        external_torque=-load_at(inside, fq, np.zeros_like(fa)),
+        external_torque=-load_at(inside, fq, np.zeros_like(fa)), time=inside,
     )  # fmt: skip
     torque = (fload + friction)[fine - 1 :: fine]
 

@@ -69,6 +69,7 @@ class Problem:
             "load_torque": load,
             "motor_torque": self._motor_sign,
             "external_torque": r.external_torque,
+            "time": r.elapsed,
             **({} if self.model.drive is None else {"enabled": r.enabled}),
             "mean_velocity": self._mean_velocity if self.model.has_state else None,
         }

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from stribeck.dimensions import CHANNELS, natural_size
 from stribeck.errors import FitError
 from stribeck.formula_law import is_formula
+from stribeck.identify.periodogram import ripple_period
 from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
 from stribeck.model import RIGID_BODY_EFFECTS, Model, Parameter, law_row, model
 from stribeck.model import law as formula_law
@@ -92,9 +93,20 @@ def bounds(model: Model, recording: Recording) -> tuple[Array, Array, Array]:
 
 
 def effect_constants(
-    effect: str, recording: Recording, load: Array | None = None
+    effect: str,
+    recording: Recording,
+    load: Array | None = None,
+    residual: Array | None = None,
 ) -> dict[str, float]:
-    """The constants that an effect needs, taken from the recording."""
+    """The constants that an effect needs, taken from the recording.
+
+    Parameters
+    ----------
+    load : array [n]
+        Load torque where the recording does not give it.
+    residual : array [n]
+        What the model without the effect leaves, in which a ripple's period is looked for.
+    """
     moving = recording.moving
     if effect in ("temperature_viscous", "temperature_dry"):
         if recording.temperature is None:
@@ -106,6 +118,19 @@ def effect_constants(
         return {"reference_load": size or 1.0}
     if effect == "nonlinear_viscous":
         return {"reference_velocity": recording.scales()["speed"] or 1.0}
+    if effect == "drift":
+        return {"duration": float(recording.elapsed[-1]) or 1.0}
+    if effect == "saturation":
+        top = float(np.quantile(np.abs(recording.torque[moving]), 0.99))
+        return {"reference_torque": top or 1.0}
+    if effect in ("spring", "ripple"):
+        if recording.position is None:
+            return {}
+        stroke = effect_constants("position", recording)
+        del stroke["position_periodic"]
+        if effect == "ripple":
+            stroke["ripple_period"] = ripple_period(recording, residual)
+        return stroke
     if effect == "position":
         if recording.position is None:
             return {}
@@ -210,6 +235,13 @@ def check_channels(model: Model, recording: Recording) -> None:
             f"as {_effort(recording.drive)}: "
             + ("leave --drive out" if model.drive is None else f"give --drive {model.drive}")
         )
+    for effect in ("saturation", "gain"):
+        if effect in model.effects and not recording.torque_holds_load:
+            raise FitError(
+                f"{effect} distorts the whole motor torque, so {recording.path} must hold it and a "
+                "load_torque that is known beforehand: map one with --map load_torque=COLUMN, or "
+                "leave the effect out"
+            )
     for channel in model.core.needs:
         if channel == "motor_torque" and model.law in SIGN_OF_MOTOR_TORQUE and not model.drive:
             continue

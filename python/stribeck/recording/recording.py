@@ -166,6 +166,12 @@ class Recording:
         return {}
 
     @cached_property
+    def elapsed(self) -> Floats:
+        """Time since the first row, s, [n]; a run that sets its clock back goes on from before."""
+        step = np.diff(self.time, prepend=self.time[:1])
+        return np.cumsum(np.where(step >= 0.0, step, self.scales()["sample_period"]))
+
+    @cached_property
     def motion_band(self) -> float | None:
         """Frequency in Hz below which 99 % of the velocity's power lies; None where none can be."""
         v = self.velocity

@@ -6,8 +6,10 @@ import json
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
+from stribeck.diagnose.shape import ripple_period_of
 from stribeck.diagnose.words import SENTENCES
 from stribeck.model import effect_ids
 from synthetic import joint, motion, record
@@ -54,6 +56,7 @@ def test_contract_keys(diagnosis: sb.Diagnosis) -> None:
     assert {row["effect"] for row in answer["untestable"]} == {
         "temperature_viscous",
         "temperature_dry",
+        "drift",
     }
     for row in answer["untestable"]:
         assert {"effect", "why", "do"} <= set(row)
@@ -88,13 +91,38 @@ def test_the_simplest_of_those_that_explain_the_same_comes_first(tmp_path: Path)
 
 
 def test_structure_that_no_effect_explains_is_called_unexplained(tmp_path: Path) -> None:
-    """A tenth harmonic of the angle that does not change sign with the direction."""
+    """Two waves along the stroke that share no period, one of which is left."""
     q = motion()[1]
-    recording = record(tmp_path, joint(0.6 * np.sin(14.0 * q)))
-    found = sb.diagnose(sb.fit("coulomb", recording))
+    recording = record(tmp_path, joint(0.6 * np.sin(14.0 * q) + 0.6 * np.sin(32.3 * q)))
+    found = sb.diagnose(sb.fit("coulomb+ripple", recording))
     assert found.unexplained.is_structure or found.verdict == "missing"
     if not found.findings:
         assert found.verdict == "unexplained" and found.unexplained.share > 0.15
+
+
+@pytest.mark.parametrize("effect", ["ripple", "spring", "gain", "drift", "saturation"])
+def test_further_causes_are_found_and_said_not_to_be_friction(effect: str, tmp_path: Path) -> None:
+    """Forms of their own: a narrow wave, a slack rope, a wrong constant, run-in, dull iron."""
+    frame, (_, q, v, _) = joint(), motion()
+    torque = frame["torque"].to_numpy()
+    t = frame["time"].to_numpy()
+    shown = {
+        "ripple": torque + 0.2 * np.tanh(1.5 * np.sin(31.0 * q)),
+        "spring": torque + 0.4 * np.maximum(q - 0.2, 0.0) - 0.1,
+        "gain": torque / 0.97,
+        "drift": torque - np.sign(v) * t / (t + 8.0),
+        "saturation": 40.0 * np.arctanh(torque / 40.0),
+    }[effect]
+    recording = record(tmp_path, frame.with_columns(torque=pl.Series(shown)))
+    first = sb.diagnose(sb.fit("coulomb", recording)).findings[0]
+    assert first.effect == effect
+    assert first.where.startswith("this is not friction: ") == (effect != "drift")
+
+
+def test_the_period_of_a_ripple_is_found(tmp_path: Path) -> None:
+    recording = record(tmp_path, joint(0.1 * np.sin(31.0 * motion()[1])))
+    fit = sb.fit("coulomb+ripple", recording, starts=3)
+    assert ripple_period_of(fit.model) == pytest.approx(2.0 * np.pi / 31.0, rel=1e-3)
 
 
 def test_every_effect_has_its_sentence() -> None:

@@ -47,8 +47,10 @@ def test_temperature(tmp_path: Path, change: str) -> None:
     else:
         frame = frame.with_columns(temperature=30.0 + pl.col("time") / 10.0)
     found = answers(tmp_path, frame)
-    assert set(found) == {"temperature_viscous", "temperature_dry"}
+    slow = {"constant": set(), "absent": {"drift"}, "three kelvin": {"drift"}}[change]
+    assert set(found) == {"temperature_viscous", "temperature_dry"} | slow
     assert "temperature" in found["temperature_dry"]
+    assert all("temperature" in found[effect] for effect in slow)
 
 
 def test_one_direction(tmp_path: Path) -> None:
@@ -64,6 +66,7 @@ def test_one_direction(tmp_path: Path) -> None:
         ),
     )
     assert {"direction", "offset", "stribeck", "position", "presliding"} <= set(found)
+    assert {"spring", "ripple"} <= set(found)
     assert "forward only" in found["direction"]
     assert "reversals" in found["presliding"]
     assert "inertia" not in found and "gravity" not in found
@@ -77,8 +80,7 @@ def test_load(tmp_path: Path, load: str) -> None:
         tmp_path,
         frame.with_columns(load_torque=pl.Series(given), torque=pl.Series(given + 3 * np.sign(v))),
     )
-    # What the load cannot show, a difference between its quadrants cannot either.
-    assert set(found) == {"load", "quadrant"}
+    assert set(found) == {"load", "quadrant", "gain", "saturation"}
     assert ("hardly varies" if load == "constant" else "sign") in found["load"]
 
 
@@ -106,7 +108,39 @@ def test_prismatic_joint_and_small_range(tmp_path: Path) -> None:
     small = joint().with_columns(
         position=pl.Series(0.1 * q), velocity=pl.Series(0.1 * v), acceleration=pl.Series(0.1 * a)
     )
-    assert "rad" in answers(tmp_path, small)["gravity"]
+    found = answers(tmp_path, small)
+    assert "rad" in found["gravity"] and "slope of gravity" in found["spring"]
+
+
+def test_a_load_that_is_not_known_beforehand(tmp_path: Path) -> None:
+    found = answers(tmp_path, joint().drop("load_torque"))
+    assert {"gain", "saturation", "quadrant"} <= set(found)
+    frame = joint()
+    friction = frame["torque"] - frame["load_torque"]
+    direct = frame.with_columns(friction_torque=friction).drop("torque")
+    assert "motor torque itself" in answers(tmp_path, direct)["gain"]
+
+
+def test_a_torque_that_is_always_the_same_size_shows_no_saturation(tmp_path: Path) -> None:
+    frame, v = joint(), motion()[2]
+    t = frame["time"].to_numpy()
+    load = np.where((t // 3.7) % 2 == 0, 20.0, -25.0)
+    found = answers(
+        tmp_path,
+        frame.with_columns(load_torque=pl.Series(load), torque=pl.Series(load + 3 * np.sign(v))),
+    )
+    assert "hardly above the usual" in found["saturation"] and "gain" not in found
+
+
+def test_samples_too_far_apart_show_no_ripple(tmp_path: Path) -> None:
+    """Sixteen samples of each pass to and fro."""
+    t = 0.5 * np.arange(1200)
+    w = 2.0 * np.pi / 8.1
+    v = w * np.cos(w * t)
+    frame = pl.DataFrame(
+        {"time": t, "position": np.sin(w * t), "velocity": v, "torque": np.sign(v)}
+    )
+    assert "too far apart" in answers(tmp_path, frame)["ripple"]
 
 
 def test_steady_points(tmp_path: Path) -> None:
@@ -123,6 +157,7 @@ def test_steady_points(tmp_path: Path) -> None:
     )
     found = answers(tmp_path, frame, average="run")
     assert {"presliding", "inertia", "delay", "position", "gravity", "load"} <= set(found)
+    assert {"gain", "saturation", "spring", "ripple", "drift"} <= set(found)
     assert not {"stribeck", "direction", "offset", "nonlinear_viscous"} & set(found)
 
 

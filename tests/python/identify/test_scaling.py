@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.identify.scaling import (
@@ -138,3 +139,18 @@ def test_what_the_catalog_holds_is_held_and_said(plain: sb.Recording) -> None:
     )
     free = sb.fit("simoni", plain, starts=1, bounds={"a5": (0.5, 2.0)})
     assert not free.estimates["scale"].held and not free.estimates["scale"].identifiable
+
+
+@pytest.mark.parametrize("effect", ["gain", "saturation"])
+def test_effects_of_the_whole_torque_need_a_known_load(effect: str, tmp_path: Path) -> None:
+    unknown = record(tmp_path, joint(rows=400).drop("load_torque"))
+    with pytest.raises(sb.FitError, match="--map load_torque"):
+        model_for(f"coulomb+{effect}", unknown)
+
+
+def test_time_goes_on_over_runs(tmp_path: Path) -> None:
+    frame = joint(rows=400)
+    both = pl.concat([frame.with_columns(run=pl.lit(k)) for k in (1, 2)])
+    elapsed = record(tmp_path, both).elapsed
+    assert np.all(np.diff(elapsed) > 0.0)
+    assert elapsed[0] == 0.0 and elapsed[-1] == pytest.approx(7.99)

@@ -1,0 +1,91 @@
+"""How long a ripple's period is: the strongest line in a residual over position.
+
+A ripple does not know time. Over position, which a joint passes at any speed and both ways, a
+magnet, a tooth, a pole of the motor or a turn of the screw leaves a line, whatever the gear ratio.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.recording import Recording
+
+Array = NDArray[np.float64]
+
+#: Periods that the stroke must hold: fewer are a shape along it, not a ripple.
+FEWEST_PERIODS = 3
+#: Samples that a period must hold at half of the speeds.
+FEWEST_SAMPLES = 4
+#: Most periods that are looked for along the stroke.
+MOST_PERIODS = 2000
+#: Frequencies that are looked at for each period along the stroke.
+FINENESS = 4
+#: A line of half the frequency is the fundamental from this share of the power on.
+SHARE_OF_FUNDAMENTAL = 0.05
+
+
+def most_periods(recording: Recording) -> int:
+    """How many periods along the stroke the samples can show; they are that many guesses too."""
+    if recording.position is None or recording.averaged:
+        return 0
+    moving = recording.moving
+    if not moving.any():
+        return 0
+    stroke = float(np.ptp(recording.position[moving]))
+    step = float(np.median(np.abs(recording.velocity[moving]))) / recording.rate_hz
+    return min(int(stroke / (FEWEST_SAMPLES * step)), MOST_PERIODS)
+
+
+def ripple_period(recording: Recording, residual: Array | None = None) -> float:
+    """Period of the strongest line of `residual` over position, in the unit of position.
+
+    Parameters
+    ----------
+    residual : array [n]
+        What a model leaves of the measured torque; default: what Coulomb and viscous friction and
+        a rigid body leave.
+
+    Returns
+    -------
+    float
+        The whole stroke where no period can be told.
+    """
+    assert recording.position is not None
+    q = recording.position[recording.moving]
+    stroke = float(np.ptp(q)) or 1.0
+    highest = most_periods(recording)
+    if highest <= FEWEST_PERIODS:
+        return stroke
+    rest = (_plain_residual(recording) if residual is None else residual)[recording.moving]
+    along = (q - q.min()) / stroke
+    rest = _without_trend(recording, along, rest)
+    cells = FINENESS * highest * 4
+    sums = np.bincount(np.minimum((along * cells).astype(np.intp), cells - 1), rest, cells)
+    power = np.abs(np.fft.rfft(sums, FINENESS * cells)) ** 2
+    lowest = FINENESS * FEWEST_PERIODS
+    line = lowest + int(np.argmax(power[lowest : FINENESS * highest]))
+    half = line // 2
+    # Of a strong second harmonic the fundamental is half the frequency.
+    if half >= lowest and power[half] > max(SHARE_OF_FUNDAMENTAL * power[line], power[2 * line]):
+        line = half
+    return stroke * FINENESS / line
+
+
+def _without_trend(recording: Recording, along: Array, rest: Array) -> Array:
+    """`rest` without what varies slower than a ripple along the stroke, in either direction."""
+    slow = [np.cos(k * np.pi * along) for k in range(2 * FEWEST_PERIODS)]
+    sign = np.sign(recording.velocity[recording.moving])
+    columns = np.column_stack([*slow, *(sign * shape for shape in slow)])
+    return np.asarray(rest - columns @ np.linalg.lstsq(columns, rest, rcond=None)[0])
+
+
+def _plain_residual(recording: Recording) -> Array:
+    """What is left of the torque by Coulomb and viscous friction and a rigid body, array [n]."""
+    v, q, a = recording.velocity, recording.position, recording.acceleration
+    assert q is not None
+    columns = np.column_stack([np.sign(v), v, np.ones_like(v), a, np.cos(q), np.sin(q)])
+    target = recording.torque - recording.known_torque
+    moving = recording.moving
+    solved = np.linalg.lstsq(columns[moving], target[moving], rcond=None)[0]
+    return np.asarray(target - columns @ solved)

@@ -1,0 +1,55 @@
+use super::FrictionEffect;
+use crate::constants::Constants;
+use crate::sample::Sample;
+use crate::scalar::Real;
+use crate::table::{Channel, EffectInfo, Parameters, parameters};
+
+/// Ratio to the reference torque beyond which the excess no longer grows: far outside any motor,
+/// and no power overflows.
+const LARGEST_RATIO: f64 = 1e6;
+
+parameters! {
+    /// A torque constant that falls as the current grows.
+    Saturation {
+        /// Relative excess of the torque that is shown over the one that acts, at the reference.
+        saturation: "s" ["1"] 0.0 .. 1.0, start 0.05, None, Nonlinear;
+        /// Exponent with which that excess grows.
+        saturation_exponent: "sp" ["1"] 1.0 .. 8.0, start 2.0, None, Nonlinear;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for Saturation<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "saturation",
+        group: "actuator",
+        title: "Saturation",
+        what: "Iron saturates and magnets weaken at high current, so the motor yields less torque \
+               than the nominal torque constant says.",
+        formula: "h(tl + tf) - tl, h(x) = x (1 + s |x/xr|^sp)",
+        needs: "high torque, and a load torque that is known beforehand",
+        beyond: None,
+        channels: &[Channel::LoadTorque],
+        constants: &["reference_torque"],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn measured(
+        &self,
+        friction: S,
+        sample: &Sample<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) -> S {
+        let total = friction.shift(sample.load_torque);
+        let ratio = total.abs().scale(S::Plain::one() / constants.reference_torque);
+        if ratio.value() == 0.0 {
+            return friction;
+        }
+        let ratio = if ratio.value() < LARGEST_RATIO {
+            ratio
+        } else {
+            S::from_plain(S::Plain::from_f64(LARGEST_RATIO))
+        };
+        friction + self.saturation * ratio.powf(self.saturation_exponent) * total
+    }
+}
