@@ -95,8 +95,8 @@ def _run_in_processes(
         pool.shutdown()
     except BrokenProcessPool:
         raise StribeckError(
-            "a process of the study ended by itself, most likely for want of memory: use fewer "
-            "--workers; the same command goes on from the fits made so far"
+            "a process of the study was ended from outside, most likely for want of memory: use "
+            "fewer --workers; the same command goes on from the fits made so far"
         ) from None
     except KeyboardInterrupt:
         pool.shutdown(wait=False, cancel_futures=True)
