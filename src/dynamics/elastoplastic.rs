@@ -11,8 +11,11 @@ use super::{BristleState, Interval, Step, following};
 use crate::sample::Split;
 use crate::scalar::Real;
 
-/// Runge-Kutta steps of fourth order in the transition.
-const STEPS: u8 = 16;
+/// Runge-Kutta steps of fourth order in the transition, and over a travel below [`SHORT`].
+const STEPS: (u8, u8) = (16, 4);
+
+/// A travel so short beside the breadth of the transition takes fewer steps: error below `1e-6`.
+const SHORT: f64 = 0.5;
 
 /// Above this travel in units of `D/s0` dry friction has vanished.
 const VANISHED: f64 = 1e30;
@@ -167,10 +170,11 @@ fn descent<S: Real>(p: S, breadth: S) -> S {
 #[inline]
 fn transition<S: Real>(p: S, breadth: S, travel: S, area: bool) -> (S, S) {
     let (half, sixth) = (S::Plain::from_f64(0.5), S::Plain::from_f64(1.0 / 6.0));
-    let step = travel.scale(S::Plain::from_f64(1.0 / f64::from(STEPS)));
+    let steps = if travel.value() > SHORT * breadth.value() { STEPS.0 } else { STEPS.1 };
+    let step = travel.scale(S::Plain::from_f64(1.0 / f64::from(steps)));
     let rate = |fall: S| descent(p * (-fall).exp(), breadth);
     let mut fall = S::zero();
-    for _ in 0..STEPS {
+    for _ in 0..steps {
         let a = rate(fall);
         let b = rate(fall + (step * a).scale(half));
         let c = rate(fall + (step * b).scale(half));

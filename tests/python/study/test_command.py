@@ -59,48 +59,71 @@ def fits_in(folder: Path) -> int:
     return path.read_text().count("\n") - 1 if path.exists() else 0
 
 
-def running_in_group(group: int) -> list[str]:
-    """Processes of a group that have not ended."""
-    listed = subprocess.run(["ps", "-eo", "pgid=,stat=,args="], capture_output=True, text=True)
-    rows = [line.split(None, 2) for line in listed.stdout.splitlines()]
-    return [row[2] for row in rows if row[0] == str(group) and not row[1].startswith("Z")]
+def running_in_group(group: int) -> dict[int, str]:
+    """Processes of a group that have not ended, by their numbers."""
+    listed = subprocess.run(
+        ["ps", "-ww", "-eo", "pid=,pgid=,stat=,args="], capture_output=True, text=True
+    )
+    rows = [line.split(None, 3) for line in listed.stdout.splitlines()]
+    return {
+        int(pid): words
+        for pid, of, state, words in rows
+        if of == str(group) and not state.startswith("Z")
+    }
+
+
+LONG = ("--law", "lugre", "--law", "bittencourt_a")
+
+
+def start_long_study(data: Path, folder: Path, workers: int) -> subprocess.Popen[str]:
+    """A study in a process group of its own, once it has made some of its 800 fits."""
+    process = subprocess.Popen(
+        [sys.executable, "-m", "stribeck", "study", str(data), *LONG, "--starts", "200",
+         "-o", str(folder), "--workers", str(workers)],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
+    deadline = time.monotonic() + 120.0
+    while fits_in(folder) < 3:
+        assert process.poll() is None and time.monotonic() < deadline
+        time.sleep(0.02)
+    return process
 
 
 @pytest.mark.skipif(os.name == "nt", reason="process groups and SIGINT are POSIX")
 @pytest.mark.parametrize("workers", [1, 2])
 def test_an_interrupt_keeps_what_is_done(two_joints: Path, tmp_path: Path, workers: int) -> None:
     """Ctrl-C reaches every process of the group, as a terminal sends it."""
-    words = [
-        "--law",
-        "lugre",
-        "--law",
-        "bittencourt_a",
-        "--starts",
-        "200",
-        "-o",
-        str(tmp_path / "out"),
-    ]
-    line = [sys.executable, "-m", "stribeck", "study", str(two_joints), *words]
-    process = subprocess.Popen(
-        [*line, "--workers", str(workers)],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-    )  # fmt: skip
-    deadline = time.monotonic() + 120.0
-    while fits_in(tmp_path / "out") < 3:
-        assert process.poll() is None and time.monotonic() < deadline
-        time.sleep(0.02)
+    folder = tmp_path / "out"
+    process = start_long_study(two_joints, folder, workers)
     os.killpg(process.pid, signal.SIGINT)
     out, error = process.communicate(timeout=60)
     assert process.returncode == 130
     assert out == ""
     assert "Traceback" not in error and "stopped after" in error
-    kept = fits_in(tmp_path / "out")
+    kept = fits_in(folder)
     assert 3 <= kept < 800
-    assert (tmp_path / "out" / "fits.parquet").exists()
+    assert (folder / "fits.parquet").exists()
+    deadline = time.monotonic() + 30.0
     while running_in_group(process.pid):
         assert time.monotonic() < deadline
         time.sleep(0.05)
 
-    other = command(two_joints, *words[:-3], 3, *words[-2:])
+    other = command(two_joints, *LONG, "--starts", 3, "-o", folder)
     assert other.returncode == 2 and "another number of starts (200 there, 3 here)" in other.stderr
-    assert fits_in(tmp_path / "out") == kept
+    assert fits_in(folder) == kept
+
+
+@pytest.mark.skipif(os.name == "nt", reason="process groups and signals are POSIX")
+def test_a_process_that_is_killed_ends_the_study_in_one_line(
+    two_joints: Path, tmp_path: Path
+) -> None:
+    """As the system does for want of memory."""
+    process = start_long_study(two_joints, tmp_path / "out", 2)
+    fitting = [p for p, words in running_in_group(process.pid).items() if "spawn_main" in words]
+    os.kill(fitting[0], signal.SIGKILL)
+    out, error = process.communicate(timeout=60)
+    assert process.returncode == 2 and out == ""
+    last = error.splitlines()[-1]
+    assert last.startswith("stribeck: a process of the study was ended from outside")
+    assert "Traceback" not in error
+    assert 3 <= fits_in(tmp_path / "out") < 800
