@@ -171,7 +171,7 @@ def fit(
     transient : bool array [n]
         Rows that are scored but not fitted to; default: looked for.
     effort : Effort
-        How thoroughly; the default is for results, `QUICK` for comparing candidates.
+        How thoroughly; the default is for results, `QUICK` goes on from roughly known values.
 
     Raises
     ------

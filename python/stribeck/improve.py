@@ -20,7 +20,8 @@ from stribeck.diagnose import (
     share_of_unexplained,
 )
 from stribeck.diagnose.evidence import evidence
-from stribeck.diagnose.trial import SIGNIFICANCE, STARTS, add_effect
+from stribeck.diagnose.screen import STARTS
+from stribeck.diagnose.trial import SIGNIFICANCE, add_effect
 from stribeck.diagnose.words import where
 from stribeck.fit import Fit, fit, on_recording
 from stribeck.formula_law import is_formula

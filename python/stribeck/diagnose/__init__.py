@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Collection
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 import polars as pl
 
 from stribeck.diagnose.floor import NoiseFloor, noise_floor
+from stribeck.diagnose.screen import screened
 from stribeck.diagnose.testable import Untestable, untestable
 from stribeck.diagnose.trial import (
     TIE,
@@ -17,6 +21,7 @@ from stribeck.diagnose.trial import (
     adds_to,
     explained_by_shape,
     passes,
+    promises,
     refined,
     tie_statistic,
     tie_weight,
@@ -159,12 +164,15 @@ def diagnose(
         if not {effect_name(effect)} & {*inside, *cannot, *rejected}
     ]
     alone = [e for e in possible if _contained(e, model) is None]
-    trials = [t for e in alone if (t := try_effect(fitted, e, seed=seed)) is not None]
-    tried = max(len(trials), 1)
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        looked_at = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
+        promising = [s for s in looked_at if promises(s, least_fall)]
+        trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]
+    tried = max(len(looked_at), 1)
     for effect in possible:
         simpler = next((t for t in trials if t.effect == _contained(effect, model)), None)
         if simpler is not None and passes(simpler, tried, least_fall):
-            beyond = try_beyond(simpler, effect, fitted, seed=seed)
+            beyond = try_beyond(simpler, effect, fitted, least_fall, seed=seed)
             if beyond is not None and passes(beyond[0], tried, least_fall):
                 trials.append(beyond[1])
     good = [

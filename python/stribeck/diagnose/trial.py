@@ -8,17 +8,17 @@ import numpy as np
 from scipy.stats import norm
 
 from stribeck.diagnose.evidence import Evidence, added_torque_test, difference, evidence
+from stribeck.diagnose.screen import STARTS, Screened, screened, widened
 from stribeck.diagnose.shape import flexible_columns
 from stribeck.errors import StribeckError
-from stribeck.fit import QUICK, THOROUGH, Effort, Fit, fit, own_load
+from stribeck.fit import QUICK, Fit, fit
 from stribeck.formula_law import effect_name
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import effect_constants
 from stribeck.model import catalog
 
-#: Starts of an effect's nonlinear parameters; the others start from the fit before.
-STARTS = 6
+#: An effect promises something from this share of the fall that it must bring.
+PROMISE = 0.5
 #: A finding's probability of being chance, over all effects tried together.
 SIGNIFICANCE = 0.01
 #: Held-out errors within so many standard errors of their difference are a tie.
@@ -72,7 +72,6 @@ def add_effect(
     *,
     starts: int = STARTS,
     seed: int = 0,
-    effort: Effort = THOROUGH,
 ) -> Fit:
     """Refit `before`'s model with `effect` added, starting from what is known.
 
@@ -81,48 +80,53 @@ def add_effect(
     SpecError, FitError
         The effect is in the model already, or needs a channel that is not there.
     """
-    load = own_load(before.model, before.recording)
-    wider = before.model
-    simpler = catalog()["effects"].get(effect, {}).get("beyond")
-    for one in (simpler, effect):
-        if one == effect or (one is not None and not wider.has(one)):
-            constants = effect_constants(one, before.recording, load, before.residual)
-            wider = wider.with_effect(one, constants)
     return fit(
-        wider,
+        widened(before, effect),
         before.recording,
         starts=starts,
         seed=seed,
         transient=before.transient,
-        effort=effort,
     )
 
 
-def try_effect(before: Fit, effect: str, *, seed: int = 0) -> Trial | None:
-    """Try `effect`, an id or ``"NAME = FORMULA"``; None where the model cannot take it."""
+def promises(found: Screened, least: float) -> bool:
+    """Whether an effect that was tried on few rows may bring `least` on all of them."""
+    return found.fall >= PROMISE * least
+
+
+def try_effect(before: Fit, promising: Screened) -> Trial | None:
+    """Fit an effect to all rows from what few of them showed; None where that is impossible."""
     try:
-        after = add_effect(before, effect, seed=seed, effort=QUICK)
+        after = fit(
+            promising.model, before.recording, transient=before.transient, effort=QUICK, starts=1
+        )
     except StribeckError:
         return None
     if after.rmse_held_out is None or before.rmse_held_out is None:
         return None
-    return Trial(effect_name(effect), after, evidence(before, after))
+    return Trial(effect_name(promising.effect), after, evidence(before, after))
 
 
 def try_beyond(
-    simpler: Trial, effect: str, before: Fit, *, seed: int = 0
+    simpler: Trial, effect: str, before: Fit, least: float, *, seed: int = 0
 ) -> tuple[Trial, Trial] | None:
     """Try `effect` on top of the simpler one that it contains.
 
     Returns
     -------
-    What it adds beyond the simpler one, and what both together add to `before`; None where the
-    model cannot take it.
+    What it adds beyond the simpler one, and what both together add to `before`; None where that is
+    nothing, or the model cannot take it.
     """
-    beyond = try_effect(simpler.fit, effect, seed=seed)
+    beyond = _try_more(simpler.fit, effect, least, seed)
     if beyond is None:
         return None
     return beyond, Trial(effect, beyond.fit, evidence(before, beyond.fit))
+
+
+def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
+    """Try an effect if it promises something."""
+    found = screened(before, effect, seed=seed)
+    return try_effect(before, found) if found is not None and promises(found, least) else None
 
 
 def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
@@ -156,7 +160,7 @@ def tie_weight(statistic: float) -> float:
 
 def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:
     """Whether `other`'s effect explains something that `first`'s, once in the model, does not."""
-    again = try_effect(first.fit, other.fit.model.written(other.effect), seed=seed)
+    again = _try_more(first.fit, other.fit.model.written(other.effect), least, seed)
     return again is not None and passes(again, tried, least)
 
 

@@ -68,6 +68,20 @@ def held_out_prediction(
     return prediction, refits
 
 
+def held_out_residual(problem: Problem, values: Array, lower: Array, upper: Array) -> Array:
+    """Residual [m] of the problem's rows, each block predicted by a linear refit without it."""
+    group = problem.recording.block[problem.rows].astype(np.uint32)
+    count = problem.recording.block_count
+    free = np.flatnonzero(lower < upper)
+    residual, jacobian = problem.linearise(values, free)
+    parts = triangles(jacobian, residual, group, count)
+    for b in np.unique(group):
+        others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
+        change = (_step(values, others, free, lower, upper) - values)[free]
+        residual[group == b] -= jacobian[group == b] @ change
+    return residual
+
+
 def _refined(
     problem: Problem,
     refit: Array,

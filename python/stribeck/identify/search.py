@@ -39,7 +39,7 @@ class Effort:
         Rows that a start is searched on before the best ones are finished on all rows, and the
         length of the stretch where a model has a state.
     evaluations
-        Most evaluations of one start.
+        Most evaluations of one start; 0: the start is near the minimum and needs no search.
     finished
         Starts that are finished on all rows, until the next step foresees a relative fall of the
         squared error below `tolerance`.
@@ -57,8 +57,8 @@ class Effort:
 
 #: For a fit that is reported.
 THOROUGH = Effort()
-#: For one of many candidates.
-QUICK = Effort(rows=3000, samples=6000, evaluations=30, finished=1, tolerance=1e-6, exact=False)
+#: For one of many candidates, whose values are known roughly.
+QUICK = Effort(evaluations=0, finished=1, tolerance=1e-6, exact=False)
 
 
 def multi_start(
@@ -97,7 +97,7 @@ def multi_start(
     starts = max(starts, 1) if moved.any() else 1
     bounded = bool(np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])))
     rng = np.random.default_rng(seed)
-    if not nonlinear.any():
+    if not nonlinear.any() or effort.evaluations == 0:
         tried, evaluations = [Search(start, np.inf, True, "")], 0
     elif bounded:
         tried, evaluations = _between_bounds(reduced, start, moved, starts, rng, effort)
