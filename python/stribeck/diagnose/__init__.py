@@ -16,6 +16,7 @@ from stribeck.diagnose.floor import NoiseFloor, noise_floor
 from stribeck.diagnose.screen import screened
 from stribeck.diagnose.testable import Untestable, untestable
 from stribeck.diagnose.trial import (
+    SIGNIFICANCE,
     TIE,
     Trial,
     adds_to,
@@ -29,6 +30,7 @@ from stribeck.diagnose.trial import (
     try_effect,
 )
 from stribeck.diagnose.unexplained import Unexplained, unexplained
+from stribeck.diagnose.visibility import Group, SmallestVisible, visibility
 from stribeck.diagnose.words import where
 from stribeck.fit import Fit, on_recording, own_load
 from stribeck.formula_law import effect_name
@@ -77,6 +79,10 @@ class Diagnosis:
     verdict : {"missing", "none", "unexplained"}
     findings
         Effects that pass the test, best first.
+    smallest_visible
+        For each effect that was tried and not found, the smallest that would have been.
+    groups
+        Effects that this recording cannot tell apart.
     """
 
     fit: Fit
@@ -85,6 +91,8 @@ class Diagnosis:
     findings: tuple[Finding, ...]
     untestable: tuple[Untestable, ...]
     unexplained: Unexplained
+    smallest_visible: tuple[SmallestVisible, ...] = ()
+    groups: tuple[Group, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """The contract's JSON of `stribeck diagnose`."""
@@ -98,6 +106,9 @@ class Diagnosis:
             "findings": [finding.to_dict() for finding in self.findings],
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
+            "smallest_visible": [row.to_dict() for row in self.smallest_visible],
+            "indistinguishable_groups": [list(group.effects) for group in self.groups],
+            "indistinguishable": [group.to_dict() for group in self.groups],
             "scored": self.fit.recording.scored(),
             "notes": [*self.fit.recording.notes, *self.fit.notes],
         }
@@ -189,7 +200,15 @@ def diagnose(
     left = unexplained(best_fit if good else fitted, floor)
     verdict = "missing" if findings else ("unexplained" if left.is_structure else "none")
     shown = tuple(row for effect, row in cannot.items() if effect not in inside)
-    return Diagnosis(fitted, floor, verdict, findings, shown, left)
+    found = {e for f in findings for e in (f.effect, *f.indistinguishable_from)}
+    could = visibility(
+        fitted, [e for e in possible if e in effect_ids()], found=found, tried=tried,
+        significance=SIGNIFICANCE, least_fall=least_fall,
+    )  # fmt: skip
+    return Diagnosis(
+        fitted, floor, verdict, findings, (*shown, *could.hidden), left,
+        could.smallest, could.groups,
+    )  # fmt: skip
 
 
 def _contained(effect: str, model: Model) -> str | None:
@@ -266,7 +285,9 @@ __all__ = [
     "LEAST_FALL",
     "Diagnosis",
     "Finding",
+    "Group",
     "NoiseFloor",
+    "SmallestVisible",
     "Unexplained",
     "Untestable",
     "diagnose",

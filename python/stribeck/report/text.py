@@ -29,7 +29,14 @@ from stribeck.report.numbers import (
 
 if TYPE_CHECKING:
     from stribeck.compare import Assessment, Comparison
-    from stribeck.diagnose import Diagnosis, Finding, Unexplained, Untestable
+    from stribeck.diagnose import (
+        Diagnosis,
+        Finding,
+        Group,
+        SmallestVisible,
+        Unexplained,
+        Untestable,
+    )
     from stribeck.fit import Estimate, Fit
     from stribeck.improve import Improvement
     from stribeck.inspect import Inspection
@@ -454,6 +461,36 @@ def untestable_text(rows: Iterable[Untestable]) -> str:
     return "\n".join(lines)
 
 
+def smallest_visible_text(rows: Sequence[SmallestVisible]) -> str:
+    """From which size on each effect that was not found would have been, like sizes together."""
+    if not rows:
+        return ""
+    bands: list[list[SmallestVisible]] = []
+    for row in sorted(rows, key=lambda row: row.rms):
+        if not bands or row.rms > 1.5 * bands[-1][0].rms:
+            bands.append([])
+        bands[-1].append(row)
+    lines = ["Not found, and would have been seen (19 times in 20) from a torque, RMS, of:"]
+    lines += [
+        paragraph(f"• {plain(b[-1].rms, 2)} {b[-1].unit}: {listed([r.effect for r in b])}.", 2, 2)
+        for b in bands
+    ]
+    return "\n".join(lines)
+
+
+def groups_text(groups: Sequence[Group]) -> str:
+    """Which effects look alike on this data, and what it would take to tell them apart."""
+    if not groups:
+        return ""
+    lines = ["This data cannot tell apart:"]
+    for group in groups:
+        from_ = (
+            f", below {plain(group.rms, 2)} {group.unit} RMS" if math.isfinite(group.rms) else ""
+        )
+        lines.append(paragraph(f"• {listed(group.effects)}{from_}.", 2, 2))
+    return "\n".join(lines)
+
+
 def left_text(left: Unexplained) -> str:
     """How much of the error is more than noise."""
     if left.share is None:
@@ -511,6 +548,8 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         verdict + ("\n\n" + findings if findings else ""),
         paragraph(left, 0),
         paragraph(following, 0) if following else "",
+        smallest_visible_text(diagnosis.smallest_visible),
+        groups_text(diagnosis.groups),
         untestable_text(diagnosis.untestable),
         notes_text(r.notes, f.notes),
     )

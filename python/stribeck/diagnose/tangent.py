@@ -1,0 +1,243 @@
+"""The torque that an effect would add to a model on given rows, and which torques it can make.
+
+An effect that is not in a model shows in the prediction as a direction in the space of all rows:
+the torque that it adds for one unit of its size. What lies in the span of the model's own
+directions is taken up by a refit and shows nowhere; only the rest can be seen.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.errors import FitError
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import effect_constants, scaled_parameters
+from stribeck.identify.triangle import UNSEEN, Triangle
+from stribeck.model import Parameter, catalog
+
+Array = NDArray[np.float64]
+
+#: Multiples of the start at which an effect's first nonlinear parameter is looked at too.
+OTHER_STARTS = (1.0 / 3.0, 3.0)
+
+
+@dataclass(frozen=True)
+class Beside:
+    """A model on some rows, as the span of what a refit of it can take up.
+
+    Parameters
+    ----------
+    problem
+        Its model has values.
+    extra : array [m, k]
+        Further columns that count as part of the model.
+    """
+
+    problem: Problem
+    extra: Array | None = None
+
+    @cached_property
+    def free(self) -> NDArray[np.intp]:
+        """Parameters that a fit may change, int array [p]."""
+        model = self.problem.model
+        held = {name for name, (low, high) in model.bounds.items() if low == high}
+        return np.flatnonzero([name not in held for name in model.names])
+
+    @cached_property
+    def columns(self) -> Array:
+        """Derivative of the prediction by each free parameter, and the extra columns, [m, p]."""
+        _, jacobian = self.problem.linearise(self.problem.model.values, self.free)
+        return jacobian if self.extra is None else np.column_stack([jacobian, self.extra])
+
+    @cached_property
+    def basis(self) -> Array:
+        """Orthonormal basis of the columns' span, [m, r]."""
+        return orthonormal(self.columns)
+
+    def without(self, torques: Array) -> Array:
+        """The part of `torques` [m, k] that no refit takes up."""
+        return rest(self.basis, torques)
+
+
+def orthonormal(columns: Array) -> Array:
+    """Orthonormal basis [m, r] of the span of `columns` [m, k].
+
+    Examples
+    --------
+    >>> orthonormal(np.array([[3.0, 6.0], [4.0, 8.0]])).shape
+    (2, 1)
+    """
+    basis = columns
+    # The second time restores what rounding took from nearly dependent columns.
+    for _ in range(2):
+        size = np.sqrt(np.einsum("ij,ij->j", basis, basis))
+        basis = basis[:, size > 0] / size[size > 0]
+        factor = Triangle.of(basis, np.zeros(basis.shape[0])).factor
+        _, weights, vectors = np.linalg.svd(factor)
+        kept = weights > UNSEEN * weights.max(initial=0.0)
+        basis = basis @ (vectors[kept].T / weights[kept])
+    return basis
+
+
+def rest(basis: Array, torques: Array) -> Array:
+    """The part of `torques` [m, k] outside the span of an orthonormal `basis` [m, r].
+
+    Examples
+    --------
+    >>> rest(np.array([[0.6], [0.8]]), np.array([[3.0], [4.0]])).round(12)
+    array([[0.],
+           [0.]])
+    """
+    left = torques - basis @ (basis.T @ torques)
+    return left - basis @ (basis.T @ left)
+
+
+@dataclass(frozen=True)
+class Widened:
+    """A model with one effect added, at the effect's start.
+
+    Attributes
+    ----------
+    problem
+        The wider model at values where its effect is there, on the same rows.
+    own
+        Indices of the effect's parameters, the size first, int array [p].
+    simpler
+        Indices of the parameters of the simpler effect that it contains and the model lacks.
+    parameters
+        The effect's parameters, scaled to the recording.
+    """
+
+    effect: str
+    problem: Problem
+    own: NDArray[np.intp]
+    simpler: NDArray[np.intp]
+    parameters: tuple[Parameter, ...]
+
+    @classmethod
+    def of(cls, before: Problem, effect: str, residual: Array | None = None) -> Widened:
+        """Add `effect` to the model of `before`.
+
+        Parameters
+        ----------
+        residual : array [n]
+            What the model leaves, of every row of the recording; a ripple's period is found in it.
+
+        Raises
+        ------
+        SpecError, FitError
+            The model cannot take the effect, or the recording lacks a channel for it.
+        """
+        model, recording = before.model, before.recording
+        simpler = catalog()["effects"].get(effect, {}).get("beyond")
+        beyond = simpler if simpler is not None and not model.has(simpler) else None
+        wider, names = model, [model.names]
+        for one in (beyond, effect):
+            if one is not None:
+                constants = effect_constants(one, recording, before.load, residual)
+                wider = wider.with_effect(one, constants)
+                names.append(wider.names)
+        rows = scaled_parameters(wider, recording)
+        start = np.array([row.start for row in rows])
+        values = np.where(np.isfinite(wider.values), wider.values, start)
+        new = [[n for n in b if n not in a] for a, b in itertools.pairwise(names)]
+        index = {name: k for k, name in enumerate(wider.names)}
+        own = np.array([index[n] for n in new[-1]], dtype=np.intp)
+        between = np.array([index[n] for n in (new[0] if beyond else ())], dtype=np.intp)
+        problem = Problem(recording, wider.with_values(values), before.rows, before.load)
+        return cls(effect, problem, own, between, tuple(rows[k] for k in own))
+
+    @property
+    def size(self) -> Parameter:
+        """The parameter that says how large the effect is."""
+        return self.parameters[0]
+
+    @property
+    def is_curved(self) -> bool:
+        """Whether the torque is not proportional to the size: a bristle, however stiff."""
+        return self.size.name == "presliding_stiffness"
+
+    def at(self, size: float, *others: float) -> Array:
+        """Values of the wider model [p] with this size, and these of the effect's others."""
+        values = self.problem.model.values.copy()
+        values[self.own[: 1 + len(others)]] = (size, *others)
+        return values
+
+    def unit_torque(self) -> Array:
+        """Torque on the rows for one unit of the size, array [m], the others at their starts."""
+        values = self.problem.model.values
+        _, column = self.problem.linearise(values, self.own[:1])
+        return _finite(column, self.effect)[:, 0]
+
+    def simpler_columns(self) -> Array:
+        """What the simpler effect can take up, array [m, k]; none where there is none."""
+        if self.simpler.size == 0:
+            return np.empty((self.problem.rows.size, 0))
+        _, columns = self.problem.linearise(self.problem.model.values, self.simpler)
+        return _finite(columns, self.effect)
+
+    def spaces(self, base: Array) -> list[Array]:
+        """Spans [m, k] of the torques that the effect can make near each of a few starts.
+
+        Parameters
+        ----------
+        base : array [m]
+            Torque of the model without the effect, for effects whose torque is curved.
+        """
+        if self.is_curved:
+            return [np.column_stack([self.change(s, base) for s in self.stiffnesses(3)])]
+        spaces = []
+        for values in self._starts():
+            _, columns = self.problem.linearise(values, np.sort([*self.own, *self.simpler]))
+            spaces.append(_finite(columns, self.effect))
+        return spaces
+
+    def _starts(self) -> list[Array]:
+        starts = [self.problem.model.values]
+        bends = [k for k, p in enumerate(self.parameters) if k > 0 and p.role == "nonlinear"]
+        for share in OTHER_STARTS if bends else ():
+            k = bends[0]
+            row, values = self.parameters[k], starts[0].copy()
+            values[self.own[k]] = np.clip(values[self.own[k]] * share, row.lower, row.upper)
+            if values[self.own[k]] != starts[0][self.own[k]]:
+                starts.append(values)
+        return starts
+
+    def change(self, size: float, base: Array) -> Array:
+        """Torque that the effect of this size adds on the rows, array [m]."""
+        torque = self.problem.predict(self.at(size))[self.problem.rows]
+        return _finite(torque - base, self.effect)
+
+    def stiffnesses(self, count: int) -> Sequence[float]:
+        """Bristles from soft to hard, over the sliding distances that the recording resolves."""
+        start = self.size.start
+        return [float(s) for s in np.geomspace(start, min(1e4 * start, self.size.upper), count)]
+
+
+def _finite(torque: Array, effect: str) -> Array:
+    if not np.all(np.isfinite(torque)):
+        raise FitError(f"{effect} has no finite torque at its start on this data")
+    return torque
+
+
+def sine(torque: Array, basis: Array) -> float:
+    """Sine of the angle between `torque` [m] and the span of an orthonormal `basis` [m, r].
+
+    Examples
+    --------
+    >>> sine(np.array([1.0, 1.0]), np.array([[1.0], [0.0]])).__round__(6)
+    0.707107
+    """
+    length = float(np.linalg.norm(torque))
+    if length == 0.0:
+        return 0.0
+    return float(np.linalg.norm(rest(basis, torque[:, None]))) / length
+
+
+__all__ = ["Beside", "Widened", "orthonormal", "rest", "sine"]

@@ -1,0 +1,323 @@
+"""What a recording could have shown: the smallest effects, and those that look alike on it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.diagnose.power import Demand, Noise, needed_factor
+from stribeck.diagnose.shape import flexible_columns
+from stribeck.diagnose.tangent import Beside, Widened, orthonormal, rest, sine
+from stribeck.diagnose.testable import Untestable
+from stribeck.errors import StribeckError
+from stribeck.fit import Fit
+from stribeck.identify.confounded import partners, reason
+from stribeck.identify.figures import rms
+from stribeck.identify.periodogram import most_periods
+from stribeck.identify.problem import Problem
+from stribeck.model import catalog
+
+Array = NDArray[np.float64]
+
+#: Rows on which angles between effects are taken; they need no noise.
+MOST_ROWS = 8000
+#: Two effects are told apart if this many times the smallest visible size is enough for it.
+TOLD_APART = 3.0
+#: Share of a torque from which on it is more than what rounding leaves of it.
+INVISIBLE = 1e-8
+#: Bristles that are tried for the softest one that would have been seen.
+BRISTLES = 9
+
+
+@dataclass(frozen=True)
+class SmallestVisible:
+    """The smallest effect that the diagnosis would have seen, with 95 % probability.
+
+    Attributes
+    ----------
+    rms
+        Of its torque over the rows fitted to, in `unit`.
+    parameter, value, parameter_unit
+        The effect's size at which it has this torque, its other parameters at their starts.
+    """
+
+    effect: str
+    rms: float
+    unit: str
+    parameter: str
+    value: float
+    parameter_unit: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON of one row of `smallest_visible`."""
+        return {
+            "effect": self.effect,
+            "rms": self.rms,
+            "unit": self.unit,
+            "parameter": self.parameter,
+            "value": self.value,
+            "parameter_unit": self.parameter_unit,
+        }
+
+
+@dataclass(frozen=True)
+class Group:
+    """Effects that look alike on a recording.
+
+    Attributes
+    ----------
+    rms
+        Torque (RMS) that one of them would need for the recording to tell it from another;
+        infinite where no size is enough.
+    """
+
+    effects: tuple[str, ...]
+    rms: float
+    unit: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON of one row of `indistinguishable`."""
+        rms = self.rms if np.isfinite(self.rms) else None
+        return {"effects": list(self.effects), "rms_to_tell_apart": rms, "unit": self.unit}
+
+
+@dataclass(frozen=True)
+class Visibility:
+    """What a recording could have shown beside a model.
+
+    Attributes
+    ----------
+    smallest
+        Of each effect that was not found, the smallest that would have been; smallest first.
+    groups
+        Effects that this recording cannot tell apart.
+    hidden
+        Effects that a refit of the model takes up, whatever their size.
+    """
+
+    smallest: tuple[SmallestVisible, ...] = ()
+    groups: tuple[Group, ...] = ()
+    hidden: tuple[Untestable, ...] = ()
+
+
+@dataclass(frozen=True)
+class Shown:
+    """One effect beside a model: the torque of the size at hand, and what of it can be seen."""
+
+    widened: Widened
+    size: float
+    torque: Array
+    factor: float
+
+    @property
+    def effect(self) -> str:
+        return self.widened.effect
+
+    @property
+    def smallest(self) -> float:
+        """RMS of the smallest torque that is seen."""
+        return self.factor * rms(self.torque) if np.isfinite(self.factor) else np.inf
+
+    def result(self, unit: str) -> SmallestVisible:
+        """As users get it."""
+        row, curved = self.widened.size, self.widened.is_curved
+        value = self.size if curved else self.size * self.factor
+        return SmallestVisible(self.effect, self.smallest, unit, row.name, value, row.unit)
+
+
+def visibility(
+    fit: Fit,
+    candidates: Iterable[str],
+    *,
+    found: Collection[str] = (),
+    tried: int = 1,
+    significance: float = 0.01,
+    least_fall: float = 0.01,
+) -> Visibility:
+    """What of `candidates`, effects that `fit` lacks, its recording shows beside its model.
+
+    Parameters
+    ----------
+    found
+        Effects that were found; they take part in the groups alone.
+    tried, significance, least_fall
+        What the diagnosis asks of a finding: chance over all effects tried, and the least
+        relative fall of the held-out error.
+    """
+    problem = Problem(fit.recording, fit.model, fit.rows, fit.load)
+    base = Beside(problem)
+    noise = Noise.of(fit.residual[fit.rows])
+    need = Demand(significance / max(tried, 1), least_fall)
+    freer = flexible_columns(fit)
+    beside = [(base, need)]
+    if freer.shape[1]:
+        # What a freer form of the effects in the model takes up is not claimed for another.
+        beside.append((Beside(problem, freer), replace(need, least_fall=need.least_fall / 2.0)))
+    unit, largest = fit.model.load_unit, _friction(fit)
+    shown, hidden = [], []
+    for effect in candidates:
+        try:
+            one = show(Widened.of(problem, effect, fit.residual), beside, noise, fit)
+        except StribeckError:
+            continue
+        if one.smallest <= largest:
+            shown.append(one)
+        elif effect not in found:
+            hidden.append(_hidden(one, base))
+    smallest = sorted((s.result(unit) for s in shown if s.effect not in found), key=lambda s: s.rms)
+    groups = indistinguishable(shown, problem, rms(noise.residual), unit)
+    return Visibility(tuple(smallest), groups, tuple(hidden))
+
+
+def show(widened: Widened, beside: list[tuple[Beside, Demand]], noise: Noise, fit: Fit) -> Shown:
+    """How much of an effect is seen beside a model, in each form that the model may take."""
+    if widened.is_curved:
+        return _hardest(widened, beside, noise, fit.prediction[fit.rows])
+    guesses = max(most_periods(fit.recording), 1) if widened.effect == "ripple" else 1
+    torque = widened.unit_torque()
+    return Shown(widened, 1.0, torque, _factor(widened, torque, beside, noise, guesses))
+
+
+def _factor(
+    widened: Widened,
+    torque: Array,
+    beside: list[tuple[Beside, Demand]],
+    noise: Noise,
+    guesses: int = 1,
+    loss: float = 0.0,
+) -> float:
+    """By what `torque` [m] must be multiplied to be seen; infinite where no size is enough."""
+    factors = []
+    for base, need in beside:
+        left = base.without(torque[:, None])
+        if widened.simpler.size:
+            left = rest(orthonormal(base.without(widened.simpler_columns())), left)
+        square = float(np.sum(left**2))
+        if square <= INVISIBLE**2 * float(torque @ torque):
+            return np.inf
+        variance = noise.variance_along(left[:, 0])
+        demand = replace(need, significance=need.significance / guesses)
+        factors.append(needed_factor(square, variance, noise, widened.own.size, demand, loss))
+    return max(factors)
+
+
+def _hardest(
+    widened: Widened, beside: list[tuple[Beside, Demand]], noise: Noise, base: Array
+) -> Shown:
+    """The hardest bristle that is still seen: between two of a grid, where one is and one not.
+
+    A bristle so hard that it turns within a step differs from the sign of the velocity by when in
+    the step it turns. That is no effect, but an error that a fit with a bristle makes.
+    """
+    grid = [*widened.stiffnesses(BRISTLES)]
+    limit = base + widened.change(widened.size.upper, base)
+    error = beside[0][0].without((limit - base)[:, None])[:, 0]
+    loud = replace(noise, residual=noise.residual + error)
+    loss = float(error @ error)
+
+    def shown(stiffness: float) -> Shown:
+        torque = widened.change(stiffness, limit)
+        return Shown(widened, stiffness, torque, _factor(widened, torque, beside, loud, loss=loss))
+
+    seen = None
+    for stiffness in grid:
+        one = shown(stiffness)
+        if one.factor > 1.0:
+            break
+        seen = one
+    if seen is None or one.factor <= 1.0:
+        return one
+    share = -np.log(seen.factor) / np.log(one.factor / seen.factor)
+    between = float(seen.size * (one.size / seen.size) ** share)
+    return replace(shown(between), factor=1.0)
+
+
+def _friction(fit: Fit) -> float:
+    """RMS of the friction that the model predicts: a larger effect would be no addition."""
+    friction = fit.prediction - fit.recording.known_torque
+    if fit.load is not None:
+        friction = friction - fit.load
+    return rms(friction[fit.rows])
+
+
+def _hidden(one: Shown, base: Beside) -> Untestable:
+    """Say what of the model does the same as an effect that no size makes visible."""
+    model = base.problem.model
+    columns = np.column_stack([one.torque, base.columns])
+    names = (one.effect, *(model.names[k] for k in base.free))
+    alike = partners(columns, 0, np.ones(columns.shape[1], dtype=bool))
+    needs = catalog()["effects"].get(one.effect, {}).get("needs", "other motion")
+    return Untestable(one.effect, reason(names, alike), f"record {needs}")
+
+
+def indistinguishable(
+    shown: list[Shown], problem: Problem, noise: float, unit: str
+) -> tuple[Group, ...]:
+    """Groups of effects of which each looks like each other.
+
+    One looks like the other if telling them apart takes more than `TOLD_APART` times what it
+    takes to see it, and more than the noise: the angle between what both show beside the model
+    is too small.
+    """
+    step = -(-problem.rows.size // MOST_ROWS)
+    base = Beside(replace(problem, rows=problem.rows[::step]))
+    plain = base.problem.predict(problem.model.values)[base.problem.rows]
+    made: dict[str, tuple[Shown, Array, list[Array]]] = {}
+    for one in shown:
+        thinned = replace(one.widened, problem=replace(one.widened.problem, rows=base.problem.rows))
+        try:
+            spaces = [orthonormal(base.without(space)) for space in thinned.spaces(plain)]
+        except StribeckError:
+            continue
+        made[one.effect] = (one, base.without(one.torque[::step, None])[:, 0], spaces)
+    apart: dict[frozenset[str], float] = {}
+    alike: dict[str, set[str]] = {effect: set() for effect in made}
+    for effect, (one, left, _) in made.items():
+        for other, (_, _, spaces) in made.items():
+            if other in (effect, catalog()["effects"].get(effect, {}).get("beyond")):
+                continue
+            if catalog()["effects"].get(other, {}).get("beyond") == effect:
+                continue
+            angle = min(sine(left, space) for space in spaces)
+            needed = one.smallest / angle if angle > 1e-8 else np.inf
+            if needed > max(TOLD_APART * one.smallest, noise):
+                pair = frozenset((effect, other))
+                apart[pair] = min(needed, apart.get(pair, np.inf))
+                alike[effect].add(other)
+                alike[other].add(effect)
+    groups = [
+        Group(
+            tuple(e for e in made if e in members),
+            max(apart[frozenset((a, b))] for a in members for b in members if a < b),
+            unit,
+        )
+        for members in cliques(alike)
+    ]
+    return tuple(groups)
+
+
+def cliques(alike: dict[str, set[str]]) -> list[frozenset[str]]:
+    """Largest sets of two or more in which each is alike each other (Bron and Kerbosch 1973).
+
+    Examples
+    --------
+    >>> found = cliques({"a": {"b", "c"}, "b": {"a"}, "c": {"a"}})
+    >>> sorted("".join(sorted(members)) for members in found)
+    ['ab', 'ac']
+    """
+    found: list[frozenset[str]] = []
+
+    def extend(members: frozenset[str], open_: set[str], closed: set[str]) -> None:
+        if not open_ and not closed and len(members) > 1:
+            found.append(members)
+        for name in sorted(open_):
+            extend(members | {name}, open_ & alike[name], closed & alike[name])
+            open_ = open_ - {name}
+            closed = closed | {name}
+
+    extend(frozenset(), set(alike), set())
+    return found
