@@ -17,10 +17,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 
 import cases as hidden
-import generator
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
+from stribeck.benchmark import open_loop
 
 Array = NDArray[np.float64]
 
@@ -94,7 +94,7 @@ def main() -> int:
         visible = [e for e in truth["hidden"] if e != "none" and e not in truth["cannot_show"]]
         if not case.closed_loop:
             limits = {case.limit: True} if case.limit else {}
-            made = generator.record(case.effects, case.seed, case.size, **limits)
+            made = open_loop.record(case.effects, case.seed, case.size, **limits)
             own = left(np.column_stack([base, *made.contributions.values()])) / floor
             if len(case.effects) == 1 and not 0.98 < own < 1.02:
                 notes.append("own form misses the noise")

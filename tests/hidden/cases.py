@@ -9,8 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-import generator
+import karnopp
 import polars as pl
+from stribeck.benchmark import open_loop
 
 PAIRS = (
     ("load", "stribeck"),
@@ -74,13 +75,13 @@ class Case:
     def make(self) -> tuple[pl.DataFrame, dict[str, Any]]:
         """The recording and its truth."""
         if self.closed_loop:
-            return generator.make_closed_loop(self.effects, self.seed, self.size)
+            return karnopp.make_closed_loop(self.effects, self.seed, self.size)
         limits = {self.limit: True} if self.limit else {}
-        return generator.make(self.effects, self.seed, self.size, **limits)
+        return open_loop.make(self.effects, self.seed, self.size, **limits)
 
 
 def _cases(seeds: int) -> Iterator[Case]:
-    for i, effect in enumerate(generator.EFFECTS):
+    for i, effect in enumerate(open_loop.EFFECTS):
         sizes = SIZES.get(effect, USUAL_SIZES)
         for k in range(seeds):
             size = sizes[k % 3]
@@ -136,7 +137,7 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
     found = [s["effect"] for s in steps]
     hidden = [e for e in truth["hidden"] if e != "none"]
     # A motion hides effects that nobody makes here (quadrant, frictional_lag) as well.
-    cannot = set(truth["cannot_show"]) & set(generator.EFFECTS)
+    cannot = set(truth["cannot_show"]) & set(open_loop.EFFECTS)
     visible = [e for e in hidden if e not in cannot]
     problems: list[str] = []
 

@@ -8,6 +8,7 @@ import sys
 import click
 
 from stribeck import __version__
+from stribeck.cli.benchmark import benchmark
 from stribeck.cli.catalog import effects, inspect, models
 from stribeck.cli.demo import demo
 from stribeck.cli.generate import generate
@@ -46,6 +47,7 @@ for command in (demo, inspect, models, effects, fit, compare, diagnose, add, imp
 cli.add_command(points)
 cli.add_command(arm)
 cli.add_command(study)
+cli.add_command(benchmark)
 
 
 def main() -> None:

@@ -16,9 +16,16 @@ SECONDS_BETWEEN_LINES = 20.0
 
 
 class Progress:
-    """A progress bar with the time left on stderr, or a line now and then where it is a file."""
+    """A progress bar with the time left on stderr, or a line now and then where it is a file.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    what : str
+        The pieces of work, in the plural.
+    """
+
+    def __init__(self, what: str = "fits") -> None:
+        self.what = what
         self.done = self.total = 0
         self._bar: Any = None
         self._said = time.monotonic()
@@ -36,16 +43,17 @@ class Progress:
         self.close()
 
     def show(self, done: int, total: int) -> None:
-        """Told after each fit."""
+        """Told after each piece."""
         self.done, self.total = done, total
         if not sys.stderr.isatty():
             self._say_now_and_then()
             return
         if self._bar is None:
-            # Of the fits that are left: those of an earlier run say nothing about the time.
+            # Of the pieces that are left: those of an earlier run say nothing about the time.
             self._bar = click.progressbar(
-                length=total - done + 1, label=f"fits ({total})", file=sys.stderr, show_pos=True
-            )
+                length=total - done + 1, label=f"{self.what} ({total})", file=sys.stderr,
+                show_pos=True,
+            )  # fmt: skip
             self._bar.__enter__()
         self._bar.update(1)
 
@@ -61,7 +69,7 @@ class Progress:
         if self.done > before:
             seconds = (now - began) / (self.done - before) * (self.total - self.done)
             left = f", about {_clock(seconds)} left"
-        say(f"note: {self.done} of {self.total} fits{left}")
+        say(f"note: {self.done} of {self.total} {self.what}{left}")
 
     def close(self) -> None:
         """Leave the line."""

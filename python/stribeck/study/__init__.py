@@ -14,12 +14,13 @@ from typing import Any
 from stribeck.errors import FitError, SpecError
 from stribeck.identify.scaling import model_for
 from stribeck.model_file import write_whole
+from stribeck.parallel import Stopped, worker_count
 from stribeck.report.figures import save_figure
 from stribeck.study.assess import Entry, assess
 from stribeck.study.figures import error_figure, friction_figure
 from stribeck.study.plan import LOW_SPEED, REVIEW, STARTS, Group, Job, Plan, group_of, make_plan
 from stribeck.study.result import JointData, Study, Table, make_tables
-from stribeck.study.run import Stopped, run, worker_count
+from stribeck.study.run import run
 from stribeck.study.store import Store
 from stribeck.study.trial import Trial
 

@@ -1,0 +1,140 @@
+"""What the diagnosis answers on one case, as it is stored."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from stribeck.benchmark.cases import Case
+from stribeck.benchmark.coverage import Interval, intervals
+from stribeck.benchmark.oracle import held_out_rmse
+from stribeck.benchmark.sample import Sample
+
+if TYPE_CHECKING:
+    from stribeck.improve import Improvement
+    from stribeck.recording import Recording
+
+
+@dataclass(frozen=True)
+class Step:
+    """One effect that was added."""
+
+    effect: str
+    confidence: float
+    indistinguishable_from: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Answer:
+    """Truth and answer of one case.
+
+    Attributes
+    ----------
+    hidden, implied, cannot_show
+        The truth: what was hidden, what else that contains, and what the motion cannot show.
+    verdict
+        Of the last diagnosis.
+    rmse_held_out, oracle_rmse
+        At the end, and by the generator's own formula.
+    intervals
+        In the group "coverage": whether each parameter's interval covers the truth.
+    failure
+        What went wrong, or an empty string.
+    """
+
+    case: Case
+    hidden: tuple[str, ...] = ()
+    implied: tuple[str, ...] = ()
+    cannot_show: tuple[str, ...] = ()
+    steps: tuple[Step, ...] = ()
+    verdict: str = ""
+    untestable: tuple[str, ...] = ()
+    rmse_held_out: float | None = None
+    oracle_rmse: float | None = None
+    noise_rms: float | None = None
+    noise_floor: float | None = None
+    intervals: tuple[Interval, ...] = ()
+    seconds: float = 0.0
+    failure: str = ""
+
+    @property
+    def ratio(self) -> float | None:
+        """Final held-out RMSE over the oracle's."""
+        if self.rmse_held_out is None or not self.oracle_rmse:
+            return None
+        return self.rmse_held_out / self.oracle_rmse
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON, and as `from_dict` reads it back."""
+        return {"name": self.case.name, **asdict(self)}
+
+    @classmethod
+    def from_dict(cls, stored: dict[str, Any]) -> Answer:
+        """Read back what `to_dict` gave.
+
+        Raises
+        ------
+        KeyError, TypeError
+            It is something else.
+        """
+        fields: dict[str, Any] = {k: v for k, v in stored.items() if k != "name"}
+        for key in ("hidden", "implied", "cannot_show", "untestable"):
+            fields[key] = tuple(fields[key])
+        case = fields["case"]
+        fields["case"] = Case(**{**case, "effects": tuple(case["effects"])})
+        fields["steps"] = tuple(
+            Step(s["effect"], s["confidence"], tuple(s["indistinguishable_from"]))
+            for s in fields["steps"]
+        )
+        fields["intervals"] = tuple(Interval(**i) for i in fields["intervals"])
+        return cls(**fields)
+
+
+def answer(case: Case) -> Answer:
+    """Make the recording of a case and ask the product; a failure is an answer too."""
+    began = time.perf_counter()
+    try:
+        if case.group == "coverage":
+            made = Answer(case, intervals=intervals(case.effects[0], case.seed, case.correlation))
+        else:
+            made = _diagnosed(case)
+    except Exception as error:  # one broken case must not end a run of hours
+        made = Answer(case, failure=f"{type(error).__name__}: {error}")
+    return Answer(**{**vars(made), "seconds": time.perf_counter() - began})
+
+
+def _diagnosed(case: Case) -> Answer:
+    from stribeck.improve import improve
+    from stribeck.recording import read
+
+    sample = case.make()
+    with tempfile.TemporaryDirectory(prefix="stribeck-benchmark-") as folder:
+        path = Path(folder) / "recording.parquet"
+        sample.frame.write_parquet(path)
+        recording = read(path)
+    return _compared(case, sample, recording, improve("coulomb", recording))
+
+
+def _compared(case: Case, sample: Sample, recording: Recording, improvement: Improvement) -> Answer:
+    truth = sample.truth
+    return Answer(
+        case,
+        hidden=tuple(e for e in truth["hidden"] if e != "none"),
+        implied=tuple(truth["implied"]),
+        cannot_show=tuple(truth["cannot_show"]),
+        steps=tuple(
+            Step(s.finding.effect, s.finding.confidence, s.finding.indistinguishable_from)
+            for s in improvement.steps
+        ),
+        verdict=improvement.last.verdict,
+        untestable=tuple(row.effect for row in improvement.untestable),
+        rmse_held_out=improvement.final.rmse_held_out,
+        oracle_rmse=held_out_rmse(
+            sample.oracle, recording.torque, recording.moving, recording.block
+        ),
+        noise_rms=truth["noise_rms"],
+        noise_floor=improvement.noise_floor.value,
+    )

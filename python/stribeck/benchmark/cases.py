@@ -1,0 +1,204 @@
+"""The recordings that the diagnosis is judged on.
+
+Every effect alone in three sizes, two and three together, nothing at all, motions that cannot show
+an effect, effects outside the library, and noise with memory for the intervals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from stribeck.benchmark.generators import GENERATORS, Generator
+from stribeck.benchmark.sample import Sample
+from stribeck.errors import StribeckError, nearest
+
+#: Size of a single effect over the noise.
+SIZES = (5.0, 1.0, 0.3)
+#: Size of each of several effects, and of one outside the library.
+SIZE_OF_SEVERAL = 2.0
+SIZE_OUTSIDE = 3.0
+
+PAIRS = (
+    ("load", "stribeck"),
+    ("stribeck", "temperature_viscous"),
+    ("load", "temperature_viscous"),
+    ("position", "temperature_dry"),
+    ("offset", "load"),
+    ("inertia", "stribeck"),
+    ("gravity", "temperature_viscous"),
+    ("direction", "stribeck"),
+    ("nonlinear_viscous", "temperature_dry"),
+    ("gain", "load"),
+    ("spring", "stribeck"),
+    ("ripple", "position"),
+    ("drift", "temperature_dry"),
+    ("saturation", "temperature_viscous"),
+    ("presliding", "load"),
+)
+TRIPLES = (
+    ("stribeck", "load", "temperature_viscous"),
+    ("offset", "position", "temperature_dry"),
+    ("inertia", "stribeck", "drift"),
+    ("ripple", "load", "temperature_viscous"),
+    ("spring", "stribeck", "temperature_dry"),
+    ("gravity", "nonlinear_viscous", "position"),
+)
+#: Hidden in a limited motion: nothing, what it cannot show, or something that it can.
+HIDDEN_IN_LIMITED = {
+    "isothermal": ("none", "temperature_dry", "load"),
+    "one_direction": ("none", "direction", "load"),
+    "constant_load": ("none", "load", "stribeck"),
+    "no_slow_motion": ("none", "stribeck", "load"),
+    "warm_up_only": ("none", "drift", "load"),
+    "short_range": ("none", "load"),
+}
+#: Recordings without any effect, of a generator, for each seed that is asked for.
+NONE_PER_SEED = 4
+#: Recordings for the coverage of intervals, of one correlation, for each seed.
+COVERAGE_PER_SEED = 20
+CORRELATIONS = (0.0, 0.9, 0.99)
+AUTOREGRESSIVE = "autoregressive"
+
+#: Seeds below this are those of the tests: the benchmark's recordings were never looked at there.
+FIRST_SEED = 100_000
+
+
+@dataclass(frozen=True)
+class Case:
+    """One recording to make, and what is asked of it.
+
+    Attributes
+    ----------
+    group : {"one", "two", "three", "none", "limited", "outside", "coverage"}
+    correlation
+        Of the noise from row to row, in the group "coverage".
+    quick
+        Part of the subset that runs in minutes.
+    """
+
+    group: str
+    generator: str
+    effects: tuple[str, ...]
+    seed: int
+    size: float = 0.0
+    limit: str | None = None
+    correlation: float | None = None
+    quick: bool = False
+
+    @property
+    def name(self) -> str:
+        """A name that no other case has."""
+        parts = [self.generator, self.limit, "+".join(self.effects)]
+        if self.size:
+            parts.append(f"{self.size:g}x")
+        if self.correlation is not None:
+            parts.append(f"rho{self.correlation:g}")
+        return "-".join([p for p in parts if p] + [str(self.seed)])
+
+    def make(self) -> Sample:
+        """The recording and the truth about it."""
+        limits = {self.limit: True} if self.limit else {}
+        return GENERATORS[self.generator].make(self.effects, self.seed, self.size, **limits)
+
+
+def cases(
+    seeds: int = 10,
+    *,
+    generators: Iterable[str] = tuple(GENERATORS),
+    only: str | None = None,
+    quick: bool = False,
+    seed: int = 0,
+) -> list[Case]:
+    """The cases to run.
+
+    Parameters
+    ----------
+    seeds : int
+        Recordings of each kind; 10 is the full bar.
+    generators
+        Names in `GENERATORS`.
+    only
+        A group, an effect, a limit, or part of a case's name.
+    quick
+        The subset that runs in minutes.
+    seed
+        Another one gives other recordings of every kind.
+
+    Raises
+    ------
+    StribeckError
+        There is no such generator, or `only` leaves no case.
+    """
+    names = tuple(generators)
+    for name in names:
+        if name not in GENERATORS:
+            raise StribeckError(
+                f"there is no generator {name!r}{nearest(name, GENERATORS)}; "
+                f"there are {', '.join(GENERATORS)}"
+            )
+    first = FIRST_SEED + 1_000_000 * seed
+    made = [c for n in names for c in _of_generator(GENERATORS[n], seeds, first)]
+    made += _coverage(seeds, first)
+    made = [c for c in made if c.quick or not quick]
+    if only is not None:
+        exact = [c for c in made if only in (c.group, c.limit, c.generator) or c.effects == (only,)]
+        made = exact or [c for c in made if only in c.name]
+        if not made:
+            raise StribeckError(
+                f"no case has {only!r} in its name: give a group (one, two, three, none, limited, "
+                f"outside, coverage), an effect, a limit of the motion, or part of a case's name"
+            )
+    return made
+
+
+def _of_generator(generator: Generator, seeds: int, first: int) -> Iterator[Case]:
+    name = generator.name
+    numbered = _Seeds(first)
+    for size in SIZES:
+        for effect in generator.effects:
+            for k, seed in enumerate(numbered.next(seeds)):
+                yield Case("one", name, (effect,), seed, size, quick=k == 0 and size == 1.0)
+    for group, sets in (("two", PAIRS), ("three", TRIPLES)):
+        for i, effects in enumerate(sets):
+            drawn = numbered.next(seeds)
+            if set(effects) <= set(generator.effects):
+                for k, seed in enumerate(drawn):
+                    quick = k == 0 and i < 2
+                    yield Case(group, name, effects, seed, SIZE_OF_SEVERAL, quick=quick)
+    for k, seed in enumerate(numbered.next(NONE_PER_SEED * seeds)):
+        yield Case("none", name, ("none",), seed, quick=k < 3)
+    for limit in generator.limits:
+        for effect in HIDDEN_IN_LIMITED[limit]:
+            for k, seed in enumerate(numbered.next(seeds)):
+                quick = k == 0 and effect == "none"
+                yield Case("limited", name, (effect,), seed, 1.0, limit, quick=quick)
+    for effect in generator.outside:
+        for k, seed in enumerate(numbered.next(seeds)):
+            yield Case("outside", name, (effect,), seed, SIZE_OUTSIDE, quick=k == 0)
+
+
+class _Seeds:
+    """Seeds that do not depend on how many recordings of a kind are asked for."""
+
+    #: Most recordings of one kind.
+    ROOM = 1000
+
+    def __init__(self, first: int) -> None:
+        self._next = first
+
+    def next(self, count: int) -> range:
+        """The first `count` seeds of the next kind."""
+        start = self._next
+        self._next += self.ROOM
+        return range(start, start + count)
+
+
+def _coverage(seeds: int, first: int) -> Iterator[Case]:
+    for correlation in CORRELATIONS:
+        for k in range(COVERAGE_PER_SEED * seeds):
+            law = ("coulomb", "stribeck")[k % 2]
+            yield Case(
+                "coverage", AUTOREGRESSIVE, (law,), first + k, correlation=correlation,
+                quick=k < 10,
+            )  # fmt: skip

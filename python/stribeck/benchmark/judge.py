@@ -1,0 +1,137 @@
+"""What an answer is worth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from stribeck.benchmark.answer import Answer, Step
+from stribeck.model import effect_ids
+
+#: Names in the confusion matrix where no effect was named.
+NONE, UNEXPLAINED, FAILED = "none", "unexplained", "failed"
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """Right or wrong, and why.
+
+    Attributes
+    ----------
+    right
+        By the rule of the case's group.
+    exact
+        Every hidden effect was named and nothing else.
+    named
+        The top answer: an effect, "none" or "unexplained"; the hidden effect where the two were
+        said to be indistinguishable.
+    problem
+        What is wrong, or an empty string.
+    """
+
+    right: bool
+    exact: bool
+    named: str
+    problem: str
+
+
+def judge(answer: Answer) -> Judgement:
+    """Judge an answer of any group but "coverage".
+
+    one
+        The first effect is the hidden one, or an equivalent that lists it. An effect that contains
+        a simpler one may come after that one.
+    two, three
+        All are found, and nothing else.
+    none
+        No effect is added and the verdict is "none".
+    limited
+        What the motion cannot show is listed as untestable and not claimed.
+    outside
+        No effect is added and the verdict is "unexplained".
+    """
+    if answer.failure:
+        return Judgement(False, False, FAILED, answer.failure)
+    missed, wrong = _compare(answer)
+    named = _top(answer)
+    problems = _PROBLEMS[answer.case.group](answer, missed, wrong, named)
+    return Judgement(not problems, not missed and not wrong, named, "; ".join(problems))
+
+
+def is_right(step: Step, answer: Answer) -> bool:
+    """Whether the effect of one step is hidden in the recording, or part of one that is."""
+    return step.effect in visible(answer) or step.effect in answer.implied
+
+
+def visible(answer: Answer) -> list[str]:
+    """Hidden effects of the library that the motion can show."""
+    outside = answer.hidden if answer.case.group == "outside" else ()
+    return [e for e in answer.hidden if e not in answer.cannot_show and e not in outside]
+
+
+def _names(step: Step) -> set[str]:
+    return {step.effect, *step.indistinguishable_from}
+
+
+def _compare(answer: Answer) -> tuple[list[str], list[str]]:
+    """Hidden effects that were not named, and named ones that are not hidden."""
+    missed, wrong = visible(answer), []
+    spare = [e for e in answer.implied if e not in missed]
+    for step in answer.steps:
+        for left in (missed, spare):
+            match = step.effect if step.effect in left else None
+            match = match or next((e for e in left if e in _names(step)), None)
+            if match is not None:
+                left.remove(match)
+                break
+        else:
+            wrong.append(step.effect)
+    return missed, wrong
+
+
+def _top(answer: Answer) -> str:
+    """The answer to "what is missing", as the confusion matrix counts it."""
+    if not answer.steps:
+        return UNEXPLAINED if answer.verdict == "unexplained" else NONE
+    hidden = visible(answer)
+    for step in answer.steps:
+        if (match := next((e for e in hidden if e in _names(step)), None)) is not None:
+            return match
+        if step.effect not in answer.implied:
+            break
+    return answer.steps[0].effect
+
+
+def _one(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+    hidden = visible(answer)
+    return [] if named in hidden else [f"named {named}, hidden {' and '.join(hidden)}"]
+
+
+def _several(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+    problems = [f"missed {effect}" for effect in missed]
+    return problems + [f"{effect} is not hidden" for effect in wrong]
+
+
+def _none(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+    return [] if named == NONE else [f"named {named}, nothing is hidden"]
+
+
+def _limited(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+    claimed = [s.effect for s in answer.steps if s.effect in answer.cannot_show]
+    known = [e for e in answer.cannot_show if e in effect_ids()]
+    silent = [e for e in known if e not in answer.untestable]
+    problems = [f"claimed {effect}, which this motion cannot show" for effect in claimed]
+    return problems + [f"{effect} is not listed as untestable" for effect in silent]
+
+
+def _outside(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+    return [] if named == UNEXPLAINED else [f"named {named}, hidden is outside the library"]
+
+
+_PROBLEMS = {
+    "one": _one,
+    "two": _several,
+    "three": _several,
+    "none": _none,
+    "limited": _limited,
+    "outside": _outside,
+}

@@ -1,0 +1,90 @@
+"""Run the benchmark: every case in its turn, on all cores."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from stribeck.benchmark.answer import Answer, answer
+from stribeck.benchmark.cases import Case
+from stribeck.benchmark.figures import calibration_figure, confusion_figure
+from stribeck.benchmark.score import Score, score
+from stribeck.benchmark.store import Store, frame
+from stribeck.benchmark.text import score_text
+from stribeck.model_file import write_whole
+from stribeck.parallel import Stopped, in_processes, worker_count
+from stribeck.report.figures import png_bytes, write_bytes_whole
+
+
+def run(
+    cases: Sequence[Case],
+    folder: Path | None = None,
+    *,
+    workers: int | None = None,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> tuple[list[Answer], Score]:
+    """Answer every case and score the answers.
+
+    Parameters
+    ----------
+    folder
+        Where answers are kept as they are given; those that it holds already are not asked for
+        again. Tables and figures are written there at the end, also when stopped.
+    workers
+        Processes; default: one for each core.
+    progress
+        Told how many of how many cases are answered.
+
+    Raises
+    ------
+    Stopped
+        On Ctrl-C; what is done is in `folder`.
+    StribeckError
+        The folder cannot be used.
+    """
+    store = None if folder is None else Store(folder)
+    answers = {} if store is None else dict(store.answers)
+    todo = [case for case in cases if case.name not in answers]
+
+    def finished(made: Answer) -> None:
+        answers[made.case.name] = made
+        if store is not None:
+            store.add(made)
+        progress(len(cases) - len(todo) + sum(c.name in answers for c in todo), len(cases))
+
+    def asked() -> list[Answer]:
+        return [answers[case.name] for case in cases if case.name in answers]
+
+    try:
+        _answer_all(todo, finished, min(worker_count(workers), max(len(todo), 1)))
+    finally:
+        if store is not None:
+            store.close()
+            write_results(store.folder, asked())
+    made = asked()
+    return made, score(made)
+
+
+def _answer_all(todo: Sequence[Case], finished: Callable[[Answer], None], workers: int) -> None:
+    if workers > 1:
+        in_processes(answer, todo, finished, workers, what="the benchmark")
+        return
+    try:
+        for case in todo:
+            finished(answer(case))
+    except KeyboardInterrupt:
+        raise Stopped from None
+
+
+def write_results(folder: Path, answers: Sequence[Answer]) -> None:
+    """``answers.parquet``, ``confusion.csv`` and ``.png``, ``calibration.png``, ``score.txt``."""
+    made = score(answers)
+    table = frame(answers)
+    table.write_parquet(folder / "answers.parquet")
+    write_whole(folder / "score.txt", score_text(made) + "\n")
+    if made.confusion.rows:
+        write_whole(folder / "confusion.csv", made.confusion.to_frame().write_csv())
+        write_bytes_whole(folder / "confusion.png", png_bytes(confusion_figure(made.confusion)))
+    if made.reliability:
+        picture = png_bytes(calibration_figure(made.reliability))
+        write_bytes_whole(folder / "calibration.png", picture)

@@ -1,0 +1,291 @@
+"""The scoreboard: answers put together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import polars as pl
+from scipy.stats import binomtest
+
+from stribeck.benchmark.answer import Answer
+from stribeck.benchmark.cases import CORRELATIONS, SIZES
+from stribeck.benchmark.judge import FAILED, NONE, UNEXPLAINED, Judgement, is_right, judge
+from stribeck.model import effect_ids
+
+#: Least share right of each group, and of a single effect by its size over the noise.
+BARS = {"two": 0.90, "three": 0.75, "none": 0.97, "limited": 1.0, "outside": 0.90}
+BARS_BY_SIZE = dict(zip(SIZES, (0.98, 0.95, 0.80), strict=True))
+TITLES = {
+    "two": "two hidden effects: both and nothing else",
+    "three": "three hidden effects: all and nothing else",
+    "none": "no hidden effect",
+    "limited": "limited motion: untestable, not claimed",
+    "outside": "effect outside the library: unexplained",
+}
+#: Share of 95 % intervals that may cover the truth.
+COVERAGE_BAR = (0.90, 0.98)
+#: Most by which the final held-out error may exceed that of the generator's own formula, over
+#: single effects of these sizes.
+RATIO_BAR = 1.03
+RATIO_SIZES = (1.0, 0.3)
+#: Edges of the bins of `confidence`.
+CONFIDENCE_EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
+#: Row of the confusion matrix for what no library holds.
+OUTSIDE = "outside the library"
+
+
+@dataclass(frozen=True)
+class Share:
+    """How many of how many, with the 95 % interval of the share (Wilson)."""
+
+    count: int
+    total: int
+
+    @property
+    def value(self) -> float:
+        """The share; NaN of nothing."""
+        return self.count / self.total if self.total else float("nan")
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """95 % interval of the share."""
+        if not self.total:
+            return (0.0, 1.0)
+        ci = binomtest(self.count, self.total).proportion_ci(method="wilson")
+        return (float(ci.low), float(ci.high))
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "right": self.count, "of": self.total, "share": self.value,
+            "interval95": list(self.interval),
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Group:
+    """One line of the scoreboard."""
+
+    title: str
+    share: Share
+    bar: float
+
+    @property
+    def passed(self) -> bool:
+        """Whether the share reaches the bar."""
+        return self.share.value >= self.bar
+
+
+@dataclass(frozen=True)
+class Reliability:
+    """Findings whose confidence is in one bin, and how many of them are right."""
+
+    low: float
+    high: float
+    mean: float
+    share: Share
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """Final held-out RMSE over the oracle's, over some answers."""
+
+    title: str
+    count: int
+    mean: float
+    median: float
+    p90: float
+    within: Share
+
+
+@dataclass(frozen=True)
+class Coverage:
+    """Share of 95 % intervals that hold the truth, by correlation of the noise."""
+
+    correlation: float
+    recordings: int
+    share: Share
+    ordinary: Share
+
+    @property
+    def passed(self) -> bool:
+        """Whether the share is between its bars."""
+        return COVERAGE_BAR[0] <= self.share.value <= COVERAGE_BAR[1]
+
+
+@dataclass(frozen=True)
+class Confusion:
+    """How often each hidden effect (row) got each name (column)."""
+
+    rows: tuple[str, ...]
+    columns: tuple[str, ...]
+    counts: np.ndarray[Any, np.dtype[np.int64]]
+
+    def right_column(self, hidden: str) -> str:
+        """The name that is right in a row."""
+        return UNEXPLAINED if hidden == OUTSIDE else hidden
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row a hidden effect."""
+        return pl.DataFrame(
+            {"hidden": list(self.rows)}
+            | {name: self.counts[:, k] for k, name in enumerate(self.columns)}
+        )
+
+
+@dataclass(frozen=True)
+class Score:
+    """All figures of a run."""
+
+    groups: tuple[Group, ...]
+    confusion: Confusion
+    reliability: tuple[Reliability, ...]
+    ratios: tuple[Ratio, ...]
+    coverage: tuple[Coverage, ...]
+    failures: tuple[tuple[Answer, Judgement], ...]
+
+    @property
+    def passed(self) -> bool:
+        """Whether every group and every coverage reaches its bar."""
+        ratio = all(r.mean <= RATIO_BAR for r in self.ratios if r.title != OVER_NOISE_5)
+        groups = all(group.passed for group in self.groups)
+        return ratio and groups and all(line.passed for line in self.coverage)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "passed": self.passed,
+            "groups": [
+                {"group": g.title, **g.share.to_dict(), "bar": g.bar, "passed": g.passed}
+                for g in self.groups
+            ],
+            "confusion": {
+                "rows": list(self.confusion.rows),
+                "columns": list(self.confusion.columns),
+                "counts": self.confusion.counts.tolist(),
+            },
+            "reliability": [
+                {"from": r.low, "to": r.high, "mean_confidence": r.mean, **r.share.to_dict()}
+                for r in self.reliability
+            ],
+            "held_out_over_oracle": [
+                {"of": r.title, "answers": r.count, "mean": r.mean, "median": r.median,
+                 "p90": r.p90, "within_bar": r.within.value, "bar": RATIO_BAR}
+                for r in self.ratios
+            ],
+            "coverage": [
+                {"correlation": c.correlation, "recordings": c.recordings,
+                 "share": c.share.value, "interval95": list(c.share.interval),
+                 "ordinary_least_squares": c.ordinary.value, "bar": list(COVERAGE_BAR),
+                 "passed": c.passed}
+                for c in self.coverage
+            ],
+            "wrong": [
+                {"case": a.case.name, "named": j.named, "problem": j.problem}
+                for a, j in self.failures
+            ],
+        }  # fmt: skip
+
+
+#: Title of the ratio that is reported and has no bar.
+OVER_NOISE_5 = "one effect at 5 x the noise"
+
+
+def score(answers: Iterable[Answer]) -> Score:
+    """Judge answers and count."""
+    every = list(answers)
+    judged = [(a, judge(a)) for a in every if a.case.group != "coverage"]
+    wrong = [(a, j) for a, j in judged if not j.right]
+    wrong += [
+        (a, Judgement(False, False, FAILED, a.failure))
+        for a in every
+        if a.case.group == "coverage" and a.failure
+    ]
+    return Score(
+        tuple(_groups(judged)), _confusion(judged), tuple(_reliability(judged)),
+        tuple(_ratios(judged)), tuple(_coverages(every)), tuple(wrong),
+    )  # fmt: skip
+
+
+Judged = Sequence[tuple[Answer, Judgement]]
+
+
+def _groups(judged: Judged) -> Iterable[Group]:
+    for size, bar in BARS_BY_SIZE.items():
+        of = [j for a, j in judged if a.case.group == "one" and a.case.size == size]
+        if of:
+            yield Group(f"one hidden effect, {size:g} x the noise", _right(of), bar)
+    for group, bar in BARS.items():
+        of = [j for a, j in judged if a.case.group == group]
+        if of:
+            yield Group(TITLES[group], _right(of), bar)
+
+
+def _right(judgements: Sequence[Judgement]) -> Share:
+    return Share(sum(j.right for j in judgements), len(judgements))
+
+
+def _confusion(judged: Judged) -> Confusion:
+    """Rows by what is hidden: single effects, nothing, and what is outside the library."""
+    pairs = []
+    for a, j in judged:
+        if a.case.group in ("one", "none"):
+            pairs.append((a.case.effects[0], j.named))
+        elif a.case.group == "outside":
+            pairs.append((OUTSIDE, j.named))
+    hidden, named = {row for row, _ in pairs}, {column for _, column in pairs}
+    effects = effect_ids()
+    rows = tuple(r for r in (*effects, NONE, OUTSIDE) if r in hidden)
+    columns = tuple(c for c in effects if c in hidden | named)
+    columns += (NONE, UNEXPLAINED, *([FAILED] if FAILED in named else []))
+    counts = np.zeros((len(rows), len(columns)), dtype=np.int64)
+    for row, column in pairs:
+        counts[rows.index(row), columns.index(column)] += 1
+    return Confusion(rows, columns, counts)
+
+
+def _reliability(judged: Judged) -> Iterable[Reliability]:
+    """Of findings by confidence, how many name what is hidden."""
+    found = [(step.confidence, is_right(step, a)) for a, _ in judged for step in a.steps]
+    for low, high in pairwise(CONFIDENCE_EDGES):
+        last = high == CONFIDENCE_EDGES[-1]
+        inside = [(c, ok) for c, ok in found if low <= c < high or (last and c == high)]
+        if inside:
+            mean = float(np.mean([c for c, _ in inside]))
+            yield Reliability(low, high, mean, Share(sum(ok for _, ok in inside), len(inside)))
+
+
+def _ratios(judged: Judged) -> Iterable[Ratio]:
+    single = [a for a, _ in judged if a.case.group == "one" and a.ratio is not None]
+    selections = [
+        (f"one effect at {' and '.join(f'{s:g}' for s in sorted(RATIO_SIZES))} x the noise",
+         [a for a in single if a.case.size in RATIO_SIZES]),
+        (OVER_NOISE_5, [a for a in single if a.case.size == SIZES[0]]),
+    ]  # fmt: skip
+    for title, of in selections:
+        if of:
+            values = np.array([a.ratio for a in of])
+            within = Share(int(np.sum(values <= RATIO_BAR)), len(of))
+            yield Ratio(
+                title, len(of), float(values.mean()), float(np.median(values)),
+                float(np.quantile(values, 0.9)), within,
+            )  # fmt: skip
+
+
+def _coverages(answers: Sequence[Answer]) -> Iterable[Coverage]:
+    for correlation in CORRELATIONS:
+        of = [a for a in answers if a.case.correlation == correlation and not a.failure]
+        if not of:
+            continue
+        every = [i for a in of for i in a.intervals]
+        ordinary = [i for i in every if i.covers_ordinary is not None]
+        yield Coverage(
+            correlation,
+            len(of),
+            Share(sum(i.covers for i in every), len(every)),
+            Share(sum(bool(i.covers_ordinary) for i in ordinary), len(ordinary)),
+        )

@@ -1,0 +1,168 @@
+"""The folder of a run: every answer as it is given, then the tables and figures.
+
+``manifest.json`` says which program answered. ``answers.jsonl`` gets one line as each case ends, so
+that nothing is lost when the run is stopped; the same command goes on from there.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+import stribeck
+from stribeck.benchmark.answer import Answer
+from stribeck.benchmark.judge import judge
+from stribeck.errors import StribeckError
+from stribeck.model_file import write_whole
+
+KIND = "diagnosis benchmark"
+MANIFEST, ANSWERS = "manifest.json", "answers.jsonl"
+
+
+class Store:
+    """Answers of one version of the program, on disk.
+
+    Parameters
+    ----------
+    folder
+        Made where it does not exist.
+
+    Raises
+    ------
+    StribeckError
+        The folder holds answers of another version of the program, or something else, or cannot
+        be written to.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.answers: dict[str, Answer] = {}
+        manifest = {"kind": KIND, "version": stribeck.__version__, "program": program_hash()}
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            if (folder / MANIFEST).exists():
+                self._check(manifest)
+                self.answers = {a.case.name: a for a in _read(folder / ANSWERS)}
+            elif any(folder.iterdir()):
+                raise StribeckError(
+                    f"{folder} is not empty and holds no benchmark: give another --output"
+                )
+            else:
+                write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
+            write_whole(folder / ANSWERS, "".join(map(_line, self.answers.values())))
+            self._log = (folder / ANSWERS).open("a", encoding="utf-8")
+        except OSError as error:
+            raise StribeckError(
+                f"cannot write {folder}: {error.strerror or error}; give --output a folder that "
+                f"may be written to"
+            ) from None
+
+    def _check(self, manifest: dict[str, str]) -> None:
+        path = self.folder / MANIFEST
+        try:
+            found = json.loads(path.read_text(encoding="utf-8"))
+        except ValueError:
+            found = None
+        if not isinstance(found, dict) or found.get("kind") != KIND:
+            raise StribeckError(f"{path} is not one of a benchmark: give another --output")
+        if found != manifest:
+            raise StribeckError(
+                f"{self.folder} holds answers of another version of stribeck: give another "
+                f"--output, so that answers of two programs are not put together"
+            )
+
+    def add(self, answer: Answer) -> None:
+        """Keep an answer; it is on disk when this returns."""
+        self.answers[answer.case.name] = answer
+        self._log.write(_line(answer))
+        self._log.flush()
+
+    def close(self) -> None:
+        """No answer is added any more."""
+        self._log.close()
+
+
+def program_hash() -> str:
+    """SHA-256 of everything that the answers depend on: the package's code and its core."""
+    root = Path(stribeck.__file__).parent
+    digest = hashlib.sha256()
+    for path in sorted([*root.rglob("*.py"), *root.glob("_core*")]):
+        digest.update(str(path.relative_to(root)).encode())
+        digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def frame(answers: Iterable[Answer]) -> pl.DataFrame:
+    """Every answer and what it is worth, one row each."""
+    rows = []
+    for a in answers:
+        scored = a.case.group != "coverage"
+        judgement = judge(a) if scored else None
+        rows.append(
+            {
+                "case": a.case.name, "group": a.case.group, "generator": a.case.generator,
+                "effects": list(a.case.effects), "size": a.case.size, "limit": a.case.limit,
+                "seed": a.case.seed, "correlation": a.case.correlation,
+                "right": judgement.right if judgement else None,
+                "exact": judgement.exact if judgement else None,
+                "named": judgement.named if judgement else None,
+                "problem": judgement.problem if judgement else None,
+                "found": [s.effect for s in a.steps],
+                "confidence": [s.confidence for s in a.steps],
+                "indistinguishable_from": [list(s.indistinguishable_from) for s in a.steps],
+                "verdict": a.verdict, "untestable": list(a.untestable),
+                "rmse_held_out": a.rmse_held_out, "oracle_rmse": a.oracle_rmse,
+                "noise_rms": a.noise_rms, "noise_floor": a.noise_floor,
+                "covered": [i.covers for i in a.intervals],
+                "covered_ordinary": [i.covers_ordinary for i in a.intervals],
+                "parameters": [i.parameter for i in a.intervals],
+                "seconds": a.seconds, "failure": a.failure,
+            }
+        )  # fmt: skip
+    texts, numbers = pl.List(pl.String), pl.List(pl.Float64)
+    schema: dict[str, Any] = {
+        "case": pl.String, "group": pl.String, "generator": pl.String, "effects": texts,
+        "size": pl.Float64, "limit": pl.String, "seed": pl.Int64, "correlation": pl.Float64,
+        "right": pl.Boolean, "exact": pl.Boolean, "named": pl.String, "problem": pl.String,
+        "found": texts, "confidence": numbers, "indistinguishable_from": pl.List(texts),
+        "verdict": pl.String, "untestable": texts, "rmse_held_out": pl.Float64,
+        "oracle_rmse": pl.Float64, "noise_rms": pl.Float64, "noise_floor": pl.Float64,
+        "covered": pl.List(pl.Boolean), "covered_ordinary": pl.List(pl.Boolean),
+        "parameters": texts, "seconds": pl.Float64, "failure": pl.String,
+    }  # fmt: skip
+    return pl.DataFrame(rows, schema=schema)
+
+
+def _line(answer: Answer) -> str:
+    return json.dumps(_finite(answer.to_dict()), allow_nan=False) + "\n"
+
+
+def _finite(value: Any) -> Any:
+    """JSON has no NaN or infinity: they become null."""
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _read(path: Path) -> list[Answer]:
+    """The answers given before; a line that was cut off in writing is left out."""
+    if not path.exists():
+        return []
+    text = path.read_text(encoding="utf-8")
+    answers = []
+    for number, line in enumerate(text[: text.rfind("\n") + 1].splitlines(), start=1):
+        try:
+            answers.append(Answer.from_dict(json.loads(line)))
+        except (KeyError, TypeError, ValueError):
+            raise StribeckError(
+                f"{path}, line {number}, is damaged: remove it, or give another --output"
+            ) from None
+    return answers

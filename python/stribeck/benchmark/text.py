@@ -1,0 +1,132 @@
+"""What `stribeck benchmark diagnosis` prints."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from stribeck.benchmark.score import (
+    COVERAGE_BAR,
+    RATIO_BAR,
+    Confusion,
+    Coverage,
+    Group,
+    Ratio,
+    Reliability,
+    Score,
+    Share,
+)
+from stribeck.report.text import table
+
+#: Wrong answers that are listed one by one.
+MOST_LISTED = 40
+
+
+def score_text(score: Score) -> str:
+    """The whole scoreboard."""
+    parts = [
+        _part("Share of answers that are right", _groups(score.groups)),
+        _part("Hidden effect, and what was named first", _confusion(score.confusion)),
+        _part("Findings by confidence, and how many of them are right",
+              _reliability(score.reliability)),
+        _part("Final held-out RMSE over that of the generator's own formula, refitted",
+              _ratios(score.ratios)),
+        _part("95 % intervals that cover the truth, under AR(1) noise", _coverage(score.coverage)),
+        _part("Wrong answers", _wrong(score)),
+    ]  # fmt: skip
+    return "\n\n".join(part for part in parts if part)
+
+
+def _part(title: str, body: str) -> str:
+    return f"{title}\n\n{body}" if body else ""
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.1f} %"
+
+
+def _interval(share: Share) -> str:
+    low, high = share.interval
+    return f"{100 * low:.0f} to {100 * high:.0f} %"
+
+
+def _mark(passed: bool) -> str:
+    return "yes" if passed else "NO"
+
+
+def _groups(groups: Sequence[Group]) -> str:
+    if not groups:
+        return ""
+    rows = [["group", "right", "of", "share", "95 % interval", "bar", "reached"]]
+    rows += [
+        [g.title, str(g.share.count), str(g.share.total), _percent(g.share.value),
+         _interval(g.share), _percent(g.bar), _mark(g.passed)]
+        for g in groups
+    ]  # fmt: skip
+    return table(rows, right=(1, 2, 3, 4, 5))
+
+
+def _confusion(confusion: Confusion) -> str:
+    """One line a hidden effect: how often it was named, and what was named instead."""
+    if not confusion.rows:
+        return ""
+    rows = [["hidden", "cases", "right", "named instead"]]
+    for k, hidden in enumerate(confusion.rows):
+        named = Counter(
+            {c: int(n) for c, n in zip(confusion.columns, confusion.counts[k], strict=True) if n}
+        )
+        right = named.pop(confusion.right_column(hidden), 0)
+        others = ", ".join(f"{name} {count}" for name, count in named.most_common())
+        rows.append([hidden, str(right + sum(named.values())), str(right), others or "-"])
+    return table(rows, right=(1, 2))
+
+
+def _reliability(bins: Sequence[Reliability]) -> str:
+    if not bins:
+        return ""
+    rows = [["confidence", "mean", "findings", "right", "share", "95 % interval"]]
+    rows += [
+        [f"{r.low:g} to {r.high:g}", f"{r.mean:.3f}", str(r.share.total), str(r.share.count),
+         _percent(r.share.value), _interval(r.share)]
+        for r in bins
+    ]  # fmt: skip
+    return table(rows, right=(1, 2, 3, 4, 5))
+
+
+def _ratios(ratios: Sequence[Ratio]) -> str:
+    if not ratios:
+        return ""
+    rows = [["recordings", "number", "mean", "median", "90 % below", f"within {RATIO_BAR:g}"]]
+    rows += [
+        [r.title, str(r.count), f"{r.mean:.4f}", f"{r.median:.4f}", f"{r.p90:.4f}",
+         _percent(r.within.value)]
+        for r in ratios
+    ]  # fmt: skip
+    return table(rows, right=(1, 2, 3, 4, 5))
+
+
+def _coverage(lines: Sequence[Coverage]) -> str:
+    if not lines:
+        return ""
+    low, high = COVERAGE_BAR
+    rows = [["correlation", "recordings", "covered", "95 % interval", "ordinary least squares",
+             f"between {_percent(low)} and {_percent(high)}"]]  # fmt: skip
+    rows += [
+        [f"{c.correlation:g}", str(c.recordings), _percent(c.share.value), _interval(c.share),
+         _percent(c.ordinary.value) if c.ordinary.total else "-", _mark(c.passed)]
+        for c in lines
+    ]  # fmt: skip
+    return table(rows, right=(0, 1, 2, 3, 4))
+
+
+def _wrong(score: Score) -> str:
+    if not score.failures:
+        return ""
+    rows = [["case", "found", "verdict", "what is wrong"]]
+    rows += [
+        [a.case.name, ", ".join(s.effect for s in a.steps) or "-", a.verdict or "-", j.problem]
+        for a, j in score.failures[:MOST_LISTED]
+    ]
+    text = table(rows)
+    rest = len(score.failures) - MOST_LISTED
+    return text + (f"\n  and {rest} more (all are in answers.parquet)" if rest > 0 else "")

@@ -1,0 +1,76 @@
+"""`stribeck benchmark`: how far the program can be trusted, on recordings with a known truth."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from stribeck.benchmark.cases import cases
+from stribeck.benchmark.generators import GENERATORS
+from stribeck.benchmark.run import run
+from stribeck.benchmark.text import score_text
+from stribeck.cli.common import echo_json, json_option, say, seed_option
+from stribeck.cli.progress import Progress
+from stribeck.parallel import Stopped
+
+
+@click.group()
+def benchmark() -> None:
+    """How far the program can be trusted, on recordings with a known truth."""
+
+
+@benchmark.command()
+@click.option(
+    "--seeds", type=click.IntRange(min=1), default=10, show_default=True,
+    help="Recordings of each kind; 10 is the full bar and takes hours.",
+)  # fmt: skip
+@click.option(
+    "--generator", "generators", multiple=True, metavar="NAME",
+    help=f"Generator of recordings, may be repeated. [default: {', '.join(GENERATORS)}]",
+)  # fmt: skip
+@click.option(
+    "--only", default=None, metavar="WORD",
+    help="A group, an effect, a limit of the motion, or part of a case's name.",
+)  # fmt: skip
+@click.option("--quick", is_flag=True, help="One recording of most kinds: some minutes.")
+@click.option(
+    "--workers", type=click.IntRange(min=1), default=None,
+    help="Processes. [default: one for each core]",
+)  # fmt: skip
+@click.option(
+    "-o", "--output", type=click.Path(file_okay=False), default=None,
+    help="Folder for all answers, the confusion matrix and the figures.",
+)  # fmt: skip
+@seed_option
+@json_option
+def diagnosis(
+    seeds: int, generators: tuple[str, ...], only: str | None, quick: bool, workers: int | None,
+    output: str | None, seed: int, as_json: bool,
+) -> None:  # fmt: skip
+    """Hide effects in simulated recordings, ask what is missing, and count the right answers.
+
+    With --output every answer is kept as it is given: Ctrl-C stops, and the same command goes on
+    from there.
+    """
+    chosen = cases(
+        seeds, generators=generators or tuple(GENERATORS), only=only, quick=quick, seed=seed
+    )
+    folder = None if output is None else Path(output)
+    with Progress("cases") as bar:
+        try:
+            answers, score = run(chosen, folder, workers=workers, progress=bar.show)
+        except (Stopped, KeyboardInterrupt):
+            bar.close()
+            kept = (
+                f"what is done is in {folder}, and the same command goes on from there"
+                if folder is not None
+                else "nothing was kept: --output FOLDER keeps every answer"
+            )
+            say(f"stribeck: stopped after {bar.done or 'no'} of {len(chosen)} cases; {kept}")
+            sys.exit(130)
+    if as_json:
+        echo_json({"cases": len(answers), "seeds": seeds, **score.to_dict()})
+    else:
+        click.echo(score_text(score))

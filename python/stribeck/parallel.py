@@ -1,0 +1,122 @@
+"""Many independent pieces of work in several processes, which Ctrl-C ends at once."""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any, TypeVar
+
+from stribeck.errors import StribeckError
+
+Work = TypeVar("Work")
+Result = TypeVar("Result")
+
+#: Pieces handed to each process ahead of its turn, so that none waits.
+AHEAD = 2
+
+
+class Stopped(Exception):
+    """The user stopped the work; what was finished has been handed over."""
+
+
+def worker_count(wanted: int | None = None) -> int:
+    """How many processes to use: `wanted`, or one for each core that may be used."""
+    if wanted is not None:
+        return wanted
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def in_processes(
+    do: Callable[[Work], Result],
+    pieces: Iterable[Work],
+    finished: Callable[[Result], None],
+    workers: int,
+    *,
+    begin: Callable[..., None] | None = None,
+    arguments: tuple[Any, ...] = (),
+    what: str = "the work",
+) -> None:
+    """Do every piece, and hand each result over as it is ready, in any order.
+
+    Parameters
+    ----------
+    do, begin
+        Functions of a module: new processes find them by name. Each process first calls `begin`
+        with `arguments`.
+    what
+        Named in the error when a process dies: "the study".
+
+    Raises
+    ------
+    Stopped
+        On Ctrl-C. Work under way is dropped at once.
+    StribeckError
+        A process was ended from outside.
+    """
+    todo = iter(pieces)
+    others = set(multiprocessing.active_children())
+    # Not forked: polars has threads, and a fork copies their locks without the threads.
+    pool = ProcessPoolExecutor(
+        workers,
+        mp_context=multiprocessing.get_context("spawn"),
+        initializer=_begin,
+        initargs=(begin, arguments),
+    )
+    pending: set[Future[Result]] = set()
+
+    def hand_out(count: int) -> None:
+        for _, piece in zip(range(count), todo, strict=False):
+            with _deaf_to_interrupts():
+                pending.add(pool.submit(do, piece))
+
+    try:
+        hand_out(AHEAD * workers)
+        while pending:
+            done, rest = wait(pending, return_when=FIRST_COMPLETED)
+            pending = set(rest)
+            for future in done:
+                finished(future.result())
+            hand_out(len(done))
+        pool.shutdown()
+    except BrokenProcessPool:
+        raise StribeckError(
+            f"a process of {what} was ended from outside, most likely for want of memory: use "
+            f"fewer --workers; the same command goes on from what is done so far"
+        ) from None
+    except KeyboardInterrupt:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in set(multiprocessing.active_children()) - others:
+            process.terminate()
+        raise Stopped from None
+
+
+def _begin(begin: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:
+    """Ready a process of the pool."""
+    # Libraries such as LAPACK complain on stdout, where the command's one answer goes.
+    os.dup2(2, 1)
+    if begin is not None:
+        begin(*arguments)
+
+
+@contextlib.contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Start processes that do not hear Ctrl-C: the one that started them ends them.
+
+    A process inherits the signals that are blocked where it is started. Here they are only put
+    off: an interrupt that comes meanwhile is delivered afterwards.
+    """
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
