@@ -116,6 +116,9 @@ class Improvement:
             "stopped": self.stopped,
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
+            "explainable": self.last.explainable.to_dict() if self.last.explainable else None,
+            "smallest_visible": [row.to_dict() for row in self.last.smallest_visible],
+            "indistinguishable": [group.to_dict() for group in self.last.groups],
             "scored": self.final.recording.scored(),
             "notes": [*self.final.recording.notes, *self.final.notes],
         }
@@ -201,8 +204,9 @@ def improve(
     while True:
         progress(f"looking for what {current.model.spec} misses")
         found = diagnose(
-            current, least_fall=least_fall, rejected=dropped, candidates=candidates, seed=seed
-        )
+            current, least_fall=least_fall, rejected=dropped, candidates=candidates, seed=seed,
+            brief=True,
+        )  # fmt: skip
         if not found.findings or len(steps) >= most_steps:
             break
         finding = found.findings[0]

@@ -41,7 +41,7 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     residual = fit.residual[rows]
     if residual.size < FEWEST_PAIRS:
         return NoiseFloor(None, f"too few moving rows ({residual.size}) to compare repeats")
-    features = _features(fit)
+    features = state_features(fit, rows)
     step = -(-residual.size // 20000)
     index = np.arange(0, residual.size, step)
     apart = max(4.0 * correlation_length(residual), 20.0) / step
@@ -72,9 +72,9 @@ def _at_zero(gap: Array, gamma: Array) -> float:
     return mean
 
 
-def _features(fit: Fit) -> Array:
+def state_features(fit: Fit, rows: NDArray[np.intp]) -> Array:
     """What the friction may depend on, each channel scaled to unit spread, array [m, k]."""
-    r, rows = fit.recording, fit.rows
+    r = fit.recording
     v = r.velocity[rows]
     load = r.load_torque if r.load_torque is not None else fit.load
     travel = displacement_since_reversal(r)[rows]

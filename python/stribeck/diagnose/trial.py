@@ -148,6 +148,12 @@ def passes(trial: Trial, tried: int, least: float) -> bool:
     return counts and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
+def reported_fall(before: Fit, trial: Trial) -> bool:
+    """The error over all scored rows must fall too, transients included."""
+    assert before.rmse_held_out is not None and trial.fit.rmse_held_out is not None
+    return trial.fit.rmse_held_out < before.rmse_held_out
+
+
 def tie_statistic(best: Trial, other: Trial) -> float:
     """Standard errors by which `other`'s held-out error exceeds `best`'s."""
     return difference(other.fit, best.fit).statistic

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from stribeck.compare import Assessment, Comparison
     from stribeck.diagnose import (
         Diagnosis,
+        Explainable,
         Finding,
         Group,
         SmallestVisible,
@@ -507,6 +508,17 @@ def left_text(left: Unexplained) -> str:
     )
 
 
+def explainable_text(explainable: Explainable | None, spec: str, unit: str) -> str:
+    """How much of what the channels could show a model explains."""
+    if explainable is None:
+        return ""
+    return (
+        f"{spec} explains {percent(explainable.share)} of what these channels could show: with a "
+        f"flexible regressor besides, which knows no physics, {plain(explainable.rmse)} {unit} are "
+        f"left on data that neither has seen."
+    )
+
+
 def _floor_sentence(value: float | None, why: str | None, unit: str) -> str:
     if value is None:
         return f"The noise floor cannot be estimated: {why}."
@@ -547,6 +559,7 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         paragraph(held + _floor_sentence(floor.value, floor.why, unit)),
         verdict + ("\n\n" + findings if findings else ""),
         paragraph(left, 0),
+        paragraph(explainable_text(diagnosis.explainable, f.model.spec, unit), 0),
         paragraph(following, 0) if following else "",
         smallest_visible_text(diagnosis.smallest_visible),
         groups_text(diagnosis.groups),
@@ -643,6 +656,7 @@ def improvement_text(improvement: Improvement) -> str:
         _floor_sentence(None, floor.why, unit) if floor.value is None else "",
         ("Found, in this order:\n\n" + steps) if steps else "",
         paragraph(f"{stopped} {left_text(improvement.unexplained)}", 0),
+        paragraph(explainable_text(improvement.last.explainable, final.model.spec, unit), 0),
         f"The model now: {final.model.spec}\n\n{parameters_text(final.estimates)}",
         _errors_text(final),
         untestable_text(improvement.untestable),

@@ -1,0 +1,93 @@
+"""The effects that are tried on a recording, and those that pass."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+
+from stribeck.diagnose.screen import screened
+from stribeck.diagnose.testable import Untestable, untestable
+from stribeck.diagnose.trial import (
+    Trial,
+    explained_by_shape,
+    passes,
+    promises,
+    reported_fall,
+    try_beyond,
+    try_effect,
+)
+from stribeck.fit import Fit, own_load
+from stribeck.formula_law import effect_name
+from stribeck.identify.scaling import check_channels
+from stribeck.model import Model, catalog, effect_ids
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """What can be tried on a fitted model.
+
+    Attributes
+    ----------
+    possible
+        Effects, ids or ``"NAME = FORMULA"``, that the recording can show and the model lacks.
+    untestable
+        Effects that the recording cannot show.
+    """
+
+    possible: tuple[str, ...]
+    untestable: tuple[Untestable, ...]
+
+
+def candidates_for(fitted: Fit, rejected: Collection[str], more: Collection[str]) -> Candidates:
+    """The catalog's effects and `more` by formula, without those `rejected`."""
+    recording, model = fitted.recording, fitted.model
+    cannot = untestable(recording, own_load(model, recording))
+    inside = {*model.effects, *model.rigid_body, *model.own_effects}
+    for effect in more:
+        if effect_name(effect) not in inside:
+            check_channels(model.with_effect(effect, {}), recording)
+    possible = tuple(
+        effect
+        for effect in (*effect_ids(), *more)
+        if not {effect_name(effect)} & {*inside, *cannot, *rejected}
+    )
+    hidden = tuple(row for effect, row in cannot.items() if effect not in inside)
+    return Candidates(possible, hidden)
+
+
+def tried_on(
+    fitted: Fit, possible: Collection[str], least: float, seed: int
+) -> tuple[list[Trial], int]:
+    """Trials that pass, the best first, and how many effects were looked at.
+
+    An effect that contains a simpler one is tried on top of it, where that one passes.
+    """
+    alone = [effect for effect in possible if _contained(effect, fitted.model) is None]
+    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+        looked_at = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
+        promising = [s for s in looked_at if promises(s, least)]
+        trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]
+    tried = max(len(looked_at), 1)
+    for effect in possible:
+        simpler = next((t for t in trials if t.effect == _contained(effect, fitted.model)), None)
+        if simpler is not None and passes(simpler, tried, least):
+            beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
+            if beyond is not None and passes(beyond[0], tried, least):
+                trials.append(beyond[1])
+    good = [
+        trial
+        for trial in trials
+        if passes(trial, tried, least)
+        and reported_fall(fitted, trial)
+        and not explained_by_shape(fitted, trial, tried, least)
+    ]
+    return sorted(good, key=lambda trial: trial.rank), tried
+
+
+def _contained(effect: str, model: Model) -> str | None:
+    """The simpler effect that `effect` contains and `model` lacks, if there is one."""
+    simpler: str | None = catalog()["effects"].get(effect, {}).get("beyond")
+    return None if simpler is None or model.has(simpler) else simpler

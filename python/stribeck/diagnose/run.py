@@ -1,0 +1,79 @@
+"""A diagnosis from its parts."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+
+from stribeck.diagnose.bound import explainable
+from stribeck.diagnose.candidates import candidates_for, tried_on
+from stribeck.diagnose.floor import noise_floor
+from stribeck.diagnose.ranking import findings
+from stribeck.diagnose.result import Diagnosis
+from stribeck.diagnose.trial import SIGNIFICANCE
+from stribeck.diagnose.unexplained import unexplained
+from stribeck.diagnose.visibility import visibility
+from stribeck.fit import Fit, on_recording
+from stribeck.model import effect_ids
+from stribeck.recording import Recording
+
+#: Least relative fall of the held-out RMSE that a finding must bring.
+LEAST_FALL = 0.01
+
+
+def diagnose(
+    fitted: Fit,
+    recording: Recording | None = None,
+    *,
+    least_fall: float = LEAST_FALL,
+    rejected: Collection[str] = (),
+    candidates: Collection[str] = (),
+    seed: int = 0,
+    brief: bool = False,
+) -> Diagnosis:
+    """Find the effects that are missing from `fitted`.
+
+    Every effect that the recording can show is added and refitted. It passes if the held-out
+    error falls by at least `least_fall`, if that is more than chance given the residual's
+    autocorrelation and the number of effects tried, and if the effects already in the model
+    cannot do the same by taking a freer form.
+
+    Parameters
+    ----------
+    recording : Recording
+        Default: the fit's own. On another one the model is fitted again first.
+    rejected : collection of str
+        Effects that are not to be tried.
+    candidates : collection of str
+        Effects by formula that are to be tried too: ``"creep = c*abs(load)*sgn(v)"``.
+    brief : bool
+        Where there are findings, those alone: not what else could have been seen, nor how much of
+        what can be explained is.
+    """
+    fitted = on_recording(fitted, recording, seed)
+    could_be = candidates_for(fitted, rejected, candidates)
+    good, tried = tried_on(fitted, could_be.possible, least_fall, seed)
+    best = good[0].fit if good else fitted
+    floor = noise_floor(best)
+    found = findings(fitted, good, tried, least_fall, floor, seed)
+    left = unexplained(best, floor)
+    verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
+    made = Diagnosis(fitted, floor, verdict, found, could_be.untestable, left)
+    if brief and found:
+        return made
+    known = {e for finding in found for e in (finding.effect, *finding.indistinguishable_from)}
+    could = visibility(
+        fitted,
+        [effect for effect in could_be.possible if effect in effect_ids()],
+        found=known,
+        tried=tried,
+        significance=SIGNIFICANCE,
+        least_fall=least_fall,
+    )
+    return replace(
+        made,
+        untestable=(*made.untestable, *could.hidden),
+        smallest_visible=could.smallest,
+        groups=could.groups,
+        explainable=explainable(fitted, best),
+    )
