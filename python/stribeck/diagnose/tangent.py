@@ -9,15 +9,16 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck import _core
 from stribeck.errors import FitError
 from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import effect_constants, scaled_parameters
+from stribeck.identify.scaling import check_channels, effect_constants, scaled_parameters
 from stribeck.identify.triangle import UNSEEN, Triangle
 from stribeck.model import Parameter, catalog
 
@@ -143,6 +144,7 @@ class Widened:
                 constants = effect_constants(one, recording, before.load, residual)
                 wider = wider.with_effect(one, constants)
                 names.append(wider.names)
+        check_channels(wider, recording)
         rows = scaled_parameters(wider, recording)
         start = np.array([row.start for row in rows])
         values = np.where(np.isfinite(wider.values), wider.values, start)
@@ -171,41 +173,54 @@ class Widened:
 
     def unit_torque(self) -> Array:
         """Torque on the rows for one unit of the size, array [m], the others at their starts."""
-        values = self.problem.model.values
-        _, column = self.problem.linearise(values, self.own[:1])
-        return _finite(column, self.effect)[:, 0]
+        return self._at_start[:, 0]
 
     def simpler_columns(self) -> Array:
         """What the simpler effect can take up, array [m, k]; none where there is none."""
-        if self.simpler.size == 0:
-            return np.empty((self.problem.rows.size, 0))
-        _, columns = self.problem.linearise(self.problem.model.values, self.simpler)
-        return _finite(columns, self.effect)
+        return self._at_start[:, self.own.size :]
 
-    def spaces(self, base: Array) -> list[Array]:
-        """Spans [m, k] of the torques that the effect can make near each of a few starts.
+    @cached_property
+    def _at_start(self) -> Array:
+        """Derivative of the prediction by the parameters `own` and `simpler`, array [m, p]."""
+        return self._columns(self.problem, self.problem.model.values)
+
+    def spaces(self, base: Array, step: int) -> list[Array]:
+        """Spans of the torques that the effect can make near each of a few starts.
 
         Parameters
         ----------
         base : array [m]
             Torque of the model without the effect, for effects whose torque is curved.
+        step
+            One row in so many is enough.
+
+        Returns
+        -------
+        list of arrays [m / step, k]
         """
         if self.is_curved:
-            return [np.column_stack([self.change(s, base) for s in self.stiffnesses(3)])]
-        spaces = []
-        for values in self._starts():
-            _, columns = self.problem.linearise(values, np.sort([*self.own, *self.simpler]))
-            spaces.append(_finite(columns, self.effect))
-        return spaces
+            return [np.column_stack([self.change(s, base)[::step] for s in self.stiffnesses(3)])]
+        few = replace(self.problem, rows=self.problem.rows[::step])
+        return [self._at_start[::step], *(self._columns(few, v) for v in self._other_starts())]
 
-    def _starts(self) -> list[Array]:
-        starts = [self.problem.model.values]
+    def _columns(self, problem: Problem, values: Array) -> Array:
+        wanted = np.concatenate([self.own, self.simpler])
+        try:
+            _, columns = problem.linearise(values, np.sort(wanted))
+        except _core.ModelError as error:
+            raise FitError(f"{self.effect} cannot be added: {error}") from None
+        return _finite(columns[:, np.argsort(np.argsort(wanted))], self.effect)
+
+    def _other_starts(self) -> list[Array]:
+        """Values of the wider model with the effect's first nonlinear parameter elsewhere."""
+        first = self.problem.model.values
         bends = [k for k, p in enumerate(self.parameters) if k > 0 and p.role == "nonlinear"]
+        starts = []
         for share in OTHER_STARTS if bends else ():
             k = bends[0]
-            row, values = self.parameters[k], starts[0].copy()
-            values[self.own[k]] = np.clip(values[self.own[k]] * share, row.lower, row.upper)
-            if values[self.own[k]] != starts[0][self.own[k]]:
+            row, values = self.parameters[k], first.copy()
+            values[self.own[k]] = np.clip(first[self.own[k]] * share, row.lower, row.upper)
+            if values[self.own[k]] != first[self.own[k]]:
                 starts.append(values)
         return starts
 

@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 MOST_ROWS = 8000
 #: Two effects are told apart if this many times the smallest visible size is enough for it.
 TOLD_APART = 3.0
+#: Effects that another one holds on any motion.
+HELD_BY = {"offset": "direction"}
 #: Share of a torque from which on it is more than what rounding leaves of it.
 INVISIBLE = 1e-8
 #: Bristles that are tried for the softest one that would have been seen.
@@ -157,7 +159,7 @@ def visibility(
     if freer.shape[1]:
         # What a freer form of the effects in the model takes up is not claimed for another.
         beside.append((Beside(problem, freer), replace(need, least_fall=need.least_fall / 2.0)))
-    unit, largest = fit.model.load_unit, _friction(fit)
+    unit, largest = fit.model.torque_unit, _friction(fit)
     shown, hidden = [], []
     for effect in candidates:
         try:
@@ -166,8 +168,8 @@ def visibility(
             continue
         if one.smallest <= largest:
             shown.append(one)
-        elif effect not in found:
-            hidden.append(_hidden(one, base))
+        elif effect not in found and not fit.model.has(HELD_BY.get(effect, effect)):
+            hidden.append(_hidden(one, base, unit))
     smallest = sorted((s.result(unit) for s in shown if s.effect not in found), key=lambda s: s.rms)
     groups = indistinguishable(shown, problem, rms(noise.residual), unit)
     return Visibility(tuple(smallest), groups, tuple(hidden))
@@ -244,14 +246,20 @@ def _friction(fit: Fit) -> float:
     return rms(friction[fit.rows])
 
 
-def _hidden(one: Shown, base: Beside) -> Untestable:
-    """Say what of the model does the same as an effect that no size makes visible."""
+def _hidden(one: Shown, base: Beside, unit: str) -> Untestable:
+    """Say why an effect is not seen, were it as large as all friction."""
     model = base.problem.model
     columns = np.column_stack([one.torque, base.columns])
     names = (one.effect, *(model.names[k] for k in base.free))
     alike = partners(columns, 0, np.ones(columns.shape[1], dtype=bool))
+    why = reason(names, alike)
+    if np.isfinite(one.smallest):
+        why = (
+            f"it would be seen from {one.smallest:.2g} {unit} RMS on, more than all friction there "
+            f"is ({why}, or nearly)"
+        )
     needs = catalog()["effects"].get(one.effect, {}).get("needs", "other motion")
-    return Untestable(one.effect, reason(names, alike), f"record {needs}")
+    return Untestable(one.effect, why, f"record {needs}")
 
 
 def indistinguishable(
@@ -265,12 +273,11 @@ def indistinguishable(
     """
     step = -(-problem.rows.size // MOST_ROWS)
     base = Beside(replace(problem, rows=problem.rows[::step]))
-    plain = base.problem.predict(problem.model.values)[base.problem.rows]
+    plain = problem.predict(problem.model.values)[problem.rows]
     made: dict[str, tuple[Shown, Array, list[Array]]] = {}
     for one in shown:
-        thinned = replace(one.widened, problem=replace(one.widened.problem, rows=base.problem.rows))
         try:
-            spaces = [orthonormal(base.without(space)) for space in thinned.spaces(plain)]
+            spaces = [orthonormal(base.without(s)) for s in one.widened.spaces(plain, step)]
         except StribeckError:
             continue
         made[one.effect] = (one, base.without(one.torque[::step, None])[:, 0], spaces)
