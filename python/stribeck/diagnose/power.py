@@ -6,7 +6,7 @@ probability, from the noise that the residual shows along the torque.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -70,6 +70,10 @@ class Noise:
         """Sum of squares."""
         return float(self.residual @ self.residual)
 
+    def beside(self, error: Array) -> Noise:
+        """The noise with an `error` [m] of a model on top."""
+        return replace(self, residual=self.residual + error)
+
     def variance_along(self, torque: Array) -> float:
         """Variance of the product of the noise with `torque` [m]."""
         scores = np.bincount(self.batch, torque * self.residual, self.count)
@@ -77,8 +81,54 @@ class Noise:
         return float(np.sum((scores - scores.mean()) ** 2)) * count / max(count - 1, 1)
 
 
+@dataclass(frozen=True)
+class ExpectedNoise:
+    """Noise of a recording that has not been made yet.
+
+    Attributes
+    ----------
+    rms
+        In the unit of torque.
+    memory
+        Rows over which it remembers itself, `correlation_length`.
+    rows
+        Number of rows.
+    error : array [rows]
+        What a model leaves besides; zero if it is right.
+    """
+
+    rms: float
+    memory: float
+    rows: int
+    error: Array | float = 0.0
+
+    @property
+    def count(self) -> int:
+        """Number of stretches that a test of evidence would cut."""
+        return int(batches(self.rows, self.memory, fewest=20, most=200).max()) + 1
+
+    @property
+    def square(self) -> float:
+        """Sum of squares."""
+        return self.rows * self.rms**2 + float(np.sum(np.square(self.error)))
+
+    def beside(self, error: Array) -> ExpectedNoise:
+        """The noise with an `error` [rows] of a model on top."""
+        return replace(self, error=self.error + error)
+
+    def variance_along(self, torque: Array) -> float:
+        """Variance of the product of the noise with `torque` [rows]."""
+        own = self.memory * self.rms**2 * float(torque @ torque)
+        return own + float(np.sum((torque * self.error) ** 2))
+
+
 def needed_factor(
-    square: float, variance: float, noise: Noise, count: int, need: Demand, loss: float = 0.0
+    square: float,
+    variance: float,
+    noise: Noise | ExpectedNoise,
+    count: int,
+    need: Demand,
+    loss: float = 0.0,
 ) -> float:
     """By what a torque must be multiplied to be seen with the probability `POWER`.
 

@@ -155,6 +155,10 @@ class Widened:
         problem = Problem(recording, wider.with_values(values), before.rows, before.load)
         return cls(effect, problem, own, between, tuple(rows[k] for k in own))
 
+    def on(self, problem: Problem) -> Widened:
+        """The same wider model on the rows of another recording, that of `problem`."""
+        return replace(self, problem=replace(problem, model=self.problem.model))
+
     @property
     def size(self) -> Parameter:
         """The parameter that says how large the effect is."""

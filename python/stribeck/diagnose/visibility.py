@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.diagnose.power import Demand, Noise, needed_factor
+from stribeck.diagnose.power import Demand, ExpectedNoise, Noise, needed_factor
 from stribeck.diagnose.shape import flexible_columns
 from stribeck.diagnose.tangent import Beside, Widened, orthonormal, rest, sine
 from stribeck.diagnose.testable import Untestable
@@ -163,7 +163,9 @@ def visibility(
     shown, hidden = [], []
     for effect in candidates:
         try:
-            one = show(Widened.of(problem, effect, fit.residual), beside, noise, fit)
+            widened = Widened.of(problem, effect, fit.residual)
+            guesses = most_periods(fit.recording) if effect == "ripple" else 1
+            one = show(widened, beside, noise, fit.prediction[fit.rows], guesses)
         except StribeckError:
             continue
         if one.smallest <= largest:
@@ -175,20 +177,33 @@ def visibility(
     return Visibility(tuple(smallest), groups, tuple(hidden))
 
 
-def show(widened: Widened, beside: list[tuple[Beside, Demand]], noise: Noise, fit: Fit) -> Shown:
-    """How much of an effect is seen beside a model, in each form that the model may take."""
+def show(
+    widened: Widened,
+    beside: Sequence[tuple[Beside, Demand]],
+    noise: Noise | ExpectedNoise,
+    base: Array,
+    guesses: int = 1,
+) -> Shown:
+    """How much of an effect is seen beside a model, in each form that the model may take.
+
+    Parameters
+    ----------
+    base : array [m]
+        Torque that the model predicts.
+    guesses
+        Forms that a fit of the effect chooses from by looking at the data: a ripple's periods.
+    """
     if widened.is_curved:
-        return _hardest(widened, beside, noise, fit.prediction[fit.rows])
-    guesses = max(most_periods(fit.recording), 1) if widened.effect == "ripple" else 1
+        return _hardest(widened, beside, noise, base)
     torque = widened.unit_torque()
-    return Shown(widened, 1.0, torque, _factor(widened, torque, beside, noise, guesses))
+    return Shown(widened, 1.0, torque, _factor(widened, torque, beside, noise, max(guesses, 1)))
 
 
 def _factor(
     widened: Widened,
     torque: Array,
-    beside: list[tuple[Beside, Demand]],
-    noise: Noise,
+    beside: Sequence[tuple[Beside, Demand]],
+    noise: Noise | ExpectedNoise,
     guesses: int = 1,
     loss: float = 0.0,
 ) -> float:
@@ -208,7 +223,10 @@ def _factor(
 
 
 def _hardest(
-    widened: Widened, beside: list[tuple[Beside, Demand]], noise: Noise, base: Array
+    widened: Widened,
+    beside: Sequence[tuple[Beside, Demand]],
+    noise: Noise | ExpectedNoise,
+    base: Array,
 ) -> Shown:
     """The hardest bristle that is still seen: between two of a grid, where one is and one not.
 
@@ -218,7 +236,7 @@ def _hardest(
     grid = [*widened.stiffnesses(BRISTLES)]
     limit = base + widened.change(widened.size.upper, base)
     error = beside[0][0].without((limit - base)[:, None])[:, 0]
-    loud = replace(noise, residual=noise.residual + error)
+    loud = noise.beside(error)
     loss = float(error @ error)
 
     def shown(stiffness: float) -> Shown:

@@ -1,0 +1,8 @@
+"""Motions that show what a recording does not: optimal experiment design."""
+
+from __future__ import annotations
+
+from stribeck.design.motion import Limits, Motion
+from stribeck.design.plan import Plan, Prospect, Size, plan
+
+__all__ = ["Limits", "Motion", "Plan", "Prospect", "Size", "plan"]
