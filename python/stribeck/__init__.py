@@ -13,6 +13,7 @@ from __future__ import annotations
 import polars as pl
 
 from stribeck.compare import Comparison, compare
+from stribeck.design import Plan, plan
 from stribeck.diagnose import Diagnosis, Finding, diagnose
 from stribeck.errors import (
     FitError,
@@ -74,6 +75,7 @@ __all__ = [
     "ModelFile",
     "ModelFileError",
     "Parameter",
+    "Plan",
     "Recording",
     "RecordingError",
     "SpecError",
@@ -90,6 +92,7 @@ __all__ = [
     "laws",
     "load",
     "model",
+    "plan",
     "read",
     "read_model_file",
 ]

@@ -14,6 +14,7 @@ from stribeck.cli.demo import demo
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
 from stribeck.cli.methods import arm, points
+from stribeck.cli.plan import plan
 from stribeck.cli.study import study
 from stribeck.errors import StribeckError, nearest
 
@@ -44,6 +45,7 @@ def cli() -> None:
 
 for command in (demo, inspect, models, effects, fit, compare, diagnose, add, improve, generate):
     cli.add_command(command)
+cli.add_command(plan)
 cli.add_command(points)
 cli.add_command(arm)
 cli.add_command(study)

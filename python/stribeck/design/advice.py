@@ -13,7 +13,7 @@ _WARM = (
 )
 _PAYLOAD = (
     "inertia and gravity alone vary the load here: run the motion again with another payload, "
-    "whose mass is known, to show smaller effects"
+    "whose mass is known, to show smaller effects and to tell them from what the position does"
 )
 
 ADVICE = {

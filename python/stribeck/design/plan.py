@@ -19,6 +19,7 @@ from stribeck.design.passes import PassMotions
 from stribeck.design.setting import Setting, setting_of_file, setting_of_fit
 from stribeck.diagnose import LEAST_FALL
 from stribeck.diagnose.power import Demand, Noise
+from stribeck.diagnose.testable import untestable
 from stribeck.diagnose.trial import SIGNIFICANCE
 from stribeck.diagnose.visibility import Shown
 from stribeck.errors import SpecError
@@ -26,13 +27,14 @@ from stribeck.fit import Fit
 from stribeck.identify.problem import Problem
 from stribeck.model import Model, catalog, check_effect, effect_ids
 from stribeck.model_file import ModelFile
+from stribeck.recording import Recording
 
 Array = NDArray[np.float64]
 
 #: Candidates of a generation and generations of the search, for each family of motions.
-CANDIDATES, GENERATIONS = 24, 40
+CANDIDATES, GENERATIONS = 24, 30
 #: Samples of a motion while it is searched; with a memory in the model they must lie closer.
-FEW_SAMPLES, MORE_SAMPLES = 1500, 5000
+FEW_SAMPLES, MORE_SAMPLES = 1200, 5000
 #: Samples a second of a motion for a joint of which no recording is given.
 RATE = 100.0
 SHORTEST, LONGEST = 5.0, 3600.0
@@ -257,8 +259,18 @@ def plan(
             for pair, cosine in after.cosines.items()
         },
         source=None if fitted is None else fitted.recording.path, seed=seed,
-        notes=setting.notes,
+        notes=(*setting.notes, *_still_hidden(effects, setting, planned)),
     )  # fmt: skip
+
+
+def _still_hidden(effects: Sequence[str], setting: Setting, planned: Recording) -> tuple[str, ...]:
+    """What the motion leaves undone by the rules that a diagnosis goes by."""
+    cannot = untestable(planned, setting.problem(planned).load)
+    return tuple(
+        f"a diagnosis would not look for {e} on this motion ({cannot[e].why}): {cannot[e].do}"
+        for e in effects
+        if e in cannot
+    )
 
 
 def _problem_of(fitted: Fit) -> Problem:

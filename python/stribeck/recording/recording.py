@@ -153,7 +153,7 @@ class Recording:
         if channel not in self._denoised:
             measured = getattr(self, channel)
             smooth = getattr(self, f"{channel}_smooth", None)
-            if smooth is None:
+            if smooth is None or smooth is measured:
                 self._denoised[channel] = measured
             else:
                 sigma = noise_level(self.time, measured, self.segment)

@@ -1,0 +1,124 @@
+"""`stribeck plan`: a motion that shows or separates effects."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from stribeck.cli.common import (
+    check_output,
+    echo_json,
+    is_model_file,
+    json_option,
+    read_recording,
+    recording_options,
+    say,
+    seed_option,
+    starts_option,
+)
+from stribeck.cli.formulas import Written, written_fit
+from stribeck.design import plan as make
+from stribeck.errors import SpecError
+from stribeck.fit import Fit
+from stribeck.generate import file_bytes
+from stribeck.model_file import ModelFile, read_model_file
+from stribeck.report.figures import save_figure, write_bytes_whole
+
+FORMATS = (".csv", ".parquet")
+
+
+@click.command()
+@click.argument("data")
+@click.argument("model", required=False)
+@click.option(
+    "--separate", "separate", multiple=True, metavar="EFFECT,EFFECT",
+    help="Effects to be told apart.",
+)  # fmt: skip
+@click.option("--show", "show", multiple=True, metavar="EFFECT", help="Effects to be seen.")
+@click.option("--position", required=True, metavar="LOW:HIGH", help="Range, rad or m.")
+@click.option("--speed", type=float, required=True, help="Largest speed, rad/s or m/s.")
+@click.option("--acceleration", type=float, required=True, help="Largest, rad/s2 or m/s2.")
+@click.option("--duration", type=float, default=60.0, show_default=True, help="Seconds.")
+@click.option(
+    "--rate", "samples", type=float, default=None,
+    help="Samples a second, Hz. [default: those of DATA, else 100]",
+)  # fmt: skip
+@click.option("--noise", type=float, default=None, help="RMS of the torque noise, without DATA.")
+@click.option(
+    "-o", "--output", type=click.Path(dir_okay=False), default=None,
+    help="Write the motion (.csv or .parquet).",
+)  # fmt: skip
+@click.option("--plot", "picture", default=None, help="Write the motion's picture (PNG).")
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def plan(
+    data: str, model: str | None, separate: tuple[str, ...], show: tuple[str, ...], position: str,
+    speed: float, acceleration: float, duration: float, samples: float | None,
+    noise: float | None, output: str | None, picture: str | None, starts: int,
+    reading: dict[str, Any], seed: int, as_json: bool,
+) -> None:  # fmt: skip
+    """Plan a motion that shows effects which MODEL lacks on DATA, or tells them apart.
+
+    Without data: stribeck plan MODEL.toml.
+    """
+    limits = _range(position)
+    for path in (output, picture):
+        check_output(path)
+    if output is not None and Path(output).suffix.lower() not in FORMATS:
+        raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
+    if seed < 0:
+        raise SpecError(f"seed {seed} is negative: give 0 or more")
+    joint = _joint(data, model, noise, starts=starts, seed=seed, reading=reading)
+    say("note: searching for a motion, some seconds to a minute ...")
+    planned = make(
+        joint, position=limits, speed=speed, acceleration=acceleration, separate=_ids(separate),
+        show=_ids(show), duration=duration, rate=samples, noise=noise, seed=seed,
+    )  # fmt: skip
+    if output is not None:
+        write_bytes_whole(Path(output), file_bytes(planned.to_frame(), Path(output).suffix.lower()))
+        say(f"wrote {output}")
+    if picture is not None:
+        save_figure(planned.plot(), picture)
+        say(f"wrote {picture}")
+    if as_json:
+        echo_json(planned.to_dict())
+    else:
+        click.echo(repr(planned))
+
+
+def _joint(
+    data: str,
+    model: str | None,
+    noise: float | None,
+    *,
+    starts: int,
+    seed: int,
+    reading: dict[str, Any],
+) -> Fit | ModelFile:
+    """A fit to DATA, or the model file that stands in its place."""
+    if model is not None:
+        if noise is not None:
+            raise SpecError("--noise is for a model file alone: DATA says how large the noise is")
+        recording = read_recording(data, reading)
+        return written_fit(model, Written(), recording, starts=starts, seed=seed)
+    if not is_model_file(data) or not data.endswith(".toml"):
+        raise SpecError(f"no model is given for {data}: write stribeck plan {data} MODEL")
+    return read_model_file(data)
+
+
+def _range(text: str) -> tuple[float, float]:
+    low, mark, high = text.partition(":")
+    try:
+        if mark:
+            return float(low), float(high)
+    except ValueError:
+        pass
+    raise SpecError(f"--position {text}: write --position LOW:HIGH, two numbers")
+
+
+def _ids(texts: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(word.strip() for text in texts for word in text.split(",") if word.strip())
