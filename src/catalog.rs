@@ -154,6 +154,20 @@ macro_rules! effects {
                 })+
             }
 
+            /// As [`apply`](Self::apply), at the end of an interval; steps the states of effects.
+            #[inline]
+            pub fn apply_over(
+                &self,
+                split: &mut Split<S>,
+                state: &mut State<S>,
+                interval: &Interval<S::Plain>,
+                constants: &Constants<S::Plain>,
+            ) {
+                $(if let Some(effect) = &self.$id {
+                    effect.apply_over(split, state, interval, constants);
+                })+
+            }
+
             /// What the torque channel shows of `friction`.
             #[inline]
             pub fn measured(
@@ -187,6 +201,8 @@ laws! {
 
 effects! {
     stribeck: Stribeck,
+    // Before all that the curve goes into.
+    frictional_lag: FrictionalLag,
     load: Load,
     quadrant: Quadrant,
     position: Position,
@@ -201,6 +217,8 @@ effects! {
     gravity: Gravity,
     spring: Spring,
     ripple: Ripple,
+    backlash: Backlash,
+    elasticity: Elasticity,
     presliding: Presliding,
     // Of the whole torque, whatever it consists of.
     saturation: Saturation,

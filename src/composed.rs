@@ -123,14 +123,22 @@ impl Spec {
     /// Whether the torque depends on what went before.
     #[must_use]
     pub fn has_state(&self) -> bool {
+        self.is_presliding()
+            || self.effects.contains(EffectId::FrictionalLag)
+            || self.effects.contains(EffectId::Backlash)
+    }
+
+    /// Whether a state stands between dry friction and the torque.
+    fn is_presliding(&self) -> bool {
         self.has(EffectId::Presliding.info().id)
     }
 
-    /// What its state consists of.
+    /// What the state between dry friction and the torque consists of; those of effects start by
+    /// themselves.
     #[must_use]
     pub fn memory(&self) -> Memory {
         match self.law.memory() {
-            _ if !self.has_state() => Memory::None,
+            _ if !self.is_presliding() => Memory::None,
             _ if self.effects.contains(EffectId::Presliding) => Memory::Deflection,
             Memory::Elements => Memory::Forces(self.constants.element_count()),
             memory => memory,
@@ -181,7 +189,7 @@ impl Spec {
         }
         match parameter.role {
             Role::Rate | Role::Additive => true,
-            Role::Dry => !self.has_state(),
+            Role::Dry => !self.is_presliding(),
             Role::Nonlinear | Role::Held => false,
         }
     }
@@ -210,8 +218,9 @@ impl Spec {
         let own = self.own.as_ref().map(|own| OwnTerms::read(own, || next(Presence::InFormula)));
         let effects = Effects::read(self.effects, &mut next);
         let bristle = effects.bristle();
-        let memory = self.memory();
-        Ok(Composed { law, own, effects, bristle, memory, constants: self.constants.cast() })
+        let (memory, has_state) = (self.memory(), self.has_state());
+        let constants = self.constants.cast();
+        Ok(Composed { law, own, effects, bristle, memory, has_state, constants })
     }
 
     fn includes(&self, presence: Presence) -> bool {
@@ -269,6 +278,7 @@ pub struct Composed<S: Real> {
     effects: Effects<S>,
     bristle: Option<Bristle<S>>,
     memory: Memory,
+    has_state: bool,
     constants: Constants<S::Plain>,
 }
 
@@ -282,10 +292,10 @@ impl<S: Real> Composed<S> {
     /// Whether the torque depends on what went before.
     #[must_use]
     pub const fn has_state(&self) -> bool {
-        !matches!(self.memory, Memory::None)
+        self.has_state
     }
 
-    /// What its state consists of.
+    /// What the state between dry friction and the torque consists of.
     #[must_use]
     pub const fn memory(&self) -> Memory {
         self.memory
@@ -306,6 +316,17 @@ impl<S: Real> Composed<S> {
         }
         self.effects.apply(&mut altered, sample, &self.constants);
         altered
+    }
+
+    /// As [`split`](Self::split), at the end of an interval; steps the states of effects.
+    #[inline]
+    fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S> {
+        let mut split = self.law.split(&interval.sample, &self.constants);
+        if let Some(own) = &self.own {
+            own.add_to(&mut split, &interval.sample);
+        }
+        self.effects.apply_over(&mut split, state, interval, &self.constants);
+        split
     }
 
     /// The torque in steady sliding, where dry friction acts along `sgn v` (T), as it is measured.
@@ -335,15 +356,19 @@ impl<S: Real> Composed<S> {
     /// mean, which does the work, as it acts.
     #[inline]
     pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
-        let split = self.split(&interval.sample);
-        let step = if self.has_state() {
+        let split = if self.has_state {
+            self.split_over(state, interval)
+        } else {
+            self.split(&interval.sample)
+        };
+        let step = if matches!(self.memory, Memory::None) {
+            Step::same(split.torque(interval.sample.velocity.sign()))
+        } else {
             let dry = state.dry_over(split.dry(), interval);
             match &self.bristle {
                 Some(bristle) => bristle.over(&mut state.bristle, dry, &split, interval),
                 None => self.law.step(state, dry, &split, interval, &self.constants),
             }
-        } else {
-            Step::same(split.torque(interval.sample.velocity.sign()))
         };
         let torque = self.effects.measured(step.torque, &interval.sample, &self.constants);
         Step { torque, ..step }

@@ -68,7 +68,7 @@ constants! {
     reference_temperature ["degC"] = 25.0, |_| true;
     /// Load torque at which every load exponent gives the same friction.
     reference_load ["T"] = 1.0, |x| x > 0.0;
-    /// Speed at which every viscous exponent gives the same friction.
+    /// Speed at which every exponent of speed gives the same.
     reference_velocity ["X/s"] = 1.0, |x| x > 0.0;
     /// Position where the stroke, or a period, starts.
     position_start ["X"] = 0.0, |_| true;

@@ -15,6 +15,8 @@ pub struct Sample<S> {
     pub temperature: S,
     /// Load torque `tl` (T): all at the joint that is not friction.
     pub load_torque: S,
+    /// Second derivative of the load torque by time (T/s2).
+    pub load_torque_curvature: S,
     /// Motor torque `tm` (T).
     pub motor_torque: S,
     /// Torque `te` that the environment exerts on the joint (T): minus the gravity and external
@@ -36,6 +38,7 @@ impl<S: Real> Sample<S> {
             acceleration: zero,
             temperature: zero,
             load_torque: zero,
+            load_torque_curvature: zero,
             motor_torque: zero,
             external_torque: zero,
             time: zero,
@@ -136,6 +139,9 @@ impl<S: Real> Split<S> {
     }
 }
 
+/// Below this value a Stribeck curve has come to its end.
+const LOWEST: f64 = 1e-30;
+
 /// A Stribeck curve `E = exp(-x)`, `x = |v/vs|^alpha`: 1 at rest, falling to 0 with speed.
 ///
 /// Argument and exponent are kept, so that an effect can move the Stribeck velocity.
@@ -162,6 +168,20 @@ impl<S: Real> StribeckCurve<S> {
     #[must_use]
     pub fn flat() -> Self {
         Self { value: S::one(), argument: S::zero(), exponent: S::one() }
+    }
+
+    /// The curve with another value, as at another speed.
+    #[inline]
+    #[must_use]
+    pub fn displaced(&self, value: S) -> Self {
+        let argument = if self.value.value() > LOWEST {
+            self.argument - (value / self.value).ln()
+        } else if value.value() > LOWEST {
+            -value.ln()
+        } else {
+            self.argument
+        };
+        Self { value, argument, exponent: self.exponent }
     }
 
     /// The curve with the Stribeck velocity multiplied by `factor`, whose sign does not matter.

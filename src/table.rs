@@ -11,6 +11,7 @@ pub enum Channel {
     Acceleration,
     Temperature,
     LoadTorque,
+    LoadTorqueCurvature,
     MotorTorque,
     ExternalTorque,
     Time,
@@ -18,12 +19,13 @@ pub enum Channel {
 
 impl Channel {
     /// Every channel.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Velocity,
         Self::Position,
         Self::Acceleration,
         Self::Temperature,
         Self::LoadTorque,
+        Self::LoadTorqueCurvature,
         Self::MotorTorque,
         Self::ExternalTorque,
         Self::Time,
@@ -38,6 +40,7 @@ impl Channel {
             Self::Acceleration => "acceleration",
             Self::Temperature => "temperature",
             Self::LoadTorque => "load_torque",
+            Self::LoadTorqueCurvature => "load_torque_curvature",
             Self::MotorTorque => "motor_torque",
             Self::ExternalTorque => "external_torque",
             Self::Time => "time",
@@ -80,6 +83,10 @@ pub enum Scale {
     Inertia,
     /// Torque over time: how fast a torque settles, in units of torque times speed over position.
     TorqueRate,
+    /// The time in which the largest acceleration yields the largest speed.
+    Time,
+    /// Its square.
+    SquareTime,
     /// The median time step.
     SamplePeriod,
 }
@@ -102,6 +109,8 @@ impl Scale {
             Self::InverseTorque => "inverse_torque",
             Self::Inertia => "inertia",
             Self::TorqueRate => "torque_rate",
+            Self::Time => "time",
+            Self::SquareTime => "square_time",
             Self::SamplePeriod => "sample_period",
         }
     }
@@ -253,7 +262,7 @@ pub struct LawInfo {
 pub struct EffectInfo {
     /// Id users write.
     pub id: &'static str,
-    /// Where the cause lies: friction, measurement, actuator, rigid body.
+    /// Where the cause lies: friction, measurement, actuator, rigid body, drive.
     pub group: &'static str,
     /// Title.
     pub title: &'static str,

@@ -127,6 +127,7 @@ fn all_static_effects_together() {
         acceleration: 1.3,
         temperature: 40.0,
         load_torque: -7.5,
+        load_torque_curvature: 0.0,
         motor_torque: 0.0,
         external_torque: 0.0,
         time: 0.0,
@@ -166,7 +167,13 @@ fn at_one_sample(effects: &[&str], values: &[f64]) -> f64 {
     ] {
         spec.set_constant(name, value).unwrap();
     }
-    let sample = Sample { position: 0.9, load_torque: -7.5, time: 31.0, ..Sample::at(-0.25) };
+    let sample = Sample {
+        position: 0.9,
+        load_torque: -7.5,
+        load_torque_curvature: 11.0,
+        time: 31.0,
+        ..Sample::at(-0.25)
+    };
     let values: Vec<f64> = [2.0, 5.0].iter().chain(values).copied().collect();
     spec.with(&values).unwrap().static_torque(&sample)
 }
@@ -178,6 +185,12 @@ fn effects_of_time_and_position() {
     close(at_one_sample(&["spring"], &[0.8, 0.3, -0.5]), -5.58736, 1e-15);
     let ripple = [0.6, -0.4, 0.2, 0.1, 0.37];
     close(at_one_sample(&["ripple"], &ripple), -5.7834234052076721, 1e-14);
+}
+
+#[test]
+fn a_twist_follows_the_second_derivative_of_the_load() {
+    close(at_one_sample(&["elasticity"], &[0.004]), -5.456, 1e-15);
+    close(at_one_sample(&["elasticity"], &[-0.03]), -5.83, 1e-15);
 }
 
 #[test]

@@ -87,6 +87,8 @@ fn laws_without_direction_are_odd() {
             "gravity",
             "spring",
             "ripple",
+            "backlash",
+            "elasticity",
             "saturation",
             "gain",
             "delay",

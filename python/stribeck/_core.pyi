@@ -64,6 +64,7 @@ class Model:
         motor_torque: ArrayLike | None = None,
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
+        load_torque_curvature: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
@@ -83,6 +84,7 @@ class Model:
         motor_torque: ArrayLike | None = None,
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
+        load_torque_curvature: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
@@ -101,4 +103,5 @@ class Model:
         motor_torque: ArrayLike | None = None,
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
+        load_torque_curvature: ArrayLike | None = None,
     ) -> dict[str, NDArray[np.float64]]: ...

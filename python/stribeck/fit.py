@@ -382,7 +382,7 @@ def _finish(
     lower, upper = solution.lower, solution.upper
     prediction = problem.predict(values)
     _refuse_infinite(problem, prediction)
-    if made.has_state:
+    if made.has("presliding"):
         _refuse_slack_bristle(problem)
     held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact)
     moving = recording.moving

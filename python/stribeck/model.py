@@ -384,6 +384,7 @@ class Model:
         *,
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
+        load_torque_curvature: ArrayLike | None = None,
         precision: Literal["double", "single"] = "double",
     ) -> Array:
         """Friction torque of each sample, and identified rigid-body terms where there are any.
@@ -405,6 +406,8 @@ class Model:
             torque, which is right where nothing accelerates.
         time : array [n]
             Since the start of the recording, s, for `drift`.
+        load_torque_curvature : array [n]
+            Second derivative of the load torque by time, N m/s2 or N/s2, for `elasticity`.
         precision
             ``"single"`` gives the bits of a controller that computes in 32 bits.
 
@@ -416,7 +419,7 @@ class Model:
             self._known_values(),
             **self._channels(
                 velocity, position, acceleration, temperature, load_torque, motor_torque,
-                external_torque, dt, time,
+                external_torque, dt, time, load_torque_curvature,
             ),
             state=state,
             single=precision == "single",
@@ -435,13 +438,14 @@ class Model:
         *,
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
+        load_torque_curvature: ArrayLike | None = None,
     ) -> Array:
         """Derivative of `torque` with respect to the parameters, array [n, p]."""
         _, jacobian = self.core.gradient(
             self._known_values(),
             **self._channels(
                 velocity, position, acceleration, temperature, load_torque, motor_torque,
-                external_torque, dt, time,
+                external_torque, dt, time, load_torque_curvature,
             ),
             state=state,
         )  # fmt: skip
@@ -456,18 +460,20 @@ class Model:
             rad/s or m/s.
         **channels : arrays [n]
             ``position``, ``acceleration``, ``temperature``, ``load_torque``, ``motor_torque``,
-            ``external_torque``, ``time``. One that is left out stands at the middle of the
-            operating box, time at that of the recording.
+            ``external_torque``, ``time``, ``load_torque_curvature``. One that is left out stands
+            at the middle of the operating box, time at that of the recording, the last one at 0.
         """
         speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
         filled: dict[str, Array] = {}
         for name in (
             "position", "acceleration", "temperature", "load_torque", "motor_torque",
-            "external_torque", "time",
+            "external_torque", "time", "load_torque_curvature",
         ):  # fmt: skip
             given = channels.get(name)
             if given is None and name == "time" and name in self.core.needs:
                 given = 0.5 * self.core.constants["duration"]
+            if given is None and name == "load_torque_curvature":
+                given = 0.0 if name in self.core.needs else None
             if given is None and name in self.box:
                 given = 0.5 * sum(self.box[name])
             if given is not None:
@@ -492,6 +498,7 @@ class Model:
         external_torque: ArrayLike | None,
         dt: ArrayLike | None,
         time: ArrayLike | None,
+        load_torque_curvature: ArrayLike | None,
     ) -> dict[str, Any]:
         speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
 
@@ -513,6 +520,7 @@ class Model:
             "motor_torque": column(motor_torque),
             "external_torque": external,
             "time": column(time),
+            "load_torque_curvature": column(load_torque_curvature),
         }
 
     def _known_values(self) -> Array:

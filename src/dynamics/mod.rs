@@ -2,12 +2,14 @@
 //!
 //! One file a kind of state. A law of [`crate::law`] chooses its kind in
 //! [`FrictionLaw::step`](crate::law::FrictionLaw::step); the effect `presliding` puts a bristle
-//! around any static law.
+//! around any static law, `frictional_lag` and `backlash` have states beside it.
 
 mod bristle;
 mod dahl;
 mod elastoplastic;
 mod elements;
+mod gap;
+mod lag;
 mod leuven;
 mod maxwell_slip;
 mod relaxation;
@@ -16,6 +18,8 @@ pub use bristle::{Bristle, BristleState};
 pub use dahl::DahlBristle;
 pub use elastoplastic::ElastoplasticBristle;
 pub use elements::{Elements, MOST_ELEMENTS};
+pub use gap::{Flanks, Gap};
+pub use lag::{Lag, Lagging};
 pub use leuven::LeuvenBristle;
 pub use maxwell_slip::MaxwellSlip;
 pub use relaxation::Relaxation;
@@ -108,6 +112,10 @@ pub struct State<S> {
     pub bristle: BristleState<S>,
     /// Forces of elements in parallel.
     pub elements: Elements<S>,
+    /// Stribeck curve that lags.
+    pub curve: Option<Lagging<S>>,
+    /// Flanks of a gap.
+    pub flanks: Option<Flanks<S>>,
     /// Dry magnitude at the end of the step before (T).
     dry: Option<S>,
 }
@@ -117,7 +125,13 @@ impl<S: Real> State<S> {
     #[inline]
     #[must_use]
     pub fn deflected(z: S) -> Self {
-        Self { bristle: BristleState { z }, elements: Elements::default(), dry: None }
+        Self {
+            bristle: BristleState { z },
+            elements: Elements::default(),
+            curve: None,
+            flanks: None,
+            dry: None,
+        }
     }
 
     /// The dry magnitude that acts over a step at whose end it is `end` (T): the mean over the step

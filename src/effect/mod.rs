@@ -2,10 +2,13 @@
 //!
 //! A new effect is one file here and one row in [`crate::catalog`], placed where it acts.
 
+mod backlash;
 mod delay;
 mod direction;
 mod drift;
+mod elasticity;
 mod factor;
+mod frictional_lag;
 mod gain;
 mod gravity;
 mod inertia;
@@ -22,9 +25,12 @@ mod stribeck;
 mod temperature_dry;
 mod temperature_viscous;
 
+pub use backlash::Backlash;
 pub use delay::Delay;
 pub use direction::Direction;
 pub use drift::Drift;
+pub use elasticity::Elasticity;
+pub use frictional_lag::FrictionalLag;
 pub use gain::Gain;
 pub use gravity::Gravity;
 pub use inertia::Inertia;
@@ -42,7 +48,7 @@ pub use temperature_dry::TemperatureDry;
 pub use temperature_viscous::TemperatureViscous;
 
 use crate::constants::Constants;
-use crate::dynamics::Bristle;
+use crate::dynamics::{Bristle, Interval, State};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters};
@@ -61,6 +67,19 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
         _sample: &Sample<S::Plain>,
         _constants: &Constants<S::Plain>,
     ) {
+    }
+
+    /// As [`apply`](Self::apply), at the end of an interval: what an effect with a state of its
+    /// own does. In steady sliding it does what `apply` says.
+    #[inline]
+    fn apply_over(
+        &self,
+        split: &mut Split<S>,
+        _state: &mut State<S>,
+        interval: &Interval<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) {
+        self.apply(split, &interval.sample, constants);
     }
 
     /// What the torque channel shows of `friction` where the way from the motor's current to a

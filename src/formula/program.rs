@@ -373,6 +373,7 @@ fn channel_of<P: Real>(sample: &Sample<P>, channel: Channel) -> P {
         Channel::Acceleration => sample.acceleration,
         Channel::Temperature => sample.temperature,
         Channel::LoadTorque => sample.load_torque,
+        Channel::LoadTorqueCurvature => sample.load_torque_curvature,
         Channel::MotorTorque => sample.motor_torque,
         Channel::ExternalTorque => sample.external_torque,
         Channel::Time => sample.time,

@@ -55,6 +55,7 @@ pub(super) struct Arguments<'py> {
     pub acceleration: Option<Array<'py>>,
     pub temperature: Option<Array<'py>>,
     pub load_torque: Option<Array<'py>>,
+    pub load_torque_curvature: Option<Array<'py>>,
     pub motor_torque: Option<Array<'py>>,
     pub external_torque: Option<Array<'py>>,
     pub time: Option<Array<'py>>,
@@ -76,6 +77,7 @@ impl Arguments<'_> {
         let acceleration = self.acceleration.as_ref().map(contiguous);
         let temperature = self.temperature.as_ref().map(contiguous);
         let load_torque = self.load_torque.as_ref().map(contiguous);
+        let load_torque_curvature = self.load_torque_curvature.as_ref().map(contiguous);
         let motor_torque = self.motor_torque.as_ref().map(contiguous);
         let external_torque = self.external_torque.as_ref().map(contiguous);
         let time = self.time.as_ref().map(contiguous);
@@ -106,6 +108,7 @@ impl Arguments<'_> {
                 acceleration: acceleration.as_deref(),
                 temperature: temperature.as_deref(),
                 load_torque: load_torque.as_deref(),
+                load_torque_curvature: load_torque_curvature.as_deref(),
                 motor_torque: motor_torque.as_deref(),
                 external_torque: external_torque.as_deref(),
                 time: time.as_deref(),
@@ -116,6 +119,7 @@ impl Arguments<'_> {
                 acceleration: smooth(Channel::Acceleration),
                 temperature: smooth(Channel::Temperature),
                 load_torque: smooth(Channel::LoadTorque),
+                load_torque_curvature: smooth(Channel::LoadTorqueCurvature),
                 motor_torque: smooth(Channel::MotorTorque),
                 external_torque: smooth(Channel::ExternalTorque),
                 time: smooth(Channel::Time),

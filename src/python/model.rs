@@ -131,8 +131,8 @@ impl Model {
     /// Friction torque of every row; with a memory, at the end of the row's step. `single` computes
     /// in single precision throughout.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, external_torque=None, time=None, smooth=None,
-        shift_load=true, mean_velocity=None, state=None, *, single=false))]
+        load_torque=None, motor_torque=None, external_torque=None, time=None,
+        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -147,6 +147,7 @@ impl Model {
         motor_torque: Option<Array<'py>>,
         external_torque: Option<Array<'py>>,
         time: Option<Array<'py>>,
+        load_torque_curvature: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
@@ -164,6 +165,7 @@ impl Model {
             motor_torque,
             external_torque,
             time,
+            load_torque_curvature,
             smooth,
             shift_load,
             mean_velocity,
@@ -178,8 +180,8 @@ impl Model {
     /// Friction torque of every row and its derivatives by the `wanted` parameters (indices, by
     /// default all) in that order, one column each.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, external_torque=None, time=None, smooth=None,
-        shift_load=true, mean_velocity=None, state=None, *, wanted=None))]
+        load_torque=None, motor_torque=None, external_torque=None, time=None,
+        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -194,6 +196,7 @@ impl Model {
         motor_torque: Option<Array<'py>>,
         external_torque: Option<Array<'py>>,
         time: Option<Array<'py>>,
+        load_torque_curvature: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
@@ -211,6 +214,7 @@ impl Model {
             motor_torque,
             external_torque,
             time,
+            load_torque_curvature,
             smooth,
             shift_load,
             mean_velocity,
@@ -229,7 +233,8 @@ impl Model {
 
     /// Parts of the torque in steady sliding: dict of `dry`, `rate` and `additive`.
     #[pyo3(signature = (values, velocity, position=None, acceleration=None, temperature=None,
-        load_torque=None, motor_torque=None, external_torque=None, time=None))]
+        load_torque=None, motor_torque=None, external_torque=None, time=None,
+        load_torque_curvature=None))]
     #[allow(clippy::too_many_arguments)]
     fn split<'py>(
         &self,
@@ -243,6 +248,7 @@ impl Model {
         motor_torque: Option<Array<'py>>,
         external_torque: Option<Array<'py>>,
         time: Option<Array<'py>>,
+        load_torque_curvature: Option<Array<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -255,6 +261,7 @@ impl Model {
             motor_torque,
             external_torque,
             time,
+            load_torque_curvature,
             smooth: None,
             shift_load: true,
             mean_velocity: None,

@@ -36,6 +36,7 @@ def channels(rows: int, rate: float = 200.0) -> dict[str, Array]:
         "acceleration": -0.7 * w**2 * np.sin(w * t),
         "temperature": 25.0 + 10.0 * t,
         "load_torque": 5.0 * np.sin(0.6 * w * t + 0.3),
+        "load_torque_curvature": -5.0 * (0.6 * w) ** 2 * np.sin(0.6 * w * t + 0.3),
         "motor_torque": 5.0 * np.sin(0.6 * w * t + 0.1),
         "time": t,
         "dt": np.full(rows, 1.0 / rate),

@@ -13,6 +13,7 @@ from stribeck.fit import Fit
 from stribeck.identify.periodogram import FEWEST_PERIODS
 from stribeck.model import Model
 from stribeck.recording import Recording
+from stribeck.recording.derive import Smoother
 
 Array = NDArray[np.float64]
 
@@ -47,6 +48,20 @@ def ripple_period_of(model: Model) -> float:
     return 1.0 / (1.0 / constants["ripple_period"] + detuning)
 
 
+def _earlier(r: Recording, values: Array, delay: float) -> Array:
+    """A channel as it was `delay` seconds before, [n]; at most to the start of its segment."""
+    start = np.maximum.accumulate(np.where(r.dt > 0, 0, np.arange(r.time.size)))
+    return np.interp(np.maximum(r.elapsed - delay, r.elapsed[start]), r.elapsed, values)
+
+
+def time_since_reversal(recording: Recording, load: Array) -> Array:
+    """Time since the load torque last changed its sign, or the segment began, [n] in s."""
+    sign = np.sign(load)
+    new = np.concatenate([[True], sign[1:] != sign[:-1]]) | (recording.dt <= 0)
+    start = np.maximum.accumulate(np.where(new, np.arange(load.size), 0))
+    return np.asarray(recording.elapsed - recording.elapsed[start])
+
+
 def flexible_columns(fit: Fit) -> Array:
     """Columns [m, k] that let the effects of `fit` take any smooth form, on its rows."""
     r, rows = fit.recording, fit.rows
@@ -66,6 +81,12 @@ def _columns(effect: str, fit: Fit, v: Array, sign: Array, speed: Array) -> list
     if effect == "stribeck":
         slow = fit.model.value("stribeck_velocity")
         return [sign * np.exp(-np.abs(v) / (slow * k)) for k in (0.3, 1.0, 3.0)]
+    if effect == "frictional_lag" and fit.model.has("stribeck"):
+        return _late_curves(fit, sign)
+    if effect == "backlash":
+        return _after_reversals(fit)
+    if effect == "elasticity":
+        return _of_the_twist(fit)
     if effect == "nonlinear_viscous":
         return [sign * speed**power for power in (0.5, 1.5, 2.0, 3.0)]
     if effect == "load":
@@ -96,3 +117,51 @@ def _columns(effect: str, fit: Fit, v: Array, sign: Array, speed: Array) -> list
     if effect == "direction":
         return [speed**power for power in (0.5, 2.0, 3.0)]
     return []
+
+
+def _late_curves(fit: Fit, sign: Array) -> list[Array]:
+    """What the Stribeck curve was at some times before: any way of following the speed late."""
+    r = fit.recording
+    lag = fit.model.value("frictional_lag")
+    speed = np.abs(r.denoised("velocity"))
+    slow = _slow_speed(fit)
+    return [
+        sign * np.exp(-_earlier(r, speed, lag * k)[fit.rows] / (slow * width))
+        for k in (0.3, 1.0, 2.0)
+        for width in (0.5, 1.5)
+    ]
+
+
+def _slow_speed(fit: Fit) -> float:
+    """Speed at which the Stribeck curve has fallen, of the law's or the effect's."""
+    names = fit.model.names
+    name = next((n for n in names if n.endswith("stribeck_velocity")), None)
+    return 0.1 * fit.recording.scales()["speed"] if name is None else abs(fit.model.value(name))
+
+
+def _after_reversals(fit: Fit) -> list[Array]:
+    """The load and its change by the time since it reversed: any way in which a gap closes."""
+    r = fit.recording
+    load = r.load_torque if r.load_torque is not None else fit.load
+    if load is None:
+        return []
+    since = time_since_reversal(r, load)
+    speed = fit.model.constants["reference_velocity"]
+    closing = 4.0 * fit.model.value("backlash_gap") / speed
+    near = np.exp(-((since / closing) ** 2))[fit.rows]
+    early = hats(np.minimum(since[fit.rows] / closing, 2.0), 6)
+    change = np.gradient(load)[fit.rows]
+    return [near * x for x in (load[fit.rows], change)] + [
+        x * h * near for x in (load[fit.rows], change) for h in early
+    ]
+
+
+def _of_the_twist(fit: Fit) -> list[Array]:
+    """Its damping, and the share of the motor's inertia in what the spring carries."""
+    r = fit.recording
+    if r.load_torque is None:
+        return []
+    smoother = Smoother(r.time, r.segment, None)
+    damping = smoother.smooth(r.denoised("load_torque"), 1)
+    motor = smoother.smooth(r.acceleration_smooth, 2)
+    return [damping[fit.rows], motor[fit.rows]]

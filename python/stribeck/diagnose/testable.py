@@ -39,6 +39,12 @@ GRAVITY_RANGE = 0.3
 DRIFT_TEMPERATURE = 1.0
 #: Rank correlation of temperature and time from which one passes for the other.
 DRIFT_FOLLOWS = 0.9
+#: Time (s) in which slow speeds must be passed for a lag of some hundredths of a second to show.
+SLOW_PASS = 2.0
+#: A drive train softer than this resonates visibly in any joint, Hz.
+SOFT_DRIVE = 5.0
+#: Least share of the load torque that such a drive train must show.
+TWIST_SHARE = 0.01
 #: Ratio of the largest torque to the usual one from which a curve over torque shows.
 TORQUE_RATIO = 2.0
 
@@ -119,6 +125,27 @@ def _stribeck(f: _Facts) -> Answer:
             f"hardly any motion is slower than {SLOW * top:.3g} {unit}/s "
             f"({SLOW:.0%} of the top speed)",
             "add slow passes in both directions, down to a few per cent of the top speed",
+        )
+    return None
+
+
+def _frictional_lag(f: _Facts) -> Answer:
+    if f.recording.averaged:
+        return (
+            "steady-state points hold no change of speed",
+            "record slow passes that speed up and slow down",
+        )
+    if (why := _stribeck(f)) is not None:
+        return why
+    top = float(np.quantile(f.speed, 0.99))
+    slow = f.speed < SLOW * top
+    faster = (np.sign(f.velocity) * f.recording.acceleration_smooth[f.recording.moving])[slow]
+    both = float(np.quantile(faster, 0.9)), float(-np.quantile(faster, 0.1))
+    if SLOW * top > SLOW_PASS * min(both):
+        return (
+            f"the joint passes its slow speeds in more than {SLOW_PASS:.0f} s, too slowly to show "
+            "a lag of friction",
+            "add slow passes that speed up and slow down quickly",
         )
     return None
 
@@ -331,6 +358,49 @@ def _saturation(f: _Facts) -> Answer:
     return None
 
 
+def _backlash(f: _Facts) -> Answer:
+    if f.recording.averaged:
+        return ("steady-state points hold no reversals", "record the motion through reversals")
+    if f.load is None:
+        return (
+            "the load torque is not known",
+            "record load_torque, or a motion that shows inertia and gravity",
+        )
+    moving = f.recording.moving
+    turned = np.diff(np.sign(f.load[moving])) != 0
+    reversals = int(np.count_nonzero(turned & (np.diff(f.recording.segment[moving]) == 0)))
+    if reversals < REVERSALS:
+        return (
+            f"the load torque changes its sign {reversals} times in motion, so that the teeth "
+            "hardly leave their flank",
+            "move through the angle at which the load is balanced, back and forth",
+        )
+    return None
+
+
+def _elasticity(f: _Facts) -> Answer:
+    if f.recording.averaged:
+        return ("steady motion holds no change of the load torque", "record accelerated motion")
+    bend = f.channel("load_torque_curvature")
+    load = f.channel("load_torque")
+    if bend is None or load is None:
+        return (
+            "the load torque is not known beforehand, nor the positions on both sides of the drive "
+            "train",
+            "give the load torque, or inertia and gravity from a weighing or a CAD model",
+        )
+    # Quantiles: a payload that is swapped is no motion.
+    size = float(np.quantile(np.abs(load - np.median(load)), 0.9))
+    twist = float(np.quantile(np.abs(bend), 0.9)) / (2.0 * np.pi * SOFT_DRIVE) ** 2
+    if twist <= TWIST_SHARE * size:
+        return (
+            f"the load torque changes so slowly that even a drive train that resonates at "
+            f"{SOFT_DRIVE:.0f} Hz would look rigid",
+            "add moves that start and stop hard, or record positions at motor and joint",
+        )
+    return None
+
+
 def _delay(f: _Facts) -> Answer:
     if f.recording.averaged:
         return ("steady-state points hold no timing", "record accelerated motion")
@@ -339,6 +409,7 @@ def _delay(f: _Facts) -> Answer:
 
 CHECKS: dict[str, Callable[[_Facts], Answer]] = {
     "stribeck": _stribeck,
+    "frictional_lag": _frictional_lag,
     "nonlinear_viscous": _nonlinear_viscous,
     "direction": _one_direction,
     "load": _load,
@@ -353,6 +424,8 @@ CHECKS: dict[str, Callable[[_Facts], Answer]] = {
     "gravity": _gravity,
     "spring": _spring,
     "ripple": _ripple,
+    "backlash": _backlash,
+    "elasticity": _elasticity,
     "saturation": _saturation,
     "gain": _gain,
     "delay": _delay,

@@ -14,7 +14,7 @@ from stribeck.model import Model, catalog
 Array = NDArray[np.float64]
 
 #: Groups of effects whose cause is not friction.
-ELSEWHERE = ("measurement", "actuator", "rigid body")
+ELSEWHERE = ("measurement", "actuator", "rigid body", "drive")
 
 
 def number(value: float) -> str:
@@ -49,6 +49,15 @@ def _stribeck(before: Fit, after: Fit) -> str:
         f"at low speed friction is {number(m.value('stribeck_height'))} {unit} higher than the "
         f"Coulomb level and falls to it around {number(m.value('stribeck_velocity'))} "
         f"{m.position_unit}/s"
+    )
+
+
+def _frictional_lag(before: Fit, after: Fit) -> str:
+    m = after.model
+    return (
+        f"the fall of friction with speed comes {number(1e3 * m.value('frictional_lag'))} ms late: "
+        f"at the same low speed friction is higher while the joint speeds up than while it slows "
+        f"down"
     )
 
 
@@ -208,6 +217,26 @@ def _ripple(before: Fit, after: Fit) -> str:
     )
 
 
+def _backlash(before: Fit, after: Fit) -> str:
+    m = after.model
+    speed = m.constants["reference_velocity"]
+    return (
+        f"after the load torque changes its sign the motor does not carry it for about "
+        f"{number(m.value('backlash_gap'))} {m.position_unit} of motion at {number(speed)} "
+        f"{m.position_unit}/s"
+    )
+
+
+def _elasticity(before: Fit, after: Fit) -> str:
+    share = after.model.value("elasticity")
+    side = "motor" if share > 0 else "joint"
+    hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
+    return (
+        f"what is left follows the second derivative of the load torque, as if the inertia of the "
+        f"{side} swung on the drive train at {number(float(hertz))} Hz"
+    )
+
+
 def _gain(before: Fit, after: Fit) -> str:
     m = after.model
     share = m.value("gain")
@@ -272,6 +301,7 @@ def _delay(before: Fit, after: Fit) -> str:
 
 SENTENCES: dict[str, Callable[[Fit, Fit], str]] = {
     "stribeck": _stribeck,
+    "frictional_lag": _frictional_lag,
     "nonlinear_viscous": _nonlinear_viscous,
     "direction": _direction,
     "load": _load,
@@ -283,6 +313,8 @@ SENTENCES: dict[str, Callable[[Fit, Fit], str]] = {
     "drift": _drift,
     "spring": _spring,
     "ripple": _ripple,
+    "backlash": _backlash,
+    "elasticity": _elasticity,
     "saturation": _saturation,
     "gain": _gain,
     "offset": _offset,

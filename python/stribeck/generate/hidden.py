@@ -119,13 +119,25 @@ def generate(
     time = np.arange(n) / rate
     fine = FINE_STEPS if model.has_state else 1
 
-    def load_at(t: Array, q: Array, a: Array) -> Array:
-        held = payload[np.searchsorted(motion.swaps, t)]
+    def load_at(t: Array, q: Array, a: Array, held_since: Array | None = None) -> Array:
+        held = payload[np.searchsorted(motion.swaps, t if held_since is None else held_since)]
         weight = np.cos(q - 0.75 * joint.stroke) if joint.kind == "revolute" else np.ones_like(q)
         return joint.gravity * held * weight + joint.inertia * a
 
+    def load_curvature_at(t: Array) -> Array:
+        """Second derivative of the load torque by time, as samples of the same rate resolve it."""
+        before, now, after = (
+            load_at(t + k / rate, *motion(t + k / rate)[::2], held_since=t) for k in (-1, 0, 1)
+        )
+        return np.asarray((before - 2.0 * now + after) * rate**2)
+
     q, v, a = motion(time)
     load = load_at(time, q, a)
+    if "backlash" in hidden and (load.min() >= 0.0 or load.max() <= 0.0):
+        raise SpecError(
+            "backlash shows where the load torque changes its sign, which it never does on this "
+            "joint: give a revolute one, or more seconds"
+        )
     inside = np.arange(n * fine) / (rate * fine) - (fine - 1) / (rate * fine) - delay
     fq, fv, fa = motion(inside)
     fload = load_at(inside, fq, fa)
@@ -133,6 +145,7 @@ def generate(
     friction = model.torque(
         fv, fq, fa, _temperature(inside, seconds, warming), fload, dt=step,
         external_torque=-load_at(inside, fq, np.zeros_like(fa)), time=inside,
+        load_torque_curvature=load_curvature_at(inside),
     )  # fmt: skip
     torque = (fload + friction)[fine - 1 :: fine]
 

@@ -26,6 +26,8 @@ def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> di
         "torque_rate": c * joint.speed / joint.stroke,
         "inertia": joint.inertia,
         "sample_period": 1.0,
+        "time": joint.stroke / joint.speed,
+        "square_time": (joint.stroke / joint.speed) ** 2,
     }
     own = {
         "coulomb_friction": c,
@@ -72,6 +74,11 @@ def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> di
         "saturation": 0.12,
         "saturation_exponent": 2.0,
         "gain": 0.08,
+        "frictional_lag": 0.1 * joint.stroke / joint.speed,
+        "backlash_gap": 0.08 * joint.stroke,
+        "backlash_exponent": 0.6,
+        "backlash_return": 0.4,
+        "elasticity": 0.01 * (joint.stroke / joint.speed) ** 2,
         "presliding_stiffness": 150.0 * c / joint.stroke,
         "presliding_damping": 0.1 * b,
         "bristle_stiffness": 300.0 * c / joint.stroke,

@@ -70,9 +70,17 @@ class Problem:
             "motor_torque": self._motor_sign,
             "external_torque": r.external_torque,
             "time": r.elapsed,
+            "load_torque_curvature": self._load_curvature,
             **({} if self.model.drive is None else {"enabled": r.enabled}),
             "mean_velocity": self._mean_velocity if self.model.has_state else None,
         }
+
+    @cached_property
+    def _load_curvature(self) -> Array | None:
+        """Second derivative of the load torque, for models that read it, array [n]."""
+        if "elasticity" not in self.model.effects:
+            return None
+        return self.recording.load_torque_curvature
 
     @cached_property
     def _motor_sign(self) -> Array | None:

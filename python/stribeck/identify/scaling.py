@@ -46,6 +46,8 @@ def scale_values(recording: Recording) -> dict[str, float]:
         "inverse_torque": 1.0 / torque,
         "inertia": torque / acceleration,
         "torque_rate": torque * speed / position,
+        "time": speed / acceleration,
+        "square_time": (speed / acceleration) ** 2,
         "sample_period": s["sample_period"] or 1.0,
         **drive_scales(recording),
     }
@@ -116,7 +118,7 @@ def effect_constants(
         tl = recording.load_torque if recording.load_torque is not None else load
         size = 0.0 if tl is None else float(np.sqrt(np.mean(tl[moving] ** 2)))
         return {"reference_load": size or 1.0}
-    if effect == "nonlinear_viscous":
+    if effect in ("nonlinear_viscous", "backlash"):
         return {"reference_velocity": recording.scales()["speed"] or 1.0}
     if effect == "drift":
         return {"duration": float(recording.elapsed[-1]) or 1.0}
@@ -242,6 +244,16 @@ def check_channels(model: Model, recording: Recording) -> None:
                 "load_torque that is known beforehand: map one with --map load_torque=COLUMN, or "
                 "leave the effect out"
             )
+    if "frictional_lag" in model.effects and not model.has("stribeck"):
+        raise FitError(
+            f"frictional_lag delays a Stribeck curve, and {model.spec} has none: add stribeck, or "
+            "leave the effect out"
+        )
+    if "elasticity" in model.effects and recording.load_torque is None:
+        raise FitError(
+            f"elasticity needs a load_torque that is known beforehand, which {recording.path} does "
+            "not have: map one with --map load_torque=COLUMN, or leave the effect out"
+        )
     for channel in model.core.needs:
         if channel == "motor_torque" and model.law in SIGN_OF_MOTOR_TORQUE and not model.drive:
             continue
@@ -254,7 +266,8 @@ def check_channels(model: Model, recording: Recording) -> None:
             if model.has_state:
                 raise FitError(
                     f"friction of {model.spec} depends on the motor torque, which cannot be solved "
-                    "for in a model with a memory: leave presliding out"
+                    "for in a model with a memory: leave presliding, frictional_lag and backlash "
+                    "out"
                 )
             continue
         if channel == "external_torque" and recording.external_torque is None:

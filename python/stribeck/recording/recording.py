@@ -11,6 +11,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from stribeck.recording.derive import Smoother
 from stribeck.recording.rows import SIGMAS, noise_level
 
 __all__ = ["Column", "Recording"]
@@ -170,6 +171,16 @@ class Recording:
         """Time since the first row, s, [n]; a run that sets its clock back goes on from before."""
         step = np.diff(self.time, prepend=self.time[:1])
         return np.cumsum(np.where(step >= 0.0, step, self.scales()["sample_period"]))
+
+    @cached_property
+    def load_torque_curvature(self) -> Floats | None:
+        """Second derivative of the load torque by time, N m/s2 or N/s2, [n]; None without a load.
+
+        By central differences of the load torque without its noise, segment by segment.
+        """
+        if self.load_torque is None:
+            return None
+        return Smoother(self.time, self.segment, None).smooth(self.denoised("load_torque"), 2)
 
     @cached_property
     def motion_band(self) -> float | None:

@@ -48,6 +48,7 @@ FORMATS = ("png", "svg", "pdf")
 #: The channel against which an effect shows, and whether the residual is taken along the motion.
 TELLING = {
     "stribeck": ("speed", True),
+    "frictional_lag": ("speed", True),
     "nonlinear_viscous": ("speed", True),
     "direction": ("velocity", False),
     "load": ("load", True),
@@ -61,6 +62,8 @@ TELLING = {
     "gravity": ("position", False),
     "spring": ("position", False),
     "ripple": ("position", False),
+    "backlash": ("load", False),
+    "elasticity": ("load_torque_curvature", False),
     "saturation": ("load", False),
     "gain": ("load", False),
     "presliding": ("reversal", True),
@@ -143,6 +146,8 @@ def channel(fit: Fit, name: str) -> Channel | None:
         made = Channel(r.temperature, "temperature [°C]")
     elif name == "load" and (load := load_of(fit)) is not None:
         made = Channel(load, f"load torque [{t}]" if t != "N" else "load force [N]")
+    elif name == "load_torque_curvature" and r.load_torque_curvature is not None:
+        made = Channel(r.load_torque_curvature, f"second derivative of the load [{t}/s²]")
     elif name == "reversal" and not r.averaged:
         travel = np.asarray(displacement_since_reversal(r), dtype=np.float64)
         made = Channel(travel, f"way since the last reversal [{x}]")

@@ -80,7 +80,8 @@ def test_load(tmp_path: Path, load: str) -> None:
         tmp_path,
         frame.with_columns(load_torque=pl.Series(given), torque=pl.Series(given + 3 * np.sign(v))),
     )
-    assert set(found) == {"load", "quadrant", "gain", "saturation"}
+    unmoved = {"backlash", "elasticity"} if load == "constant" else set()
+    assert set(found) == {"load", "quadrant", "gain", "saturation"} | unmoved
     assert ("hardly varies" if load == "constant" else "sign") in found["load"]
 
 
@@ -97,7 +98,7 @@ def test_no_slow_motion(tmp_path: Path) -> None:
             "acceleration"
         ),
     )
-    assert {"stribeck", "nonlinear_viscous"} <= set(found)
+    assert {"stribeck", "nonlinear_viscous", "frictional_lag"} <= set(found)
     assert "slower than" in found["stribeck"] and "speeds" in found["nonlinear_viscous"]
 
 
@@ -114,7 +115,8 @@ def test_prismatic_joint_and_small_range(tmp_path: Path) -> None:
 
 def test_a_load_that_is_not_known_beforehand(tmp_path: Path) -> None:
     found = answers(tmp_path, joint().drop("load_torque"))
-    assert {"gain", "saturation", "quadrant"} <= set(found)
+    assert {"gain", "saturation", "quadrant", "elasticity"} <= set(found)
+    assert "not known beforehand" in found["elasticity"]
     frame = joint()
     friction = frame["torque"] - frame["load_torque"]
     direct = frame.with_columns(friction_torque=friction).drop("torque")
@@ -130,6 +132,34 @@ def test_a_torque_that_is_always_the_same_size_shows_no_saturation(tmp_path: Pat
         frame.with_columns(load_torque=pl.Series(load), torque=pl.Series(load + 3 * np.sign(v))),
     )
     assert "hardly above the usual" in found["saturation"] and "gain" not in found
+
+
+def slower(frame: pl.DataFrame, times: float) -> pl.DataFrame:
+    """The same way in so many times the time, without what hangs on acceleration."""
+    return frame.with_columns(
+        time=pl.col("time") * times,
+        velocity=pl.col("velocity") / times,
+        acceleration=pl.col("acceleration") / times**2,
+    )
+
+
+def test_slow_changes_of_speed_show_no_lag(tmp_path: Path) -> None:
+    found = answers(tmp_path, slower(joint(), 30.0))
+    assert "too slowly" in found["frictional_lag"] and "stribeck" not in found
+
+
+def test_a_load_that_never_turns_shows_no_backlash(tmp_path: Path) -> None:
+    q = motion()[1]
+    heavy = 40.0 + 9.0 * np.sin(q)
+    frame = joint().with_columns(load_torque=pl.Series(heavy), torque=pl.Series(heavy + 3.0))
+    found = answers(tmp_path, frame)
+    assert "changes its sign 0 times" in found["backlash"]
+
+
+def test_a_slow_load_shows_no_elasticity(tmp_path: Path) -> None:
+    slow = 6.0 * np.sin(motion()[1])
+    frame = slower(joint(), 10.0).with_columns(load_torque=pl.Series(slow))
+    assert "look rigid" in answers(tmp_path, frame)["elasticity"]
 
 
 def test_samples_too_far_apart_show_no_ripple(tmp_path: Path) -> None:
@@ -158,6 +188,7 @@ def test_steady_points(tmp_path: Path) -> None:
     found = answers(tmp_path, frame, average="run")
     assert {"presliding", "inertia", "delay", "position", "gravity", "load"} <= set(found)
     assert {"gain", "saturation", "spring", "ripple", "drift"} <= set(found)
+    assert {"frictional_lag", "backlash", "elasticity"} <= set(found)
     assert not {"stribeck", "direction", "offset", "nonlinear_viscous"} & set(found)
 
 

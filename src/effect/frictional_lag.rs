@@ -1,0 +1,45 @@
+use super::FrictionEffect;
+use crate::constants::Constants;
+use crate::dynamics::{Interval, Lag, State};
+use crate::sample::Split;
+use crate::scalar::Real;
+use crate::table::{EffectInfo, Parameters, parameters};
+
+parameters! {
+    /// A Stribeck curve that follows the speed late (Hess and Soom 1990), by a first-order lag
+    /// (Armstrong-Helouvry, Dupont and Canudas de Wit 1994). At the steady speeds of a static curve
+    /// it changes nothing.
+    FrictionalLag {
+        /// Time constant by which the Stribeck curve follows the speed.
+        frictional_lag: "tau" ["s"] 0.0 .. 2.0, start 0.05, Time, Nonlinear;
+    }
+}
+
+impl<S: Real> FrictionEffect<S> for FrictionalLag<S> {
+    const INFO: EffectInfo = EffectInfo {
+        id: "frictional_lag",
+        group: "friction",
+        title: "Frictional lag",
+        what: "A lubricant film takes time to build up and to give way, so the fall of friction \
+               with speed comes late when the speed changes.",
+        formula: "D + dFs e; tau de/dt = exp(-|v/vs|^alpha) - e",
+        needs: "slow motion that speeds up and slows down at different rates",
+        beyond: Some("stribeck"),
+        channels: &[],
+        constants: &[],
+        parameters: Self::TABLE,
+    };
+
+    #[inline]
+    fn apply_over(
+        &self,
+        split: &mut Split<S>,
+        state: &mut State<S>,
+        interval: &Interval<S::Plain>,
+        _: &Constants<S::Plain>,
+    ) {
+        let lag = Lag { time: self.frictional_lag };
+        let value = lag.over(&mut state.curve, split.shape.value, interval);
+        split.shape = split.shape.displaced(value);
+    }
+}
