@@ -71,7 +71,10 @@ class Setting:
         )
         run = np.repeat(np.arange(runs), n)
         dt = np.tile(np.diff(motion.time, prepend=motion.time[:1]), runs)
-        load = None if self.load is None else _regressors(self.joint_kind, q, a) @ self.load
+        load, external = None, None
+        if self.load is not None:
+            load = _regressors(self.joint_kind, q, a) @ self.load
+            external = -_regressors(self.joint_kind, q, np.zeros_like(q)) @ self.load
         time = np.tile(motion.time, runs) + run * (motion.time[-1] + 1.0 / rate)
         unit, position_unit = self.model.torque_unit, self.model.position_unit
         made = Recording(
@@ -84,12 +87,14 @@ class Setting:
             columns={"position": Column("position", "plan", position_unit, False)}, notes=(),
             velocity_noise=self.slowest / 5.0, velocity_threshold=self.slowest,
             moving=np.abs(v) > self.slowest, block=run, block_count=runs, rate_hz=rate, gaps=0,
-            rows_dropped=0, averaged=False, cutoff_hz=None,
+            rows_dropped=0, averaged=False, cutoff_hz=None, external_torque=external,
         )  # fmt: skip
         if not made.moving.any():
             return made
-        problem = self.problem(made)
-        return replace(made, torque=problem.predict(self.model.values))
+        # The sign of the motor torque, which some laws read, follows from friction without it.
+        for _ in range(2 if "motor_torque" in self.model.core.needs else 1):
+            made = replace(made, torque=self.problem(made).predict(self.model.values))
+        return made
 
     def problem(self, recording: Recording) -> Problem:
         """The model on the rows of a planned recording that move."""
@@ -106,6 +111,7 @@ class Setting:
 def setting_of_fit(fitted: Fit) -> Setting:
     """The joint of a recording, by a model that was fitted to it."""
     r = fitted.recording
+    _refuse_drive(fitted.model)
     residual = fitted.residual[fitted.rows]
     if r.averaged or r.rate_hz <= 0:
         raise FitError(
@@ -129,6 +135,7 @@ def setting_of_file(stored: ModelFile, limits: Limits, noise: float | None) -> S
         RMS of the torque noise; default: the error with which the model was fitted.
     """
     model, source = stored.model, stored.fitted_on
+    _refuse_drive(model)
     level = noise if noise is not None else source.get("rmse")
     if level is None or not level > 0:
         raise SpecError(
@@ -142,6 +149,14 @@ def setting_of_file(stored: ModelFile, limits: Limits, noise: float | None) -> S
     return Setting(
         model, float(level), memory, None, (temperature,), STANDSTILL * limits.speed, kind
     )
+
+
+def _refuse_drive(model: Model) -> None:
+    if model.drive is not None:
+        raise SpecError(
+            f"{model.spec} predicts the {model.drive} on a motor, which a motion alone does not "
+            f"set: plan with a model of the torque (without --drive)"
+        )
 
 
 def _regressors(joint_kind: str, position: Array, acceleration: Array) -> Array:
