@@ -8,6 +8,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from stribeck.report.figures import AFTER, BEFORE, DPI
+from stribeck.report.numbers import listed
 
 if TYPE_CHECKING:
     from stribeck.design.plan import Plan
@@ -31,7 +32,7 @@ def plan_figure(plan: Plan) -> Figure:
         axes.spines[["top", "right"]].set_visible(False)
     axes.set_xlabel("time [s]")
     figure.suptitle(
-        f"{plan.kind} that shows {', '.join(row.effect for row in plan.prospects)}; limits dashed",
+        f"{plan.kind} to show {listed([row.effect for row in plan.prospects])}; limits dashed",
         fontsize=11, x=0.01, ha="left",
     )  # fmt: skip
     return figure

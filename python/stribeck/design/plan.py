@@ -21,10 +21,9 @@ from stribeck.diagnose import LEAST_FALL
 from stribeck.diagnose.power import Demand, Noise
 from stribeck.diagnose.testable import untestable
 from stribeck.diagnose.trial import SIGNIFICANCE
-from stribeck.diagnose.visibility import Shown
+from stribeck.diagnose.visibility import Shown, problem_of
 from stribeck.errors import SpecError
 from stribeck.fit import Fit
-from stribeck.identify.problem import Problem
 from stribeck.model import Model, catalog, check_effect, effect_ids
 from stribeck.model_file import ModelFile
 from stribeck.recording import Recording
@@ -168,10 +167,8 @@ class Plan:
         m = self.motion
         return pl.DataFrame(
             {
-                "time": m.time,
-                "position": m.position,
-                "velocity": m.velocity,
-                "acceleration": m.acceleration,
+                name: getattr(m, name) + 0.0
+                for name in ("time", "position", "velocity", "acceleration")
             }
         )
 
@@ -238,7 +235,7 @@ def plan(
     families: tuple[Family, ...] = (
         FourierMotions(limits, duration, samples), PassMotions(limits, duration),
     )  # fmt: skip
-    at_hand = _problem_of(fitted) if fitted is not None else None
+    at_hand = problem_of(fitted) if fitted is not None else None
     reference = at_hand or setting.problem(
         setting.recording(families[1].motion(families[1].start, samples), samples)
     )
@@ -273,10 +270,6 @@ def _still_hidden(effects: Sequence[str], setting: Setting, planned: Recording) 
     )
 
 
-def _problem_of(fitted: Fit) -> Problem:
-    return Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
-
-
 def _checked(model: Model, separate: Sequence[str], show: Sequence[str]) -> tuple[str, ...]:
     """The wanted effects, each of which the model must lack."""
     effects = tuple(dict.fromkeys((*separate, *show)))
@@ -309,7 +302,8 @@ def _check_load(effects: Sequence[str], setting: Setting) -> None:
 
 def _rate(rate: float | None, fitted: Fit | None) -> float:
     if rate is None:
-        return RATE if fitted is None else round(fitted.recording.rate_hz, 6)
+        # A clock's rate to four digits is the one that it was set to.
+        return RATE if fitted is None else float(f"{fitted.recording.rate_hz:.4g}")
     return float(rate)
 
 

@@ -14,7 +14,7 @@ from stribeck.diagnose.shape import flexible_columns
 from stribeck.diagnose.tangent import Beside, Widened, orthonormal, rest, sine
 from stribeck.diagnose.testable import Untestable
 from stribeck.errors import StribeckError
-from stribeck.fit import Fit
+from stribeck.fit import Fit, own_load
 from stribeck.identify.confounded import partners, reason
 from stribeck.identify.figures import rms
 from stribeck.identify.periodogram import most_periods
@@ -150,7 +150,7 @@ def visibility(
         What the diagnosis asks of a finding: chance over all effects tried, and the least
         relative fall of the held-out error.
     """
-    problem = Problem(fit.recording, fit.model, fit.rows, fit.load)
+    problem = problem_of(fit)
     base = Beside(problem)
     noise = Noise.of(fit.residual[fit.rows])
     need = Demand(significance / max(tried, 1), least_fall)
@@ -175,6 +175,12 @@ def visibility(
     smallest = sorted((s.result(unit) for s in shown if s.effect not in found), key=lambda s: s.rms)
     groups = indistinguishable(shown, problem, rms(noise.residual), unit)
     return Visibility(tuple(smallest), groups, tuple(hidden))
+
+
+def problem_of(fit: Fit) -> Problem:
+    """The problem that `fit` solves, with the load torque that an effect may depend on."""
+    load = fit.load if fit.load is not None else own_load(fit.model, fit.recording)
+    return Problem(fit.recording, fit.model, fit.rows, load)
 
 
 def show(
@@ -259,8 +265,9 @@ def _hardest(
 def _friction(fit: Fit) -> float:
     """RMS of the friction that the model predicts: a larger effect would be no addition."""
     friction = fit.prediction - fit.recording.known_torque
-    if fit.load is not None:
-        friction = friction - fit.load
+    load = own_load(fit.model, fit.recording)
+    if load is not None:
+        friction = friction - load
     return rms(friction[fit.rows])
 
 

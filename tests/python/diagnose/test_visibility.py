@@ -182,6 +182,11 @@ def test_a_diagnosis_says_all_that(plain: sb.Recording) -> None:
     assert max(map(len, text.splitlines())) <= 98
 
 
+def test_the_load_of_an_identified_rigid_body_counts(tmp_path: Path) -> None:
+    fit = sb.fit("coulomb", record(tmp_path, joint().drop("load_torque")))
+    assert [row.effect for row in seen(fit, "load", "gain").smallest] == ["load"]
+
+
 def test_what_was_found_is_not_called_invisible(tmp_path: Path) -> None:
     diagnosis = sb.diagnose(sb.fit("coulomb", record(tmp_path, joint(0.5))))
     assert diagnosis.findings[0].effect == "offset"
