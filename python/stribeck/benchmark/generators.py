@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from stribeck.benchmark import open_loop
+from stribeck.benchmark import closed_loop, open_loop
 from stribeck.benchmark.sample import Sample
 
 
@@ -31,5 +31,12 @@ class Generator:
 GENERATORS = {
     "open_loop": Generator(
         "open_loop", open_loop.EFFECTS, open_loop.OUTSIDE, open_loop.LIMITS, open_loop.sample
+    ),
+    "closed_loop": Generator(
+        "closed_loop",
+        closed_loop.EFFECTS,
+        closed_loop.OUTSIDE,
+        closed_loop.LIMITS,
+        closed_loop.sample,
     ),
 }
