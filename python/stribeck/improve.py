@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -171,6 +171,97 @@ def add(
     return add_effect(on_recording(fitted, recording, seed), effect, starts=starts, seed=seed)
 
 
+@dataclass(frozen=True)
+class Superfluous:
+    """An effect that a later one has made superfluous, and the model it had been added to."""
+
+    effect: str
+    before: Fit
+    because: str
+
+
+@dataclass(frozen=True)
+class Way:
+    """How far the loop has come from `start`.
+
+    Attributes
+    ----------
+    steps
+        What was added, in order.
+    superfluous
+        What was added and then dropped; it is not tried again.
+    last
+        The last diagnosis: of `current`, or before the last change of the model before it.
+    """
+
+    start: Fit
+    last: Diagnosis
+    steps: tuple[Step, ...] = ()
+    superfluous: tuple[Superfluous, ...] = ()
+
+    @property
+    def current(self) -> Fit:
+        """The model that the way has led to."""
+        return self.steps[-1].after if self.steps else self.start
+
+    def with_best(self) -> Way:
+        """One step on: the best finding of the last diagnosis added."""
+        finding = self.last.findings[0]
+        return replace(self, steps=(*self.steps, Step(finding, self.current, finding.fit)))
+
+    def without(self, effect: str, seed: int) -> Way:
+        """The same way without one effect: those after it are refitted in their turn."""
+        place = next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
+        dropped = self.steps[place]
+        walked = list(self.steps[:place])
+        current = dropped.before
+        for step in self.steps[place + 1 :]:
+            again = _refitted(step, current, self.last.noise_floor, seed)
+            walked.append(again)
+            current = again.after
+        later = Superfluous(effect, dropped.before, self.steps[-1].finding.effect)
+        return replace(self, steps=tuple(walked), superfluous=(*self.superfluous, later))
+
+
+def walk(
+    start: Fit,
+    *,
+    seed: int = 0,
+    least_fall: float = LEAST_FALL,
+    most_steps: int = MOST_STEPS,
+    rejected: Collection[str] = (),
+    candidates: Collection[str] = (),
+    progress: Callable[[str], None] = lambda sentence: None,
+) -> Iterator[Way]:
+    """The loop, change by change: the way after each effect that is added or dropped.
+
+    The last one ends where nothing passes the test, or after `most_steps`: its last diagnosis is
+    that of its current model. Parameters are those of `improve`.
+    """
+    steps: tuple[Step, ...] = ()
+    gone: tuple[Superfluous, ...] = ()
+    while True:
+        current = steps[-1].after if steps else start
+        progress(f"looking for what {current.model.spec} misses")
+        found = diagnose(
+            current, least_fall=least_fall, rejected={*rejected, *(s.effect for s in gone)},
+            candidates=candidates, seed=seed, brief=True,
+        )  # fmt: skip
+        way = Way(start, found, steps, gone)
+        if not found.findings or len(steps) >= most_steps:
+            yield way
+            return
+        progress(f"adding {found.findings[0].effect}")
+        way = way.with_best()
+        yield way
+        idle = _superfluous(way.steps, least_fall, seed)
+        if idle is not None:
+            progress(f"{idle} is no longer needed: walking the way again without it")
+            way = way.without(idle, seed)
+            yield way
+        steps, gone = way.steps, way.superfluous
+
+
 def improve(
     base: str | Model,
     recording: Recording,
@@ -196,64 +287,40 @@ def improve(
     progress : callable
         Told what is being done, in one sentence.
     """
-    dropped = set(rejected)
     progress(f"fitting {base if isinstance(base, str) else base.spec}")
     first = fit(base, recording, starts=starts, seed=seed)
-    steps: list[Step] = []
-    current = first
-    while True:
-        progress(f"looking for what {current.model.spec} misses")
-        found = diagnose(
-            current, least_fall=least_fall, rejected=dropped, candidates=candidates, seed=seed,
-            brief=True,
-        )  # fmt: skip
-        if not found.findings or len(steps) >= most_steps:
-            break
-        finding = found.findings[0]
-        progress(f"adding {finding.effect}")
-        steps.append(Step(finding, current, finding.fit))
-        current = finding.fit
-        idle = _superfluous(steps, least_fall, seed)
-        if idle is not None:
-            progress(f"{idle} is no longer needed: walking the way again without it")
-            dropped.add(idle)
-            steps = _without(idle, steps, found.noise_floor, seed)
-            current = steps[-1].after
+    *_, way = walk(
+        first, seed=seed, least_fall=least_fall, most_steps=most_steps, rejected=rejected,
+        candidates=candidates, progress=progress,
+    )  # fmt: skip
+    found = way.last
     stopped = "nothing_passes"
     if found.findings:
         stopped = "max_steps"
     elif found.noise_floor.value is not None and not found.unexplained.is_structure:
         stopped = "noise_floor"
     return Improvement(
-        first, tuple(steps), current, found.noise_floor, stopped, found.untestable,
+        first, way.steps, way.current, found.noise_floor, stopped, found.untestable,
         found.unexplained, found,
     )  # fmt: skip
 
 
-def _without(idle: str, steps: list[Step], floor: NoiseFloor, seed: int) -> list[Step]:
-    """The same way without one effect: each of the others is refitted in its turn."""
-    walked: list[Step] = []
-    current = steps[0].before
-    for step in steps:
-        effect = step.finding.effect
-        if effect == idle:
-            continue
-        added = step.after.model.written(effect)
-        after = add_effect(current, added, starts=STARTS, seed=seed)
-        finding = replace(
-            step.finding,
-            rmse_held_out_before=float(current.rmse_held_out or np.nan),
-            rmse_held_out_after=float(after.rmse_held_out or np.nan),
-            share_of_unexplained=share_of_unexplained(current, after, floor),
-            where=where(effect, current, after),
-            fit=after,
-        )
-        walked.append(Step(finding, current, after))
-        current = after
-    return walked
+def _refitted(step: Step, before: Fit, floor: NoiseFloor, seed: int) -> Step:
+    """The same effect added to another model."""
+    effect = step.finding.effect
+    after = add_effect(before, step.after.model.written(effect), starts=STARTS, seed=seed)
+    finding = replace(
+        step.finding,
+        rmse_held_out_before=float(before.rmse_held_out or np.nan),
+        rmse_held_out_after=float(after.rmse_held_out or np.nan),
+        share_of_unexplained=share_of_unexplained(before, after, floor),
+        where=where(effect, before, after),
+        fit=after,
+    )
+    return Step(finding, before, after)
 
 
-def _superfluous(steps: list[Step], least_fall: float, seed: int) -> str | None:
+def _superfluous(steps: tuple[Step, ...], least_fall: float, seed: int) -> str | None:
     """An earlier effect without which the model does as well, if there is one."""
     if len(steps) < 2:
         return None
