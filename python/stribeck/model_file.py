@@ -9,7 +9,7 @@ import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import tomlkit
@@ -22,6 +22,9 @@ if sys.version_info >= (3, 11):
     import tomllib
 else:
     import tomli as tomllib
+
+if TYPE_CHECKING:
+    from stribeck.fit import Fit
 
 SCHEMA = 1
 TOP_KEYS = {
@@ -49,10 +52,31 @@ class ModelFile:
     stderr: Mapping[str, float] = field(default_factory=dict)
     fitted_on: Mapping[str, Any] = field(default_factory=dict)
 
+    @classmethod
+    def of(cls, fitted: Fit) -> ModelFile:
+        """What is kept of a fit: its model, standard errors and provenance."""
+        r = fitted.recording
+        fitted_on: dict[str, Any] = {
+            "path": r.path,
+            "sha256": r.sha256,
+            "rows": int(r.moving.sum()),
+            "time_span": [float(r.time[0]), float(r.time[-1])],
+            "rmse": fitted.rmse,
+        }
+        if fitted.rmse_held_out is not None:
+            fitted_on["rmse_held_out"] = fitted.rmse_held_out
+        errors = {n: e.stderr for n, e in fitted.estimates.items() if e.stderr is not None}
+        return cls(fitted.model, errors, fitted_on)
+
     def to_toml(self) -> str:
         """The file's text; numbers are written so that they read back with the same bits."""
-        m = self.model
         document = tomlkit.document()
+        self.write_into(document)
+        return tomlkit.dumps(document)
+
+    def write_into(self, document: Any) -> None:
+        """Add what the file holds to a document or table of tomlkit."""
+        m = self.model
         document.add("kind", tomlkit.item("model"))
         document.add("schema", tomlkit.item(SCHEMA))
         document.add("law", tomlkit.item(m.law))
@@ -85,7 +109,6 @@ class ModelFile:
             document.add("fitted_on", _table(dict(self.fitted_on)))
         if m.box:
             document.add("box", _table({k: [float(a), float(b)] for k, (a, b) in m.box.items()}))
-        return tomlkit.dumps(document)
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the file whole or not at all."""
@@ -134,7 +157,32 @@ def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
     ------
     ModelFileError
     """
-    return _Reader(Path(path)).read()
+    target = Path(path)
+    try:
+        text = target.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is not text"
+        raise ModelFileError(f"cannot read the model file {target}: {reason}") from None
+    try:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ModelFileError(f"{target}: not a TOML file ({error})") from None
+    return read_model(data, target, text)
+
+
+def read_model(data: Mapping[str, Any], path: Path, text: str, *under: str) -> ModelFile:
+    """The model of a file's parsed `data`, which `text` is the text of.
+
+    Parameters
+    ----------
+    under
+        Words after which `data` stands in the text, where the file holds more than one model.
+
+    Raises
+    ------
+    ModelFileError
+    """
+    return _Reader(path, text, under).read(data)
 
 
 def load(path: str | os.PathLike[str]) -> Model:
@@ -143,33 +191,26 @@ def load(path: str | os.PathLike[str]) -> Model:
 
 
 class _Reader:
-    """Reads one file; keeps its text to tell the line of what is wrong."""
+    """Reads one model; keeps the file's text to tell the line of what is wrong."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, text: str, under: tuple[str, ...]) -> None:
         self.path = path
-        try:
-            self.text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            reason = getattr(error, "strerror", None) or "it is not text"
-            raise ModelFileError(f"cannot read the model file {path}: {reason}") from None
+        self.text = text
+        self.under = under
 
     def stop(self, what: str, *keys: str) -> ModelFileError:
         """An error that names the line on which the last of `keys` stands."""
         line = 0
         rows = self.text.splitlines()
-        for key in keys:
+        for key in (*self.under, *keys):
             for k in range(line, len(rows)):
                 if key in rows[k]:
                     line = k
                     break
-        where = f", line {line + 1}" if keys else ""
+        where = f", line {line + 1}" if self.under or keys else ""
         return ModelFileError(f"{self.path}{where}: {what}")
 
-    def read(self) -> ModelFile:
-        try:
-            data = tomllib.loads(self.text)
-        except tomllib.TOMLDecodeError as error:
-            raise ModelFileError(f"{self.path}: not a TOML file ({error})") from None
+    def read(self, data: Mapping[str, Any]) -> ModelFile:
         if data.get("kind") != "model":
             raise self.stop(
                 f'this is not a model file: kind is {data.get("kind")!r}, "model" is needed',
@@ -181,11 +222,11 @@ class _Reader:
             )
         self._known(data, TOP_KEYS)
         if not isinstance(data.get("law"), str):
-            raise ModelFileError(f"{self.path}: the key 'law' is missing, or not a name")
+            raise self.stop("the key 'law' is missing, or not a name")
         for key in ("constants", "parameters", "fitted_on", "box", "formulas"):
             if not isinstance(data.get(key, {}), dict):
                 raise self.stop(f"{key} is {data[key]!r}, a table is needed", key)
-        self._known(data.get("box", {}), BOX_KEYS, "[box]")
+        self._known(data.get("box", {}), BOX_KEYS, "box]")
         try:
             own = self._formulas(data)
             if own and own[0].name == data["law"]:
@@ -208,7 +249,7 @@ class _Reader:
             wrong_law = data["law"] not in (*law_ids(), *formulas)
             raise self.stop(str(error), "law" if wrong_law else "effects") from None
         except KeyError as error:
-            raise ModelFileError(f"{self.path}: the key {error} is missing") from None
+            raise self.stop(f"the key {error} is missing") from None
         return self._with_parameters(made, data)
 
     def _formulas(self, data: Mapping[str, Any]) -> tuple[FormulaTerms, ...]:
@@ -217,7 +258,7 @@ class _Reader:
         for name, text in data.get("formulas", {}).items():
             if not isinstance(text, str):
                 raise self.stop(
-                    f"{name} is {text!r}, a formula is needed", "[formulas]", f"{name} ="
+                    f"{name} is {text!r}, a formula is needed", "formulas]", f"{name} ="
                 )
             try:
                 terms = FormulaTerms(name, text, effect=name != data["law"])
@@ -226,7 +267,7 @@ class _Reader:
                 made.append(replace(terms, declared=declared))
                 check_terms(terms)
             except SpecError as error:
-                raise self.stop(str(error), "[formulas]", f"{name} =") from None
+                raise self.stop(str(error), "formulas]", f"{name} =") from None
         return tuple(made)
 
     def _declaration(self, data: Mapping[str, Any], name: str) -> Declaration:
@@ -252,7 +293,7 @@ class _Reader:
         for p in made.parameters:
             row = rows.get(p.name)
             if not isinstance(row, dict) or "value" not in row:
-                raise ModelFileError(f"{self.path}: parameter {p.name} of {made.spec} is missing")
+                raise self.stop(f"parameter {p.name} of {made.spec} is missing")
             self._known(row, PARAMETER_KEYS, "parameters", p.name)
             values.append(self._number(row["value"], "parameters", f"parameters.{p.name}", "value"))
             if row.get("unit", p.unit) != p.unit:

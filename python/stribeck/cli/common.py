@@ -182,18 +182,7 @@ def model_fit(argument: str, recording: Recording, *, starts: int, seed: int, re
 
 def save_fit(fitted: Fit, path: str) -> None:
     """Write a fit's model file with its standard errors and provenance."""
-    r = fitted.recording
-    fitted_on: dict[str, Any] = {
-        "path": r.path,
-        "sha256": r.sha256,
-        "rows": int(r.moving.sum()),
-        "time_span": [float(r.time[0]), float(r.time[-1])],
-        "rmse": fitted.rmse,
-    }
-    if fitted.rmse_held_out is not None:
-        fitted_on["rmse_held_out"] = fitted.rmse_held_out
-    errors = {n: e.stderr for n, e in fitted.estimates.items() if e.stderr is not None}
-    ModelFile(fitted.model, errors, fitted_on).write(path)
+    ModelFile.of(fitted).write(path)
     say(f"wrote {path}")
 
 
