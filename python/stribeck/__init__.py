@@ -10,6 +10,8 @@ array([-2.5,  2.5])
 
 from __future__ import annotations
 
+import os
+
 import polars as pl
 
 from stribeck.compare import Comparison, compare
@@ -18,6 +20,7 @@ from stribeck.diagnose import Diagnosis, Finding, diagnose
 from stribeck.errors import (
     FitError,
     ModelFileError,
+    ProjectError,
     RecordingError,
     SpecError,
     StribeckError,
@@ -26,9 +29,15 @@ from stribeck.fit import Estimate, Fit, evaluate, fit
 from stribeck.improve import Addition, Improvement, add, improve
 from stribeck.model import Model, Parameter, catalog, law, model
 from stribeck.model_file import ModelFile, load, read_model_file
+from stribeck.project import Project
 from stribeck.recording import Recording, read
 
 __version__ = "0.1.0"
+
+
+def project(path: str | os.PathLike[str]) -> Project:
+    """Open a project file, and check that its data are the same still; see `Project`."""
+    return Project.open(path)
 
 
 def laws() -> pl.DataFrame:
@@ -76,6 +85,8 @@ __all__ = [
     "ModelFileError",
     "Parameter",
     "Plan",
+    "Project",
+    "ProjectError",
     "Recording",
     "RecordingError",
     "SpecError",
@@ -93,6 +104,7 @@ __all__ = [
     "load",
     "model",
     "plan",
+    "project",
     "read",
     "read_model_file",
 ]

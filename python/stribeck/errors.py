@@ -5,7 +5,10 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
-__all__ = ["FitError", "ModelFileError", "RecordingError", "SpecError", "StribeckError", "nearest"]
+__all__ = [
+    "FitError", "ModelFileError", "ProjectError", "RecordingError", "SpecError", "StribeckError",
+    "nearest",
+]  # fmt: skip
 
 
 class StribeckError(ValueError):
@@ -18,6 +21,10 @@ class RecordingError(StribeckError):
 
 class ModelFileError(StribeckError):
     """A model file cannot be used."""
+
+
+class ProjectError(StribeckError):
+    """A project file, or the data it is about, cannot be used."""
 
 
 class SpecError(StribeckError):

@@ -15,6 +15,7 @@ from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
 from stribeck.cli.methods import arm, points
 from stribeck.cli.plan import plan
+from stribeck.cli.project import project
 from stribeck.cli.study import study
 from stribeck.errors import StribeckError, nearest
 
@@ -50,6 +51,7 @@ cli.add_command(points)
 cli.add_command(arm)
 cli.add_command(study)
 cli.add_command(benchmark)
+cli.add_command(project)
 
 
 def main() -> None:

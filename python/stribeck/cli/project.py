@@ -1,0 +1,213 @@
+"""`stribeck project`: the loop driven by hand, with every branch kept in one file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from stribeck.cli.common import (
+    check_output,
+    echo_json,
+    json_option,
+    least_fall_option,
+    recording_options,
+    say,
+    seed_option,
+    starts_option,
+)
+from stribeck.cli.formulas import Written, candidate_option, check_candidates
+from stribeck.errors import ProjectError
+from stribeck.project import Project
+
+
+@click.group()
+def project() -> None:
+    """Drive the loop by hand: add, reject, go back; a file keeps every branch.
+
+    PROJECT is the file, NODE a number or a name of its tree.
+    """
+
+
+def _show(made: Project, as_json: bool) -> None:
+    if as_json:
+        echo_json(made.to_dict())
+    else:
+        click.echo(repr(made))
+
+
+def _written(made: Project, as_json: bool) -> None:
+    """Save a changed project and show it."""
+    made.save()
+    say(f"wrote {made.path}")
+    _show(made, as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.argument("data")
+@click.option(
+    "--base",
+    default="coulomb",
+    show_default=True,
+    help="Spec, model file or formula to start from.",
+)
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def new(
+    path: str, data: str, base: str, starts: int, reading: dict[str, Any], seed: int, as_json: bool
+) -> None:
+    """Make PROJECT of the recording DATA, with the base model fitted."""
+    check_output(path)
+    if Path(path).exists():
+        raise ProjectError(f"{path} is there already: give another name, or remove it first")
+    model = Written().model(base)
+    made = Project.new(path, data, model, starts=starts, seed=seed, **reading)
+    for note in made.recording.notes:
+        say(f"note: {note}")
+    _written(made, as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@json_option
+def show(path: str, as_json: bool) -> None:
+    """Show the tree with its errors, and the current node."""
+    _show(Project.open(path), as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@candidate_option
+@least_fall_option
+@seed_option
+@json_option
+def diagnose(
+    path: str, candidates: tuple[str, ...], least_fall: float, seed: int, as_json: bool
+) -> None:
+    """Find what is missing at the current node, and remember it.
+
+    Effects that were rejected on the way to it are not tried.
+    """
+    check_candidates(candidates)
+    made = Project.open(path)
+    made = made.diagnose(least_fall=least_fall, candidates=candidates, seed=seed)
+    made.save()
+    say(f"wrote {made.path}")
+    assert made.diagnosis is not None
+    if as_json:
+        echo_json({"node": made.current, **made.diagnosis.to_dict()})
+    else:
+        click.echo(f"Node {made.current}. {made.diagnosis!r}")
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.argument("effect")
+@starts_option
+@seed_option
+@json_option
+def add(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
+    """Add EFFECT to the current model: a new node, which becomes the current one.
+
+    EFFECT is an id, or 'NAME = FORMULA'.
+    """
+    _written(Project.open(path).add(effect, starts=starts, seed=seed), as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.argument("effect")
+@starts_option
+@seed_option
+@json_option
+def drop(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
+    """Take EFFECT out of the current model: a new node, which becomes the current one."""
+    _written(Project.open(path).drop(effect, starts=starts, seed=seed), as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.argument("effect")
+@click.option("--because", default="", metavar="TEXT", help="The reason, kept in the file.")
+@click.option("--undo", is_flag=True, help="Take it back.")
+@json_option
+def reject(path: str, effect: str, because: str, undo: bool, as_json: bool) -> None:
+    """Never try EFFECT at the current node, nor at those that come from it."""
+    made = Project.open(path)
+    _written(made.accept(effect) if undo else made.reject(effect, because), as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.argument("node", required=False)
+@json_option
+def back(path: str, node: str | None, as_json: bool) -> None:
+    """Go back to NODE, or to the node before the current one; nothing is lost."""
+    _written(Project.open(path).back(node), as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.argument("name")
+@json_option
+def name(path: str, name: str, as_json: bool) -> None:
+    """Give the branch that begins at the current node a NAME ('' takes it away)."""
+    _written(Project.open(path).named(name), as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.option(
+    "--max-steps", type=click.IntRange(min=0), default=8, show_default=True,
+    help="Most effects to add.",
+)  # fmt: skip
+@candidate_option
+@least_fall_option
+@seed_option
+@json_option
+def improve(
+    path: str, max_steps: int, candidates: tuple[str, ...], least_fall: float, seed: int,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Diagnose and add from the current node until what is left is noise: each step a node.
+
+    Every step is saved as it is made.
+    """
+    check_candidates(candidates)
+    made = Project.open(path).improve(
+        least_fall=least_fall, most_steps=max_steps, candidates=candidates, seed=seed,
+        progress=say, each=Project.save,
+    )  # fmt: skip
+    _written(made, as_json)
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.argument("nodes", nargs=2, metavar="NODE NODE")
+@seed_option
+@json_option
+def compare(path: str, nodes: tuple[str, str], seed: int, as_json: bool) -> None:
+    """Two nodes side by side: errors, where each fails, parameters."""
+    sides = Project.open(path).compare(*nodes, seed=seed)
+    if as_json:
+        echo_json(sides.to_dict())
+    else:
+        click.echo(repr(sides))
+
+
+@project.command()
+@click.argument("path", metavar="PROJECT")
+@click.option("-o", "--output", required=True, type=click.Path(dir_okay=False), help="Model file.")
+@json_option
+def save(path: str, output: str, as_json: bool) -> None:
+    """Write the current model as a model file (TOML)."""
+    check_output(output)
+    made = Project.open(path)
+    made.save_model(output)
+    say(f"wrote {output}")
+    if as_json:
+        echo_json({"node": made.current, "model": made.node.kept.model.spec, "path": output})

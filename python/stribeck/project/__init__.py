@@ -1,0 +1,12 @@
+"""Projects: the loop driven by hand, with every branch kept in one file.
+
+The walk through it: `source` is the data and how it was read, `kept` a fitted model as it is
+stored, `findings` what a diagnosis said, `node` a model with how it came about, `tree` the nodes,
+`project` the verbs, `file` the TOML.
+"""
+
+from stribeck.project.node import Node
+from stribeck.project.project import Project
+from stribeck.project.tree import Tree
+
+__all__ = ["Node", "Project", "Tree"]
