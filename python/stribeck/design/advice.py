@@ -34,5 +34,13 @@ ADVICE = {
         "what happens before sliding lasts micrometres to millimetres: record at the highest rate "
         "and at the finest resolution of the encoder"
     ),
+    "elasticity": (
+        "a motion at one end of the drive train shows its twist only where the load torque changes "
+        "fast: record the positions at motor and joint as well"
+    ),
+    "backlash": (
+        "teeth change flanks only where the load torque changes its sign: choose a payload or an "
+        "orientation that balances the joint within its range"
+    ),
     "delay": "no motion tells which channel is late: compare with a common trigger or clock",
 }

@@ -51,11 +51,10 @@ class Wanted:
         """Add each effect to the model of `reference`, and weigh it there."""
         effects = dict.fromkeys((*apart, *show))
         widened = {e: Widened.of(reference, e, residual) for e in effects}
-        base = reference.predict(reference.model.values)[reference.rows]
         level = WEIGHED * rms(reference.target - reference.known[reference.rows])
         sizes = {}
         for effect, one in widened.items():
-            unit = rms(typical_torque(one, base))
+            unit = rms(typical_torque(one))
             sizes[effect] = level / unit if unit > 0 else 1.0
         return cls(widened, tuple(apart), sizes)
 
@@ -64,19 +63,14 @@ class Wanted:
         return [e for e in self.apart if e != effect] if effect in self.apart else []
 
 
-def typical_torque(one: Widened, base: Array) -> Array:
+def typical_torque(one: Widened) -> Array:
     """Torque for one unit of the size, array [m]; of a bristle, with one of middling stiffness."""
-    if not one.is_curved:
-        return one.unit_torque()
-    middle = one.stiffnesses(3)[1]
-    return one.change(middle, base + one.change(one.size.upper, base))
+    return one.change(one.sizes(3)[1]) if one.is_curved else one.unit_torque()
 
 
-def columns_of(one: Widened, base: Array) -> Array:
+def columns_of(one: Widened) -> Array:
     """Torques that the effect can make near its start, array [m, k]."""
-    if one.is_curved:
-        return typical_torque(one, base)[:, None]
-    return one.spaces(base, 1)[0]
+    return typical_torque(one)[:, None] if one.is_curved else one.spaces(1)[0]
 
 
 def least_information(wanted: Wanted, setting: Setting, motion: Motion, rate: float) -> float:
@@ -88,13 +82,12 @@ def least_information(wanted: Wanted, setting: Setting, motion: Motion, rate: fl
     problem = setting.problem(recording)
     if problem.rows.size < 50:
         return -np.inf
-    base = problem.predict(problem.model.values)[problem.rows]
     beside = Beside(problem)
     here = {effect: one.on(problem) for effect, one in wanted.widened.items()}
-    spaces = {effect: beside.without(columns_of(here[effect], base)) for effect in wanted.apart}
+    spaces = {effect: beside.without(columns_of(here[effect])) for effect in wanted.apart}
     least = np.inf
     for effect, one in here.items():
-        left = beside.without(wanted.sizes[effect] * typical_torque(one, base)[:, None])
+        left = beside.without(wanted.sizes[effect] * typical_torque(one)[:, None])
         others = [spaces[e] for e in wanted.others(effect)]
         if one.simpler.size:
             others.append(beside.without(one.simpler_columns()))
@@ -124,14 +117,14 @@ def sight(wanted: Wanted, problem: Problem, noise: Noise | ExpectedNoise, demand
     """The figures of a recording, that of `problem`."""
     base = problem.predict(problem.model.values)[problem.rows]
     here = {effect: one.on(problem) for effect, one in wanted.widened.items()}
-    spaces = {effect: columns_of(here[effect], base) for effect in wanted.apart}
+    spaces = {effect: columns_of(here[effect]) for effect in wanted.apart}
     smallest = {}
     for effect, one in here.items():
         others = [spaces[e] for e in wanted.others(effect)]
         beside = Beside(problem, np.column_stack(others) if others else None)
         smallest[effect] = show(one, [(beside, demand)], noise, base)
     alone = Beside(problem)
-    left = {e: alone.without(typical_torque(here[e], base)[:, None])[:, 0] for e in wanted.apart}
+    left = {e: alone.without(typical_torque(here[e])[:, None])[:, 0] for e in wanted.apart}
     span = {e: orthonormal(alone.without(spaces[e])) for e in wanted.apart}
     cosines = {}
     for k, one_ in enumerate(wanted.apart):

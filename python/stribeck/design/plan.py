@@ -65,6 +65,8 @@ class Prospect:
 
     Attributes
     ----------
+    inverse
+        Whether the effect is the smaller the larger its size.
     before, after
         Smallest size seen on the data at hand (None without data) and on the planned motion.
     advice
@@ -74,7 +76,7 @@ class Prospect:
     effect: str
     parameter: str
     unit: str
-    harder: bool
+    inverse: bool
     before: Size | None
     after: Size
     advice: str
@@ -85,8 +87,7 @@ class Prospect:
         before = None if self.before is None else self.before.value
         if before is None or self.after.value is None:
             return None
-        # A bristle is the smaller an effect the harder it is.
-        return self.after.value / before if self.harder else before / self.after.value
+        return self.after.value / before if self.inverse else before / self.after.value
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON."""
@@ -349,7 +350,7 @@ def _search(
 def _prospect(effect: str, wanted: Wanted, before: Sight | None, after: Sight) -> Prospect:
     one = wanted.widened[effect]
     return Prospect(
-        effect, one.size.name, one.size.unit, one.is_curved,
+        effect, one.size.name, one.size.unit, one.is_inverse,
         None if before is None else Size.of(before.smallest[effect]),
         Size.of(after.smallest[effect]), ADVICE.get(effect, ""),
     )  # fmt: skip

@@ -8,7 +8,6 @@ directions is taken up by a refit and shows nowhere; only the rest can be seen.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -26,6 +25,13 @@ Array = NDArray[np.float64]
 
 #: Multiples of the start at which an effect's first nonlinear parameter is looked at too.
 OTHER_STARTS = (1.0 / 3.0, 3.0)
+#: Sizes to which an effect's torque is not proportional, with multiples of the start between which
+#: they are looked at, from large effects to small ones.
+CURVED = {
+    "presliding_stiffness": (1.0, 1e4),
+    "backlash_gap": (5.0, 1e-2),
+    "frictional_lag": (10.0, 1e-2),
+}
 
 
 @dataclass(frozen=True)
@@ -166,13 +172,18 @@ class Widened:
 
     @property
     def is_curved(self) -> bool:
-        """Whether the torque is not proportional to the size: a bristle, however stiff."""
-        return self.size.name == "presliding_stiffness"
+        """Whether the torque is not proportional to the size."""
+        return self.size.name in CURVED
 
-    def at(self, size: float, *others: float) -> Array:
-        """Values of the wider model [p] with this size, and these of the effect's others."""
+    @property
+    def is_inverse(self) -> bool:
+        """Whether the effect is the smaller the larger its size: a bristle's stiffness."""
+        return self.is_curved and CURVED[self.size.name][1] > 1.0
+
+    def at(self, size: float) -> Array:
+        """Values of the wider model [p] with this size of the effect."""
         values = self.problem.model.values.copy()
-        values[self.own[: 1 + len(others)]] = (size, *others)
+        values[self.own[0]] = size
         return values
 
     def unit_torque(self) -> Array:
@@ -188,13 +199,11 @@ class Widened:
         """Derivative of the prediction by the parameters `own` and `simpler`, array [m, p]."""
         return self._columns(self.problem, self.problem.model.values)
 
-    def spaces(self, base: Array, step: int) -> list[Array]:
+    def spaces(self, step: int) -> list[Array]:
         """Spans of the torques that the effect can make near each of a few starts.
 
         Parameters
         ----------
-        base : array [m]
-            Torque of the model without the effect, for effects whose torque is curved.
         step
             One row in so many is enough.
 
@@ -203,7 +212,8 @@ class Widened:
         list of arrays [m / step, k]
         """
         if self.is_curved:
-            return [np.column_stack([self.change(s, base)[::step] for s in self.stiffnesses(3)])]
+            changes = [self.change(size)[::step, None] for size in self.sizes(3)]
+            return [np.concatenate([*changes, self.simpler_columns()[::step]], axis=1)]
         few = replace(self.problem, rows=self.problem.rows[::step])
         return [self._at_start[::step], *(self._columns(few, v) for v in self._other_starts())]
 
@@ -228,15 +238,28 @@ class Widened:
                 starts.append(values)
         return starts
 
-    def change(self, size: float, base: Array) -> Array:
-        """Torque that the effect of this size adds on the rows, array [m]."""
-        torque = self.problem.predict(self.at(size))[self.problem.rows]
-        return _finite(torque - base, self.effect)
+    def sizes(self, count: int) -> list[float]:
+        """Sizes of an effect that `is_curved`, from large effects to small ones."""
+        row, (first, last) = self.size, CURVED[self.size.name]
+        ends = np.clip(row.start * np.array([first, last]), row.lower, row.upper)
+        return [float(size) for size in np.geomspace(float(ends[0]), float(ends[1]), count)]
 
-    def stiffnesses(self, count: int) -> Sequence[float]:
-        """Bristles from soft to hard, over the sliding distances that the recording resolves."""
-        start = self.size.start
-        return [float(s) for s in np.geomspace(start, min(1e4 * start, self.size.upper), count)]
+    @cached_property
+    def absent(self) -> Array:
+        """Torque of the wider model on the rows with as little of the effect as it can have, [m].
+
+        Not quite the torque of the model without it: a bristle, however hard, turns when its
+        deflection does, and not with the sign of the velocity.
+        """
+        size = self.size.upper if self.is_inverse else self.size.lower
+        return self._torque(size)
+
+    def change(self, size: float) -> Array:
+        """Torque that the effect of this size adds on the rows, array [m]."""
+        return self._torque(size) - self.absent
+
+    def _torque(self, size: float) -> Array:
+        return _finite(self.problem.predict(self.at(size))[self.problem.rows], self.effect)
 
 
 def _finite(torque: Array, effect: str) -> Array:

@@ -31,8 +31,8 @@ TOLD_APART = 3.0
 HELD_BY = {"offset": "direction"}
 #: Share of a torque from which on it is more than what rounding leaves of it.
 INVISIBLE = 1e-8
-#: Bristles that are tried for the softest one that would have been seen.
-BRISTLES = 9
+#: Sizes between which the smallest visible one of an effect is looked for, if it is not linear.
+SIZES = 9
 
 
 @dataclass(frozen=True)
@@ -119,6 +119,11 @@ class Shown:
     def effect(self) -> str:
         return self.widened.effect
 
+    def is_looked_for(self, found: Collection[str]) -> bool:
+        """Whether a diagnosis looks for it: one beyond a simpler effect only where that is."""
+        simpler = catalog()["effects"].get(self.effect, {}).get("beyond")
+        return self.widened.simpler.size == 0 or simpler in found
+
     @property
     def smallest(self) -> float:
         """RMS of the smallest torque that is seen."""
@@ -170,9 +175,16 @@ def visibility(
             continue
         if one.smallest <= largest:
             shown.append(one)
-        elif effect not in found and not fit.model.has(HELD_BY.get(effect, effect)):
+        elif (
+            effect not in found
+            and one.is_looked_for(found)
+            and not fit.model.has(HELD_BY.get(effect, effect))
+        ):
             hidden.append(_hidden(one, base, unit))
-    smallest = sorted((s.result(unit) for s in shown if s.effect not in found), key=lambda s: s.rms)
+    smallest = sorted(
+        (s.result(unit) for s in shown if s.effect not in found and s.is_looked_for(found)),
+        key=lambda s: s.rms,
+    )
     groups = indistinguishable(shown, problem, rms(noise.residual), unit)
     return Visibility(tuple(smallest), groups, tuple(hidden))
 
@@ -200,7 +212,7 @@ def show(
         Forms that a fit of the effect chooses from by looking at the data: a ripple's periods.
     """
     if widened.is_curved:
-        return _hardest(widened, beside, noise, base)
+        return _least_of_sizes(widened, beside, noise, base)
     torque = widened.unit_torque()
     return Shown(widened, 1.0, torque, _factor(widened, torque, beside, noise, max(guesses, 1)))
 
@@ -228,37 +240,44 @@ def _factor(
     return max(factors)
 
 
-def _hardest(
+def _least_of_sizes(
     widened: Widened,
     beside: Sequence[tuple[Beside, Demand]],
     noise: Noise | ExpectedNoise,
     base: Array,
 ) -> Shown:
-    """The hardest bristle that is still seen: between two of a grid, where one is and one not.
+    """The smallest size that is still seen: between two of a grid, where one is and one not.
 
-    A bristle so hard that it turns within a step differs from the sign of the velocity by when in
-    the step it turns. That is no effect, but an error that a fit with a bristle makes.
+    What the wider model leaves of the plain one where its effect is absent is no effect, but an
+    error that a fit with it makes, and counts as noise.
     """
-    grid = [*widened.stiffnesses(BRISTLES)]
-    limit = base + widened.change(widened.size.upper, base)
-    error = beside[0][0].without((limit - base)[:, None])[:, 0]
-    loud = noise.beside(error)
-    loss = float(error @ error)
+    error = beside[0][0].without((widened.absent - base)[:, None])
+    if widened.simpler.size:
+        error = rest(orthonormal(beside[0][0].without(widened.simpler_columns())), error)
+    loud = noise.beside(error[:, 0])
+    loss = float(np.sum(error**2))
 
-    def shown(stiffness: float) -> Shown:
-        torque = widened.change(stiffness, limit)
-        return Shown(widened, stiffness, torque, _factor(widened, torque, beside, loud, loss=loss))
+    def shown(size: float) -> Shown:
+        torque = widened.change(size)
+        return Shown(widened, size, torque, _factor(widened, torque, beside, loud, loss=loss))
 
-    seen = None
-    for stiffness in grid:
-        one = shown(stiffness)
-        if one.factor > 1.0:
-            break
-        seen = one
-    if seen is None or one.factor <= 1.0:
-        return one
-    share = -np.log(seen.factor) / np.log(one.factor / seen.factor)
-    between = float(seen.size * (one.size / seen.size) ** share)
+    sizes = widened.sizes(SIZES)
+    seen, hidden = shown(sizes[0]), shown(sizes[-1])
+    if seen.factor > 1.0:
+        return replace(seen, factor=np.inf)
+    if hidden.factor <= 1.0:
+        return replace(hidden, factor=1.0)
+    while len(sizes) > 2:
+        middle = len(sizes) // 2
+        one = shown(sizes[middle])
+        if one.factor <= 1.0:
+            seen, sizes = one, sizes[middle:]
+        else:
+            hidden, sizes = one, sizes[: middle + 1]
+    if not np.isfinite(hidden.factor):
+        return replace(seen, factor=1.0)
+    share = -np.log(seen.factor) / np.log(hidden.factor / seen.factor)
+    between = float(seen.size * (hidden.size / seen.size) ** share)
     return replace(shown(between), factor=1.0)
 
 
@@ -298,11 +317,10 @@ def indistinguishable(
     """
     step = -(-problem.rows.size // MOST_ROWS)
     base = Beside(replace(problem, rows=problem.rows[::step]))
-    plain = problem.predict(problem.model.values)[problem.rows]
     made: dict[str, tuple[Shown, Array, list[Array]]] = {}
     for one in shown:
         try:
-            spaces = [orthonormal(base.without(s)) for s in one.widened.spaces(plain, step)]
+            spaces = [orthonormal(base.without(s)) for s in one.widened.spaces(step)]
         except StribeckError:
             continue
         made[one.effect] = (one, base.without(one.torque[::step, None])[:, 0], spaces)

@@ -12,9 +12,9 @@ import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.stats import f as fisher
-from stribeck.diagnose.power import Demand, Noise, needed_factor
-from stribeck.diagnose.tangent import orthonormal, rest, sine
-from stribeck.diagnose.visibility import Visibility, cliques, visibility
+from stribeck.diagnose.power import Demand, ExpectedNoise, Noise, needed_factor
+from stribeck.diagnose.tangent import Beside, Widened, orthonormal, rest, sine
+from stribeck.diagnose.visibility import Visibility, cliques, problem_of, show, visibility
 from stribeck.generate import generate, sidecar_text
 from stribeck.model import effect_ids
 from synthetic import ar1, joint, motion, record
@@ -22,6 +22,8 @@ from synthetic import ar1, joint, motion, record
 Array = NDArray[np.float64]
 #: Sizes of planted effects, as shares of the smallest visible one.
 SMALL, LARGE = 0.5, 2.0
+#: What is looked for only where the simpler effect that it goes beyond is there.
+BEYOND = {"quadrant", "frictional_lag"}
 
 
 def seen(fit: sb.Fit, *effects: str) -> Visibility:
@@ -172,7 +174,7 @@ def test_a_diagnosis_says_all_that(plain: sb.Recording) -> None:
     diagnosis = sb.diagnose(sb.fit("coulomb", plain))
     answer = json.loads(json.dumps(diagnosis.to_dict(), allow_nan=False))
     stated = {row["effect"]: row for row in answer["smallest_visible"]}
-    assert set(stated) == set(effect_ids())
+    assert set(stated) == set(effect_ids()) - BEYOND
     assert all(row["rms"] > 0 and row["unit"] == "N m" for row in stated.values())
     assert ["direction", "offset"] in answer["indistinguishable_groups"] or any(
         {"direction", "offset"} <= set(g) for g in answer["indistinguishable_groups"]
@@ -185,6 +187,36 @@ def test_a_diagnosis_says_all_that(plain: sb.Recording) -> None:
 def test_the_load_of_an_identified_rigid_body_counts(tmp_path: Path) -> None:
     fit = sb.fit("coulomb", record(tmp_path, joint().drop("load_torque")))
     assert [row.effect for row in seen(fit, "load", "gain").smallest] == ["load"]
+
+
+def test_an_effect_beyond_another_is_stated_where_that_is_in_the_model(plain: sb.Recording) -> None:
+    for law, stated in (("coulomb", []), ("coulomb+load", ["quadrant"])):
+        rows = seen(sb.fit(law, plain), "quadrant").smallest
+        assert [row.effect for row in rows] == stated
+
+
+@pytest.mark.parametrize("effect", ["presliding", "backlash", "frictional_lag"])
+def test_effects_that_are_not_proportional_to_their_size(effect: str, tmp_path: Path) -> None:
+    """The stated size lies within what was looked at, and more noise asks for a larger one."""
+    v = motion()[2]
+    curve = 1.5 * np.exp(-((v / 0.3) ** 2)) * np.sign(v)
+    fit = sb.fit("coulomb+stribeck", record(tmp_path, joint(curve)))
+    problem = problem_of(fit)
+    widened = Widened.of(problem, effect, fit.residual)
+    base = (Beside(problem), Demand(5e-4, 0.01))
+    sizes = []
+    for noise in (0.003, 0.03):
+        loud = ExpectedNoise(noise, 1.0, problem.rows.size)
+        sizes.append(show(widened, [base], loud, fit.prediction[fit.rows]).size)
+    first, *_, last = widened.sizes(3)
+    assert min(first, last) <= min(sizes) and max(sizes) <= max(first, last)
+    assert (sizes[0] > sizes[1]) == widened.is_inverse and sizes[0] != sizes[1]
+
+
+def test_a_lag_without_a_stribeck_curve_is_seen_at_no_size(plain: sb.Recording) -> None:
+    flat = sb.fit("coulomb+stribeck", plain)
+    assert seen(flat, "frictional_lag").smallest == ()
+    assert [row.effect for row in seen(flat, "frictional_lag").hidden] == ["frictional_lag"]
 
 
 def test_what_was_found_is_not_called_invisible(tmp_path: Path) -> None:
@@ -213,5 +245,6 @@ def test_it_is_quick(tmp_path: Path) -> None:
     frame, truth = generate([], seed=1, seconds=300.0, rate=200.0)
     fit = sb.fit("coulomb", made(tmp_path, frame, truth))
     began = time.process_time()
-    assert len(seen(fit).smallest) == len(effect_ids())
-    assert time.process_time() - began < 2.0
+    assert {row.effect for row in seen(fit).smallest} == set(effect_ids()) - BEYOND
+    # Under 1 s on a machine of its own.
+    assert time.process_time() - began < 3.0
