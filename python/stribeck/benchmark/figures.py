@@ -64,8 +64,8 @@ def calibration_figure(bins: Sequence[Reliability]) -> Figure:
     spans = np.array([r.share.interval for r in bins]).T
     bars = np.abs(spans - shares)
     axes.errorbar(means, shares, yerr=bars, color=AFTER, marker="o", markersize=5, capsize=3,
-                  linewidth=1.3, label="findings, 95 % interval")  # fmt: skip
-    beside = {"xytext": (-6, 7), "textcoords": "offset points", "ha": "right"}
+                  linewidth=1.3, linestyle="none", label="findings, 95 % interval")  # fmt: skip
+    beside = {"xytext": (-6, 4), "textcoords": "offset points", "ha": "right"}
     for mean, share, r in zip(means, shares, bins, strict=True):
         axes.annotate(str(r.share.total), (mean, share), fontsize=8, color=MEASURED, **beside)
     axes.set(xlim=(-0.02, 1.02), ylim=(-0.02, 1.04), xlabel="stated confidence",
@@ -74,8 +74,8 @@ def calibration_figure(bins: Sequence[Reliability]) -> Figure:
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    axes.legend(frameon=False, fontsize=9, loc="upper left")
     axes.set_title("Confidence and truth (numbers: findings)", loc="left", fontsize=10.5)
+    figure.legend(frameon=False, fontsize=9, loc="outside lower center", ncols=2)
     return figure
 
 

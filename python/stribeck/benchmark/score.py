@@ -238,7 +238,9 @@ def _confusion(judged: Judged) -> Confusion:
         elif a.case.group == "outside":
             pairs.append((OUTSIDE, j.named))
     hidden, named = {row for row, _ in pairs}, {column for _, column in pairs}
-    effects = effect_ids()
+    effects = tuple(effect_ids())
+    # A generator may hide what the catalog does not know yet.
+    effects += tuple(sorted(hidden - {*effects, NONE, OUTSIDE}))
     rows = tuple(r for r in (*effects, NONE, OUTSIDE) if r in hidden)
     columns = tuple(c for c in effects if c in hidden | named)
     columns += (NONE, UNEXPLAINED, *([FAILED] if FAILED in named else []))

@@ -66,6 +66,12 @@ def test_the_confusion_matrix_holds_every_single_effect() -> None:
     assert confusion.to_frame()["hidden"].to_list() == ["load", "none", OUTSIDE]
 
 
+def test_an_effect_that_no_catalog_knows_has_its_row() -> None:
+    confusion = score([one("flutter", "load")]).confusion
+    assert confusion.rows == ("flutter",)
+    assert confusion.columns[:2] == ("load", "flutter")
+
+
 def test_confidence_is_compared_with_the_share_that_is_right() -> None:
     answers = [one("load", "load" if k < 9 else "gain", 0.92, seed=k) for k in range(10)]
     (reliability,) = score(answers).reliability
