@@ -128,7 +128,7 @@ def cases(
     Raises
     ------
     StribeckError
-        There is no such generator, or `only` leaves no case.
+        There is no such generator, `only` leaves no case, or the seed is negative.
     """
     names = tuple(generators)
     for name in names:
@@ -137,6 +137,8 @@ def cases(
                 f"there is no generator {name!r}{nearest(name, GENERATORS)}; "
                 f"there are {', '.join(GENERATORS)}"
             )
+    if seed < 0:
+        raise StribeckError(f"the seed is {seed}: give 0 or a positive whole number")
     first = FIRST_SEED + 1_000_000 * seed
     made = [c for n in names for c in _of_generator(GENERATORS[n], seeds, first)]
     made += _coverage(seeds, first)

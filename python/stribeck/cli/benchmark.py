@@ -7,10 +7,6 @@ from pathlib import Path
 
 import click
 
-from stribeck.benchmark.cases import cases
-from stribeck.benchmark.generators import GENERATORS
-from stribeck.benchmark.run import run
-from stribeck.benchmark.text import score_text
 from stribeck.cli.common import echo_json, json_option, say, seed_option
 from stribeck.cli.progress import Progress
 from stribeck.parallel import Stopped
@@ -28,7 +24,7 @@ def benchmark() -> None:
 )  # fmt: skip
 @click.option(
     "--generator", "generators", multiple=True, metavar="NAME",
-    help=f"Generator of recordings, may be repeated. [default: {', '.join(GENERATORS)}]",
+    help="open_loop or closed_loop; may be repeated. [default: both]",
 )  # fmt: skip
 @click.option(
     "--only", default=None, metavar="WORD",
@@ -54,6 +50,12 @@ def diagnosis(
     With --output every answer is kept as it is given: Ctrl-C stops, and the same command goes on
     from there.
     """
+    # Not at the top: generators and figures would slow the start of every other command.
+    from stribeck.benchmark.cases import cases
+    from stribeck.benchmark.generators import GENERATORS
+    from stribeck.benchmark.run import run
+    from stribeck.benchmark.text import score_text
+
     chosen = cases(
         seeds, generators=generators or tuple(GENERATORS), only=only, quick=quick, seed=seed
     )
