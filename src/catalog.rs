@@ -113,6 +113,14 @@ macro_rules! effects {
                     })+
                 }
             }
+
+            /// Whether it has a state of its own, beside a bristle's.
+            #[must_use]
+            pub const fn has_state(self) -> bool {
+                match self {
+                    $(Self::$effect => <effect::$effect<f64> as FrictionEffect<f64>>::HAS_STATE,)+
+                }
+            }
         }
 
         /// Effects with their parameters.

@@ -123,9 +123,7 @@ impl Spec {
     /// Whether the torque depends on what went before.
     #[must_use]
     pub fn has_state(&self) -> bool {
-        self.is_presliding()
-            || self.effects.contains(EffectId::FrictionalLag)
-            || self.effects.contains(EffectId::Backlash)
+        self.is_presliding() || self.effects.iter().any(EffectId::has_state)
     }
 
     /// Whether a state stands between dry friction and the torque.

@@ -43,6 +43,8 @@ impl<S: Real> FrictionEffect<S> for Backlash<S> {
         parameters: Self::TABLE,
     };
 
+    const HAS_STATE: bool = true;
+
     #[inline]
     fn apply_over(
         &self,

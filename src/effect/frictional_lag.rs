@@ -30,6 +30,8 @@ impl<S: Real> FrictionEffect<S> for FrictionalLag<S> {
         parameters: Self::TABLE,
     };
 
+    const HAS_STATE: bool = true;
+
     #[inline]
     fn apply_over(
         &self,

@@ -58,6 +58,9 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
     /// The effect's table.
     const INFO: EffectInfo;
 
+    /// Whether it has a state of its own, beside a bristle's.
+    const HAS_STATE: bool = false;
+
     /// Changes the split; effects that are no part of it (a bristle, a gain, a delay) leave it
     /// alone.
     #[inline]

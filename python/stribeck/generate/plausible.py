@@ -78,7 +78,7 @@ def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> di
         "backlash_gap": 0.08 * joint.stroke,
         "backlash_exponent": 0.6,
         "backlash_return": 0.4,
-        "elasticity": 0.01 * (joint.stroke / joint.speed) ** 2,
+        "elasticity": 0.002 * (joint.stroke / joint.speed) ** 2,
         "presliding_stiffness": 150.0 * c / joint.stroke,
         "presliding_damping": 0.1 * b,
         "bristle_stiffness": 300.0 * c / joint.stroke,
