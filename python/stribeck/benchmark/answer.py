@@ -35,6 +35,8 @@ class Answer:
     ----------
     hidden, implied, cannot_show
         The truth: what was hidden, what else that contains, and what the motion cannot show.
+    sizes
+        Of each hidden effect over the noise, as they came out.
     verdict
         Of the last diagnosis.
     rmse_held_out, oracle_rmse
@@ -49,6 +51,7 @@ class Answer:
     hidden: tuple[str, ...] = ()
     implied: tuple[str, ...] = ()
     cannot_show: tuple[str, ...] = ()
+    sizes: tuple[float, ...] = ()
     steps: tuple[Step, ...] = ()
     verdict: str = ""
     untestable: tuple[str, ...] = ()
@@ -81,7 +84,7 @@ class Answer:
             It is something else.
         """
         fields: dict[str, Any] = {k: v for k, v in stored.items() if k != "name"}
-        for key in ("hidden", "implied", "cannot_show", "untestable"):
+        for key in ("hidden", "implied", "cannot_show", "sizes", "untestable"):
             fields[key] = tuple(fields[key])
         case = fields["case"]
         fields["case"] = Case(**{**case, "effects": tuple(case["effects"])})
@@ -125,6 +128,7 @@ def _compared(case: Case, sample: Sample, recording: Recording, improvement: Imp
         hidden=tuple(e for e in truth["hidden"] if e != "none"),
         implied=tuple(truth["implied"]),
         cannot_show=tuple(truth["cannot_show"]),
+        sizes=tuple(truth["sizes"].values()),
         steps=tuple(
             Step(s.finding.effect, s.finding.confidence, s.finding.indistinguishable_from)
             for s in improvement.steps

@@ -108,7 +108,7 @@ def frame(answers: Iterable[Answer]) -> pl.DataFrame:
             {
                 "case": a.case.name, "group": a.case.group, "generator": a.case.generator,
                 "effects": list(a.case.effects), "size": a.case.size, "limit": a.case.limit,
-                "seed": a.case.seed, "correlation": a.case.correlation,
+                "sizes": list(a.sizes), "seed": a.case.seed, "correlation": a.case.correlation,
                 "right": judgement.right if judgement else None,
                 "exact": judgement.exact if judgement else None,
                 "named": judgement.named if judgement else None,
@@ -128,7 +128,8 @@ def frame(answers: Iterable[Answer]) -> pl.DataFrame:
     texts, numbers = pl.List(pl.String), pl.List(pl.Float64)
     schema: dict[str, Any] = {
         "case": pl.String, "group": pl.String, "generator": pl.String, "effects": texts,
-        "size": pl.Float64, "limit": pl.String, "seed": pl.Int64, "correlation": pl.Float64,
+        "size": pl.Float64, "sizes": numbers, "limit": pl.String, "seed": pl.Int64,
+        "correlation": pl.Float64,
         "right": pl.Boolean, "exact": pl.Boolean, "named": pl.String, "problem": pl.String,
         "found": texts, "confidence": numbers, "indistinguishable_from": pl.List(texts),
         "verdict": pl.String, "untestable": texts, "rmse_held_out": pl.Float64,
