@@ -324,19 +324,20 @@ def _gap(rng: np.random.Generator, machine: Machine) -> tuple[float, float]:
 
 
 def _spring(rng: np.random.Generator, machine: Machine) -> Shape:
-    """A balancer: a pull spring between a fixed eye and a lever, its mean over the stroke out."""
-    eye = float(rng.uniform(1.3, 2.5))
-    turn = float(rng.uniform(-0.8, 0.8))
-    free = float(rng.uniform(0.2, 0.6)) * eye
+    """A cable that is slack up to a point, or a hose that stiffens; its mean over the stroke out.
+
+    Neither is a sine of the angle: that would be gravity.
+    """
+    rest, towards = float(rng.uniform(-0.3, 0.3)), float(rng.choice([-1.0, 1.0]))
+    slack = bool(rng.random() < 0.5)
 
     def pull(q: Array) -> Array:
-        angle = (q - machine.centre) / machine.half * 1.1 + turn
-        length = np.sqrt(1 + eye**2 - 2 * eye * np.cos(angle))
-        return np.asarray(eye * np.sin(angle) * (1 - free / length))
+        u = towards * (q - machine.centre) / machine.half - rest
+        return np.maximum(u, 0.0) ** 1.5 if slack else u * np.abs(u)
 
     over = pull(machine.centre + machine.half * np.linspace(-1.0, 1.0, 301))
     mean, spread = float(over.mean()), float(over.std())
-    return lambda q: (pull(q) - mean) / spread
+    return lambda q: towards * (pull(q) - mean) / spread
 
 
 def _ripple(rng: np.random.Generator, machine: Machine) -> Shape:

@@ -70,7 +70,7 @@ def draw_machine(rng: np.random.Generator, effects: Collection[str]) -> Machine:
     turns = {"gravity", "backlash", "elasticity"} & set(effects)
     kind = "prismatic" if rng.random() < 0.15 and not turns else "revolute"
     half = log_uniform(rng, 0.6, 1.8) if kind == "revolute" else log_uniform(rng, 0.08, 0.4)
-    if "gravity" in effects:
+    if kind == "revolute" and {"gravity", "spring"} & set(effects):
         half = float(rng.uniform(1.4, 2.2))
     vmax = half * log_uniform(rng, 0.8, 2.5)
     ramp = float(rng.uniform(0.18, 0.35))
