@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from stribeck.design.motion import Limits, Motion
-from stribeck.design.plan import Plan, Prospect, Size, plan
+from stribeck.design.plan import plan
+from stribeck.design.result import Plan, Prospect, Size
 
 __all__ = ["Limits", "Motion", "Plan", "Prospect", "Size", "plan"]

@@ -11,7 +11,7 @@ from stribeck.report.figures import AFTER, BEFORE, DPI
 from stribeck.report.numbers import listed
 
 if TYPE_CHECKING:
-    from stribeck.design.plan import Plan
+    from stribeck.design.result import Plan
 
 
 def plan_figure(plan: Plan) -> Figure:

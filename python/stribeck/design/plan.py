@@ -2,187 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
-
-import numpy as np
-import polars as pl
-from numpy.typing import NDArray
-from scipy.optimize import differential_evolution
+from collections.abc import Sequence
+from dataclasses import replace
 
 from stribeck.design.advice import ADVICE, OF_TEMPERATURE, WARMING
 from stribeck.design.fourier import FourierMotions
-from stribeck.design.information import Sight, Wanted, least_information, sight
-from stribeck.design.motion import Family, Limits, Motion
+from stribeck.design.information import Sight, Wanted, sight
+from stribeck.design.motion import Family, Limits
 from stribeck.design.passes import PassMotions
+from stribeck.design.result import Plan, Prospect, Size
+from stribeck.design.search import search
 from stribeck.design.setting import Setting, setting_of_file, setting_of_fit
 from stribeck.diagnose import LEAST_FALL
 from stribeck.diagnose.power import Demand, Noise
 from stribeck.diagnose.testable import untestable
 from stribeck.diagnose.trial import SIGNIFICANCE
-from stribeck.diagnose.visibility import Shown, problem_of
+from stribeck.diagnose.visibility import problem_of
 from stribeck.errors import SpecError
 from stribeck.fit import Fit
 from stribeck.model import Model, catalog, check_effect, effect_ids
 from stribeck.model_file import ModelFile
 from stribeck.recording import Recording
 
-Array = NDArray[np.float64]
-
-#: Candidates of a generation and generations of the search, for each family of motions.
-CANDIDATES, GENERATIONS = 24, 30
-#: Samples of a motion while it is searched; with a memory in the model they must lie closer.
-FEW_SAMPLES, MORE_SAMPLES = 1200, 5000
 #: Samples a second of a motion for a joint of which no recording is given.
 RATE = 100.0
 SHORTEST, LONGEST = 5.0, 3600.0
-
-
-@dataclass(frozen=True)
-class Size:
-    """The smallest effect that is seen: its parameter's value, and the RMS of its torque."""
-
-    value: float | None
-    rms: float | None
-
-    @classmethod
-    def of(cls, shown: Shown) -> Size:
-        """None where no size is seen."""
-        if not np.isfinite(shown.factor):
-            return cls(None, None)
-        result = shown.result("")
-        return cls(float(result.value), float(result.rms))
-
-    def to_dict(self) -> dict[str, float | None]:
-        """As JSON."""
-        return {"value": self.value, "rms": self.rms}
-
-
-@dataclass(frozen=True)
-class Prospect:
-    """What a plan brings for one effect.
-
-    Attributes
-    ----------
-    inverse
-        Whether the effect is the smaller the larger its size.
-    before, after
-        Smallest size seen on the data at hand (None without data) and on the planned motion.
-    advice
-        What the motion cannot do for it; empty if nothing.
-    """
-
-    effect: str
-    parameter: str
-    unit: str
-    inverse: bool
-    before: Size | None
-    after: Size
-    advice: str
-
-    @property
-    def gain(self) -> float | None:
-        """How many times smaller an effect is seen; None where that is no number."""
-        before = None if self.before is None else self.before.value
-        if before is None or self.after.value is None:
-            return None
-        return self.after.value / before if self.inverse else before / self.after.value
-
-    def to_dict(self) -> dict[str, Any]:
-        """As JSON."""
-        return {
-            "effect": self.effect,
-            "parameter": self.parameter,
-            "unit": self.unit,
-            "before": None if self.before is None else self.before.to_dict(),
-            "after": self.after.to_dict(),
-            "gain": self.gain,
-            "advice": self.advice or None,
-        }
-
-
-@dataclass(frozen=True)
-class Plan:
-    """A motion, and what a recording of it is expected to show.
-
-    Attributes
-    ----------
-    motion, rate
-        Its samples, and their number a second.
-    kind
-        Family that it was chosen from.
-    cosines
-        Of each pair to be told apart, how alike both look: on the data at hand (None without
-        data) and on the planned motion.
-    """
-
-    model: Model
-    motion: Motion
-    rate: float
-    kind: str
-    limits: Limits
-    prospects: tuple[Prospect, ...]
-    cosines: Mapping[tuple[str, str], tuple[float | None, float]]
-    source: str | None
-    seed: int
-    notes: tuple[str, ...] = ()
-
-    @property
-    def duration(self) -> float:
-        """Seconds."""
-        return float(self.motion.time[-1])
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON of `stribeck plan`."""
-        m, limits = self.motion, self.limits
-        return {
-            "model": self.model.spec,
-            "data": self.source,
-            "motion": {
-                "kind": self.kind,
-                "duration": self.duration,
-                "rate_hz": self.rate,
-                "rows": int(m.time.size),
-                "position": [float(m.position.min()), float(m.position.max())],
-                "speed": float(np.abs(m.velocity).max()),
-                "acceleration": float(np.abs(m.acceleration).max()),
-            },
-            "limits": {
-                "position": [limits.low, limits.high],
-                "speed": limits.speed,
-                "acceleration": limits.acceleration,
-            },
-            "effects": [row.to_dict() for row in self.prospects],
-            "torque_unit": self.model.torque_unit,
-            "cosines": [
-                {"effects": list(pair), "before": before, "after": after}
-                for pair, (before, after) in self.cosines.items()
-            ],
-            "seed": self.seed,
-            "notes": list(self.notes),
-        }
-
-    def to_frame(self) -> pl.DataFrame:
-        """The motion as a table: time, position, velocity, acceleration."""
-        m = self.motion
-        return pl.DataFrame(
-            {
-                name: getattr(m, name) + 0.0
-                for name in ("time", "position", "velocity", "acceleration")
-            }
-        )
-
-    def plot(self) -> Any:
-        """Position and speed over time, within their limits, as a matplotlib figure."""
-        from stribeck.design.figures import plan_figure
-
-        return plan_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.design.text import plan_text
-
-        return plan_text(self)
+#: A motion is at least so many times faster than the noise of the velocity.
+FASTER = 5.0
 
 
 def plan(
@@ -225,12 +71,14 @@ def plan(
     """
     limits = Limits(float(position[0]), float(position[1]), float(speed), float(acceleration))
     fitted = of if isinstance(of, Fit) else None
+    separate = tuple(dict.fromkeys(separate))
     effects = _checked(of.model, separate, show)
     setting = setting_of_fit(of) if isinstance(of, Fit) else setting_of_file(of, limits, noise)
     if set(effects) & set(OF_TEMPERATURE):
         (usual,) = setting.temperatures
         setting = replace(setting, temperatures=(usual - WARMING / 2, usual + WARMING / 2))
     _check_load(effects, setting)
+    _check_speed(limits, setting)
     samples = _rate(rate, fitted)
     _check_size(duration, samples)
     families: tuple[Family, ...] = (
@@ -242,7 +90,7 @@ def plan(
     )
     residual = None if fitted is None else fitted.residual
     wanted = Wanted.of(reference, residual, show, separate)
-    kind, motion = _search(families, wanted, setting, duration, samples, seed)
+    kind, motion = search(families, wanted, setting, duration, samples, seed)
     demand = Demand(SIGNIFICANCE / len(effect_ids()), LEAST_FALL)
     planned = setting.recording(motion, samples)
     after = sight(wanted, setting.problem(planned), setting.expected_noise(planned), demand)
@@ -301,6 +149,15 @@ def _check_load(effects: Sequence[str], setting: Setting) -> None:
             )
 
 
+def _check_speed(limits: Limits, setting: Setting) -> None:
+    if limits.speed < FASTER * setting.slowest:
+        unit = setting.model.position_unit
+        raise SpecError(
+            f"motion slower than {setting.slowest:.3g} {unit}/s is lost in the noise of the "
+            f"velocity: give a largest speed of at least {FASTER * setting.slowest:.3g} {unit}/s"
+        )
+
+
 def _rate(rate: float | None, fitted: Fit | None) -> float:
     if rate is None:
         # A clock's rate to four digits is the one that it was set to.
@@ -315,36 +172,6 @@ def _check_size(duration: float, rate: float) -> None:
         )
     if not 10.0 <= rate <= 1e4:
         raise SpecError(f"a rate of {rate:g} Hz is out of range: give 10 Hz to 10000 Hz")
-
-
-def _search(
-    families: Sequence[Family],
-    wanted: Wanted,
-    setting: Setting,
-    duration: float,
-    rate: float,
-    seed: int,
-) -> tuple[str, Motion]:
-    """The best motion of all families, and the name of its own."""
-    plain = all(one.problem.model.memoryless for one in wanted.widened.values())
-    coarse = min(rate, (FEW_SAMPLES if plain else MORE_SAMPLES) / duration)
-    found = []
-    for k, family in enumerate(families):
-        rng = np.random.default_rng([seed, k])
-        first = rng.random((CANDIDATES, family.variables))
-        first[0] = family.start
-
-        def cost(design: Array, family: Family = family) -> float:
-            value = least_information(wanted, setting, family.motion(design, coarse), coarse)
-            return -value if np.isfinite(value) else 1e6
-
-        best = differential_evolution(
-            cost, [(0.0, 1.0)] * family.variables, maxiter=GENERATIONS, init=first, seed=rng,
-            polish=False, tol=1e-4,
-        )  # fmt: skip
-        found.append((best.fun, family, best.x))
-    _, family, design = min(found, key=lambda row: row[0])
-    return family.name, family.motion(design, rate)
 
 
 def _prospect(effect: str, wanted: Wanted, before: Sight | None, after: Sight) -> Prospect:

@@ -8,7 +8,7 @@ from stribeck.report.numbers import listed, plain
 from stribeck.report.text import notes_text, paragraph, table, unit_text
 
 if TYPE_CHECKING:
-    from stribeck.design.plan import Plan, Prospect, Size
+    from stribeck.design.result import Plan, Prospect, Size
 
 
 def plan_text(plan: Plan) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -131,11 +132,29 @@ def test_what_a_motion_cannot_do_is_said(plain: sb.Recording) -> None:
         ({"show": ("viscosity",)}, "unknown"),
         ({"show": ("stribeck",), "duration": 0.1}, "out of range"),
         ({"show": ("stribeck",), "rate": 1.0}, "out of range"),
+        ({"show": ("stribeck",), "speed": 1e-4}, "lost in the noise"),
+        ({"separate": ("load", "load")}, "two effects"),
     ],
 )
 def test_bad_wishes(plain: sb.Recording, wrong: dict[str, object], word: str) -> None:
     with pytest.raises(sb.StribeckError, match=word):
         sb.plan(sb.fit("coulomb", plain), **{**LIMITS, **wrong})
+
+
+def test_a_voltage_on_a_motor_is_refused(plain: sb.Recording) -> None:
+    fit = sb.fit("coulomb", plain)
+    driven = replace(fit, model=replace(fit.model, drive="voltage"))
+    with pytest.raises(sb.SpecError, match="without --drive"):
+        sb.plan(driven, show=("stribeck",), **LIMITS)
+
+
+def test_the_joint_of_an_identified_rigid_body(tmp_path: Path) -> None:
+    """Its load torque follows from the model, and a repeated pose order is broken up."""
+    fit = sb.fit("coulomb", record(tmp_path, joint().drop("load_torque")))
+    made = sb.plan(fit, separate=("load", "position"), duration=10.0, rate=50.0, **LIMITS)
+    assert all(row.after.value is not None for row in made.prospects)
+    with pytest.raises(sb.StribeckError, match="gain"):
+        sb.plan(fit, show=("gain",), duration=10.0, **LIMITS)
 
 
 def test_an_effect_that_the_model_has_is_refused(plain: sb.Recording) -> None:

@@ -89,6 +89,25 @@ def test_the_stated_size_is_found_nineteen_times_in_twenty(effect: str, tmp_path
     assert count[SMALL] <= 12
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("effect", ["offset", "inertia", "load"])
+def test_the_stated_size_on_generated_recordings(effect: str, tmp_path: Path) -> None:
+    """The same on a motion of passes, swings and rests, under payloads that change."""
+    small = large = 0
+    for seed in range(6):
+        frame, truth = generate([], seed=seed, seconds=40.0, rate=100.0)
+        rec = made(tmp_path, frame, truth)
+        row = seen(sb.fit("coulomb", rec), effect).smallest[0]
+        for share in (SMALL, LARGE):
+            torque = frame["torque"].to_numpy() + planted(rec, effect, share * row.value)
+            changed = made(tmp_path, frame.with_columns(torque=pl.Series(torque)), truth)
+            found = sb.diagnose(sb.fit("coulomb", changed)).findings
+            hit = any(effect in (f.effect, *f.indistinguishable_from) for f in found)
+            small += hit and share == SMALL
+            large += hit and share == LARGE
+    assert large == 6 and small <= 4
+
+
 def test_the_stated_torque_is_that_of_the_stated_size(plain: sb.Recording) -> None:
     fit = sb.fit("coulomb", plain)
     for effect in ("offset", "inertia", "load", "stribeck"):
