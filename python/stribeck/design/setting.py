@@ -21,6 +21,7 @@ from stribeck.model import Model
 from stribeck.model_file import ModelFile
 from stribeck.recording import Recording
 from stribeck.recording.recording import Column
+from stribeck.recording.rows import held_out_blocks
 
 Array = NDArray[np.float64]
 
@@ -76,6 +77,7 @@ class Setting:
             load = _regressors(self.joint_kind, q, a) @ self.load
             external = -_regressors(self.joint_kind, q, np.zeros_like(q)) @ self.load
         time = np.tile(motion.time, runs) + run * (motion.time[-1] + 1.0 / rate)
+        block, blocks = held_out_blocks(dt, run, run, 1.0 / rate)
         unit, position_unit = self.model.torque_unit, self.model.position_unit
         made = Recording(
             path="planned motion", sha256="", joint=None, joint_kind=self.joint_kind,
@@ -86,7 +88,7 @@ class Setting:
             position_smooth=q, velocity_smooth=v, acceleration_smooth=a, load_torque_smooth=load,
             columns={"position": Column("position", "plan", position_unit, False)}, notes=(),
             velocity_noise=self.slowest / 5.0, velocity_threshold=self.slowest,
-            moving=np.abs(v) > self.slowest, block=run, block_count=runs, rate_hz=rate, gaps=0,
+            moving=np.abs(v) > self.slowest, block=block, block_count=blocks, rate_hz=rate, gaps=0,
             rows_dropped=0, averaged=False, cutoff_hz=None, external_torque=external,
         )  # fmt: skip
         if not made.moving.any():

@@ -15,10 +15,13 @@ from scipy.optimize import brentq
 from scipy.stats import f as fisher
 from scipy.stats import ncf, norm
 
+from stribeck.diagnose.leverage import FITTED, HeldOut
 from stribeck.identify.covariance import batches, correlation_length
 
 Array = NDArray[np.float64]
 
+#: What estimating costs on held-out blocks may be so many times what is expected.
+MARGIN = 2.0
 #: Probability with which an effect of the stated size is seen.
 POWER = 0.95
 
@@ -128,7 +131,9 @@ def needed_factor(
     noise: Noise | ExpectedNoise,
     count: int,
     need: Demand,
+    *,
     loss: float = 0.0,
+    held_out: HeldOut = FITTED,
 ) -> float:
     """By what a torque must be multiplied to be seen with the probability `POWER`.
 
@@ -142,6 +147,8 @@ def needed_factor(
         Parameters of the effect.
     loss
         Sum of squares by which the effect's form misses the data even where it is the truth.
+    held_out
+        How the torque fares on held-out blocks.
 
     Returns
     -------
@@ -153,11 +160,11 @@ def needed_factor(
         return np.inf
     spread = float(np.sqrt(variance))
     tested = np.sqrt(noncentrality(count, batches - count, need.significance)) * spread / square
-    # Held-out squares fall by f^2 square, give or take 2 f spread, less what estimating costs.
+    # Held-out squares fall by f^2 gained, give or take 2 f spread, less what estimating costs.
     fall = 1.0 / (1.0 - need.least_fall) ** 2 - 1.0
-    due = fall * noise.square + 2.0 * count * variance / square + loss
-    slack = float(norm.ppf(POWER)) * spread
-    fell = (slack + np.sqrt(slack**2 + square * due)) / square
+    due = fall * noise.square + MARGIN * held_out.cost * variance / square + loss
+    slack, gained = float(norm.ppf(POWER)) * spread, held_out.gain * square
+    fell = (slack + np.sqrt(slack**2 + gained * due)) / gained
     return float(max(tested, fell))
 
 

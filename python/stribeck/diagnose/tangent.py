@@ -23,6 +23,8 @@ from stribeck.model import Parameter, catalog
 
 Array = NDArray[np.float64]
 
+#: Rows on which angles between effects and leverages are taken; they need no noise.
+MOST_ROWS = 8000
 #: Multiples of the start at which an effect's first nonlinear parameter is looked at too.
 OTHER_STARTS = (1.0 / 3.0, 3.0)
 #: Sizes to which an effect's torque is not proportional, with multiples of the start between which
@@ -66,6 +68,16 @@ class Beside:
     def basis(self) -> Array:
         """Orthonormal basis of the columns' span, [m, r]."""
         return orthonormal(self.columns)
+
+    @property
+    def step(self) -> int:
+        """One row in so many is enough for angles and leverages."""
+        return -(-self.problem.rows.size // MOST_ROWS)
+
+    @cached_property
+    def few(self) -> Array:
+        """Orthonormal basis of the columns' span on one row in `step`."""
+        return orthonormal(self.columns[:: self.step])
 
     def without(self, torques: Array) -> Array:
         """The part of `torques` [m, k] that no refit takes up."""
@@ -189,6 +201,10 @@ class Widened:
     def unit_torque(self) -> Array:
         """Torque on the rows for one unit of the size, array [m], the others at their starts."""
         return self._at_start[:, 0]
+
+    def own_columns(self, torque: Array) -> Array:
+        """What a fit of the effect can take up where it adds `torque` [m], array [m, k]."""
+        return torque[:, None] if self.is_curved else self._at_start[:, : self.own.size]
 
     def simpler_columns(self) -> Array:
         """What the simpler effect can take up, array [m, k]; none where there is none."""

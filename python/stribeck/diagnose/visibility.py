@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.diagnose.leverage import held_out
 from stribeck.diagnose.power import Demand, ExpectedNoise, Noise, needed_factor
 from stribeck.diagnose.shape import flexible_columns
 from stribeck.diagnose.tangent import Beside, Widened, orthonormal, rest, sine
@@ -23,8 +24,6 @@ from stribeck.model import catalog
 
 Array = NDArray[np.float64]
 
-#: Rows on which angles between effects are taken; they need no noise.
-MOST_ROWS = 8000
 #: Two effects are told apart if this many times the smallest visible size is enough for it.
 TOLD_APART = 3.0
 #: Effects that another one holds on any motion.
@@ -227,6 +226,10 @@ def _factor(
 ) -> float:
     """By what `torque` [m] must be multiplied to be seen; infinite where no size is enough."""
     factors = []
+    problem = beside[0][0].problem
+    step = beside[0][0].step
+    block = problem.recording.block[problem.rows][::step]
+    space = widened.own_columns(torque)[::step]
     for base, need in beside:
         left = base.without(torque[:, None])
         if widened.simpler.size:
@@ -236,8 +239,21 @@ def _factor(
             return np.inf
         variance = noise.variance_along(left[:, 0])
         demand = replace(need, significance=need.significance / guesses)
-        factors.append(needed_factor(square, variance, noise, widened.own.size, demand, loss))
+        factors.append(
+            needed_factor(
+                square, variance, noise, widened.own.size, demand, loss=loss,
+                held_out=held_out(_with_simpler(base, widened), torque[::step], space, block),
+            )
+        )  # fmt: skip
     return max(factors)
+
+
+def _with_simpler(base: Beside, widened: Widened) -> Array:
+    """Basis, on few rows, of what the model and the simpler effect take up."""
+    if widened.simpler.size == 0:
+        return base.few
+    more = orthonormal(rest(base.few, widened.simpler_columns()[:: base.step]))
+    return np.column_stack([base.few, more])
 
 
 def _least_of_sizes(
@@ -315,7 +331,7 @@ def indistinguishable(
     takes to see it, and more than the noise: the angle between what both show beside the model
     is too small.
     """
-    step = -(-problem.rows.size // MOST_ROWS)
+    step = Beside(problem).step
     base = Beside(replace(problem, rows=problem.rows[::step]))
     made: dict[str, tuple[Shown, Array, list[Array]]] = {}
     for one in shown:

@@ -12,6 +12,7 @@ import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.stats import f as fisher
+from stribeck.diagnose.leverage import held_out
 from stribeck.diagnose.power import Demand, ExpectedNoise, Noise, needed_factor
 from stribeck.diagnose.tangent import Beside, Widened, orthonormal, rest, sine
 from stribeck.diagnose.visibility import Visibility, cliques, problem_of, show, visibility
@@ -253,6 +254,31 @@ def test_projections() -> None:
     left = rest(basis, rng.standard_normal((50, 2)))
     np.testing.assert_allclose(columns.T @ left, 0.0, atol=1e-12)
     assert sine(columns[:, 0], basis) < 1e-12 and sine(left[:, 0], basis) == pytest.approx(1.0)
+
+
+def test_cost_and_gain_of_holding_out_are_those_of_refits() -> None:
+    """Against least squares without each block, over many draws of the noise."""
+    rng = np.random.default_rng(2)
+    rows, draws = 400, 3000
+    block = np.arange(rows) // 40
+    x = np.linspace(-1.0, 1.0, rows)
+    base, space = np.column_stack([np.ones(rows), x]), np.column_stack([x**2, x**3])
+    torque, wide = x**2, np.column_stack([base, space])
+    found = held_out(orthonormal(base), torque, space, block)
+
+    def left(columns: Array, values: Array) -> Array:
+        made = values.copy()
+        for b in range(10):
+            kept = block != b
+            shares = np.linalg.lstsq(columns[kept], values[kept], rcond=None)[0]
+            made[~kept] -= columns[~kept] @ shares
+        return made
+
+    fitted = rest(orthonormal(base), torque[:, None])
+    assert found.gain == pytest.approx(np.sum(left(base, torque) ** 2) / np.sum(fitted**2))
+    noise = rng.standard_normal((rows, draws))
+    added = np.sum(left(wide, noise) ** 2) - np.sum(left(base, noise) ** 2)
+    assert found.cost == pytest.approx(added / draws, rel=0.1)
 
 
 def test_groups_are_the_largest_sets_of_which_each_is_like_each() -> None:
