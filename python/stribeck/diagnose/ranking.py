@@ -7,6 +7,7 @@ import numpy as np
 from stribeck.diagnose.floor import NoiseFloor
 from stribeck.diagnose.result import Finding
 from stribeck.diagnose.trial import (
+    SIMPLEST,
     TIE,
     Trial,
     adds_to,
@@ -40,7 +41,7 @@ def findings(
     }
     tied = [best] + [t for t in good if t.effect in same]
     # Of those within the standard error the simplest comes first.
-    tied.sort(key=lambda t: (statistic[t.effect] > TIE, t.parameters, t.rank))
+    tied.sort(key=lambda t: (statistic[t.effect] > SIMPLEST, t.parameters, t.rank))
     ordered = tied + [t for t in good if t not in tied]
     first = refined(ordered[0], before, seed)
     if not (passes(first, tried, least) and reported_fall(before, first)):

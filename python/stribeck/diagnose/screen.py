@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 
 #: Starts of an effect's nonlinear parameters; the others start from the fit before.
 STARTS = 6
+#: The same where every start runs a memory over the whole recording.
+STARTS_ON_ALL_ROWS = 3
 #: Rows of a memoryless model, and samples of the stretch over which a new memory is tried.
 ROWS, SAMPLES = 3000, 6000
 #: Steps from each start, and from the best of them.
@@ -125,7 +127,8 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
         varied = np.zeros_like(varied)
     random = np.random.default_rng(seed)
     tried = []
-    for k in range(STARTS if varied.any() else 1):
+    most = STARTS if problem.model.memoryless or problem.span else STARTS_ON_ALL_ROWS
+    for k in range(most if varied.any() else 1):
         at = start.copy()
         if k > 0:
             drawn = start.copy()

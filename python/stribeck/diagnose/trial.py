@@ -21,7 +21,9 @@ from stribeck.model import catalog
 PROMISE = 0.5
 #: A finding's probability of being chance, over all effects tried together.
 SIGNIFICANCE = 0.01
-#: Held-out errors within so many standard errors of their difference are a tie.
+#: Of effects whose held-out errors differ by less than one standard error the simplest is named.
+SIMPLEST = 1.0
+#: Held-out errors within so many standard errors of their difference may be one.
 TIE = 2.0
 
 

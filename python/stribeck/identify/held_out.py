@@ -13,6 +13,10 @@ from stribeck.identify.triangle import Triangle, triangles
 
 Array = NDArray[np.float64]
 
+#: A refit ends when its next step foresees a smaller relative fall: what it would still move its
+#: prediction is far below what leaving the block out does.
+SETTLED = 1e-8
+
 
 def held_out_prediction(
     problem: Problem,
@@ -105,7 +109,7 @@ def _refined(
     if others.square <= square:
         return _step(refit, others, free, lower, upper)
     remaining = replace(problem, rows=problem.rows[kept])
-    return minimise(remaining, values, lower, upper)[0].values
+    return minimise(remaining, values, lower, upper, tolerance=SETTLED)[0].values
 
 
 def _step(

@@ -19,7 +19,7 @@ import stribeck as sb
 
 def improve(path: Path, base: str) -> dict[str, Any]:
     command = [sys.executable, "-m", "stribeck", "improve", str(path), "--base", base, "--json"]
-    run = subprocess.run(command, capture_output=True, text=True, timeout=600)
+    run = subprocess.run(command, capture_output=True, text=True, timeout=1800)
     assert run.returncode == 0, run.stderr
     return json.loads(run.stdout)
 
