@@ -316,6 +316,7 @@ def _refitted(step: Step, before: Fit, floor: NoiseFloor, seed: int) -> Step:
         share_of_unexplained=share_of_unexplained(before, after, floor),
         where=where(effect, before, after),
         fit=after,
+        before=before,
     )
     return Step(finding, before, after)
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import functools
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
+from stribeck.diagnose import Finding
 from stribeck.errors import RecordingError
 from stribeck.fit import Fit, evaluate, fit
 from stribeck.model_file import ModelFile, read_model_file
@@ -64,6 +65,14 @@ least_fall_option = click.option(
     default=0.01,
     show_default=True,
     help="Least relative fall of the held-out RMSE that counts.",
+)
+
+figures_option = click.option(
+    "--figures",
+    type=click.Path(file_okay=False),
+    default=None,
+    metavar="FOLDER",
+    help="Write the figure behind each finding to this folder (PNG).",
 )
 
 _RECORDING_OPTIONS = [
@@ -184,6 +193,19 @@ def save_fit(fitted: Fit, path: str) -> None:
     """Write a fit's model file with its standard errors and provenance."""
     ModelFile.of(fitted).write(path)
     say(f"wrote {path}")
+
+
+def save_findings(findings: Iterable[Finding], folder: str | None) -> None:
+    """Write the figure behind each finding, named by its effect; None: nowhere."""
+    from stribeck.report.figures import save_figure
+
+    if folder is None:
+        return
+    Path(folder).mkdir(exist_ok=True)
+    for finding in findings:
+        path = Path(folder) / f"{finding.effect}.png"
+        save_figure(finding.plot(), path)
+        say(f"wrote {path}")
 
 
 def check_output(path: str | None) -> None:

@@ -9,12 +9,14 @@ import click
 from stribeck.cli.common import (
     check_output,
     echo_json,
+    figures_option,
     json_option,
     least_fall_option,
     model_fit,
     output_option,
     read_recording,
     recording_options,
+    save_findings,
     save_fit,
     say,
     seed_option,
@@ -119,6 +121,7 @@ def compare(
 @click.argument("data")
 @click.argument("model", required=False)
 @model_options
+@figures_option
 @candidate_option
 @least_fall_option
 @starts_option
@@ -126,16 +129,19 @@ def compare(
 @seed_option
 @json_option
 def diagnose(
-    data: str, model: str | None, written: Written, candidates: tuple[str, ...],
-    least_fall: float, starts: int, reading: dict[str, Any], seed: int, as_json: bool,
+    data: str, model: str | None, written: Written, figures: str | None,
+    candidates: tuple[str, ...], least_fall: float, starts: int, reading: dict[str, Any],
+    seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Find which physical effect MODEL (or the law of --law) is missing on DATA."""
+    check_output(figures)
     check_candidates(candidates)
     recording = read_recording(data, reading)
     fitted = written_fit(model, written, recording, starts=starts, seed=seed)
     diagnosis = diagnose_fit(
         fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed
     )
+    save_findings(diagnosis.findings, figures)
     if as_json:
         echo_json(diagnosis.to_dict())
     else:
@@ -180,6 +186,7 @@ def add(
 @output_option
 @click.option("--report", default=None, help="Write a self-contained page (HTML).")
 @click.option("--plot", "picture", default=None, help="Write the picture (PNG).")
+@figures_option
 @least_fall_option
 @click.option(
     "--max-steps", type=click.IntRange(min=0), default=8, show_default=True,
@@ -193,14 +200,14 @@ def add(
 @json_option
 def improve(
     data: str, base: str | None, written: Written, output: str | None, report: str | None,
-    picture: str | None, least_fall: float, max_steps: int, candidates: tuple[str, ...],
-    reject: tuple[str, ...], starts: int,
+    picture: str | None, figures: str | None, least_fall: float, max_steps: int,
+    candidates: tuple[str, ...], reject: tuple[str, ...], starts: int,
     reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Diagnose and add effects to a base model until what is left is noise."""
     from stribeck.model import check_effect
 
-    for path in (output, report, picture):
+    for path in (output, report, picture, figures):
         check_output(path)
     check_candidates(candidates)
     for effect in reject:
@@ -220,6 +227,7 @@ def improve(
 
         save_figure(improvement.plot(), picture)
         say(f"wrote {picture}")
+    save_findings((step.finding for step in improvement.steps), figures)
     if report is not None:
         from stribeck.model_file import write_whole
         from stribeck.report.html import improvement_page

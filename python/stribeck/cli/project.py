@@ -10,9 +10,11 @@ import click
 from stribeck.cli.common import (
     check_output,
     echo_json,
+    figures_option,
     json_option,
     least_fall_option,
     recording_options,
+    save_findings,
     say,
     seed_option,
     starts_option,
@@ -81,23 +83,27 @@ def show(path: str, as_json: bool) -> None:
 
 @project.command()
 @click.argument("path", metavar="PROJECT")
+@figures_option
 @candidate_option
 @least_fall_option
 @seed_option
 @json_option
 def diagnose(
-    path: str, candidates: tuple[str, ...], least_fall: float, seed: int, as_json: bool
-) -> None:
+    path: str, figures: str | None, candidates: tuple[str, ...], least_fall: float, seed: int,
+    as_json: bool,
+) -> None:  # fmt: skip
     """Find what is missing at the current node, and remember it.
 
     Effects that were rejected on the way to it are not tried.
     """
+    check_output(figures)
     check_candidates(candidates)
     made = Project.open(path)
     made = made.diagnose(least_fall=least_fall, candidates=candidates, seed=seed)
     made.save()
     say(f"wrote {made.path}")
     assert made.diagnosis is not None
+    save_findings(made.diagnosis.findings, figures)
     if as_json:
         echo_json({"node": made.current, **made.diagnosis.to_dict()})
     else:

@@ -67,6 +67,7 @@ def findings(
                 where=where(t.effect, before, t.fit),
                 indistinguishable_from=others,
                 fit=t.fit,
+                before=before,
             )
         )
     return tuple(made)

@@ -17,7 +17,15 @@ from stribeck.fit import Fit
 
 @dataclass(frozen=True)
 class Finding:
-    """An effect that passed the test."""
+    """An effect that passed the test.
+
+    Attributes
+    ----------
+    where
+        One sentence: where the data shows it.
+    fit, before
+        The model with it and the model without.
+    """
 
     effect: str
     confidence: float
@@ -27,6 +35,7 @@ class Finding:
     where: str
     indistinguishable_from: tuple[str, ...]
     fit: Fit
+    before: Fit
 
     def to_dict(self) -> dict[str, Any]:
         """The contract's JSON."""
@@ -39,6 +48,12 @@ class Finding:
             "where": self.where,
             "indistinguishable_from": list(self.indistinguishable_from),
         }
+
+    def plot(self) -> Any:
+        """The residual against the channel in which the effect shows, before and after."""
+        from stribeck.report.finding import finding_figure
+
+        return finding_figure(self)
 
 
 @dataclass(frozen=True)

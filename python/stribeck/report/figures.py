@@ -10,7 +10,6 @@ import io
 import os
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +20,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from stribeck.errors import StribeckError
+from stribeck.report.channels import Channel, channel, clock, load_of, torque_name
 from stribeck.report.numbers import change_text, plain
 
 if TYPE_CHECKING:
@@ -45,47 +45,14 @@ BINS = 30
 FEWEST_FOR_MEDIAN = 150
 FORMATS = ("png", "svg", "pdf")
 
-#: The channel against which an effect shows, and whether the residual is taken along the motion.
-TELLING = {
-    "stribeck": ("speed", True),
-    "frictional_lag": ("speed", True),
-    "nonlinear_viscous": ("speed", True),
-    "direction": ("velocity", False),
-    "load": ("load", True),
-    "quadrant": ("load", True),
-    "temperature_dry": ("temperature", True),
-    "temperature_viscous": ("temperature", True),
-    "position": ("position", True),
-    "drift": ("time", True),
-    "offset": ("velocity", False),
-    "inertia": ("acceleration", False),
-    "gravity": ("position", False),
-    "spring": ("position", False),
-    "ripple": ("position", False),
-    "backlash": ("load", False),
-    "elasticity": ("load_torque_curvature", False),
-    "saturation": ("load", False),
-    "gain": ("load", False),
-    "presliding": ("reversal", True),
-    "delay": ("acceleration", False),
-}
 
-
-@dataclass(frozen=True)
-class Channel:
-    """What a residual is drawn against: one value a row and the axis label."""
-
-    values: Array
-    label: str
-
-
-def _figure(width: float, height: float) -> Figure:
+def new_figure(width: float, height: float) -> Figure:
     figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
     FigureCanvasAgg(figure)
     return figure
 
 
-def _style(axes: Axes) -> None:
+def style(axes: Axes) -> None:
     axes.grid(True, color="#e6e6e6", linewidth=0.6)
     axes.set_axisbelow(True)
     for side in ("top", "right"):
@@ -94,7 +61,7 @@ def _style(axes: Axes) -> None:
     axes.tick_params(labelsize=9)
 
 
-def _title(axes: Axes, text: str) -> None:
+def title(axes: Axes, text: str) -> None:
     axes.set_title(text, loc="left", fontsize=10.5)
 
 
@@ -108,60 +75,7 @@ def _legend_above(axes: Axes, columns: int = 4) -> None:
         line.set_linewidth(2.4)
 
 
-def clock(r: Recording) -> Channel:
-    """Time for drawing, runs one after another; steady-state points stand at their velocity."""
-    if r.averaged:
-        return Channel(r.velocity, f"velocity [{r.position_unit}/s]")
-    if r.runs <= 1:
-        return Channel(r.time, "time [s]")
-    steps = np.diff(r.time, prepend=r.time[0])
-    typical = float(np.median(r.dt[r.dt > 0])) if np.any(r.dt > 0) else 1.0
-    steps = np.where((np.diff(r.run, prepend=r.run[0]) != 0) | (steps <= 0), typical, steps)
-    return Channel(np.cumsum(steps) - steps[0], "time, runs one after another [s]")
-
-
-def load_of(fit: Fit) -> Array | None:
-    """Load torque of every row, recorded or identified with the friction; None where unknown."""
-    return fit.recording.load_torque if fit.recording.load_torque is not None else fit.load
-
-
-def channel(fit: Fit, name: str) -> Channel | None:
-    """A channel by name; None where the recording has none, or it does not vary."""
-    from stribeck.diagnose.shape import displacement_since_reversal
-
-    r = fit.recording
-    x, t = r.position_unit, r.torque_unit
-    made: Channel | None = None
-    if name == "time" and not r.averaged:
-        made = clock(r)
-    elif name == "velocity":
-        made = Channel(r.velocity, f"velocity [{x}/s]")
-    elif name == "speed":
-        made = Channel(np.abs(r.velocity), f"speed |v| [{x}/s]")
-    elif name == "position" and r.position is not None:
-        made = Channel(r.position, f"position [{x}]")
-    elif name == "acceleration" and not r.averaged:
-        made = Channel(r.acceleration_smooth, f"acceleration [{x}/s²]")
-    elif name == "temperature" and r.temperature is not None:
-        made = Channel(r.temperature, "temperature [°C]")
-    elif name == "load" and (load := load_of(fit)) is not None:
-        made = Channel(load, f"load torque [{t}]" if t != "N" else "load force [N]")
-    elif name == "load_torque_curvature" and r.load_torque_curvature is not None:
-        made = Channel(r.load_torque_curvature, f"second derivative of the load [{t}/s²]")
-    elif name == "reversal" and not r.averaged:
-        travel = np.asarray(displacement_since_reversal(r), dtype=np.float64)
-        made = Channel(travel, f"way since the last reversal [{x}]")
-    if made is None or not np.ptp(made.values[r.moving]) > 0:
-        return None
-    return made
-
-
-def torque_name(unit: str) -> str:
-    """Torque, force or whatever the effort is measured in."""
-    return {"N m": "torque", "N": "force"}.get(unit, "effort")
-
-
-def _thin(rows: NDArray[np.intp], most: int = MOST_POINTS) -> NDArray[np.intp]:
+def thin(rows: NDArray[np.intp], most: int = MOST_POINTS) -> NDArray[np.intp]:
     if rows.size <= most:
         return rows
     # Seeded and not strided: a stride may beat with a periodic motion.
@@ -169,7 +83,7 @@ def _thin(rows: NDArray[np.intp], most: int = MOST_POINTS) -> NDArray[np.intp]:
     return np.asarray(np.sort(picked))
 
 
-def _dots(count: int) -> dict[str, Any]:
+def dots(count: int) -> dict[str, Any]:
     """How to draw `count` single rows: few of them large, many of them faint."""
     size, alpha = (7.0, 0.9) if count < 300 else (4.0, 0.5) if count < 1500 else (3.0, 0.35)
     return {
@@ -178,25 +92,50 @@ def _dots(count: int) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def binned_quartiles(
+    x: Array, y: Array, bins: int = BINS, *, log: bool = False
+) -> tuple[Array, Array, Array, Array]:
+    """Where bins of `x` of equal width lie, and the quartiles of `y` in each: lower, median, upper.
+
+    Parameters
+    ----------
+    log : bool
+        Bins of equal ratio; `x` is above zero where it is drawn.
+
+    Returns
+    -------
+    arrays [k]
+        Of the bins that hold enough points.
+    """
+    none = (np.empty(0),) * 4
+    if log:
+        x, y = x[x > 0], y[x > 0]
+    if x.size < FEWEST_FOR_MEDIAN or not np.ptp(x) > 0:
+        return none
+    along = np.log(x) if log else x
+    low, high = np.quantile(along, [0.01 if log else 0.002, 0.998])
+    if not high > low:
+        return none
+    index = np.clip(np.floor((along - low) / (high - low) * bins), -1, bins).astype(np.intp)
+    least = max(5, x.size // 2000)
+    inside = [index == k for k in range(bins)]
+    rows = [
+        [np.median(x[here]), *np.quantile(y[here], [0.25, 0.5, 0.75])]
+        for here in inside if np.count_nonzero(here) >= least
+    ]  # fmt: skip
+    if not rows:
+        return none
+    at, lower, median, upper = np.array(rows, dtype=np.float64).T
+    return at, lower, median, upper
+
+
 def binned_median(x: Array, y: Array, bins: int = BINS) -> tuple[Array, Array]:
     """Median of `y` in bins of `x` of equal width, where there are enough points."""
-    if x.size < FEWEST_FOR_MEDIAN or not np.ptp(x) > 0:
-        return np.empty(0), np.empty(0)
-    low, high = np.quantile(x, [0.002, 0.998])
-    if not high > low:
-        return np.empty(0), np.empty(0)
-    index = np.clip(((x - low) / (high - low) * bins).astype(np.intp), -1, bins)
-    least = max(5, x.size // 2000)
-    at, median = [], []
-    for k in range(bins):
-        inside = index == k
-        if np.count_nonzero(inside) >= least:
-            at.append(float(np.median(x[inside])))
-            median.append(float(np.median(y[inside])))
-    return np.array(at), np.array(median)
+    at, _, median, _ = binned_quartiles(x, y, bins)
+    return at, median
 
 
-def _limits(axes: Axes, values: Sequence[Array]) -> None:
+def limits(axes: Axes, values: Sequence[Array]) -> None:
     """Show 99.8 % of the residuals; a single spike must not flatten the rest."""
     joined = np.concatenate([v[np.isfinite(v)] for v in values])
     if joined.size == 0:
@@ -228,19 +167,19 @@ def residual_figure(fits: Sequence[Fit]) -> Figure:
     ]
     columns = min(len(found), 2)
     rows = -(-len(found) // columns)
-    figure = _figure(12.0, 1.0 + 3.1 * max(rows, 1.3))
+    figure = new_figure(12.0, 1.0 + 3.1 * max(rows, 1.3))
     grid = figure.subplots(rows, columns, squeeze=False).ravel()
     r, unit = fits[0].recording, fits[0].model.torque_unit
     moving = np.flatnonzero(r.moving)
-    some = _thin(moving, MOST_POINTS // min(len(fits), 3))
+    some = thin(moving, MOST_POINTS // min(len(fits), 3))
     for axes, (name, made) in zip(grid, found, strict=False):
-        _style(axes)
+        style(axes)
         axes.axhline(0.0, color="#999999", linewidth=0.8)
         for k, fit in enumerate(fits):
             colour = COLOURS[k % len(COLOURS)]
             residual = fit.residual
             if len(fits) <= 3:
-                axes.plot(made.values[some], residual[some], color=colour, **_dots(some.size))
+                axes.plot(made.values[some], residual[some], color=colour, **dots(some.size))
             ways = (
                 [(moving, "-")] if name == "velocity"
                 else [(moving[r.velocity[moving] > 0], "-"), (moving[r.velocity[moving] < 0], "--")]
@@ -248,7 +187,7 @@ def residual_figure(fits: Sequence[Fit]) -> Figure:
             for way, line in ways:
                 at, median = binned_median(made.values[way], residual[way])
                 axes.plot(at, median, line, color=colour, linewidth=1.8)
-        _limits(axes, [fit.residual[moving] for fit in fits])
+        limits(axes, [fit.residual[moving] for fit in fits])
         axes.set_xlabel(made.label)
         axes.set_ylabel(f"residual [{unit}]")
     for axes in grid[len(found) :]:
@@ -281,13 +220,13 @@ def fit_figure(fit: Fit) -> Figure:
     """Measured and modelled torque over time, the residual, and the friction curve."""
     r, unit = fit.recording, fit.model.torque_unit
     what = torque_name(unit)
-    figure = _figure(12.0, 9.0)
+    figure = new_figure(12.0, 9.0)
     grid = figure.add_gridspec(3, 2, height_ratios=[1.15, 0.8, 1.15])
     top, middle = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
     left, right = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
     time = clock(r)
     for axes in (top, middle, left, right):
-        _style(axes)
+        style(axes)
     mark = "o" if r.averaged else "-"
     size: dict[str, Any] = {"markersize": 3.0} if r.averaged else {"linewidth": 0.9}
     broad: dict[str, Any] = {"markersize": 5.0} if r.averaged else {"linewidth": 2.4}
@@ -296,19 +235,19 @@ def fit_figure(fit: Fit) -> Figure:
              **size)  # fmt: skip
     top.margins(x=0.01)
     top.set_ylabel(f"{what} [{unit}]")
-    _title(top, f"Measured and modelled {what}")
+    title(top, f"Measured and modelled {what}")
     _legend_above(top)
     top.tick_params(labelbottom=False)
     middle.sharex(top)
     middle.axhline(0.0, color="#999999", linewidth=0.8)
     middle.plot(time.values, _lines(r, fit.residual), mark, color=AFTER, **size)
-    _limits(middle, [fit.residual[r.moving]])
+    limits(middle, [fit.residual[r.moving]])
     middle.set_ylabel(f"residual [{unit}]")
     middle.set_xlabel(time.label)
-    _title(middle, f"Residual, measured minus model: RMSE {plain(fit.rmse)} {unit}")
+    title(middle, f"Residual, measured minus model: RMSE {plain(fit.rmse)} {unit}")
 
     moving = np.flatnonzero(r.moving)
-    some = _thin(moving)
+    some = thin(moving)
     load = load_of(fit)
     rest = np.zeros_like(r.torque) if load is None else load
     name = what if load is None else f"friction {what}"
@@ -321,38 +260,28 @@ def fit_figure(fit: Fit) -> Figure:
     left.set_xlabel(f"velocity [{r.position_unit}/s]")
     left.set_ylabel(f"{name} [{unit}]")
     without = "" if load is None else f" ({what} minus load)"
-    _title(left, f"{name[0].upper()}{name[1:]} against velocity{without}")
+    title(left, f"{name[0].upper()}{name[1:]} against velocity{without}")
     for line in left.get_lines():
         line.set_rasterized(True)
 
-    _residual_panel(right, [(fit, AFTER, fit.model.spec)], "velocity", False)
-    _title(right, "Residual against velocity")
+    _velocity_panel(right, fit, AFTER)
     return figure
 
 
-def _residual_panel(
-    axes: Axes, shown: Sequence[tuple[Fit, str, str]], name: str, along: bool
-) -> str:
-    """Draw residuals against a channel; `along` the motion: positive where it resists more."""
-    first = shown[0][0]
-    made = channel(first, name)
-    if made is None:
-        made, along = channel(first, "velocity") or clock(first.recording), False
-    r, unit = first.recording, first.model.torque_unit
-    moving = np.flatnonzero(r.moving)
-    some = _thin(moving, 2000)
-    sign = np.sign(r.velocity) if along else np.ones_like(r.velocity)
+def _velocity_panel(axes: Axes, fit: Fit, colour: str) -> None:
+    """The residual of one model against velocity."""
+    made = channel(fit, "velocity") or clock(fit.recording)
+    moving = np.flatnonzero(fit.recording.moving)
+    some = thin(moving, 2000)
     axes.axhline(0.0, color="#999999", linewidth=0.8)
-    for fit, colour, label in shown:
-        residual = fit.residual * sign
-        axes.plot(made.values[some], residual[some], color=colour, **_dots(some.size))
-        at, median = binned_median(made.values[moving], residual[moving])
-        axes.plot(at, median, "-", color="white", linewidth=3.6)
-        axes.plot(at, median, "-", color=colour, linewidth=2.0, label=label)
-    _limits(axes, [(fit.residual * sign)[moving] for fit, _, _ in shown])
+    axes.plot(made.values[some], fit.residual[some], color=colour, **dots(some.size))
+    at, median = binned_median(made.values[moving], fit.residual[moving])
+    axes.plot(at, median, "-", color="white", linewidth=3.6)
+    axes.plot(at, median, "-", color=colour, linewidth=2.0, label=fit.model.spec)
+    limits(axes, [fit.residual[moving]])
     axes.set_xlabel(made.label)
-    axes.set_ylabel(f"residual{' · sgn v' if along else ''} [{unit}]")
-    return made.label
+    axes.set_ylabel(f"residual [{fit.model.torque_unit}]")
+    title(axes, "Residual against velocity")
 
 
 def telling_window(improvement: Improvement) -> slice:
@@ -381,12 +310,14 @@ def improvement_figure(improvement: Improvement) -> Figure:
     residual against the channel in which each effect shows (two at most), and the held-out
     error after each step with the noise floor.
     """
+    from stribeck.report.finding import finding_panel, panel_legend
+
     base, final = improvement.base, improvement.final
     r, unit = final.recording, final.model.torque_unit
     what = torque_name(unit)
     steps = improvement.steps
     count = max(min(len(steps), 2), 1)
-    figure = _figure(12.0, 11.0)
+    figure = new_figure(12.0, 11.0)
     outer = figure.add_gridspec(3, 1, height_ratios=[1.2, 0.85, 1.15])
     top = figure.add_subplot(outer[0])
     middle = figure.add_subplot(outer[1])
@@ -394,7 +325,7 @@ def improvement_figure(improvement: Improvement) -> Figure:
     panels = [figure.add_subplot(below[0, k]) for k in range(count)]
     last = figure.add_subplot(below[0, count])
     for axes in (top, middle, *panels, last):
-        _style(axes)
+        style(axes)
     labels = _short_labels(improvement)
 
     time, window = clock(r), telling_window(improvement)
@@ -411,30 +342,23 @@ def improvement_figure(improvement: Improvement) -> Figure:
     if steps:
         middle.plot(time.values, _lines(r, final.residual), mark, color=AFTER, linewidth=0.7,
                     label=labels[1])  # fmt: skip
-    _limits(middle, [base.residual[r.moving], final.residual[r.moving]])
+    limits(middle, [base.residual[r.moving], final.residual[r.moving]])
     middle.set_xlabel(time.label)
     middle.set_ylabel(f"residual [{unit}]")
     grey = "; grey: the time shown above" if part else ""
-    _title(middle, f"Residual (measured minus model) of {what}{grey}")
+    title(middle, f"Residual (measured minus model) of {what}{grey}")
     _legend_above(middle)
     middle.margins(x=0.01)
 
     if not steps:
-        _residual_panel(panels[0], [(base, BEFORE, base.model.spec)], "velocity", False)
-        _title(panels[0], "Residual against velocity")
+        _velocity_panel(panels[0], base, BEFORE)
     for axes, step in zip(panels, steps, strict=False):
         effect = step.finding.effect
-        name, along = TELLING.get(effect, ("velocity", False))
-        _residual_panel(
-            axes, [(step.before, BEFORE, "without"), (step.after, AFTER, "with")], name, along
-        )
-        _title(axes, f"Residual without and with {effect}")
+        finding_panel(axes, effect, step.before, step.after)
+        title(axes, f"Residual without and with {effect}")
         axes.legend(
             loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2, frameon=False, fontsize=9,
-            title="dots: rows, lines: median" + (
-                "; above 0: too little friction" if along else ""
-            ),
-            title_fontsize=8.5,
+            title=panel_legend(effect), title_fontsize=8.5,
         )  # fmt: skip
     _bars_panel(last, improvement)
     figure.suptitle(
@@ -475,7 +399,7 @@ def _torque_panel(
     where = "" if r.averaged or share > 0.95 else ", where the added effects help most"
     if not improvement.steps:
         where = ""
-    _title(axes, f"Measured and modelled {what}{where}")
+    title(axes, f"Measured and modelled {what}{where}")
     _legend_above(axes)
 
 
@@ -518,7 +442,7 @@ def _bars_panel(axes: Axes, improvement: Improvement) -> None:
             title="error of predictions for data not seen" if held_out else None,
             title_fontsize=8.5,
         )  # fmt: skip
-    _title(axes, "Error after each step")
+    title(axes, "Error after each step")
 
 
 def png_bytes(figure: Figure) -> bytes:

@@ -12,6 +12,7 @@ import numpy as np
 from stribeck.diagnose.words import physically
 from stribeck.model import catalog
 from stribeck.report.figures import improvement_figure, png_bytes
+from stribeck.report.finding import finding_figure
 from stribeck.report.numbers import DASH, change_text, confidence_words, percent, plain
 from stribeck.report.text import (
     STOPPED,
@@ -28,6 +29,8 @@ from stribeck.report.text import (
 )
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from stribeck.improve import Improvement
     from stribeck.recording import Recording
 
@@ -107,6 +110,7 @@ def _findings(improvement: Improvement) -> list[dict[str, Any]]:
                 "confidence": confidence_words(finding.confidence),
                 "physically": physically(finding.effect, finding.fit.model),
                 "where": finding.where[:1].upper() + finding.where[1:] + ".",
+                "picture": _picture(finding_figure(finding, reason=False)),
                 "share": percent(share) if share is not None else None,
                 "ties": (
                     indistinguishable_sentence(finding) if finding.indistinguishable_from else ""
@@ -114,6 +118,11 @@ def _findings(improvement: Improvement) -> list[dict[str, Any]]:
             }
         )
     return found
+
+
+def _picture(figure: Figure) -> str:
+    """A figure as text that a page can hold."""
+    return base64.b64encode(png_bytes(figure)).decode("ascii")
 
 
 def _title(effect: str) -> str:
@@ -126,7 +135,6 @@ def improvement_page(improvement: Improvement) -> str:
     from stribeck import __version__
 
     final, r = improvement.final, improvement.final.recording
-    picture = base64.b64encode(png_bytes(improvement_figure(improvement))).decode("ascii")
     floor = improvement.noise_floor
     largest = max([e for e in step_errors(improvement) if e is not None], default=1.0)
     return (
@@ -136,7 +144,7 @@ def improvement_page(improvement: Improvement) -> str:
             name=file_name(r),
             summary=summary_sentence(improvement),
             findings=_findings(improvement),
-            picture=picture,
+            picture=_picture(improvement_figure(improvement)),
             steps=_steps(improvement),
             unit=final.model.torque_unit,
             floor=None if floor.value is None else plain(floor.value),

@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from stribeck.report.figures import AFTER, BEFORE, DPI, FLOOR, MEASURED, torque_name
+from stribeck.report.channels import torque_name
+from stribeck.report.figures import AFTER, BEFORE, DPI, FLOOR, MEASURED
 from stribeck.report.numbers import MINUS, plain, thousands
 from stribeck.study.plan import DYNAMIC, STATIC, THERMAL
 

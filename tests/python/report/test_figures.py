@@ -12,7 +12,6 @@ import stribeck as sb
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from stribeck.errors import StribeckError
-from stribeck.model import effect_ids
 from stribeck.report import figures
 
 
@@ -49,10 +48,6 @@ def test_legends_do_not_lie_over_the_data(improvement: sb.Improvement, steady: s
                 inside = axes.get_window_extent()
                 overlap = min(box.y1, inside.y1) - max(box.y0, inside.y0)
                 assert overlap < 2.0, (name, axes.get_title(loc="left"))
-
-
-def test_every_effect_has_a_channel_in_which_it_shows() -> None:
-    assert set(figures.TELLING) == set(effect_ids())
 
 
 @pytest.mark.parametrize("kind", figures.FORMATS)

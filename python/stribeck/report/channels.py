@@ -1,0 +1,243 @@
+"""Against what residuals are drawn: channels, and which of them shows an effect."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.identify.figures import bridged, zero_phase
+
+if TYPE_CHECKING:
+    from stribeck.fit import Fit
+    from stribeck.recording import Recording
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Channel:
+    """What a residual is drawn against: one value a row and the axis label."""
+
+    values: Array
+    label: str
+
+
+@dataclass(frozen=True)
+class Telling:
+    """How an effect is made to show in the residual of a model that lacks it.
+
+    Attributes
+    ----------
+    channel
+        A name that `channel` knows.
+    along
+        What the residual is taken along: with ``"motion"`` it is positive where friction is larger
+        than modelled, with ``"load"`` where the motor carries more load; None: as it is.
+    regime
+        The rows in which the effect is told best, a regime of `stribeck compare` or ``"sliding"``:
+        those that are not near a reversal; None: all.
+    log
+        Whether what is telling happens within a small part of the channel's range.
+    """
+
+    channel: str
+    along: Literal["motion", "load"] | None = None
+    regime: str | None = None
+    log: bool = False
+
+
+#: How each effect of the catalog shows.
+TELLING = {
+    "stribeck": Telling("speed", along="motion", log=True),
+    "frictional_lag": Telling("acceleration_along", along="motion", regime="low_speed"),
+    "nonlinear_viscous": Telling("speed", along="motion"),
+    "direction": Telling("velocity"),
+    "load": Telling("load_size", along="motion"),
+    "quadrant": Telling("load_along", along="motion"),
+    "temperature_dry": Telling("temperature", along="motion"),
+    "temperature_viscous": Telling("temperature", along="motion", regime="high_speed"),
+    "position": Telling("position", along="motion"),
+    "drift": Telling("time", along="motion"),
+    "offset": Telling("velocity"),
+    "inertia": Telling("acceleration"),
+    "gravity": Telling("position"),
+    "spring": Telling("position"),
+    "ripple": Telling("phase"),
+    "backlash": Telling("load_reversal", along="load", log=True),
+    "elasticity": Telling("load_curvature"),
+    "saturation": Telling("modelled"),
+    "gain": Telling("modelled"),
+    "presliding": Telling("reversal", along="motion", log=True),
+    "delay": Telling("modelled_rate", regime="sliding"),
+}
+
+
+def telling(effect: str) -> Telling:
+    """How an effect shows; one by formula, whose cause nobody stated, against velocity."""
+    return TELLING.get(effect, Telling("velocity"))
+
+
+def clock(r: Recording) -> Channel:
+    """Time for drawing, runs one after another; steady-state points stand at their velocity."""
+    if r.averaged:
+        return Channel(r.velocity, f"velocity [{r.position_unit}/s]")
+    if r.runs <= 1:
+        return Channel(r.time, "time [s]")
+    steps = np.diff(r.time, prepend=r.time[0])
+    typical = float(np.median(r.dt[r.dt > 0])) if np.any(r.dt > 0) else 1.0
+    steps = np.where((np.diff(r.run, prepend=r.run[0]) != 0) | (steps <= 0), typical, steps)
+    return Channel(np.cumsum(steps) - steps[0], "time, runs one after another [s]")
+
+
+def load_of(fit: Fit) -> Array | None:
+    """Load torque of every row, recorded or identified with the friction; None where unknown."""
+    return fit.recording.load_torque if fit.recording.load_torque is not None else fit.load
+
+
+def torque_name(unit: str) -> str:
+    """Torque, force or whatever the effort is measured in."""
+    return {"N m": "torque", "N": "force"}.get(unit, "effort")
+
+
+def channel(fit: Fit, name: str) -> Channel | None:
+    """A channel by name; None where the recording has none, or it does not vary."""
+    made = _CHANNELS[name](fit)
+    if made is None or not np.ptp(made.values[fit.recording.moving]) > 0:
+        return None
+    return made
+
+
+def _time(fit: Fit) -> Channel | None:
+    return None if fit.recording.averaged else clock(fit.recording)
+
+
+def _velocity(fit: Fit) -> Channel:
+    r = fit.recording
+    return Channel(r.velocity, f"velocity [{r.position_unit}/s]")
+
+
+def _speed(fit: Fit) -> Channel:
+    r = fit.recording
+    return Channel(np.abs(r.velocity), f"speed |v| [{r.position_unit}/s]")
+
+
+def _position(fit: Fit) -> Channel | None:
+    r = fit.recording
+    return None if r.position is None else Channel(r.position, f"position [{r.position_unit}]")
+
+
+def _phase(fit: Fit) -> Channel | None:
+    from stribeck.diagnose.shape import ripple_period_of
+
+    r = fit.recording
+    if r.position is None or "ripple" not in fit.model.effects:
+        return None
+    period = ripple_period_of(fit.model)
+    return Channel(np.mod(r.position, period), f"position within a period [{r.position_unit}]")
+
+
+def _acceleration(fit: Fit) -> Channel | None:
+    r = fit.recording
+    if r.averaged:
+        return None
+    return Channel(r.acceleration_smooth, f"acceleration [{r.position_unit}/s²]")
+
+
+def _acceleration_along(fit: Fit) -> Channel | None:
+    r, made = fit.recording, _acceleration(fit)
+    if made is None:
+        return None
+    return Channel(
+        made.values * np.sign(r.velocity),
+        f"acceleration · sgn v [{r.position_unit}/s²], below 0 it slows down",
+    )
+
+
+def _temperature(fit: Fit) -> Channel | None:
+    r = fit.recording
+    return None if r.temperature is None else Channel(r.temperature, "temperature [°C]")
+
+
+def _load(fit: Fit) -> Channel | None:
+    load, unit = load_of(fit), fit.model.load_unit
+    return None if load is None else Channel(load, f"load {torque_name(unit)} [{unit}]")
+
+
+def _load_size(fit: Fit) -> Channel | None:
+    load, unit = load_of(fit), fit.model.load_unit
+    return None if load is None else Channel(np.abs(load), f"size of the load [{unit}]")
+
+
+def _load_along(fit: Fit) -> Channel | None:
+    load, unit = load_of(fit), fit.model.load_unit
+    if load is None:
+        return None
+    return Channel(
+        load * np.sign(fit.recording.velocity), f"load · sgn v [{unit}], below 0 the load drives"
+    )
+
+
+def _load_curvature(fit: Fit) -> Channel | None:
+    values, unit = fit.recording.load_torque_curvature, fit.model.load_unit
+    return None if values is None else Channel(values, f"second derivative of the load [{unit}/s²]")
+
+
+def _modelled(fit: Fit) -> Channel:
+    unit = fit.model.torque_unit
+    return Channel(fit.prediction, f"modelled motor {torque_name(unit)} [{unit}]")
+
+
+def _modelled_rate(fit: Fit) -> Channel | None:
+    r, unit = fit.recording, fit.model.torque_unit
+    if r.averaged:
+        return None
+    smooth = zero_phase(r, bridged(r, fit.prediction))
+    step = np.where(r.dt > 0, r.dt, np.inf)
+    rate = np.diff(smooth, prepend=smooth[:1]) / step
+    return Channel(rate, f"rate of the modelled {torque_name(unit)} [{unit}/s]")
+
+
+def _reversal(fit: Fit) -> Channel | None:
+    from stribeck.diagnose.shape import displacement_since_reversal
+
+    r = fit.recording
+    if r.averaged:
+        return None
+    way = np.asarray(displacement_since_reversal(r), dtype=np.float64)
+    return Channel(way, f"way since the last reversal [{r.position_unit}]")
+
+
+def _load_reversal(fit: Fit) -> Channel | None:
+    """Way moved since the load last changed its sign."""
+    r, load = fit.recording, load_of(fit)
+    if load is None or r.averaged:
+        return None
+    steps = np.abs(r.velocity) * r.dt
+    began = np.concatenate([[True], np.diff(np.sign(load)) != 0]) | (r.dt <= 0)
+    start = np.maximum.accumulate(np.where(began, np.arange(load.size), 0))
+    way = np.cumsum(steps)
+    return Channel(way - way[start], f"way since the load changed its sign [{r.position_unit}]")
+
+
+_CHANNELS: dict[str, Callable[[Fit], Channel | None]] = {
+    "time": _time,
+    "velocity": _velocity,
+    "speed": _speed,
+    "position": _position,
+    "phase": _phase,
+    "acceleration": _acceleration,
+    "acceleration_along": _acceleration_along,
+    "temperature": _temperature,
+    "load": _load,
+    "load_size": _load_size,
+    "load_along": _load_along,
+    "load_curvature": _load_curvature,
+    "modelled": _modelled,
+    "modelled_rate": _modelled_rate,
+    "reversal": _reversal,
+    "load_reversal": _load_reversal,
+}

@@ -1,0 +1,139 @@
+"""The figure behind a finding: the residual against the channel that matters, before and after."""
+
+from __future__ import annotations
+
+import textwrap
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from stribeck.compare import REVERSAL_WINDOW, regime_rows
+from stribeck.model import catalog
+from stribeck.report.channels import channel, clock, load_of, telling
+from stribeck.report.figures import (
+    AFTER,
+    BEFORE,
+    binned_quartiles,
+    dots,
+    limits,
+    new_figure,
+    style,
+    thin,
+)
+from stribeck.report.numbers import change_text, plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from stribeck.diagnose import Finding
+    from stribeck.fit import Fit
+
+#: How the residual is called by what it is taken along.
+ALONG = {None: "", "motion": " · sgn v", "load": " · sgn load"}
+#: How the rows that are drawn are called, where it is not all of them.
+REGIMES = {
+    "low_speed": "the slowest quarter",
+    "high_speed": "the fastest quarter",
+    "sliding": f"more than {REVERSAL_WINDOW} s from a reversal",
+}
+
+
+def finding_figure(finding: Finding, *, reason: bool = True) -> Figure:
+    """What a finding rests on: the residual without and with the effect, binned.
+
+    Lines are medians, bands hold the middle half of the rows. The residual is that of the rows
+    that are fitted to; what no bin can be made of is drawn row by row.
+
+    Parameters
+    ----------
+    reason : bool
+        Whether the sentence that says where the data shows the effect stands below the title.
+    """
+    effect = finding.effect
+    figure = new_figure(7.6, 5.0)
+    axes = figure.add_subplot()
+    style(axes)
+    finding_panel(axes, effect, finding.before, finding.fit)
+    known = catalog()["effects"].get(effect)
+    headline = f"{effect}: {known['title']}" if known else effect
+    if reason:
+        sentence = f"{finding.where[:1].upper()}{finding.where[1:]}."
+        headline += "\n" + textwrap.fill(sentence, 92)
+    figure.suptitle(headline, fontsize=10.5, x=0.01, ha="left")
+    _name_errors(axes, finding)
+    figure.legend(
+        *axes.get_legend_handles_labels(), loc="outside lower center", ncols=2, frameon=False,
+        fontsize=9, title=panel_legend(effect), title_fontsize=8.5,
+    )  # fmt: skip
+    return figure
+
+
+def _name_errors(axes: Axes, finding: Finding) -> None:
+    """Say in the legend what is left without and with the effect, on data not seen."""
+    before, after = finding.rmse_held_out_before, finding.rmse_held_out_after
+    unit = finding.fit.model.torque_unit
+    texts = {
+        "without": f"without {finding.effect}: held-out error {plain(before)} {unit}",
+        "with": f"with {finding.effect}: {plain(after)} {unit} ({change_text(before, after)})",
+    }
+    for line in axes.get_lines():
+        label = str(line.get_label())
+        line.set_label(texts.get(label, label))
+
+
+def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
+    """Draw the residuals of two models against the channel in which an effect shows."""
+    said = telling(effect)
+    made, along = channel(after, said.channel), said.along
+    if made is None:
+        made, along = channel(after, "velocity") or clock(after.recording), None
+    rows = _rows(before, said.regime)
+    sign = _sign(after, along)
+    x = made.values[rows]
+    residuals = [(fit.residual * sign)[rows] for fit in (before, after)]
+    axes.axhline(0.0, color="#999999", linewidth=0.8)
+    shown = []
+    for y, colour, label in zip(residuals, (BEFORE, AFTER), ("without", "with"), strict=True):
+        at, lower, median, upper = binned_quartiles(x, y, log=said.log)
+        if at.size == 0:
+            some = thin(np.arange(x.size))
+            axes.plot(x[some], y[some], color=colour, label=label, **dots(some.size))
+            shown.append(y)
+            continue
+        axes.fill_between(at, lower, upper, color=colour, alpha=0.2, linewidth=0)
+        axes.plot(at, median, "o-", color=colour, linewidth=1.8, markersize=3.5, label=label)
+        shown += [lower, upper]
+    limits(axes, shown)
+    if said.log and np.all(x[x != 0] > 0):
+        axes.set_xscale("log")
+    axes.set_xlabel(made.label)
+    axes.set_ylabel(f"residual{ALONG[along]} [{before.model.torque_unit}]")
+
+
+def panel_legend(effect: str) -> str:
+    """How a panel is to be read, in one or two lines."""
+    said = telling(effect)
+    lines = ["line: median, band: middle half"]
+    notes = ["above 0: too little friction"] if said.along == "motion" else []
+    if said.regime is not None:
+        notes.append(REGIMES[said.regime])
+    return "\n".join([*lines, "; ".join(notes)] if notes else lines)
+
+
+def _sign(fit: Fit, along: str | None) -> NDArray[np.float64]:
+    """What the residual is multiplied by, every row."""
+    if along is None:
+        return np.ones_like(fit.residual)
+    load = load_of(fit) if along == "load" else None
+    return np.sign(fit.recording.velocity if load is None else load)
+
+
+def _rows(fit: Fit, regime: str | None) -> NDArray[np.intp]:
+    """The rows fitted to, or those of them in a regime."""
+    if regime is None:
+        return fit.rows
+    regimes = regime_rows(fit)
+    inside = ~regimes["reversal"] if regime == "sliding" else regimes[regime]
+    return np.flatnonzero(inside & fit.recording.moving & ~fit.transient)
