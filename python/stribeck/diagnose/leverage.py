@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 #: Largest weight of a block in a direction: beyond it the bounds of the parameters hold a refit
 #: without the block, and its noise grows no further.
-HEAVIEST = 0.99
+HEAVIEST = 1.0 - 1e-6
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 
 #: Two effects are told apart if this many times the smallest visible size is enough for it.
 TOLD_APART = 3.0
+#: Sine of the angle to a model from which on it is not the model that hides an effect.
+TAKEN_UP = 0.3
 #: Effects that another one holds on any motion.
 HELD_BY = {"offset": "direction"}
 #: Share of a torque from which on it is more than what rounding leaves of it.
@@ -313,7 +315,12 @@ def _hidden(one: Shown, base: Beside, unit: str) -> Untestable:
     names = (one.effect, *(model.names[k] for k in base.free))
     alike = partners(columns, 0, np.ones(columns.shape[1], dtype=bool))
     why = reason(names, alike)
-    if np.isfinite(one.smallest):
+    if sine(one.torque, base.basis) > TAKEN_UP:
+        why = (
+            "a part of it shows in one stretch of the recording alone, and no refit without that "
+            "stretch foretells it"
+        )
+    elif np.isfinite(one.smallest):
         why = (
             f"it would be seen from {one.smallest:.2g} {unit} RMS on, more than all friction there "
             f"is ({why}, or nearly)"
