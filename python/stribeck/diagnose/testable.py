@@ -16,6 +16,7 @@ from scipy.stats import spearmanr
 from stribeck.identify.periodogram import FEWEST_PERIODS, most_periods
 from stribeck.model import effect_ids
 from stribeck.recording import Recording
+from stribeck.recording.rows import noise_level
 
 Array = NDArray[np.float64]
 
@@ -43,8 +44,9 @@ DRIFT_FOLLOWS = 0.9
 SLOW_PASS = 2.0
 #: A drive train softer than this resonates visibly in any joint, Hz.
 SOFT_DRIVE = 5.0
-#: Least share of the load torque that such a drive train must show.
-TWIST_SHARE = 0.01
+#: Least torque that such a drive train must show, as shares of the load torque and of the noise:
+#: some ten thousand rows see a fiftieth of their noise.
+TWIST_SHARE, TWIST_NOISE = 1e-3, 0.02
 #: Ratio of the largest torque to the usual one from which a curve over torque shows.
 TORQUE_RATIO = 2.0
 
@@ -392,7 +394,9 @@ def _elasticity(f: _Facts) -> Answer:
     # Quantiles: a payload that is swapped is no motion.
     size = float(np.quantile(np.abs(load - np.median(load)), 0.9))
     twist = float(np.quantile(np.abs(bend), 0.9)) / (2.0 * np.pi * SOFT_DRIVE) ** 2
-    if twist <= TWIST_SHARE * size:
+    r = f.recording
+    noise = noise_level(r.time, r.torque, r.segment)
+    if twist <= max(TWIST_SHARE * size, TWIST_NOISE * noise):
         return (
             f"the load torque changes so slowly that even a drive train that resonates at "
             f"{SOFT_DRIVE:.0f} Hz would look rigid",

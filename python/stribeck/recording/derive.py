@@ -9,15 +9,17 @@ from numpy.typing import NDArray
 
 from .rows import segment_slices
 
-__all__ = ["Smoother", "choose_cutoff", "motion_band"]
+__all__ = ["Smoother", "choose_cutoff", "jumps", "motion_band"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
 
 _ORDER = 4
 _HIGHEST = 0.4  # of the sampling rate: a cut-off above leaves nothing worth removing
 _MARGIN = 1.5  # the pass band ends a little above the frequency where motion meets noise
 _ABOVE = 4.0  # motion is seen where the spectrum is this many times the noise
+_JUMP = 20.0  # times the 99 % quantile of the change from step to step
 _UNIFORM = 0.01  # steps within 1 % of their mean are taken as uniform
 
 
@@ -125,6 +127,20 @@ def motion_band(time: Floats, velocity: Floats, segment: Ints) -> float | None:
     order = np.argsort(frequency, kind="stable")
     power = np.cumsum(spectrum[order])
     return float(frequency[order][int(np.searchsorted(power, 0.99 * total))]) or None
+
+
+def jumps(value: Floats) -> Bools:
+    """Steps between samples that no motion makes, bool [n - 1].
+
+    They stand out from the steps around them by many times what steps usually change by.
+    """
+    from scipy.ndimage import median_filter
+
+    step = np.diff(value)
+    if len(step) < 2:
+        return np.zeros(len(step), dtype=bool)
+    usual = float(np.quantile(np.abs(np.diff(step)), 0.99))
+    return np.asarray(np.abs(step - median_filter(step, 5, mode="nearest")) > _JUMP * usual)
 
 
 def _smooth(density: Floats) -> Floats:

@@ -11,7 +11,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from stribeck.recording.derive import Smoother
+from stribeck.recording.derive import Smoother, jumps
 from stribeck.recording.rows import SIGMAS, noise_level
 
 __all__ = ["Column", "Recording"]
@@ -176,11 +176,13 @@ class Recording:
     def load_torque_curvature(self) -> Floats | None:
         """Second derivative of the load torque by time, N m/s2 or N/s2, [n]; None without a load.
 
-        By central differences of the load torque without its noise, segment by segment.
+        By central differences of the load torque without its noise, segment by segment. Where it
+        jumps a payload was swapped, and the stretches before and after stand each for itself.
         """
         if self.load_torque is None:
             return None
-        return Smoother(self.time, self.segment, None).smooth(self.denoised("load_torque"), 2)
+        stretch = self.segment + np.cumsum(np.concatenate([[False], jumps(self.load_torque)]))
+        return Smoother(self.time, stretch, None).smooth(self.denoised("load_torque"), 2)
 
     @cached_property
     def motion_band(self) -> float | None:
