@@ -14,7 +14,7 @@ import click
 from stribeck.diagnose import Finding
 from stribeck.errors import RecordingError
 from stribeck.fit import Fit, evaluate, fit
-from stribeck.model_file import ModelFile, read_model_file
+from stribeck.model_file import ModelFile, read_model_file, write_whole
 from stribeck.recording import Recording, read
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -67,6 +67,9 @@ least_fall_option = click.option(
     help="Least relative fall of the held-out RMSE that counts.",
 )
 
+report_option = click.option(
+    "--report", default=None, metavar="FILE", help="Write a self-contained page (HTML)."
+)
 figures_option = click.option(
     "--figures",
     type=click.Path(file_okay=False),
@@ -206,6 +209,12 @@ def save_findings(findings: Iterable[Finding], folder: str | None) -> None:
         path = Path(folder) / f"{finding.effect}.png"
         save_figure(finding.plot(), path)
         say(f"wrote {path}")
+
+
+def save_page(page: str, path: str) -> None:
+    """Write a page whole or not at all."""
+    write_whole(path, page)
+    say(f"wrote {path}")
 
 
 def check_output(path: str | None) -> None:

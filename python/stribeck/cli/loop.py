@@ -16,8 +16,10 @@ from stribeck.cli.common import (
     output_option,
     read_recording,
     recording_options,
+    report_option,
     save_findings,
     save_fit,
+    save_page,
     say,
     seed_option,
     starts_option,
@@ -121,6 +123,7 @@ def compare(
 @click.argument("data")
 @click.argument("model", required=False)
 @model_options
+@report_option
 @figures_option
 @candidate_option
 @least_fall_option
@@ -129,12 +132,13 @@ def compare(
 @seed_option
 @json_option
 def diagnose(
-    data: str, model: str | None, written: Written, figures: str | None,
+    data: str, model: str | None, written: Written, report: str | None, figures: str | None,
     candidates: tuple[str, ...], least_fall: float, starts: int, reading: dict[str, Any],
     seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Find which physical effect MODEL (or the law of --law) is missing on DATA."""
-    check_output(figures)
+    for path in (report, figures):
+        check_output(path)
     check_candidates(candidates)
     recording = read_recording(data, reading)
     fitted = written_fit(model, written, recording, starts=starts, seed=seed)
@@ -142,6 +146,10 @@ def diagnose(
         fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed
     )
     save_findings(diagnosis.findings, figures)
+    if report is not None:
+        from stribeck.report.html import diagnosis_page
+
+        save_page(diagnosis_page(diagnosis), report)
     if as_json:
         echo_json(diagnosis.to_dict())
     else:
@@ -184,7 +192,7 @@ def add(
 @click.option("--base", default=None, help="Spec, model file or formula; default: coulomb.")
 @model_options
 @output_option
-@click.option("--report", default=None, help="Write a self-contained page (HTML).")
+@report_option
 @click.option("--plot", "picture", default=None, help="Write the picture (PNG).")
 @figures_option
 @least_fall_option
@@ -229,11 +237,9 @@ def improve(
         say(f"wrote {picture}")
     save_findings((step.finding for step in improvement.steps), figures)
     if report is not None:
-        from stribeck.model_file import write_whole
         from stribeck.report.html import improvement_page
 
-        write_whole(report, improvement_page(improvement))
-        say(f"wrote {report}")
+        save_page(improvement_page(improvement), report)
     if as_json:
         echo_json(improvement.to_dict())
     else:

@@ -14,7 +14,9 @@ from stribeck.cli.common import (
     json_option,
     least_fall_option,
     recording_options,
+    report_option,
     save_findings,
+    save_page,
     say,
     seed_option,
     starts_option,
@@ -83,20 +85,22 @@ def show(path: str, as_json: bool) -> None:
 
 @project.command()
 @click.argument("path", metavar="PROJECT")
+@report_option
 @figures_option
 @candidate_option
 @least_fall_option
 @seed_option
 @json_option
 def diagnose(
-    path: str, figures: str | None, candidates: tuple[str, ...], least_fall: float, seed: int,
-    as_json: bool,
+    path: str, report: str | None, figures: str | None, candidates: tuple[str, ...],
+    least_fall: float, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Find what is missing at the current node, and remember it.
 
     Effects that were rejected on the way to it are not tried.
     """
-    check_output(figures)
+    for output in (report, figures):
+        check_output(output)
     check_candidates(candidates)
     made = Project.open(path)
     made = made.diagnose(least_fall=least_fall, candidates=candidates, seed=seed)
@@ -104,6 +108,10 @@ def diagnose(
     say(f"wrote {made.path}")
     assert made.diagnosis is not None
     save_findings(made.diagnosis.findings, figures)
+    if report is not None:
+        from stribeck.report.html import diagnosis_page
+
+        save_page(diagnosis_page(made.diagnosis), report)
     if as_json:
         echo_json({"node": made.current, **made.diagnosis.to_dict()})
     else:

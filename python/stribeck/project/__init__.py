@@ -2,7 +2,7 @@
 
 The walk through it: `source` is the data and how it was read, `kept` a fitted model as it is
 stored, `findings` what a diagnosis said, `node` a model with how it came about, `tree` the nodes,
-`project` the verbs, `file` the TOML.
+`project` the verbs, `sides` two nodes beside each other, `write` and `read` the TOML.
 """
 
 from stribeck.project.node import Node

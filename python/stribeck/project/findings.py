@@ -37,7 +37,7 @@ class Found:
     def of(cls, finding: Finding) -> Found:
         """Remember a finding."""
         return cls(
-            finding.effect, finding.confidence, finding.rmse_held_out_after,
+            finding.effect, finding.confidence, finding.fit.rmse_held_out,
             finding.share_of_unexplained, finding.where, finding.indistinguishable_from,
         )  # fmt: skip
 

@@ -101,7 +101,7 @@ class Project:
         ProjectError, ModelFileError
             The file is no project, or its data have changed or are gone.
         """
-        from stribeck.project.file import read_project
+        from stribeck.project.read import read_project
 
         project = read_project(Path(path))
         project.source.check()
@@ -109,7 +109,7 @@ class Project:
 
     def save(self, path: str | os.PathLike[str] | None = None) -> None:
         """Write the project file whole or not at all; default: where it came from."""
-        from stribeck.project.file import write_project
+        from stribeck.project.write import write_project
 
         write_project(self, self.path if path is None else Path(path))
 

@@ -40,7 +40,7 @@ REGIMES = {
 }
 
 
-def finding_figure(finding: Finding, *, reason: bool = True) -> Figure:
+def finding_figure(finding: Finding, *, headed: bool = True) -> Figure:
     """What a finding rests on: the residual without and with the effect, binned.
 
     Lines are medians, bands hold the middle half of the rows. The residual is that of the rows
@@ -48,26 +48,30 @@ def finding_figure(finding: Finding, *, reason: bool = True) -> Figure:
 
     Parameters
     ----------
-    reason : bool
-        Whether the sentence that says where the data shows the effect stands below the title.
+    headed : bool
+        Whether the effect's title and the sentence that says where the data shows it stand above.
     """
     effect = finding.effect
     figure = new_figure(7.6, 5.0)
     axes = figure.add_subplot()
     style(axes)
     finding_panel(axes, effect, finding.before, finding.fit)
-    known = catalog()["effects"].get(effect)
-    headline = f"{effect}: {known['title']}" if known else effect
-    if reason:
-        sentence = f"{finding.where[:1].upper()}{finding.where[1:]}."
-        headline += "\n" + textwrap.fill(sentence, 92)
-    figure.suptitle(headline, fontsize=10.5, x=0.01, ha="left")
+    if headed:
+        figure.suptitle(_headline(finding), fontsize=10.5, x=0.01, ha="left")
     _name_errors(axes, finding)
     figure.legend(
         *axes.get_legend_handles_labels(), loc="outside lower center", ncols=2, frameon=False,
         fontsize=9, title=panel_legend(effect), title_fontsize=8.5,
     )  # fmt: skip
     return figure
+
+
+def _headline(finding: Finding) -> str:
+    """The effect, and in one sentence where the data shows it."""
+    known = catalog()["effects"].get(finding.effect)
+    name = f"{finding.effect}: {known['title']}" if known else finding.effect
+    sentence = f"{finding.where[:1].upper()}{finding.where[1:]}."
+    return "\n".join([name, textwrap.fill(sentence, 92)])
 
 
 def _name_errors(axes: Axes, finding: Finding) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -15,10 +16,17 @@ from stribeck.report.figures import improvement_figure, png_bytes
 from stribeck.report.finding import finding_figure
 from stribeck.report.numbers import DASH, change_text, confidence_words, percent, plain
 from stribeck.report.text import (
+    ALIKE,
     STOPPED,
+    VISIBLE,
+    diagnosis_summary,
+    errors_sentence,
+    explainable_text,
     file_name,
+    group_rows,
     held_out_meaning,
     indistinguishable_sentence,
+    left_after,
     left_text,
     parameter_rows,
     scored_sentence,
@@ -26,11 +34,14 @@ from stribeck.report.text import (
     summary_sentence,
     unit_text,
     untestable_rows,
+    visible_rows,
 )
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from stribeck.diagnose import Diagnosis, Finding, Untestable
+    from stribeck.fit import Fit
     from stribeck.improve import Improvement
     from stribeck.recording import Recording
 
@@ -98,26 +109,18 @@ def _steps(improvement: Improvement) -> list[dict[str, Any]]:
     return rows
 
 
-def _findings(improvement: Improvement) -> list[dict[str, Any]]:
-    found = []
-    for step in improvement.steps:
-        finding = step.finding
-        share = finding.share_of_unexplained
-        found.append(
-            {
-                "effect": finding.effect,
-                "title": _title(finding.effect),
-                "confidence": confidence_words(finding.confidence),
-                "physically": physically(finding.effect, finding.fit.model),
-                "where": finding.where[:1].upper() + finding.where[1:] + ".",
-                "picture": _picture(finding_figure(finding, reason=False)),
-                "share": percent(share) if share is not None else None,
-                "ties": (
-                    indistinguishable_sentence(finding) if finding.indistinguishable_from else ""
-                ),
-            }
-        )
-    return found
+def _finding(finding: Finding) -> dict[str, Any]:
+    share = finding.share_of_unexplained
+    return {
+        "effect": finding.effect,
+        "title": _title(finding.effect),
+        "confidence": confidence_words(finding.confidence),
+        "physically": physically(finding.effect, finding.fit.model),
+        "where": finding.where[:1].upper() + finding.where[1:] + ".",
+        "picture": _picture(finding_figure(finding, headed=False)),
+        "share": percent(share) if share is not None else None,
+        "ties": indistinguishable_sentence(finding) if finding.indistinguishable_from else "",
+    }
 
 
 def _picture(figure: Figure) -> str:
@@ -132,33 +135,74 @@ def _title(effect: str) -> str:
 
 def improvement_page(improvement: Improvement) -> str:
     """A page on one improvement: what was found, what it means, the figure and the numbers."""
-    from stribeck import __version__
-
-    final, r = improvement.final, improvement.final.recording
+    final = improvement.final
     floor = improvement.noise_floor
     largest = max([e for e in step_errors(improvement) if e is not None], default=1.0)
+    return _page(
+        "improvement.html",
+        final,
+        [step.finding for step in improvement.steps],
+        improvement.untestable,
+        summary=summary_sentence(improvement),
+        picture=_picture(improvement_figure(improvement)),
+        steps=_steps(improvement),
+        floor=None if floor.value is None else plain(floor.value),
+        floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
+        floor_why=floor.why,
+        held_out=held_out_meaning(final.recording),
+        stopped=STOPPED[improvement.stopped],
+        left=left_text(improvement.unexplained),
+        relative=None if final.relative_residual is None else percent(final.relative_residual),
+    )
+
+
+def diagnosis_page(diagnosis: Diagnosis) -> str:
+    """A page on one diagnosis: each finding with its figure, what is left, what cannot be seen."""
+    fitted = diagnosis.fit
+    sentences = [
+        errors_sentence(diagnosis),
+        left_after(diagnosis),
+        explainable_text(diagnosis.explainable, fitted.model.spec, fitted.model.torque_unit),
+    ]
+    lists = [
+        (VISIBLE, visible_rows(diagnosis.smallest_visible)),
+        (ALIKE, group_rows(diagnosis.groups)),
+    ]
+    return _page(
+        "diagnosis.html",
+        fitted,
+        diagnosis.findings,
+        diagnosis.untestable,
+        summary=diagnosis_summary(diagnosis),
+        left=[sentence for sentence in sentences if sentence],
+        lists=[(heading, rows) for heading, rows in lists if rows],
+    )
+
+
+def _page(
+    template: str,
+    fitted: Fit,
+    findings: Sequence[Finding],
+    untestable: Iterable[Untestable],
+    **said: Any,
+) -> str:
+    """A page with what all of them hold: the findings, the model, what the data cannot show."""
+    from stribeck import __version__
+
+    r = fitted.recording
     return (
         _environment()
-        .get_template("improvement.html")
+        .get_template(template)
         .render(
             name=file_name(r),
-            summary=summary_sentence(improvement),
-            findings=_findings(improvement),
-            picture=_picture(improvement_figure(improvement)),
-            steps=_steps(improvement),
-            unit=final.model.torque_unit,
-            floor=None if floor.value is None else plain(floor.value),
-            floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
-            floor_why=floor.why,
-            held_out=held_out_meaning(r),
-            stopped=STOPPED[improvement.stopped],
-            left=left_text(improvement.unexplained),
-            spec=final.model.spec,
-            parameters=parameter_rows(final.estimates.values()),
-            untestable=untestable_rows(improvement.untestable),
+            findings=[_finding(finding) for finding in findings],
+            unit=fitted.model.torque_unit,
+            spec=fitted.model.spec,
+            parameters=parameter_rows(fitted.estimates.values()),
+            untestable=untestable_rows(untestable),
             facts=_facts(r),
-            notes=list(dict.fromkeys([*r.notes, *final.notes])),
-            relative=None if final.relative_residual is None else percent(final.relative_residual),
+            notes=list(dict.fromkeys([*r.notes, *fitted.notes])),
             version=__version__,
+            **said,
         )
     )

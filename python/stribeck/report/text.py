@@ -462,34 +462,34 @@ def untestable_text(rows: Iterable[Untestable]) -> str:
     return "\n".join(lines)
 
 
-def smallest_visible_text(rows: Sequence[SmallestVisible]) -> str:
+#: What stands above the two lists of a diagnosis.
+VISIBLE = "Not found, and would have been seen (19 times in 20) from a torque, RMS, of"
+ALIKE = "This data cannot tell apart"
+
+
+def visible_rows(rows: Sequence[SmallestVisible]) -> list[str]:
     """From which size on each effect that was not found would have been, like sizes together."""
-    if not rows:
-        return ""
     bands: list[list[SmallestVisible]] = []
     for row in sorted(rows, key=lambda row: row.rms):
         if not bands or row.rms > 1.5 * bands[-1][0].rms:
             bands.append([])
         bands[-1].append(row)
-    lines = ["Not found, and would have been seen (19 times in 20) from a torque, RMS, of:"]
-    lines += [
-        paragraph(f"• {plain(b[-1].rms, 2)} {b[-1].unit}: {listed([r.effect for r in b])}.", 2, 2)
-        for b in bands
+    return [f"{plain(b[-1].rms, 2)} {b[-1].unit}: {listed([r.effect for r in b])}." for b in bands]
+
+
+def group_rows(groups: Sequence[Group]) -> list[str]:
+    """Which effects look alike on this data, and from which size on they do not."""
+    return [
+        listed(group.effects)
+        + (f", below {plain(group.rms, 2)} {group.unit} RMS" if math.isfinite(group.rms) else "")
+        + "."
+        for group in groups
     ]
-    return "\n".join(lines)
 
 
-def groups_text(groups: Sequence[Group]) -> str:
-    """Which effects look alike on this data, and what it would take to tell them apart."""
-    if not groups:
-        return ""
-    lines = ["This data cannot tell apart:"]
-    for group in groups:
-        from_ = (
-            f", below {plain(group.rms, 2)} {group.unit} RMS" if math.isfinite(group.rms) else ""
-        )
-        lines.append(paragraph(f"• {listed(group.effects)}{from_}.", 2, 2))
-    return "\n".join(lines)
+def _list_text(heading: str, rows: Iterable[str]) -> str:
+    lines = [paragraph(f"• {row}", 2, 2) for row in rows]
+    return "\n".join([f"{heading}:", *lines]) if lines else ""
 
 
 def left_text(left: Unexplained) -> str:
@@ -528,15 +528,47 @@ def _floor_sentence(value: float | None, why: str | None, unit: str) -> str:
     )
 
 
+def errors_sentence(diagnosis: Diagnosis) -> str:
+    """How large the error is, and the noise."""
+    f, floor = diagnosis.fit, diagnosis.noise_floor
+    unit = f.model.torque_unit
+    noise = _floor_sentence(floor.value, floor.why, unit)
+    if f.rmse_held_out is None:
+        return noise
+    meaning = held_out_meaning(f.recording)
+    return f"Held-out error {plain(f.rmse_held_out)} {unit} ({meaning}). {noise}"
+
+
+def left_after(diagnosis: Diagnosis) -> str:
+    """How much of the error is more than noise once the first finding is added."""
+    left = left_text(diagnosis.unexplained)
+    if not diagnosis.findings:
+        return left
+    return f"With {diagnosis.findings[0].effect} added: {left[0].lower()}{left[1:]}"
+
+
+def diagnosis_summary(diagnosis: Diagnosis) -> str:
+    """What a diagnosis found, in one sentence."""
+    spec, unit = diagnosis.fit.model.spec, diagnosis.fit.model.torque_unit
+    if diagnosis.verdict == "none":
+        return f"Nothing that this recording can show is missing from the model {spec}."
+    if not diagnosis.findings:
+        return (
+            f"The model {spec} misses something on this recording, but no known effect explains "
+            f"it on data that it has not seen."
+        )
+    best = diagnosis.findings[0]
+    return (
+        f"What the model {spec} lacks most is {best.effect}: with it the error on data the fit has "
+        f"not seen falls from {plain(best.rmse_held_out_before)} to "
+        f"{plain(best.rmse_held_out_after)} {unit}."
+    )
+
+
 def diagnosis_text(diagnosis: Diagnosis) -> str:
     """What is missing from a model."""
     f = diagnosis.fit
     r, unit = f.recording, f.model.torque_unit
-    held = (
-        f"Held-out error {plain(f.rmse_held_out)} {unit} ({held_out_meaning(r)}). "
-        if f.rmse_held_out is not None else ""
-    )  # fmt: skip
-    floor = diagnosis.noise_floor
     verdict = {
         "missing": "Missing, best first:",
         "none": "Nothing is missing: what the model leaves is noise.",
@@ -545,9 +577,6 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
     findings = "\n\n".join(
         finding_text(finding, unit, k) for k, finding in enumerate(diagnosis.findings, 1)
     )
-    after = f"With {diagnosis.findings[0].effect} added: " if diagnosis.findings else ""
-    left = left_text(diagnosis.unexplained)
-    left = f"{after}{left[0].lower()}{left[1:]}" if after else left
     following = ""
     if diagnosis.findings:
         following = (
@@ -556,13 +585,13 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         )
     return _joined(
         f"What is missing from {f.model.spec} on {file_name(r)}?",
-        paragraph(held + _floor_sentence(floor.value, floor.why, unit)),
+        paragraph(errors_sentence(diagnosis)),
         verdict + ("\n\n" + findings if findings else ""),
-        paragraph(left, 0),
+        paragraph(left_after(diagnosis), 0),
         paragraph(explainable_text(diagnosis.explainable, f.model.spec, unit), 0),
         paragraph(following, 0) if following else "",
-        smallest_visible_text(diagnosis.smallest_visible),
-        groups_text(diagnosis.groups),
+        _list_text(VISIBLE, visible_rows(diagnosis.smallest_visible)),
+        _list_text(ALIKE, group_rows(diagnosis.groups)),
         untestable_text(diagnosis.untestable),
         notes_text(r.notes, f.notes),
     )

@@ -66,7 +66,10 @@ def path(folder: Path) -> Path:
 
 
 def test_the_loop_by_hand(path: Path) -> None:
-    found = answer("diagnose", path)
+    page, figures = path.parent / "page.html", path.parent / "figures"
+    found = answer("diagnose", path, "--report", page, "--figures", figures)
+    assert "</html>" in page.read_text()
+    assert {p.stem for p in figures.iterdir()} == {row["effect"] for row in found["findings"]}
     assert found["node"] == 0 and found["findings"][0]["effect"] == "load"
     assert answer("name", path, "main")["nodes"][0]["name"] == "main"
     added = answer("add", path, "load", "--starts", "2")

@@ -18,6 +18,12 @@ def improvement(tmp_path_factory: pytest.TempPathFactory) -> sb.Improvement:
 
 
 @pytest.fixture(scope="session")
+def diagnosis(improvement: sb.Improvement) -> sb.Diagnosis:
+    """What the base of the improvement lacks."""
+    return sb.diagnose(improvement.base)
+
+
+@pytest.fixture(scope="session")
 def steady(tmp_path_factory: pytest.TempPathFactory) -> sb.Fit:
     """A fit to steady-state points: no time, few rows, no position."""
     import numpy as np

@@ -7,7 +7,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 
 import stribeck as sb
-from stribeck.report.html import improvement_page
+from stribeck.report.html import diagnosis_page, improvement_page
 
 VOID = {"meta", "img", "br", "link", "hr"}
 
@@ -27,13 +27,13 @@ class Balanced(HTMLParser):
         assert self.open.pop() == tag
 
 
-def test_the_page_stands_alone(improvement: sb.Improvement) -> None:
-    page = improvement_page(improvement)
-    assert not re.search(r"""(src|href)=["'](?!data:)""", page)
-    assert "data:image/png;base64," in page
-    parser = Balanced()
-    parser.feed(page)
-    assert not parser.open
+def test_pages_stand_alone(improvement: sb.Improvement, diagnosis: sb.Diagnosis) -> None:
+    for page in (improvement_page(improvement), diagnosis_page(diagnosis)):
+        assert not re.search(r"""(src|href)=["'](?!data:)""", page)
+        assert "data:image/png;base64," in page
+        parser = Balanced()
+        parser.feed(page)
+        assert not parser.open
 
 
 def test_the_page_tells_what_was_found(improvement: sb.Improvement) -> None:
@@ -45,6 +45,26 @@ def test_the_page_tells_what_was_found(improvement: sb.Improvement) -> None:
         assert row.effect in page
     assert improvement.final.recording.sha256 in page
     assert ">nan" not in page and "None" not in page.replace("NoneType", "None")
+
+
+def test_each_finding_has_its_figure(improvement: sb.Improvement, diagnosis: sb.Diagnosis) -> None:
+    for page, findings in (
+        (improvement_page(improvement), [step.finding for step in improvement.steps]),
+        (diagnosis_page(diagnosis), diagnosis.findings),
+    ):
+        for finding in findings:
+            assert f'alt="Residual without and with {finding.effect}' in page
+        assert page.count('figure class="finding"') == len(findings) > 0
+
+
+def test_the_page_of_a_diagnosis(diagnosis: sb.Diagnosis) -> None:
+    page = diagnosis_page(diagnosis)
+    assert "What the model coulomb lacks most is load" in page
+    assert "With load added" in page and "noise floor" in page.lower()
+    for row in (*diagnosis.untestable, *diagnosis.smallest_visible):
+        assert row.effect in page
+    nothing = replace(diagnosis, verdict="none", findings=())
+    assert "Nothing that this recording can show is missing" in diagnosis_page(nothing)
 
 
 def test_a_file_name_cannot_break_the_page(improvement: sb.Improvement) -> None:
