@@ -117,8 +117,10 @@ class _Reader:
         if not isinstance(table.get("model"), dict):
             raise self.stop(f"node {number} has no model", header)
         kept = Kept(read_model(table["model"], self.path, self.text, f"[nodes.{number}.model]"))
-        if not isinstance(kept.file.fitted_on.get("rmse"), float):
-            raise self.stop(f"the model of node {number} has no rmse", header, "fitted_on")
+        fitted_on, place = kept.file.fitted_on, f"[nodes.{number}.model.fitted_on]"
+        self._number(fitted_on, "rmse_held_out", place)
+        if self._number(fitted_on, "rmse", place) is None:
+            raise self.stop(f"the model of node {number} has no rmse", header)
         found = self._found(table["found"], f"[nodes.{number}.found]") if "found" in table else None
         node = Node(
             number, table.get("parent"), change, found, kept,

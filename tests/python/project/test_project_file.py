@@ -86,6 +86,8 @@ def test_other_data_are_refused_in_one_line(written: Path) -> None:
         ("current = 2", "current = 2\nnote = 1", "key 'note' is unknown"),
         ('change = "base"', 'change = "base"\nparent = 3', "neither a parent"),
         ('path = "data/joint.csv"', "path = 3", "a text is needed"),
+        ("rmse = ", "rmse = nan # ", "a finite number is needed"),
+        ("rmse = ", "# rmse = ", "has no rmse"),
         ("nodes.1", "nodes.x", "not a numbered table"),
         ("current = 2", "current = ", "not a TOML file"),
     ],
