@@ -16,7 +16,6 @@ from stribeck.diagnose.words import where
 from stribeck.errors import ProjectError, SpecError, nearest
 from stribeck.fit import Fit, fit
 from stribeck.formula_law import effect_name, effect_terms, is_formula
-from stribeck.improve import MOST_STEPS, Step, Way, walk
 from stribeck.improve import add as add_to
 from stribeck.model import Model, check_effect
 from stribeck.project.findings import Found, Remembered
@@ -27,6 +26,7 @@ from stribeck.project.source import Source
 from stribeck.project.tables import project_dict, project_frame
 from stribeck.project.tree import Tree
 from stribeck.recording import Recording
+from stribeck.walk import MOST_STEPS, Step, Way, walk
 
 
 def _silent(sentence: str) -> None:

@@ -109,7 +109,7 @@ def test_improve_heeds_what_is_rejected(diagnosed: sb.Project) -> None:
 def test_a_way_that_drops_an_effect_keeps_it_as_a_branch(begun: sb.Project) -> None:
     """The loop finds an effect superfluous: its branch stays, the way goes on beside it."""
     from stribeck.diagnose import diagnose
-    from stribeck.improve import Step, Superfluous, Way
+    from stribeck.walk import Step, Superfluous, Way
 
     said = diagnose(begun.fit, brief=True)
     first = said.findings[0]
