@@ -37,10 +37,13 @@ class Explainable:
         Held-out RMSE of a flexible regressor on top of the best model, in the unit of torque.
     share
         Share of the torque's variance above that error which the model explains, 0..1.
+    left
+        Share of the best model's squared held-out error that the regressor removes, 0..1.
     """
 
     rmse: float
     share: float
+    left: float
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON of `explainable`."""
@@ -71,7 +74,9 @@ def explainable(fitted: Fit, best: Fit | None = None) -> Explainable | None:
     missed = rms(fitted.held_out_residual[rows]) ** 2 - bound**2
     if room <= 0.0:
         return None
-    return Explainable(bound, float(np.clip(1.0 - missed / room, 0.0, 1.0)))
+    share = float(np.clip(1.0 - missed / room, 0.0, 1.0))
+    total = rms(left) ** 2
+    return Explainable(bound, share, 1.0 - bound**2 / total if total > 0.0 else 0.0)
 
 
 def _held_out(features: Array, residual: Array, block: NDArray[np.intp]) -> Array:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import replace
 
 from stribeck.diagnose.bound import explainable
 from stribeck.diagnose.candidates import candidates_for, tried_on
 from stribeck.diagnose.floor import noise_floor
 from stribeck.diagnose.ranking import findings
 from stribeck.diagnose.result import Diagnosis
+from stribeck.diagnose.stand_in import without_stand_ins
+from stribeck.diagnose.swings import swings
 from stribeck.diagnose.trial import SIGNIFICANCE
-from stribeck.diagnose.unexplained import unexplained
+from stribeck.diagnose.unexplained import Unexplained, unexplained
 from stribeck.diagnose.visibility import visibility
 from stribeck.fit import Fit, on_recording
 from stribeck.model import effect_ids
@@ -19,6 +20,7 @@ from stribeck.recording import Recording
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
+NOT_ASKED = Unexplained(None, None)
 
 
 def diagnose(
@@ -52,28 +54,25 @@ def diagnose(
     """
     fitted = on_recording(fitted, recording, seed)
     could_be = candidates_for(fitted, rejected, candidates)
-    good, tried = tried_on(fitted, could_be.possible, least_fall, seed)
+    passed, tried = tried_on(fitted, could_be.possible, least_fall, seed)
+    good = without_stand_ins(fitted, passed)
     best = good[0].fit if good else fitted
     floor = noise_floor(best)
     found = findings(fitted, good, tried, least_fall, floor, seed)
-    left = unexplained(best, floor)
-    verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
-    made = Diagnosis(fitted, floor, verdict, found, could_be.untestable, left)
     if brief and found:
-        return made
-    known = {e for finding in found for e in (finding.effect, *finding.indistinguishable_from)}
-    could = visibility(
+        return Diagnosis(fitted, floor, "missing", found, could_be.untestable, NOT_ASKED)
+    could = explainable(fitted, best)
+    left = unexplained(best, floor, could, swings(best))
+    verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
+    shown = visibility(
         fitted,
         [effect for effect in could_be.possible if effect in effect_ids()],
-        found=known,
+        found={e for finding in found for e in (finding.effect, *finding.indistinguishable_from)},
         tried=tried,
         significance=SIGNIFICANCE,
         least_fall=least_fall,
     )
-    return replace(
-        made,
-        untestable=(*made.untestable, *could.hidden),
-        smallest_visible=could.smallest,
-        groups=could.groups,
-        explainable=explainable(fitted, best),
-    )
+    return Diagnosis(
+        fitted, floor, verdict, found, (*could_be.untestable, *shown.hidden), left,
+        shown.smallest, shown.groups, could,
+    )  # fmt: skip

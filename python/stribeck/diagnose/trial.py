@@ -175,8 +175,11 @@ def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0)
 def explained_by_shape(before: Fit, trial: Trial, tried: int, least: float) -> bool:
     """Whether a freer form of the effects already in `before` leaves nothing to `trial`."""
     extra = flexible_columns(before)
-    if extra.shape[1] == 0:
-        return False
+    return extra.shape[1] > 0 and explained_by(before, trial, extra, tried, least)
+
+
+def explained_by(before: Fit, trial: Trial, extra: np.ndarray, tried: int, least: float) -> bool:
+    """Whether columns [m, k] beside `before` leave nothing to `trial`."""
     without, residual_without = _linear_refit(before, extra)
     along, residual_along = _linear_refit(trial.fit, extra)
     level = float(np.mean(without**2))
@@ -187,6 +190,11 @@ def explained_by_shape(before: Fit, trial: Trial, tried: int, least: float) -> b
         len(trial.fit.model.names) - len(before.model.names),
     )
     return fall < least / 2 or p_value * tried > SIGNIFICANCE
+
+
+def held_out_beside(fitted: Fit, extra: np.ndarray) -> np.ndarray:
+    """Held-out residual of `fitted`, linearised, with columns [m, k] beside it."""
+    return _linear_refit(fitted, extra)[0]
 
 
 def _linear_refit(fitted: Fit, extra: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -1,4 +1,10 @@
-"""What is left: how much of the error is structure, and where it sits."""
+"""What is left: how much of the error is structure, and where it sits.
+
+Two kinds of structure can be shown without knowing its cause: what a flexible regressor finds in
+the recorded channels on blocks that it has not seen, and friction that swings along the recording
+in both directions of motion alike. What neither shows counts as noise. How much structure there
+is, the noise floor tells better: a regressor never finds all.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +12,17 @@ from dataclasses import dataclass
 from typing import Any
 
 from stribeck.compare import regime_rows
+from stribeck.diagnose.bound import Explainable
 from stribeck.diagnose.floor import NoiseFloor
+from stribeck.diagnose.swings import Swings
 from stribeck.fit import Fit
 from stribeck.identify.figures import rms
 
-#: Share of the squared error above the noise floor from which it counts as structure.
-STRUCTURE = 0.15
+#: Share of the squared error from which what is shown counts as structure.
+STRUCTURE = 0.1
+#: A place is named where the error is so many times the average.
+WORSE = 1.15
+FEWEST_ROWS = 50
 
 PLACES = {
     "reversal": "around reversals",
@@ -30,7 +41,15 @@ PLACES = {
 
 @dataclass(frozen=True)
 class Unexplained:
-    """Share of the squared held-out error above the noise floor, and where it is largest."""
+    """Share of the squared held-out error that is structure, and where it sits.
+
+    Attributes
+    ----------
+    share : float
+        None where it cannot be said.
+    where : str
+        In words; None where what is left counts as noise.
+    """
 
     share: float | None
     where: str | None
@@ -45,22 +64,38 @@ class Unexplained:
         return {"share": self.share, "where": self.where}
 
 
-def unexplained(fit: Fit, floor: NoiseFloor) -> Unexplained:
-    """What `fit` leaves above the noise floor, on held-out data."""
-    if floor.value is None or fit.rmse_held_out is None or fit.rmse_held_out <= 0:
+def unexplained(
+    fit: Fit, floor: NoiseFloor, could: Explainable | None, swing: Swings
+) -> Unexplained:
+    """What `fit` leaves that is not noise, on held-out data."""
+    total = rms(fit.held_out_residual[fit.rows]) ** 2
+    if could is None or not total > 0.0:
         return Unexplained(None, None)
-    rows = fit.rows
-    total = rms(fit.held_out_residual[rows]) ** 2
-    share = max(0.0, 1.0 - floor.value**2 / total) if total > 0 else 0.0
-    worst, level = None, 1.15
-    for name, mask in regime_rows(fit).items():
-        chosen = mask & fit.recording.moving & ~fit.transient
-        if name not in PLACES or chosen.sum() < 50:
-            continue
-        ratio = rms(fit.held_out_residual[chosen]) / total**0.5
-        if ratio > level:
-            worst, level = name, ratio
+    swinging = min(swing.rms**2 / total, 1.0)
+    share = max(could.left, swinging)
     if share <= STRUCTURE:
         return Unexplained(share, None)
-    place = f"the error is {level:.2g} times the average {PLACES[worst]}" if worst else "everywhere"
-    return Unexplained(share, place)
+    if floor.value is not None:
+        share = max(share, 1.0 - floor.value**2 / total)
+    return Unexplained(share, _changing(fit, swing) if swinging > could.left else _place(fit))
+
+
+def _changing(fit: Fit, swing: Swings) -> str:
+    return (
+        f"friction swings by {swing.rms:.2g} {fit.model.torque_unit} (RMS) along the recording, "
+        f"forward and backward alike, with nothing that was recorded"
+    )
+
+
+def _place(fit: Fit) -> str:
+    """Where the error is largest beside the average."""
+    total = rms(fit.held_out_residual[fit.rows])
+    worst, level = None, WORSE
+    for name, mask in regime_rows(fit).items():
+        chosen = mask & fit.recording.moving & ~fit.transient
+        if name not in PLACES or chosen.sum() < FEWEST_ROWS:
+            continue
+        ratio = rms(fit.held_out_residual[chosen]) / total
+        if ratio > level:
+            worst, level = name, ratio
+    return f"the error is {level:.2g} times the average {PLACES[worst]}" if worst else "everywhere"

@@ -498,8 +498,8 @@ def left_text(left: Unexplained) -> str:
         return "How much of what is left is noise cannot be said on this data."
     if not left.is_structure:
         return (
-            f"Of the squared held-out error that is left, {percent(left.share)} lies above the "
-            f"noise floor: too little to call structure."
+            f"Of the squared held-out error that is left, {percent(left.share)} follows something: "
+            f"too little to call structure."
         )
     where = f", and {left.where}" if left.where and left.where != "everywhere" else ""
     return (

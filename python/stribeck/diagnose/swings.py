@@ -1,0 +1,58 @@
+"""Friction that swings with something that was not recorded.
+
+Friction changes sign with the direction of motion; noise, however slow, does not. So where the
+residual of neighbouring forward and backward motion, each taken in its own direction, rises and
+falls together along the recording, friction itself does, and no channel says why.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import pearsonr
+
+from stribeck.fit import Fit
+
+Array = NDArray[np.float64]
+
+#: Stretches that the recording is cut into, and rows a direction needs in each to count.
+STRETCHES, FEWEST_ROWS, FEWEST_STRETCHES = 80, 10, 8
+#: Probability of a chance agreement between the directions below which it is none.
+SIGNIFICANCE = 1e-3
+
+
+@dataclass(frozen=True)
+class Swings:
+    """How far friction swings along a recording for no recorded reason.
+
+    Attributes
+    ----------
+    rms
+        Of what both directions agree on, in the unit of torque; 0 where that may be chance.
+    """
+
+    rms: float
+
+
+def swings(fit: Fit) -> Swings:
+    """Compare the two directions of motion, stretch by stretch."""
+    rows = fit.rows
+    stretch = np.arange(rows.size) * STRETCHES // max(rows.size, 1)
+    sign = np.sign(fit.recording.velocity[rows])
+    higher = fit.held_out_residual[rows] * sign
+    means = []
+    seen = np.ones(STRETCHES, dtype=bool)
+    for side in (1.0, -1.0):
+        count = np.bincount(stretch, sign == side, STRETCHES)
+        total = np.bincount(stretch, np.where(sign == side, higher, 0.0), STRETCHES)
+        seen &= count >= FEWEST_ROWS
+        means.append(total / np.maximum(count, 1.0))
+    forward, backward = means[0][seen], means[1][seen]
+    if forward.size < FEWEST_STRETCHES or np.ptp(forward) == 0.0 or np.ptp(backward) == 0.0:
+        return Swings(0.0)
+    agreement = pearsonr(forward, backward, alternative="greater")
+    if agreement.pvalue > SIGNIFICANCE:
+        return Swings(0.0)
+    return Swings(float(np.sqrt(np.cov(forward, backward)[0, 1])))
