@@ -192,12 +192,12 @@ def sides_text(sides: Sides) -> str:
     unit = first.kept.model.torque_unit
     statistic = sides.difference.statistic
     surely = (
-        f"{statistic:.1f} standard errors of the difference: more than chance"
-        if statistic > TIE else "within chance on this data"
+        f"That is {statistic:.1f} standard errors of the difference, more than chance."
+        if statistic > TIE else "That is within chance on this data."
     )  # fmt: skip
     verdict = (
         f"Node {better.number} errs less than node {worse.number} on data not seen, "
-        f"{plain(_error(better))} against {plain(_error(worse))} {unit}: {surely}."
+        f"{plain(_error(better))} against {plain(_error(worse))} {unit}. {surely}"
     )
     return "\n\n".join(
         [
