@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -373,14 +374,19 @@ class Project:
         """One row a node."""
         return project_frame(self)
 
+    def plot(self) -> Any:
+        """What the base and the current model leave, against each channel."""
+        from stribeck.report.figures import residual_figure
+
+        shown = [node for node in self.tree if node.number in (self.tree.root.number, self.current)]
+        return residual_figure([self.fit_of(node) for node in shown])
+
     def __repr__(self) -> str:
         from stribeck.report.project import project_text
 
         return project_text(self)
 
     def _repr_html_(self) -> str:
-        from html import escape
-
         return f"<pre>{escape(repr(self))}</pre>"
 
 

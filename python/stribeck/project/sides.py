@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from html import escape
 from typing import Any
+
+import polars as pl
 
 from stribeck.compare import Comparison, compare
 from stribeck.diagnose.evidence import Difference, difference
@@ -49,6 +52,10 @@ class Sides:
             "standard_errors_between": self.difference.statistic,
         }
 
+    def to_frame(self) -> pl.DataFrame:
+        """One row a model and regime."""
+        return self.comparison.to_frame()
+
     def plot(self) -> Any:
         """Residual against each channel."""
         return self.comparison.plot()
@@ -57,6 +64,9 @@ class Sides:
         from stribeck.report.project import sides_text
 
         return sides_text(self)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(repr(self))}</pre>"
 
 
 def _error(fitted: Fit) -> float:

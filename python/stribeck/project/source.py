@@ -43,7 +43,7 @@ class Source:
     def of(cls, data: str | os.PathLike[str], folder: Path, reading: Mapping[str, Any]) -> Source:
         """The source that a data file is, as it stands now."""
         given = {name: _plain(said) for name, said in reading.items()}
-        given = {name: said for name, said in given.items() if said not in (None, [], False)}
+        given = {name: said for name, said in given.items() if _is_said(said)}
         if "sidecar" in given:
             given["sidecar"] = os.path.relpath(given["sidecar"], folder)
         path = os.path.relpath(data, folder)
@@ -107,6 +107,11 @@ def _sha256(path: Path) -> str:
         raise ProjectError(
             f"{path}: the project's data cannot be read ({error.strerror or error})"
         ) from None
+
+
+def _is_said(option: Any) -> bool:
+    """Whether an option says something; an inertia of 0 does."""
+    return not (option is None or option is False or option == [])
 
 
 def _plain(said: Any) -> Any:

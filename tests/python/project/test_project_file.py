@@ -30,6 +30,27 @@ def test_everything_reads_back_with_the_same_bits(branched: sb.Project, written:
     assert written.read_text() == text
 
 
+def test_how_the_file_was_read_is_kept_as_it_was_said(folder: Path, tmp_path: Path) -> None:
+    (tmp_path / "sub").mkdir()
+    data = shutil.copy(folder / "data" / "joint.csv", tmp_path / "sub")
+    sidecar = tmp_path / "said.toml"
+    sidecar.write_text('kind = "recording"\njoint_kind = "revolute"\n')
+    made = sb.Project.new(
+        tmp_path / "p.toml", data, "coulomb", starts=1, sidecar=sidecar, inertia=0.0,
+        map={"load_torque": "none"}, where="time > 1.0", unit=(), km=None,
+    )  # fmt: skip
+    made.save()
+    again = sb.project(tmp_path / "p.toml")
+    assert again.source.reading == {
+        "sidecar": "said.toml", "inertia": 0.0, "map": ["load_torque=none"], "where": "time > 1.0",
+    }  # fmt: skip
+    assert again.source.path == "sub/joint.csv"
+    assert len(again.recording) == len(made.recording)
+    sidecar.write_text(sidecar.read_text() + "gear_ratio = 2.0\n")
+    with pytest.raises(ProjectError, match="sidecar"):
+        sb.project(tmp_path / "p.toml")
+
+
 def test_a_node_added_changes_only_lines_of_its_own(written: Path) -> None:
     before = written.read_text().splitlines()
     sb.project(written).reject("gravity", "vertical axis").save()

@@ -155,3 +155,12 @@ def test_tables_and_text_hold_the_tree(branched: sb.Project) -> None:
     assert 'inertia, at node 2 and after it: known "from CAD"' in text
     assert all(len(line) <= 100 for line in text.splitlines())
     assert "&quot;from CAD" in branched._repr_html_()
+
+
+def test_what_is_drawn_is_the_base_and_the_current_model(branched: sb.Project) -> None:
+    labels = [text.get_text() for text in branched.plot().legends[0].get_texts()]
+    assert labels[0].startswith("coulomb  (") and labels[1].startswith("coulomb+load  (")
+    alone = branched.back(0).plot().legends[0].get_texts()
+    assert len(alone) == len(labels) - 1
+    sides = branched.compare(0, 2)
+    assert sides.to_frame().height > 2 and sides._repr_html_().startswith("<pre>Node 0")
