@@ -148,8 +148,8 @@ def _temperature(part: str) -> Callable[[Fit, Fit], str]:
 
 def _presliding(before: Fit, after: Fit) -> str:
     m = after.model
-    level = m.value("coulomb_friction") if "coulomb_friction" in m.names else float("nan")
-    distance = level / m.value("presliding_stiffness")
+    slow = 1e-3 * max(abs(x) for x in m.box["velocity"])
+    distance = float(m.split(slow)["dry"][0]) / m.value("presliding_stiffness")
     return (
         f"after each reversal friction builds up over about {number(distance)} {m.position_unit} "
         f"of motion instead of jumping"
