@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -198,11 +198,14 @@ def save_fit(fitted: Fit, path: str) -> None:
     say(f"wrote {path}")
 
 
-def save_findings(findings: Iterable[Finding], folder: str | None) -> None:
+def save_findings(findings: Sequence[Finding], folder: str | None) -> None:
     """Write the figure behind each finding, named by its effect; None: nowhere."""
     from stribeck.report.figures import save_figure
 
     if folder is None:
+        return
+    if not findings:
+        say(f"note: nothing was found, so {folder} is not written")
         return
     Path(folder).mkdir(exist_ok=True)
     for finding in findings:

@@ -235,7 +235,7 @@ def improve(
 
         save_figure(improvement.plot(), picture)
         say(f"wrote {picture}")
-    save_findings((step.finding for step in improvement.steps), figures)
+    save_findings([step.finding for step in improvement.steps], figures)
     if report is not None:
         from stribeck.report.html import improvement_page
 
