@@ -13,7 +13,7 @@ from stribeck.benchmark.store import Store, frame
 from stribeck.benchmark.text import score_text
 from stribeck.model_file import write_whole
 from stribeck.parallel import Stopped, in_processes, worker_count
-from stribeck.report.figures import png_bytes, write_bytes_whole
+from stribeck.report.files import png_bytes, write_bytes_whole
 
 
 def run(

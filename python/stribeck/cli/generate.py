@@ -15,7 +15,7 @@ from stribeck.generate import JOINTS, RobotRecording, file_bytes, sidecar_text, 
 from stribeck.generate import generate as make
 from stribeck.generate.ur5e import RATE, REPEATS, TESTS
 from stribeck.model_file import write_whole
-from stribeck.report.figures import write_bytes_whole
+from stribeck.report.files import write_bytes_whole
 from stribeck.report.numbers import listed, plain, thousands
 from stribeck.report.text import table, unit_text
 

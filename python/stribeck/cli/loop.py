@@ -109,7 +109,7 @@ def compare(
         fits.append(fit_model(model, recording, starts=starts, seed=seed))
     comparison = compare_fits(fits, recording)
     if picture is not None:
-        from stribeck.report.figures import save_figure
+        from stribeck.report.files import save_figure
 
         save_figure(comparison.plot(), picture)
         say(f"wrote {picture}")
@@ -231,7 +231,7 @@ def improve(
     if output is not None:
         save_fit(improvement.final, output)
     if picture is not None:
-        from stribeck.report.figures import save_figure
+        from stribeck.report.files import save_figure
 
         save_figure(improvement.plot(), picture)
         say(f"wrote {picture}")

@@ -24,7 +24,7 @@ from stribeck.errors import SpecError
 from stribeck.fit import Fit
 from stribeck.generate import file_bytes
 from stribeck.model_file import ModelFile, read_model_file
-from stribeck.report.figures import save_figure, write_bytes_whole
+from stribeck.report.files import save_figure, write_bytes_whole
 
 FORMATS = (".csv", ".parquet")
 

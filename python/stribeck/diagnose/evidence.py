@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from stribeck.fit import Fit
 from stribeck.identify.covariance import batches, correlation_length
@@ -93,7 +93,7 @@ def added_torque_test(added: Array, residual: Array, parameters: int) -> float:
     variance = float(np.sum((scores - scores.mean()) ** 2)) * count / (count - 1)
     if variance <= 0:
         return 0.0
-    return float(fisher.sf(size**2 / variance / parameters, parameters, count - parameters))
+    return float(fdtrc(parameters, count - parameters, size**2 / variance / parameters))
 
 
 @dataclass(frozen=True)

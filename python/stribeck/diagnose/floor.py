@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
-from scipy.stats import linregress
 
 from stribeck.diagnose.shape import displacement_since_reversal
 from stribeck.fit import Fit
@@ -66,6 +65,9 @@ def _at_zero(gap: Array, gamma: Array) -> float:
     mean = float(gamma.mean())
     if np.ptp(gap) == 0:
         return mean
+    # Takes as long to load as all the rest: only where it is needed.
+    from scipy.stats import linregress
+
     line = linregress(gap, gamma)
     if line.slope > 3.0 * line.stderr and line.intercept > 0:
         return float(line.intercept)

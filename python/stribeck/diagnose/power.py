@@ -12,8 +12,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from scipy.stats import f as fisher
-from scipy.stats import ncf, norm
+from scipy.special import fdtri, ncfdtr, ndtri
 
 from stribeck.diagnose.leverage import FITTED, HeldOut
 from stribeck.identify.covariance import batches, correlation_length
@@ -163,7 +162,7 @@ def needed_factor(
     # Held-out squares fall by f^2 gained, give or take 2 f spread, less what estimating costs.
     fall = 1.0 / (1.0 - need.least_fall) ** 2 - 1.0
     due = fall * noise.square + MARGIN * held_out.cost * variance / square + loss
-    slack, gained = float(norm.ppf(POWER)) * spread, held_out.gain * square
+    slack, gained = float(ndtri(POWER)) * spread, held_out.gain * square
     fell = (slack + np.sqrt(slack**2 + gained * due)) / gained
     return float(max(tested, fell))
 
@@ -177,9 +176,9 @@ def noncentrality(count: int, freedom: int, significance: float) -> float:
     >>> round(noncentrality(1, 100_000, 0.05), 1)  # (1.96 + 1.645)^2
     13.0
     """
-    critical = float(fisher.isf(significance, count, freedom))
+    critical = float(fdtri(count, freedom, 1.0 - significance))
     highest = 4.0
-    while ncf.cdf(critical, count, freedom, highest) > 1.0 - POWER:
+    while ncfdtr(count, freedom, highest, critical) > 1.0 - POWER:
         highest *= 2.0
-    miss = lambda x: float(ncf.cdf(critical, count, freedom, x)) - (1.0 - POWER)  # noqa: E731
+    miss = lambda x: float(ncfdtr(count, freedom, x, critical)) - (1.0 - POWER)  # noqa: E731
     return float(brentq(miss, 1e-9, highest, rtol=1e-6))

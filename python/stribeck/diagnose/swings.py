@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import pearsonr
 
 from stribeck.fit import Fit
 
@@ -52,6 +51,9 @@ def swings(fit: Fit) -> Swings:
     forward, backward = means[0][seen], means[1][seen]
     if forward.size < FEWEST_STRETCHES or np.ptp(forward) == 0.0 or np.ptp(backward) == 0.0:
         return Swings(0.0)
+    # Takes as long to load as all the rest: only where it is needed.
+    from scipy.stats import pearsonr
+
     agreement = pearsonr(forward, backward, alternative="greater")
     if agreement.pvalue > SIGNIFICANCE:
         return Swings(0.0)

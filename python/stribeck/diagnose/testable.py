@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import spearmanr
 
 from stribeck.identify.periodogram import FEWEST_PERIODS, most_periods
 from stribeck.model import effect_ids
@@ -319,6 +318,9 @@ def _drift(f: _Facts) -> Answer:
         )
     if _spread(temperature) < DRIFT_TEMPERATURE:
         return None
+    # Takes as long to load as all the rest: only where it is needed.
+    from scipy.stats import spearmanr
+
     follows = float(spearmanr(f.recording.elapsed[f.recording.moving], temperature).statistic)
     if abs(follows) > DRIFT_FOLLOWS:
         way = "warms up" if follows > 0 else "cools down"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import norm
+from scipy.special import ndtr
 
 from stribeck.diagnose.evidence import Evidence, added_torque_test, difference, evidence
 from stribeck.diagnose.screen import STARTS, Screened, screened, widened
@@ -163,7 +163,7 @@ def tie_statistic(best: Trial, other: Trial) -> float:
 
 def tie_weight(statistic: float) -> float:
     """Two-sided probability of a difference at least this large by chance."""
-    return float(2.0 * norm.sf(abs(statistic)))
+    return float(2.0 * ndtr(-abs(statistic)))
 
 
 def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:

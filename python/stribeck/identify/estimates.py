@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from stribeck.identify.confounded import partners, reason
 from stribeck.identify.covariance import (
@@ -88,7 +88,7 @@ def estimates(
         batch = batches(residual.size, correlation_length(residual))
         freedom = max(int(batch.max()), 1)
         covariance = sandwich(jacobian, residual, batch, free)
-    quantile = float(student.ppf(0.975, freedom))
+    quantile = float(stdtrit(freedom, 0.975))
     names = problem.model.names
     made = {}
     for k, p in enumerate(problem.model.parameters):

@@ -12,7 +12,8 @@ import numpy as np
 
 from stribeck.diagnose.words import physically
 from stribeck.model import catalog
-from stribeck.report.figures import improvement_figure, png_bytes
+from stribeck.report.figures import improvement_figure
+from stribeck.report.files import png_bytes
 from stribeck.report.finding import finding_figure
 from stribeck.report.numbers import DASH, change_text, confidence_words, percent, plain
 from stribeck.report.text import (

@@ -15,9 +15,8 @@ from stribeck.errors import FitError, SpecError
 from stribeck.identify.scaling import model_for
 from stribeck.model_file import write_whole
 from stribeck.parallel import Stopped, worker_count
-from stribeck.report.figures import save_figure
+from stribeck.report.files import save_figure
 from stribeck.study.assess import Entry, assess
-from stribeck.study.figures import error_figure, friction_figure
 from stribeck.study.plan import LOW_SPEED, REVIEW, STARTS, Group, Job, Plan, group_of, make_plan
 from stribeck.study.result import JointData, Study, Table, make_tables
 from stribeck.study.run import run
@@ -129,6 +128,8 @@ def _result(plan: Plan, store: Store, low_speed: float | None) -> Study:
 
 def _write(result: Study) -> None:
     """Tables and pictures into the study's folder."""
+    from stribeck.study.figures import error_figure, friction_figure
+
     folder = result.folder
     write_whole(folder / "tables.csv", result.to_frame().write_csv())
     write_whole(folder / "tables.txt", repr(result) + "\n")

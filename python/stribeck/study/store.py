@@ -20,7 +20,7 @@ import polars as pl
 import stribeck
 from stribeck.errors import StribeckError
 from stribeck.model_file import write_whole
-from stribeck.report.figures import write_bytes_whole
+from stribeck.report.files import write_bytes_whole
 from stribeck.study.plan import Job, Plan
 from stribeck.study.trial import Trial
 
