@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from stribeck.errors import SpecError
 from stribeck.generate.motion import JOINTS, plan_motion
@@ -152,6 +151,9 @@ def generate(
     level = noise * joint.coulomb
     drive = math.sqrt(1.0 - NOISE_MEMORY**2)
     torque_noise = level * drive * rng.standard_normal(n + 200)
+    # Loads statistics with it: only where it is needed.
+    from scipy.signal import lfilter
+
     torque_noise = lfilter([1.0], [1.0, -NOISE_MEMORY], torque_noise)[200:]
     sigma = VELOCITY_NOISE * joint.speed
     frame = pl.DataFrame(

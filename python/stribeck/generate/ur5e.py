@@ -29,7 +29,6 @@ from typing import Any
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from stribeck.energy import Motor, electrical_power
 from stribeck.errors import SpecError
@@ -370,4 +369,7 @@ def _current_noise(rng: np.random.Generator, level: float, count: int) -> Array:
     """Noise of RMS `level`, correlated over a few samples."""
     drive = level * math.sqrt(1.0 - NOISE_MEMORY**2)
     white = drive * rng.standard_normal(count + 50)
+    # Loads statistics with it: only where it is needed.
+    from scipy.signal import lfilter
+
     return np.asarray(lfilter([1.0], [1.0, -NOISE_MEMORY], white)[50:])

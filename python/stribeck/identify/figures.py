@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfiltfilt
 
 from stribeck.recording import Recording
 
@@ -33,6 +32,9 @@ def zero_phase(recording: Recording, values: Array) -> Array:
     cutoff = torque_cutoff(recording)
     if cutoff is None:
         return values.copy()
+    # Loads statistics with it: only where it is needed.
+    from scipy.signal import butter, sosfiltfilt
+
     filtered = values.copy()
     sos = butter(4, cutoff, fs=recording.rate_hz, output="sos")
     edges = np.flatnonzero(np.diff(recording.segment)) + 1

@@ -12,7 +12,7 @@ import stribeck as sb
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from stribeck.errors import StribeckError
-from stribeck.report import figures
+from stribeck.report import figures, files
 
 
 def drawn(improvement: sb.Improvement, steady: sb.Fit) -> dict[str, Figure]:
@@ -50,10 +50,10 @@ def test_legends_do_not_lie_over_the_data(improvement: sb.Improvement, steady: s
                 assert overlap < 2.0, (name, axes.get_title(loc="left"))
 
 
-@pytest.mark.parametrize("kind", figures.FORMATS)
+@pytest.mark.parametrize("kind", files.FORMATS)
 def test_a_figure_is_written_whole(improvement: sb.Improvement, tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"made.{kind}"
-    figures.save_figure(figures.fit_figure(improvement.final), path)
+    files.save_figure(figures.fit_figure(improvement.final), path)
     assert path.stat().st_size > 10_000
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
     if kind == "png":
@@ -71,7 +71,7 @@ def test_what_cannot_be_written_is_refused(
     make: Callable[[Path], Path], word: str, tmp_path: Path
 ) -> None:
     with pytest.raises(StribeckError, match=word):
-        figures.save_figure(Figure(), make(tmp_path))
+        files.save_figure(Figure(), make(tmp_path))
 
 
 def test_medians_leave_out_bins_that_hold_little() -> None:
