@@ -10,7 +10,6 @@ from stribeck.diagnose.floor import noise_floor
 from stribeck.diagnose.ranking import findings
 from stribeck.diagnose.result import Diagnosis
 from stribeck.diagnose.stand_in import without_stand_ins
-from stribeck.diagnose.swings import swings
 from stribeck.diagnose.trial import SIGNIFICANCE
 from stribeck.diagnose.unexplained import Unexplained, unexplained
 from stribeck.diagnose.visibility import visibility
@@ -62,7 +61,7 @@ def diagnose(
     if brief and found:
         return Diagnosis(fitted, floor, "missing", found, could_be.untestable, NOT_ASKED)
     could = explainable(fitted, best)
-    left = unexplained(best, floor, could, swings(best))
+    left = unexplained(best, floor, could)
     verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
     shown = visibility(
         fitted,

@@ -58,7 +58,7 @@ FIXED_FORM: dict[str, tuple[str, Callable[[Fit], list[Array]]]] = {
 def without_stand_ins(before: Fit, good: list[Trial]) -> list[Trial]:
     """Trials, best first, without those that stand in for another dependence on their channel."""
     kept = list(good)
-    for trial in good:
+    for rank, trial in enumerate(good):
         if trial not in kept or trial.effect not in FIXED_FORM:
             continue
         channel, free_functions = FIXED_FORM[trial.effect]
@@ -70,7 +70,9 @@ def without_stand_ins(before: Fit, good: list[Trial]) -> list[Trial]:
         kept = [
             other
             for other in kept
-            if channel in _channels(other.effect) or not _shares(before, other, extra)
+            if other in good[:rank]
+            or channel in _channels(other.effect)
+            or not _shares(before, other, extra)
         ]
     return kept
 

@@ -18,8 +18,9 @@ Array = NDArray[np.float64]
 
 #: Stretches that the recording is cut into, and rows a direction needs in each to count.
 STRETCHES, FEWEST_ROWS, FEWEST_STRETCHES = 80, 10, 8
-#: Probability of a chance agreement between the directions below which it is none.
-SIGNIFICANCE = 1e-3
+#: Probability below which an agreement between the directions is not by chance; and where repeats
+#: of the same state differ by so much less than the error that something must be missing.
+SIGNIFICANCE, SUSPECTED = 1e-3, 1e-2
 
 
 @dataclass(frozen=True)
@@ -35,8 +36,14 @@ class Swings:
     rms: float
 
 
-def swings(fit: Fit) -> Swings:
-    """Compare the two directions of motion, stretch by stretch."""
+def swings(fit: Fit, *, suspected: bool = False) -> Swings:
+    """Compare the two directions of motion, stretch by stretch.
+
+    Parameters
+    ----------
+    suspected : bool
+        Whether the noise floor says that something is missing.
+    """
     rows = fit.rows
     stretch = np.arange(rows.size) * STRETCHES // max(rows.size, 1)
     sign = np.sign(fit.recording.velocity[rows])
@@ -55,6 +62,6 @@ def swings(fit: Fit) -> Swings:
     from scipy.stats import pearsonr
 
     agreement = pearsonr(forward, backward, alternative="greater")
-    if agreement.pvalue > SIGNIFICANCE:
+    if agreement.pvalue > (SUSPECTED if suspected else SIGNIFICANCE):
         return Swings(0.0)
     return Swings(float(np.sqrt(np.cov(forward, backward)[0, 1])))

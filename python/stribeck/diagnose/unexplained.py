@@ -14,12 +14,14 @@ from typing import Any
 from stribeck.compare import regime_rows
 from stribeck.diagnose.bound import Explainable
 from stribeck.diagnose.floor import NoiseFloor
-from stribeck.diagnose.swings import Swings
+from stribeck.diagnose.swings import Swings, swings
 from stribeck.fit import Fit
 from stribeck.identify.figures import rms
 
 #: Share of the squared error from which what is shown counts as structure.
 STRUCTURE = 0.1
+#: Share of the squared error above the noise floor that is no proof, but a reason to look.
+SUSPICIOUS = 0.15
 #: A place is named where the error is so many times the average.
 WORSE = 1.15
 FEWEST_ROWS = 50
@@ -64,19 +66,18 @@ class Unexplained:
         return {"share": self.share, "where": self.where}
 
 
-def unexplained(
-    fit: Fit, floor: NoiseFloor, could: Explainable | None, swing: Swings
-) -> Unexplained:
+def unexplained(fit: Fit, floor: NoiseFloor, could: Explainable | None) -> Unexplained:
     """What `fit` leaves that is not noise, on held-out data."""
     total = rms(fit.held_out_residual[fit.rows]) ** 2
     if could is None or not total > 0.0:
         return Unexplained(None, None)
+    above = 0.0 if floor.value is None else 1.0 - floor.value**2 / total
+    swing = swings(fit, suspected=above > SUSPICIOUS)
     swinging = min(swing.rms**2 / total, 1.0)
     share = max(could.left, swinging)
     if share <= STRUCTURE:
         return Unexplained(share, None)
-    if floor.value is not None:
-        share = max(share, 1.0 - floor.value**2 / total)
+    share = max(share, above)
     return Unexplained(share, _changing(fit, swing) if swinging > could.left else _place(fit))
 
 

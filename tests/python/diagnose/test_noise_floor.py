@@ -11,7 +11,6 @@ import stribeck as sb
 from stribeck.diagnose.bound import explainable
 from stribeck.diagnose.floor import noise_floor
 from stribeck.diagnose.shape import displacement_since_reversal, hats
-from stribeck.diagnose.swings import swings
 from stribeck.diagnose.unexplained import unexplained
 from synthetic import ar1, joint, record
 
@@ -53,7 +52,7 @@ def test_floor_does_not_rise_with_what_is_missing(tmp_path: Path) -> None:
     floor = noise_floor(fit)
     assert fit.rmse > 2.0 * 0.1
     assert floor.value == pytest.approx(0.1, rel=0.05)
-    left = unexplained(fit, floor, explainable(fit), swings(fit))
+    left = unexplained(fit, floor, explainable(fit))
     assert left.is_structure and left.share == pytest.approx(1 - 0.01 / fit.rmse**2, abs=0.05)
     assert left.where is not None
     assert "low speed" in left.where or "reversal" in left.where
@@ -63,7 +62,7 @@ def test_floor_is_never_above_the_error(plain: sb.Recording) -> None:
     fit = sb.fit("coulomb", plain)
     floor = noise_floor(fit)
     assert floor.value is not None and floor.value <= fit.rmse
-    left = unexplained(fit, floor, explainable(fit), swings(fit))
+    left = unexplained(fit, floor, explainable(fit))
     assert not left.is_structure and left.where is None
 
 
