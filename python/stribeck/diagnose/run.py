@@ -61,7 +61,7 @@ def diagnose(
     if brief and found:
         return Diagnosis(fitted, floor, "missing", found, could_be.untestable, NOT_ASKED)
     could = explainable(fitted, best)
-    left = unexplained(best, floor, could)
+    left = unexplained(best, floor, could, last=not found)
     verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
     shown = visibility(
         fitted,

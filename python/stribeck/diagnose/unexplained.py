@@ -66,13 +66,21 @@ class Unexplained:
         return {"share": self.share, "where": self.where}
 
 
-def unexplained(fit: Fit, floor: NoiseFloor, could: Explainable | None) -> Unexplained:
-    """What `fit` leaves that is not noise, on held-out data."""
+def unexplained(
+    fit: Fit, floor: NoiseFloor, could: Explainable | None, *, last: bool = True
+) -> Unexplained:
+    """What `fit` leaves that is not noise, on held-out data.
+
+    Parameters
+    ----------
+    last : bool
+        Whether no effect is left to try. Otherwise friction may well swing with one of those.
+    """
     total = rms(fit.held_out_residual[fit.rows]) ** 2
     if could is None or not total > 0.0:
         return Unexplained(None, None)
     above = 0.0 if floor.value is None else 1.0 - floor.value**2 / total
-    swing = swings(fit, suspected=above > SUSPICIOUS)
+    swing = swings(fit, suspected=above > SUSPICIOUS) if last else Swings(0.0)
     swinging = min(swing.rms**2 / total, 1.0)
     share = max(could.left, swinging)
     if share <= STRUCTURE:

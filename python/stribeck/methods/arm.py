@@ -168,9 +168,8 @@ def arm_fit(
 
     Examples
     --------
-    >>> arm = arm_fit(sb.read("arm.csv", joint="1"), sb.read("arm.csv", joint="2"),
-    ...               first_link_length=0.35)
-    >>> arm.values[:4]
+    >>> one, two = sb.read("arm.csv", joint="1"), sb.read("arm.csv", joint="2")  # doctest: +SKIP
+    >>> arm_fit(one, two, first_link_length=0.35).values[:4]  # doctest: +SKIP
     """
     _check(first, second, first_link_length, slowest)
     joints = (first, second)

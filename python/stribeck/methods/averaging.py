@@ -64,8 +64,10 @@ def averaged_points(
 
     Examples
     --------
-    >>> points = averaged_points(sb.read("joint2.parquet"), bins=10)
-    >>> points.write("points.csv")  # then: stribeck fit points.csv --model m1 --method grid
+    >>> points = averaged_points(sb.read("joint2.parquet"), bins=10)  # doctest: +SKIP
+    >>> points.write("points.csv")  # doctest: +SKIP
+
+    Then: ``stribeck fit points.csv --model m1 --method grid``.
     """
     check_bins(bins)
     search = search or Search()

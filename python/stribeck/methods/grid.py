@@ -81,8 +81,9 @@ def grid_fit(
 
     Examples
     --------
-    >>> fit = grid_fit("bittencourt_a", sb.read("points.csv"),
-    ...                grid={"stribeck_velocity": Axis(1.0, 50.0, 60)})
+    >>> speeds = Axis(1.0, 50.0, 60)
+    >>> points = sb.read("points.csv")  # doctest: +SKIP
+    >>> fit = grid_fit("bittencourt_a", points, grid={"stribeck_velocity": speeds})  # doctest: +SKIP
     """
     began = time.perf_counter()
     made = _static_model(spec, recording)

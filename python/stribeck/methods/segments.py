@@ -45,8 +45,10 @@ def segment_points(
 
     Examples
     --------
-    >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))
-    >>> points.write("points.csv")  # then: stribeck fit points.csv --model gantry_map
+    >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))  # doctest: +SKIP
+    >>> points.write("points.csv")  # doctest: +SKIP
+
+    Then: ``stribeck fit points.csv --model gantry_map``.
     """
     check_bins(bins)
     lines = constant_stretches(recording, search or Search())

@@ -55,9 +55,9 @@ class SteadyPoints:
     Examples
     --------
     >>> from stribeck.methods import segment_points
-    >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))
-    >>> points.write("points.csv")
-    >>> sb.fit("gantry_map", sb.read("points.csv"))
+    >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))  # doctest: +SKIP
+    >>> points.write("points.csv")  # doctest: +SKIP
+    >>> sb.fit("gantry_map", sb.read("points.csv"))  # doctest: +SKIP
     """
 
     points: tuple[SteadyPoint, ...]

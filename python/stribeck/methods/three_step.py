@@ -116,8 +116,10 @@ def three_step_fit(
 
     Examples
     --------
-    >>> fit = three_step_fit("tadese_full", sb.read("temperature.csv"), sb.read("load.csv"),
-    ...                      sb.read("presliding.csv", standstill=True))
+    >>> names = ("temperature.csv", "load.csv")
+    >>> warm, loaded = map(sb.read, names)  # doctest: +SKIP
+    >>> small = sb.read("presliding.csv", standstill=True)  # doctest: +SKIP
+    >>> fit = three_step_fit("tadese_full", warm, loaded, small)  # doctest: +SKIP
     """
     began = time.perf_counter()
     made = model_for(spec, loaded)

@@ -80,8 +80,9 @@ def confidence_words(confidence: float) -> str:
         0.8: "likely",
         0.55: "more likely than not",
         0.45: "as likely as not",
+        0.05: "possible",
     }
-    words = next((said for least, said in levels.items() if confidence >= least), "possible")
+    words = next((said for least, said in levels.items() if confidence >= least), "hardly")
     number = "> 0.99" if confidence > 0.99 else f"{confidence:.2f}"
     return f"{words} (confidence {number})"
 

@@ -512,10 +512,11 @@ def explainable_text(explainable: Explainable | None, spec: str, unit: str) -> s
     """How much of what the channels could show a model explains."""
     if explainable is None:
         return ""
+    share = f"{100.0 * explainable.share:.1f} %" if explainable.share < 0.9995 else "> 99.9 %"
     return (
-        f"{spec} explains {percent(explainable.share)} of what these channels could show: with a "
-        f"flexible regressor besides, which knows no physics, {plain(explainable.rmse)} {unit} are "
-        f"left on data that neither has seen."
+        f"{spec} explains {share} of the variation of the torque that these channels could show: a "
+        f"flexible regressor on top, which knows no physics, leaves {plain(explainable.rmse)} "
+        f"{unit} on data that neither has seen."
     )
 
 
