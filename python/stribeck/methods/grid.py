@@ -83,7 +83,8 @@ def grid_fit(
     --------
     >>> speeds = Axis(1.0, 50.0, 60)
     >>> points = sb.read("points.csv")  # doctest: +SKIP
-    >>> fit = grid_fit("bittencourt_a", points, grid={"stribeck_velocity": speeds})  # doctest: +SKIP
+    >>> grid = {"stribeck_velocity": speeds}
+    >>> grid_fit("bittencourt_a", points, grid=grid)  # doctest: +SKIP
     """
     began = time.perf_counter()
     made = _static_model(spec, recording)
