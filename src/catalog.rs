@@ -1,7 +1,7 @@
 //! The one list of laws and effects; everything else about them stands in their own files.
 
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, Memory, State, Step};
+use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
 use crate::effect::{self, FrictionEffect};
 use crate::law::{self, FrictionLaw};
 use crate::sample::{Sample, Split};
@@ -69,6 +69,19 @@ macro_rules! laws {
                 match self {
                     $(Self::$law(law) => law.split(sample, constants),)+
                     Self::$own(law) => law.split(sample, constants),
+                }
+            }
+
+            /// The deflection that its state consists of, where it is a single one.
+            #[inline]
+            pub fn deflection(
+                &self,
+                sample: &Sample<S::Plain>,
+                constants: &Constants<S::Plain>,
+            ) -> Option<Deflection<S>> {
+                match self {
+                    $(Self::$law(law) => law.deflection(sample, constants),)+
+                    Self::$own(law) => law.deflection(sample, constants),
                 }
             }
 

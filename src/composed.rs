@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, Memory, State, Step};
+use crate::dynamics::{Approach, Bristle, Deflection, Interval, Memory, State, Step};
 use crate::error::ModelError;
 use crate::formula::{Formula, OwnTerms};
 use crate::sample::{Sample, Split};
@@ -314,6 +314,21 @@ impl<S: Real> Composed<S> {
         }
         self.effects.apply(&mut altered, sample, &self.constants);
         altered
+    }
+
+    /// The deflection that stands between dry friction and the torque, where its state is a single
+    /// one.
+    #[inline]
+    #[must_use]
+    pub fn deflection(&self, sample: &Sample<S::Plain>) -> Option<Deflection<S>> {
+        match &self.bristle {
+            Some(bristle) => Some(Deflection {
+                stiffness: bristle.stiffness,
+                drag: bristle.damping.scale(sample.velocity.abs()),
+                approach: Approach::Linear,
+            }),
+            None => self.law.deflection(sample, &self.constants),
+        }
     }
 
     /// As [`split`](Self::split), at the end of an interval; steps the states of effects.

@@ -14,6 +14,7 @@
 //! | [`catalog`] | the list of laws and effects |
 //! | [`composed`], [`error`] | a law with its effects |
 //! | `batch` (feature `std`) | whole recordings: torque, gradient, delay |
+//! | `passivity` (feature `std`) | proofs over a box of operating points, and counterexamples |
 //! | `python` (feature `python`) | the extension module `stribeck._core` |
 //!
 //! The core has no allocation and no `std`; features only add modules.
@@ -47,6 +48,8 @@ pub mod error;
 pub mod formula;
 pub mod law;
 mod math;
+#[cfg(feature = "std")]
+pub mod passivity;
 #[cfg(feature = "python")]
 mod python;
 pub mod sample;

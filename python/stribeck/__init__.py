@@ -29,6 +29,7 @@ from stribeck.fit import Estimate, Fit, evaluate, fit
 from stribeck.improve import Addition, Improvement, add, improve
 from stribeck.model import Model, Parameter, catalog, law, model
 from stribeck.model_file import ModelFile, load, read_model_file
+from stribeck.passivity import Certificate, check
 from stribeck.project import Project
 from stribeck.recording import Recording, read
 
@@ -73,6 +74,7 @@ def _frame(kind: str) -> pl.DataFrame:
 
 __all__ = [
     "Addition",
+    "Certificate",
     "Comparison",
     "Diagnosis",
     "Estimate",
@@ -93,6 +95,7 @@ __all__ = [
     "StribeckError",
     "add",
     "catalog",
+    "check",
     "compare",
     "diagnose",
     "effects",

@@ -13,6 +13,18 @@ def normal_equations(
 def triangle(
     jacobian: ArrayLike, residual: ArrayLike, group: ArrayLike, groups: int
 ) -> NDArray[np.float64]: ...
+def passivity(
+    model: Model,
+    values: ArrayLike,
+    sides: Mapping[str, tuple[float, float]],
+    budget: int,
+) -> dict[str, Any]: ...
+def work(
+    model: Model,
+    values: ArrayLike,
+    deflection: float | None,
+    steps: Sequence[tuple[float, Mapping[str, float]]],
+) -> tuple[float, float]: ...
 
 @final
 class Formula:

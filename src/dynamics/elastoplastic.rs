@@ -83,21 +83,11 @@ impl<S: Real> ElastoplasticBristle<S> {
     /// `dz/dt` over `v`.
     #[inline]
     fn slope(&self, z: S, dry: S, velocity: S::Plain) -> S {
-        let one = S::Plain::one();
         if self.stiffness.value() >= VANISHED * dry.value() {
             return S::zero();
         }
         let x = (self.stiffness * z / dry).scale(velocity.sign());
-        let breakaway = self.breakaway();
-        if x.value() < breakaway.value() {
-            return S::one();
-        }
-        let way = (-x).shift(one);
-        if way.value() <= 0.0 {
-            return way;
-        }
-        let breadth = (-breakaway).shift(one);
-        way * descent(way / breadth, breadth)
+        slope_at(x, self.breakaway())
     }
 
     #[inline]
@@ -148,6 +138,21 @@ impl<S: Real> ElastoplasticBristle<S> {
         let mean = unit * (-(area / whole)).shift(one);
         Glide { mean, following: following(-fall, (-fall).phi(1)) }
     }
+}
+
+/// `dz/dt` over `v` at `x = s0 z sgn v/D`.
+#[inline]
+pub(super) fn slope_at<S: Real>(x: S, breakaway: S) -> S {
+    let one = S::Plain::one();
+    if x.value() < breakaway.value() {
+        return S::one();
+    }
+    let way = (-x).shift(one);
+    if way.value() <= 0.0 {
+        return way;
+    }
+    let breadth = (-breakaway).shift(one);
+    way * descent(way / breadth, breadth)
 }
 
 /// How a step went: the mean deflection, and how far it has followed where it tends to.

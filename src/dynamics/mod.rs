@@ -6,6 +6,7 @@
 
 mod bristle;
 mod dahl;
+mod deflection;
 mod elastoplastic;
 mod elements;
 mod gap;
@@ -16,6 +17,7 @@ mod relaxation;
 
 pub use bristle::{Bristle, BristleState};
 pub use dahl::DahlBristle;
+pub use deflection::{Approach, Deflection};
 pub use elastoplastic::ElastoplasticBristle;
 pub use elements::{Elements, MOST_ELEMENTS};
 pub use gap::{Flanks, Gap};

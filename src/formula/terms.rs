@@ -148,6 +148,13 @@ impl Formula {
         self.program.operations().contains(&Operation::Channel(channel))
     }
 
+    /// Whether the formula takes the lesser or the larger of two values.
+    #[must_use]
+    pub fn compares(&self) -> bool {
+        let extreme = [Operation::Call(Function::Minimum), Operation::Call(Function::Maximum)];
+        self.program.operations().iter().any(|operation| extreme.contains(operation))
+    }
+
     /// A row of a table for each parameter. They have the names `p1`, `p2` ... here: those that
     /// the user gave are kept with the text.
     pub fn parameters(&self) -> impl Iterator<Item = &'static ParameterInfo> + '_ {

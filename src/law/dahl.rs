@@ -1,6 +1,6 @@
 use super::FrictionLaw;
 use crate::constants::Constants;
-use crate::dynamics::{DahlBristle, Interval, State, Step};
+use crate::dynamics::{Approach, DahlBristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -33,6 +33,15 @@ impl<S: Real> FrictionLaw<S> for Dahl<S> {
     #[inline]
     fn split(&self, _: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         Split { coulomb: self.coulomb_friction, ..Split::zero() }
+    }
+
+    #[inline]
+    fn deflection(&self, _: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Option<Deflection<S>> {
+        Some(Deflection {
+            stiffness: self.bristle_stiffness,
+            drag: S::zero(),
+            approach: Approach::Power(self.dahl_exponent),
+        })
     }
 
     #[inline]

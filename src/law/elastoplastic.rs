@@ -1,7 +1,7 @@
 use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
-use crate::dynamics::{ElastoplasticBristle, Interval, State, Step};
+use crate::dynamics::{Approach, Deflection, ElastoplasticBristle, Interval, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -51,6 +51,19 @@ impl<S: Real> FrictionLaw<S> for Elastoplastic<S> {
             rate: self.viscous_friction.scale(sample.velocity),
             ..Split::zero()
         }
+    }
+
+    #[inline]
+    fn deflection(
+        &self,
+        sample: &Sample<S::Plain>,
+        _: &Constants<S::Plain>,
+    ) -> Option<Deflection<S>> {
+        Some(Deflection {
+            stiffness: self.bristle_stiffness,
+            drag: self.bristle_damping.scale(sample.velocity.abs()),
+            approach: Approach::Elastoplastic(self.breakaway_ratio),
+        })
     }
 
     #[inline]

@@ -1,7 +1,7 @@
 use super::FrictionLaw;
 use super::curves::arctangent_sign;
 use crate::constants::Constants;
-use crate::dynamics::{Interval, Relaxation, State, Step};
+use crate::dynamics::{Approach, Deflection, Interval, Relaxation, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
@@ -95,6 +95,19 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
             rate: self.viscous_friction.scale(v) + self.quadratic_friction.scale(v * v) * sign,
             ..Split::zero()
         }
+    }
+
+    #[inline]
+    fn deflection(
+        &self,
+        sample: &Sample<S::Plain>,
+        constants: &Constants<S::Plain>,
+    ) -> Option<Deflection<S>> {
+        Some(Deflection {
+            stiffness: self.bristle_stiffness,
+            drag: self.damping(sample.velocity.abs(), sample.acceleration, constants),
+            approach: Approach::Smoothed(self.smooth_sign(sample.velocity).abs()),
+        })
     }
 
     #[inline]

@@ -1,6 +1,6 @@
 use super::FrictionLaw;
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, State, Step};
+use crate::dynamics::{Approach, Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split, stribeck_curve};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -47,6 +47,19 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
             rate: self.viscous_friction.scale(sample.velocity),
             ..Split::zero()
         }
+    }
+
+    #[inline]
+    fn deflection(
+        &self,
+        sample: &Sample<S::Plain>,
+        _: &Constants<S::Plain>,
+    ) -> Option<Deflection<S>> {
+        Some(Deflection {
+            stiffness: self.bristle_stiffness,
+            drag: self.bristle_damping.scale(sample.velocity.abs()),
+            approach: Approach::Linear,
+        })
     }
 
     #[inline]

@@ -77,7 +77,7 @@ pub use xiao::Xiao;
 pub use zhou::Zhou;
 
 use crate::constants::Constants;
-use crate::dynamics::{Interval, Memory, State, Step};
+use crate::dynamics::{Deflection, Interval, Memory, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters};
@@ -92,6 +92,16 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
 
     /// The torque at one instant, taken apart: in steady sliding where the law has a memory.
     fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S>;
+
+    /// The deflection that its state consists of at this sample, where it is a single one.
+    #[inline]
+    fn deflection(
+        &self,
+        _sample: &Sample<S::Plain>,
+        _constants: &Constants<S::Plain>,
+    ) -> Option<Deflection<S>> {
+        None
+    }
 
     /// Steps over an interval over which the dry magnitude `dry` is held. `split` is that of the
     /// sample, with what effects have added; its dry magnitude is another where a mean velocity is

@@ -1,7 +1,7 @@
 use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, State, Step};
+use crate::dynamics::{Approach, Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Quadrant, Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
@@ -192,6 +192,19 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
             if forward { self.coulomb_friction_forward } else { self.coulomb_friction_backward };
         let rate = self.viscous(v, sample.temperature) + self.load(sample);
         Split { coulomb, rate, ..Split::zero() }
+    }
+
+    #[inline]
+    fn deflection(
+        &self,
+        sample: &Sample<S::Plain>,
+        _: &Constants<S::Plain>,
+    ) -> Option<Deflection<S>> {
+        Some(Deflection {
+            stiffness: self.bristle_stiffness,
+            drag: self.damping(sample.velocity).scale(sample.velocity.abs()),
+            approach: Approach::Linear,
+        })
     }
 
     #[inline]

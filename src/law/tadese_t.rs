@@ -1,7 +1,7 @@
 use super::FrictionLaw;
 use super::curves::{gaussian_curve, saturation};
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, State, Step};
+use crate::dynamics::{Approach, Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
@@ -80,6 +80,19 @@ impl<S: Real> FrictionLaw<S> for TadeseT<S> {
             rate: self.viscous(sample.velocity, sample.temperature),
             ..Split::zero()
         }
+    }
+
+    #[inline]
+    fn deflection(
+        &self,
+        sample: &Sample<S::Plain>,
+        _: &Constants<S::Plain>,
+    ) -> Option<Deflection<S>> {
+        Some(Deflection {
+            stiffness: self.bristle_stiffness,
+            drag: self.bristle_damping.scale(sample.velocity.abs()),
+            approach: Approach::Linear,
+        })
     }
 
     #[inline]

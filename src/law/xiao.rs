@@ -1,7 +1,7 @@
 use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, State, Step};
+use crate::dynamics::{Approach, Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Quadrant, Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
@@ -73,6 +73,19 @@ impl<S: Real> FrictionLaw<S> for Xiao<S> {
             rate: self.viscous_friction.scale(sample.velocity) + self.load(sample),
             ..Split::zero()
         }
+    }
+
+    #[inline]
+    fn deflection(
+        &self,
+        sample: &Sample<S::Plain>,
+        _: &Constants<S::Plain>,
+    ) -> Option<Deflection<S>> {
+        Some(Deflection {
+            stiffness: self.bristle_stiffness,
+            drag: self.bristle_damping.scale(sample.velocity.abs()),
+            approach: Approach::Linear,
+        })
     }
 
     #[inline]

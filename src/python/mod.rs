@@ -5,6 +5,7 @@ mod columns;
 mod formula;
 mod model;
 mod normal;
+mod passivity;
 
 use std::string::ToString;
 
@@ -35,4 +36,6 @@ mod _core {
     use super::model::Model;
     #[pymodule_export]
     use super::normal::{normal_equations, triangle};
+    #[pymodule_export]
+    use super::passivity::{passivity, work};
 }

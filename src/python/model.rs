@@ -20,7 +20,7 @@ use crate::table::Presence;
 /// values are arguments.
 #[pyclass(frozen, module = "stribeck._core")]
 pub struct Model {
-    spec: Spec,
+    pub(super) spec: Spec,
     /// What the parameters of formulas are called, and what the formulas call them.
     own: Vec<(String, String)>,
 }

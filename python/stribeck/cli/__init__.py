@@ -10,6 +10,7 @@ import click
 from stribeck import __version__
 from stribeck.cli.benchmark import benchmark
 from stribeck.cli.catalog import effects, inspect, models
+from stribeck.cli.check import check
 from stribeck.cli.demo import demo
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
@@ -47,6 +48,7 @@ def cli() -> None:
 for command in (demo, inspect, models, effects, fit, compare, diagnose, add, improve, generate):
     cli.add_command(command)
 cli.add_command(plan)
+cli.add_command(check)
 cli.add_command(points)
 cli.add_command(arm)
 cli.add_command(study)

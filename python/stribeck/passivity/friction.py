@@ -1,0 +1,36 @@
+"""What of a model is friction: the part that passivity is asked of."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from stribeck.model import Model, catalog
+
+
+def friction_part(model: Model) -> tuple[Model, tuple[str, ...]]:
+    """The model without what is no friction, and the names of that.
+
+    An offset, a load, a delay or a wrong torque constant belong to the measurement, the drive or
+    the rigid body. A constant torque that the law itself has stays.
+
+    Returns
+    -------
+    friction : Model
+    left_out : tuple of str
+        Effects and identified rigid-body terms.
+    """
+    groups = {name: row["group"] for name, row in catalog()["effects"].items()}
+    plain = model.friction
+    others = tuple(effect for effect in plain.effects if groups[effect] != "friction")
+    left_out = (*others, *plain.rigid_body)
+    known = dict(zip(plain.names, plain.values, strict=True))
+    kept = replace(
+        plain,
+        effects=tuple(effect for effect in plain.effects if effect not in others),
+        rigid_body=(),
+        values=np.empty(0),
+    )
+    # A parameter that only appears without an offset has stood at zero beside it.
+    return kept.with_values([known.get(name, 0.0) for name in kept.names]), left_out

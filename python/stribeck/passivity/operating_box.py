@@ -1,0 +1,86 @@
+"""The box of operating points over which something is proved."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from stribeck.errors import SpecError, nearest
+from stribeck.model import Model
+
+Box = Mapping[str, tuple[float, float]]
+
+#: Channels that a box can have.
+CHANNELS = (
+    "velocity", "position", "acceleration", "temperature", "load_torque", "motor_torque",
+    "external_torque", "time",
+)  # fmt: skip
+
+
+def parse_sides(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """Sides as they are written: ``velocity=-3.14:3.14``.
+
+    Raises
+    ------
+    SpecError
+        A text of another form, a channel that is unknown or given twice.
+    """
+    sides: dict[str, tuple[float, float]] = {}
+    for text in texts:
+        name, equals, span = text.partition("=")
+        low, colon, high = span.partition(":")
+        try:
+            if not (equals and colon):
+                raise ValueError
+            ends = float(low), float(high)
+        except ValueError:
+            raise SpecError(
+                f"--box {text}: write --box CHANNEL=LOW:HIGH, as in velocity=-3.14:3.14"
+            ) from None
+        if name.strip() in sides:
+            raise SpecError(f"--box {text}: {name.strip()} is given twice, leave one out")
+        sides[name.strip()] = ends
+    return sides
+
+
+def operating_box(friction: Model, given: Box) -> dict[str, tuple[float, float]]:
+    """The sides that the friction reads: as given, else the model's, else what follows from it.
+
+    Raises
+    ------
+    SpecError
+        A side that is missing, unknown, not finite or upside down.
+    """
+    for name, (low, high) in given.items():
+        _check_side(name, low, high)
+    constants = friction.core.constants
+    known = dict(friction.box)
+    if "duration" in constants:
+        known.setdefault("time", (0.0, constants["duration"]))
+    if "position_length" in constants:
+        start = constants["position_start"]
+        known.setdefault("position", (start, start + constants["position_length"]))
+    known.update(given)
+    needs = friction.core.needs
+    for name in needs:
+        if name not in known:
+            raise SpecError(
+                f"the box of {friction.spec} has no {name}, which its friction depends on: "
+                f"give --box {name}=LOW:HIGH"
+            )
+    box = {name: (float(known[name][0]), float(known[name][1])) for name in needs}
+    if box["velocity"] == (0.0, 0.0):
+        raise SpecError("the box holds no motion: give velocity a range, as in velocity=-1:1")
+    return box
+
+
+def _check_side(name: str, low: float, high: float) -> None:
+    if name not in CHANNELS:
+        raise SpecError(
+            f"the box cannot have {name!r}{nearest(name, CHANNELS)}; it can have "
+            f"{', '.join(CHANNELS)}"
+        )
+    if not (math.isfinite(low) and math.isfinite(high)):
+        raise SpecError(f"the box's {name} is {low:g}:{high:g}: give two finite numbers")
+    if low > high:
+        raise SpecError(f"the box's {name} is {low:g}:{high:g}: give the lower end first")

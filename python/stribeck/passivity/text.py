@@ -1,0 +1,121 @@
+"""A check of passivity in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from stribeck.passivity.certificate import Certificate, Counterexample, Margin
+
+#: What each condition says.
+MEANING = {
+    "sliding": "friction in steady sliding opposes the motion",
+    "damping": "bristle damping: 0 <= s1 <= 4 D/|v| (Tadese et al. 2021, property 1, i)",
+    "resistance": "what is beside the bristle opposes the motion (property 1, ii)",
+    "storage": "at each operating point more is dissipated than goes into the bristle",
+    "cycle": "no cycle of the bristle gives off energy",
+    "elements": "elements of constant strength, each a spring and a slider",
+    "unknown": "none is known for this kind of model",
+}
+
+#: Units of a box's sides other than those of the joint.
+UNITS = {"temperature": "degC", "time": "s"}
+
+
+#: Torques below are what viscous friction leaves next to rest.
+REST = 1e-30
+
+
+def certificate_text(certificate: Certificate) -> str:
+    """The whole answer."""
+    lines = [_verdict(certificate)]
+    if certificate.counterexample is not None:
+        lines += _motion(certificate.counterexample)
+    unit = certificate.friction.torque_unit
+    shown = [m for m in certificate.margins if m.lower is not None]
+    if shown:
+        lines.append("  Conditions, and bounds of their margins over the whole box:")
+        lines += [f"    {_bound(m, unit):>12}  {MEANING[m.condition]}" for m in shown]
+    if certificate.passive and certificate.condition in ("storage", "cycle", "elements"):
+        lines.append(f"  The proof rests on: {MEANING[certificate.condition]}.")
+    if certificate.left_out:
+        lines.append(
+            f"  It is about the friction, {certificate.friction.spec}; "
+            f"{', '.join(certificate.left_out)} is left out, being none."
+        )
+    return "\n".join(lines)
+
+
+def open_question(certificate: Certificate) -> str | None:
+    """Why nothing could be decided; None where it was."""
+    if certificate.passive is not None:
+        return None
+    if certificate.condition == "unknown":
+        return (
+            f"no exact condition is known here for the states or branches of "
+            f"{certificate.friction.spec}"
+        )
+    return (
+        f"neither a proof nor a counterexample was found for the condition "
+        f"{certificate.condition!r} ({MEANING[certificate.condition]}); a smaller box may help"
+    )
+
+
+def _verdict(certificate: Certificate) -> str:
+    spec, where = certificate.model.spec, _box(certificate)
+    if certificate.passive is None:
+        return f"Cannot decide whether {spec} is passive for {where}:\n  {certificate.why}."
+    if certificate.passive:
+        return f"{spec} is passive for {where}: proved over the whole box."
+    return f"{spec} is not passive for {where}."
+
+
+def _box(certificate: Certificate) -> str:
+    return ", ".join(
+        f"{name} {low:g} to {high:g} {_unit(certificate, name)}"
+        for name, (low, high) in certificate.box.items()
+    )
+
+
+def _unit(certificate: Certificate, channel: str) -> str:
+    position = certificate.friction.position_unit
+    torque = certificate.friction.torque_unit
+    joint = {
+        "velocity": f"{position}/s", "position": position, "acceleration": f"{position}/s2",
+    }  # fmt: skip
+    return {**joint, **UNITS}.get(channel, torque)
+
+
+def _motion(example: Counterexample) -> list[str]:
+    unit = example.friction.position_unit
+    if example.deflection is None:
+        start = "Energy comes out of"
+    else:
+        start = (
+            f"With the bristle deflected by {example.deflection:.6g} {unit}, energy comes out of"
+        )
+    steps = [f"    {_step(step, unit)}" for step in example.steps]
+    returned = "" if example.kind == "operating point" else " and the bristle is where it was"
+    return [
+        f"  {start} this {example.kind}:",
+        *steps,
+        f"  Net work {example.net_work:.3g} J by the model's exact step{returned}.",
+    ]
+
+
+def _step(step: Mapping[str, float], unit: str) -> str:
+    others = [
+        f"{name} {value:.6g}"
+        for name, value in step.items()
+        if name not in ("velocity", "duration")
+    ]
+    held = f"velocity {step['velocity']:.6g} {unit}/s for {step['duration']:.6g} s"
+    return ", ".join([held, *others])
+
+
+def _bound(margin: Margin, unit: str) -> str:
+    """The least margin where the condition holds, else how far it is broken."""
+    lower = margin.lower or 0.0
+    if lower < 0.0:
+        return f"{lower:.3g} {unit}"
+    # In viscous friction the least is what is left at the slowest motion.
+    return f">= {0.0 if lower < REST else lower:.3g} {unit}"

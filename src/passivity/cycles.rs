@@ -1,0 +1,172 @@
+//! Whether a closed path of one deflection can give off energy.
+//!
+//! At a bristle force `f` let `A` be the least work per deflection of all operating points at which
+//! it grows, `B` of those at which it falls. A storage function exists if and only if `A + B >= 0`
+//! at every force that is reached: its slope lies between `-B` and `A`. Where it may be `f` itself,
+//! the storage is `f^2/(2 s0)`, and one condition at each operating point is enough.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::enclosure::Enclosure;
+use super::friction::Bristled;
+use super::region::{Point, Region};
+use super::search::Search;
+use crate::composed::Composed;
+use crate::scalar::Real;
+use crate::table::Channel;
+
+/// Evaluations that one range of forces gets before it is cut.
+const SHARE: usize = 600;
+
+/// The forces that a bristle reaches, backwards and forwards (T).
+#[derive(Clone, Copy, Debug)]
+pub struct Reach {
+    /// It reaches no force outside.
+    pub outer: [f64; 2],
+    /// It reaches each force inside.
+    pub inner: [f64; 2],
+}
+
+/// What came out.
+pub enum Outcome {
+    /// No cycle gives off energy; the least margin (T), and whether it is that of two points.
+    Passive {
+        /// Least dissipation per travel, or least work per deflection up and down.
+        margin: f64,
+        /// Whether a storage other than `f^2/(2 s0)` was needed.
+        by_cycles: bool,
+    },
+    /// Energy comes out.
+    Active {
+        /// Around this force (T).
+        force: f64,
+        /// The first raises the bristle, the second lowers it.
+        points: [Point; 2],
+        /// Work per deflection, up and down (T).
+        sum: f64,
+    },
+    /// Not decided around this force (T).
+    Undecided(f64),
+}
+
+/// A range of forces, and where in the box a cycle may still break the condition.
+struct Range {
+    force: Enclosure,
+    up: Vec<Region>,
+    down: Vec<Region>,
+}
+
+/// Looks at every force, until the evaluations are used up.
+pub fn look(
+    model: &Composed<Enclosure>,
+    regions: &[Region],
+    channels: &[Channel],
+    reach: Reach,
+    mut budget: usize,
+) -> Outcome {
+    let [low, high] = reach.outer;
+    let whole =
+        Range { force: Enclosure::new(low, high), up: regions.to_vec(), down: regions.to_vec() };
+    let mut open = vec![whole];
+    let mut margin = f64::INFINITY;
+    let mut by_cycles = false;
+    while let Some(range) = open.pop() {
+        let middle = 0.5 * range.force.lower + 0.5 * range.force.upper;
+        if budget == 0 {
+            return Outcome::Undecided(middle);
+        }
+        let stored = |region: &Region| {
+            let along = range.force * region.velocity.sign();
+            Bristled::of(model, region).map(|bristled| bristled.dissipated(along))
+        };
+        let mut dissipated = Search::over(regions, channels, &stored);
+        dissipated.run(SHARE, |s| s.lower() >= 0.0 || s.upper() < 0.0);
+        budget = budget.saturating_sub(dissipated.evaluations);
+        if dissipated.lower() >= 0.0 {
+            margin = margin.min(dissipated.lower());
+            continue;
+        }
+        let rising = |region: &Region| work(model, region, range.force, true);
+        let falling = |region: &Region| work(model, region, range.force, false);
+        let mut up = Search::over(&range.up, channels, &rising);
+        let mut down = Search::over(&range.down, channels, &falling);
+        refine(&mut up, &mut down);
+        budget = budget.saturating_sub(up.evaluations + down.evaluations);
+        let sum = up.lower() + down.lower();
+        if sum >= 0.0 {
+            margin = margin.min(sum);
+            by_cycles = true;
+            continue;
+        }
+        let inside = reach.inner[0] < middle && middle < reach.inner[1];
+        if inside && let Some((points, sum)) = breaking(model, channels, &range, middle) {
+            return Outcome::Active { force: middle, points, sum };
+        }
+        if !(range.force.lower < middle && middle < range.force.upper) {
+            return Outcome::Undecided(middle);
+        }
+        // Where one side is so high that no other can make up for it, nothing can break.
+        let (up, down) = (up.below(-down.lower()), down.below(-up.lower()));
+        for force in
+            [Enclosure::new(range.force.lower, middle), Enclosure::new(middle, range.force.upper)]
+        {
+            open.push(Range { force, up: up.clone(), down: down.clone() });
+        }
+    }
+    Outcome::Passive { margin, by_cycles }
+}
+
+/// Cuts on the side where more is unknown, until the sum is decided or the share used up.
+fn refine<'a>(up: &mut Search<'a>, down: &mut Search<'a>) {
+    while up.evaluations + down.evaluations < SHARE && up.lower() + down.lower() < 0.0 {
+        let unknown = |search: &Search<'_>| search.upper() - search.lower();
+        // Infinity less infinity: nothing is known yet.
+        let upwards = unknown(up).is_nan() || unknown(up) >= unknown(down);
+        let order = if upwards { [&mut *up, &mut *down] } else { [&mut *down, &mut *up] };
+        let cut = order.into_iter().any(Search::refine);
+        if !cut {
+            return;
+        }
+    }
+}
+
+/// Points that break the condition at one force.
+fn breaking(
+    model: &Composed<Enclosure>,
+    channels: &[Channel],
+    range: &Range,
+    force: f64,
+) -> Option<([Point; 2], f64)> {
+    let force = Enclosure::point(force);
+    let rising = |region: &Region| work(model, region, force, true);
+    let falling = |region: &Region| work(model, region, force, false);
+    let mut up = Search::over(&range.up, channels, &rising);
+    let mut down = Search::over(&range.down, channels, &falling);
+    let broken = |up: &Search<'_>, down: &Search<'_>| up.upper() + down.upper() < 0.0;
+    while !broken(&up, &down) && up.evaluations + down.evaluations < SHARE {
+        let (before_up, before_down) = (up.evaluations, down.evaluations);
+        if up.lower() + down.lower() >= 0.0 {
+            return None;
+        }
+        up.refine();
+        down.refine();
+        if (before_up, before_down) == (up.evaluations, down.evaluations) {
+            return None;
+        }
+    }
+    let (best_up, best_down) = (up.best?, down.best?);
+    broken(&up, &down).then_some(([best_up.1, best_down.1], best_up.0 + best_down.0))
+}
+
+/// Work per deflection where the force grows, or where it falls.
+fn work(
+    model: &Composed<Enclosure>,
+    region: &Region,
+    force: Enclosure,
+    rising: bool,
+) -> Option<Enclosure> {
+    let direction = region.velocity.sign();
+    let [grows, falls] = Bristled::of(model, region)?.work_per_deflection(force * direction);
+    if (direction.lower > 0.0) == rising { grows } else { falls }
+}

@@ -1,0 +1,106 @@
+//! What friction does along the motion, over a box or at a point.
+
+use super::enclosure::Enclosure;
+use super::region::Region;
+use crate::composed::Composed;
+use crate::dynamics::Approach;
+use crate::scalar::Real;
+
+/// How far the slope of an approach may be wrong: the sum of a few operations at a point.
+const SLOPE_SLACK: f64 = 1e-14;
+
+/// A model with one deflection, along the direction of motion: the power it takes is
+/// `|v| (g + drag slope + resistance)` and `df/dt = s0 |v| slope`, with `g` the bristle's force.
+#[derive(Clone, Copy, Debug)]
+pub struct Bristled {
+    /// Dry magnitude `D` (T).
+    pub dry: Enclosure,
+    /// `zeta`, the parts beside the bristle (T).
+    pub resistance: Enclosure,
+    /// Damping times speed (T).
+    pub drag: Enclosure,
+    approach: Approach<Enclosure>,
+}
+
+impl Bristled {
+    /// `None` where the model's state is not a single deflection.
+    pub fn of(model: &Composed<Enclosure>, region: &Region) -> Option<Self> {
+        let deflection = model.deflection(region)?;
+        let split = model.split(region);
+        Some(Self {
+            dry: split.dry(),
+            resistance: (split.rate + split.additive) * region.velocity.sign(),
+            drag: deflection.drag,
+            approach: deflection.approach,
+        })
+    }
+
+    /// Whether the slope is `1 - x`, with `dz/dt = v - s0 |v|/D z`.
+    pub fn is_linear(&self) -> bool {
+        self.approach == Approach::Linear
+    }
+
+    /// Power over `|dz/dt|` (T) where the deflection grows along the motion, and where it falls
+    /// back, for a force `g` along the motion; `None` where that does not happen.
+    pub fn work_per_deflection(&self, force: Enclosure) -> [Option<Enclosure>; 2] {
+        let slope = self.slope(force / self.dry);
+        let load = force + self.resistance;
+        let grows = slope.positive_part().map(|slope| load / slope + self.drag);
+        let falls = (-slope).positive_part().map(|slope| load / slope - self.drag);
+        [grows, falls]
+    }
+
+    /// Power over `|v|` beyond what goes into `f^2/(2 s0)` (T).
+    pub fn dissipated(&self, force: Enclosure) -> Enclosure {
+        let x = force / self.dry;
+        let slope = self.slope(x);
+        let sheared = match self.approach {
+            Approach::Linear => force.square() / self.dry,
+            Approach::Smoothed(_) => force * (Enclosure::point(1.0) - slope),
+            // What is left of the slope has the sign of the force.
+            Approach::Power(_) | Approach::Elastoplastic(_) => {
+                let sheared = force * (Enclosure::point(1.0) - slope);
+                Enclosure::new(sheared.lower.max(0.0), sheared.upper.max(0.0))
+            }
+        };
+        sheared + self.drag * slope + self.resistance
+    }
+
+    /// The slope does not grow with `x`.
+    fn slope(&self, x: Enclosure) -> Enclosure {
+        let at = |x: f64| {
+            if x.is_infinite() {
+                return Enclosure::point(-x);
+            }
+            self.approach.slope(Enclosure::point(x))
+        };
+        let values = at(x.lower).hull(at(x.upper));
+        match self.approach {
+            Approach::Elastoplastic(_) => Enclosure::new(
+                values.lower - SLOPE_SLACK * (1.0 + values.lower.abs()),
+                values.upper + SLOPE_SLACK * (1.0 + values.upper.abs()),
+            ),
+            _ => values,
+        }
+    }
+}
+
+/// Friction in steady sliding, along the motion (T).
+pub fn sliding(model: &Composed<Enclosure>, region: &Region) -> Enclosure {
+    let direction = region.velocity.sign();
+    match Bristled::of(model, region) {
+        Some(bristled) if model.has_state() => bristled.sliding(),
+        _ => model.split(region).torque(direction) * direction,
+    }
+}
+
+impl Bristled {
+    /// With the bristle at the deflection at which it slides.
+    fn sliding(&self) -> Enclosure {
+        let strength = match self.approach {
+            Approach::Smoothed(sign) => self.dry * sign,
+            _ => self.dry,
+        };
+        strength + self.resistance
+    }
+}

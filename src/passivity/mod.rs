@@ -1,0 +1,349 @@
+//! Whether a model can give off energy, proved over a box of operating points, never by samples.
+//!
+//! | module | what lives there |
+//! |---|---|
+//! | [`enclosure`] | numbers with bounds, rounded outwards: a law evaluated on them is bounded |
+//! | [`region`] | boxes of operating points, cut so that laws do not branch inside |
+//! | [`search`] | the least value over boxes, between bounds |
+//! | `friction` | what friction does along the motion |
+//! | [`cycles`] | the exact condition on a single deflection |
+//! | [`replay`] | counterexamples, carried out by the exact step |
+//!
+//! In each motion of the box velocity, temperature, load ... may change at any time in any way.
+//! Speeds below [`LEAST`](region::LEAST) count as rest.
+
+pub mod cycles;
+pub mod enclosure;
+mod friction;
+pub mod region;
+pub mod replay;
+pub mod search;
+
+use core::fmt;
+use std::vec::Vec;
+
+use crate::catalog::{EffectId, EffectSet, LawId};
+use crate::composed::{Composed, Spec};
+use crate::error::ModelError;
+use crate::formula::{Formula, TermKind};
+use crate::scalar::Real;
+use crate::table::Channel;
+use cycles::{Outcome, Reach};
+use enclosure::Enclosure;
+use friction::{Bristled, sliding};
+use region::{Point, Region, Side, pieces};
+use replay::Counterexample;
+use search::Search;
+
+/// How close a reported margin is to the least value, relative to it.
+const CLOSE: f64 = 1e-3;
+
+/// What a proof rests on, or what stands in its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// Friction in steady sliding opposes the motion.
+    Sliding,
+    /// `0 <= s1 <= 4 D/|v|` (Tadese et al. 2021, property 1, i).
+    Damping,
+    /// What is beside the bristle opposes the motion (property 1, ii).
+    Resistance,
+    /// More is dissipated than goes into `f^2/(2 s0)`.
+    Storage,
+    /// No cycle of the deflection gives off energy.
+    Cycle,
+    /// Elements of constant strength, each a spring and a slider.
+    Elements,
+    /// None is known for states of this kind.
+    Unknown,
+}
+
+impl Condition {
+    /// The name users read.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sliding => "sliding",
+            Self::Damping => "damping",
+            Self::Resistance => "resistance",
+            Self::Storage => "storage",
+            Self::Cycle => "cycle",
+            Self::Elements => "elements",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
+/// A condition and by how much it holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Margin {
+    /// Which.
+    pub condition: Condition,
+    /// No operating point has less (T).
+    pub lower: f64,
+    /// Some operating point has no more (T), where one has been looked for.
+    pub upper: Option<f64>,
+    /// That point.
+    pub point: Option<Point>,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// `None`: cannot decide.
+    pub passive: Option<bool>,
+    /// What decided, or could not.
+    pub condition: Condition,
+    /// All that was looked at.
+    pub margins: Vec<Margin>,
+    /// What breaks passivity.
+    pub counterexample: Option<Counterexample>,
+}
+
+/// What cannot be asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PassivityError {
+    /// The model itself cannot be used.
+    Model(ModelError<'static>),
+    /// The box has no range of a channel that the model reads.
+    Missing(Channel),
+    /// The temperature at which the law has no limit is in the box (degC).
+    Pole(f64),
+    /// Dry friction is not positive at a point, where a bristle cannot be.
+    NoBristle(Point, f64),
+}
+
+impl fmt::Display for PassivityError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Model(error) => error.fmt(f),
+            Self::Missing(channel) => write!(f, "the box has no range of {channel}"),
+            Self::Pole(at) => write!(f, "the box holds {at} degC, where the law has no limit"),
+            Self::NoBristle(point, dry) => write!(
+                f,
+                "a bristle needs dry friction above zero, but it is {dry:.4} at velocity {:.4}, \
+                 temperature {:.4}, load torque {:.4}, position {:.4}",
+                point.velocity, point.temperature, point.load_torque, point.position
+            ),
+        }
+    }
+}
+
+impl core::error::Error for PassivityError {}
+
+impl From<ModelError<'static>> for PassivityError {
+    fn from(error: ModelError<'static>) -> Self {
+        Self::Model(error)
+    }
+}
+
+/// Whether the model is passive over the box, with so many evaluations at most.
+///
+/// All of the model counts as friction, a constant torque too: leave out what is none.
+///
+/// # Errors
+/// A model or a box that cannot be used.
+pub fn check(
+    spec: &Spec,
+    values: &[f64],
+    sides: &[Side],
+    budget: usize,
+) -> Result<Verdict, PassivityError> {
+    let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
+    let (bounded, exact) = (spec.with(&numbers)?, spec.with(values)?);
+    let channels: Vec<_> = spec.channels().collect();
+    for &channel in &channels {
+        let side = sides.iter().find(|side| side.channel == channel);
+        let side = side.ok_or(PassivityError::Missing(channel))?;
+        if let (Channel::Temperature, Some(pole)) = (channel, spec.pole())
+            && (side.lower..=side.upper).contains(&pole)
+        {
+            return Err(PassivityError::Pole(pole));
+        }
+    }
+    let read: Vec<_> =
+        sides.iter().copied().filter(|side| channels.contains(&side.channel)).collect();
+    let regions = pieces(&read);
+    let task = Task { spec, bounded, exact, channels, regions, budget };
+    task.run()
+}
+
+struct Task<'a> {
+    spec: &'a Spec,
+    bounded: Composed<Enclosure>,
+    exact: Composed<f64>,
+    channels: Vec<Channel>,
+    regions: Vec<Region>,
+    budget: usize,
+}
+
+impl Task<'_> {
+    fn run(&self) -> Result<Verdict, PassivityError> {
+        let single = !self.lags()
+            && self.regions.first().is_some_and(|region| self.bounded.deflection(region).is_some());
+        if self.bounded.has_state() && single {
+            self.check_strength()?;
+        }
+        let slides = self.least(Condition::Sliding, |region| sliding(&self.bounded, region));
+        let mut verdict = Verdict {
+            passive: None,
+            condition: Condition::Sliding,
+            margins: [slides].to_vec(),
+            counterexample: None,
+        };
+        if self.branches() {
+            verdict.condition = Condition::Unknown;
+            return Ok(verdict);
+        }
+        if slides.upper.is_some_and(|value| value < 0.0)
+            && let Some(point) = slides.point
+        {
+            let example = replay::sliding(&self.exact, &point, self.speeds());
+            if example.work < 0.0 {
+                verdict.passive = Some(false);
+                verdict.counterexample = Some(example);
+            }
+            return Ok(verdict);
+        }
+        if !self.bounded.has_state() {
+            verdict.passive = (slides.lower >= 0.0).then_some(true);
+            return Ok(verdict);
+        }
+        if !single {
+            verdict.condition = Condition::Unknown;
+            if slides.lower >= 0.0 && self.constant_elements() {
+                verdict.passive = Some(true);
+                verdict.condition = Condition::Elements;
+            }
+            return Ok(verdict);
+        }
+        self.check_deflection(&mut verdict);
+        Ok(verdict)
+    }
+
+    /// A bristle has to have some strength everywhere.
+    fn check_strength(&self) -> Result<(), PassivityError> {
+        let dry = |region: &Region| Some(self.bounded.split(region).dry());
+        let mut search = Search::over(&self.regions, &self.channels, &dry);
+        search.run(self.budget, |s| s.lower() > 0.0 || s.upper() <= 0.0);
+        match search.best {
+            Some((dry, point)) if dry <= 0.0 => Err(PassivityError::NoBristle(point, dry)),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_deflection(&self, verdict: &mut Verdict) {
+        let bristled = |region: &Region| Bristled::of(&self.bounded, region);
+        let part = |condition, function: fn(&Bristled) -> Enclosure| {
+            let value = |region: &Region| bristled(region).map_or(Enclosure::ALL, |b| function(&b));
+            self.least(condition, value)
+        };
+        let damping = part(Condition::Damping, |b| {
+            let room = Enclosure::point(4.0) * b.dry - b.drag;
+            Enclosure::new(room.lower.min(b.drag.lower), room.upper.min(b.drag.upper))
+        });
+        let resistance = part(Condition::Resistance, |b| b.resistance);
+        verdict.margins.extend([damping, resistance]);
+        let linear = self.regions.iter().all(|r| bristled(r).is_some_and(|b| b.is_linear()));
+        if linear && damping.lower >= 0.0 && resistance.lower >= 0.0 {
+            let least = if damping.lower < resistance.lower { damping } else { resistance };
+            (verdict.passive, verdict.condition) = (Some(true), least.condition);
+            return;
+        }
+        let reach = self.reach();
+        match cycles::look(&self.bounded, &self.regions, &self.channels, reach, self.budget) {
+            Outcome::Passive { margin, by_cycles } => {
+                verdict.passive = Some(true);
+                verdict.condition = if by_cycles { Condition::Cycle } else { Condition::Storage };
+                let condition = verdict.condition;
+                verdict.margins.push(Margin { condition, lower: margin, upper: None, point: None });
+            }
+            Outcome::Active { force, points: [up, down], sum } => {
+                verdict.condition = Condition::Cycle;
+                let found =
+                    replay::cycle(&self.exact, force, reach.inner, [&up, &down], self.speeds());
+                let margin = Margin {
+                    condition: Condition::Cycle,
+                    lower: f64::NEG_INFINITY,
+                    upper: Some(sum),
+                    point: None,
+                };
+                verdict.margins.push(margin);
+                if self.is_free() && found.is_some() {
+                    verdict.passive = Some(false);
+                    verdict.counterexample = found;
+                }
+            }
+            Outcome::Undecided(_) => verdict.condition = Condition::Cycle,
+        }
+    }
+
+    /// The largest dry friction in each direction is the largest force that is reached.
+    fn reach(&self) -> Reach {
+        let strongest = |forward: bool| {
+            let regions: Vec<_> = self
+                .regions
+                .iter()
+                .filter(|region| (region.velocity.lower > 0.0) == forward)
+                .copied()
+                .collect();
+            let weakness = |region: &Region| Some(-self.bounded.split(region).dry());
+            let mut search = Search::over(&regions, &self.channels, &weakness);
+            search.run(self.budget, |s| s.upper() - s.lower() <= 1e-6 * s.lower().abs());
+            if regions.is_empty() { (0.0, 0.0) } else { (-search.lower(), -search.upper()) }
+        };
+        let (forward, backward) = (strongest(true), strongest(false));
+        Reach { outer: [-backward.0, forward.0], inner: [-backward.1, forward.1] }
+    }
+
+    /// The least value over the box.
+    fn least(&self, condition: Condition, function: impl Fn(&Region) -> Enclosure) -> Margin {
+        let function = |region: &Region| Some(function(region));
+        let mut search = Search::over(&self.regions, &self.channels, &function);
+        let share = self.budget / 10;
+        search.run(self.budget, |s| {
+            let (lower, upper) = (s.lower(), s.upper());
+            let decided = lower >= 0.0 || upper < 0.0;
+            let size = lower.abs().max(upper.abs());
+            decided && (upper - lower <= CLOSE * size || s.evaluations > share)
+        });
+        // Without motion there is no friction.
+        let lower = if self.regions.is_empty() { 0.0 } else { search.lower() };
+        let (upper, point) = search.best.unzip();
+        Margin { condition, lower, upper, point }
+    }
+
+    /// The velocities of the box.
+    fn speeds(&self) -> [f64; 2] {
+        let ends = self.regions.iter().map(|region| region.velocity);
+        let hull = ends.reduce(Enclosure::hull).unwrap_or(Enclosure::point(0.0));
+        [hull.lower, hull.upper]
+    }
+
+    /// Whether the Stribeck curve lags behind the velocity.
+    fn lags(&self) -> bool {
+        self.spec.effects().contains(EffectId::FrictionalLag)
+    }
+
+    /// Whether all that the bristle depends on can change at any time: position and time cannot.
+    fn is_free(&self) -> bool {
+        let bound = [Channel::Position, Channel::Time];
+        !self.channels.iter().any(|channel| bound.contains(channel))
+    }
+
+    /// Whether a law branches on more than the signs of channels, which enclosures cannot follow.
+    fn branches(&self) -> bool {
+        let smoothed = |own: &Formula| own.terms().any(|term| term.kind == TermKind::Smoothed);
+        let formula = |own: &Formula| own.compares() || (self.bounded.has_state() && smoothed(own));
+        self.spec.law() == LawId::BamM6 || self.spec.own().is_some_and(formula)
+    }
+
+    /// Elements in parallel whose strength does not change: springs and sliders.
+    fn constant_elements(&self) -> bool {
+        self.spec.law() == LawId::Gms
+            && self.spec.effects() == EffectSet::NONE
+            && self.regions.iter().all(|region| {
+                let split = self.bounded.split(region);
+                split.height.upper == 0.0 && (split.rate * region.velocity.sign()).lower >= 0.0
+            })
+    }
+}

@@ -1,0 +1,141 @@
+//! Boxes of operating points, cut so that laws do not branch inside them.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::enclosure::Enclosure;
+use crate::sample::Sample;
+use crate::table::Channel;
+
+/// What is smaller counts as zero: products of such numbers leave the range of numbers.
+pub const LEAST: f64 = 1e-100;
+
+/// A box of operating points; a channel that is not read is zero.
+pub type Region = Sample<Enclosure>;
+
+/// One operating point.
+pub type Point = Sample<f64>;
+
+/// A channel's range.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Side {
+    /// Which channel.
+    pub channel: Channel,
+    /// Its least value.
+    pub lower: f64,
+    /// Its largest value.
+    pub upper: f64,
+}
+
+/// The sides' product, cut at zero in every channel, without rest.
+///
+/// Laws branch on the signs of channels: in a piece every channel has one.
+#[must_use]
+pub fn pieces(sides: &[Side]) -> Vec<Region> {
+    let mut made = vec![Sample::at(Enclosure::point(0.0))];
+    for side in sides {
+        let parts = parts(side);
+        made = made
+            .iter()
+            .flat_map(|region| parts.iter().map(|&part| with(region, side.channel, part)))
+            .collect();
+    }
+    made
+}
+
+fn parts(side: &Side) -> Vec<Enclosure> {
+    let mut parts = Vec::new();
+    if side.lower <= -LEAST {
+        parts.push(Enclosure::new(side.lower, side.upper.min(-LEAST)));
+    }
+    if side.upper >= LEAST {
+        parts.push(Enclosure::new(side.lower.max(LEAST), side.upper));
+    }
+    // Rest dissipates nothing and produces nothing.
+    if side.channel != Channel::Velocity && side.lower < LEAST && side.upper > -LEAST {
+        parts.push(Enclosure::point(0.0));
+    }
+    parts
+}
+
+/// A channel of a sample.
+pub fn get<P: Copy>(sample: &Sample<P>, channel: Channel) -> P {
+    match channel {
+        Channel::Velocity => sample.velocity,
+        Channel::Position => sample.position,
+        Channel::Acceleration => sample.acceleration,
+        Channel::Temperature => sample.temperature,
+        Channel::LoadTorque => sample.load_torque,
+        Channel::LoadTorqueCurvature => sample.load_torque_curvature,
+        Channel::MotorTorque => sample.motor_torque,
+        Channel::ExternalTorque => sample.external_torque,
+        Channel::Time => sample.time,
+    }
+}
+
+fn with(region: &Region, channel: Channel, part: Enclosure) -> Region {
+    let mut changed = *region;
+    let own = match channel {
+        Channel::Velocity => &mut changed.velocity,
+        Channel::Position => &mut changed.position,
+        Channel::Acceleration => &mut changed.acceleration,
+        Channel::Temperature => &mut changed.temperature,
+        Channel::LoadTorque => &mut changed.load_torque,
+        Channel::LoadTorqueCurvature => &mut changed.load_torque_curvature,
+        Channel::MotorTorque => &mut changed.motor_torque,
+        Channel::ExternalTorque => &mut changed.external_torque,
+        Channel::Time => &mut changed.time,
+    };
+    *own = part;
+    changed
+}
+
+/// Another number in each channel.
+fn map<P: Copy, Q>(sample: &Sample<P>, change: impl Fn(P) -> Q) -> Sample<Q> {
+    Sample {
+        velocity: change(sample.velocity),
+        position: change(sample.position),
+        acceleration: change(sample.acceleration),
+        temperature: change(sample.temperature),
+        load_torque: change(sample.load_torque),
+        load_torque_curvature: change(sample.load_torque_curvature),
+        motor_torque: change(sample.motor_torque),
+        external_torque: change(sample.external_torque),
+        time: change(sample.time),
+    }
+}
+
+/// The point as a region, so that what is computed there is bounded too.
+#[must_use]
+pub fn at(point: &Point) -> Region {
+    map(point, Enclosure::point)
+}
+
+/// Points of a region that are worth a look: its middle and two opposite corners.
+#[must_use]
+pub fn probes(region: &Region) -> [Point; 3] {
+    [map(region, middle), map(region, |x| x.lower), map(region, |x| x.upper)]
+}
+
+/// Both halves of a region along a channel; `None` where there is nothing between its ends.
+#[must_use]
+pub fn halves(region: &Region, channel: Channel) -> Option<[Region; 2]> {
+    let whole = get(region, channel);
+    let cut = middle(whole);
+    (whole.lower < cut && cut < whole.upper).then(|| {
+        let lower = Enclosure::new(whole.lower, cut);
+        let upper = Enclosure::new(cut, whole.upper);
+        [with(region, channel, lower), with(region, channel, upper)]
+    })
+}
+
+/// The middle, by ratio where the ends differ by decades.
+fn middle(x: Enclosure) -> f64 {
+    let (near, far) = (x.lower.abs().min(x.upper.abs()), x.lower.abs().max(x.upper.abs()));
+    let one_sign = x.lower > 0.0 || x.upper < 0.0;
+    if one_sign && near > 0.0 && far > 4.0 * near {
+        let size = crate::math::f64::sqrt(near) * crate::math::f64::sqrt(far);
+        return if x.lower > 0.0 { size } else { -size };
+    }
+    0.5 * x.lower + 0.5 * x.upper
+}

@@ -1,0 +1,184 @@
+//! Counterexamples, carried out by the model's own exact step.
+
+use core::iter::successors;
+use std::vec::Vec;
+
+use super::region::Point;
+use crate::composed::Composed;
+use crate::dynamics::State;
+
+/// An operating point that is held for a while.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// The point.
+    pub point: Point,
+    /// How long (s).
+    pub duration: f64,
+}
+
+/// Motions after which the model has given off energy and is as it was before.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Counterexample {
+    /// Deflection at the start and at the end (X), of a model that has one; else the state in
+    /// which it slides.
+    pub deflection: Option<f64>,
+    /// What is held, one after the other.
+    pub holds: Vec<Hold>,
+    /// Work that the model takes (J): negative.
+    pub work: f64,
+}
+
+/// How long a point at which sliding gives off energy is held (s).
+const LONG: f64 = 1.0;
+
+/// Share of the energy in the bristle at its largest deflection that is enough to be shown.
+const ENOUGH: f64 = 0.01;
+
+/// Sizes of the cycle that are tried, each half of the one before.
+const SIZES: usize = 40;
+
+/// The most halvings of the largest speed that are tried.
+const HALVINGS: usize = 100;
+
+/// Of two counterexamples the one that yields more.
+fn better(best: Counterexample, other: Counterexample) -> Counterexample {
+    if other.work < best.work { other } else { best }
+}
+
+/// A number, half of it, a quarter ...
+fn halvings(first: f64, count: usize) -> impl Iterator<Item = f64> {
+    successors(Some(first), |x| Some(0.5 * x)).take(count)
+}
+
+/// The point at these speeds: its own, and faster ones in powers of two up to `fastest`.
+fn faster(point: &Point, fastest: f64) -> impl Iterator<Item = Point> {
+    let own = *point;
+    let speed = own.velocity.abs();
+    halvings(fastest, HALVINGS).take_while(move |&faster| faster > speed).chain([speed]).map(
+        move |speed| Point { velocity: if own.velocity > 0.0 { speed } else { -speed }, ..own },
+    )
+}
+
+/// Holds a point in steady sliding, at the speed of its direction that yields most.
+pub fn sliding(
+    model: &Composed<f64>,
+    point: &Point,
+    [slowest, fastest]: [f64; 2],
+) -> Counterexample {
+    let limit = if point.velocity > 0.0 { fastest } else { -slowest };
+    let held = |point: Point| {
+        let mut state = model.settled(&point);
+        let deflection =
+            model.deflection(&point).filter(|_| model.has_state()).map(|_| state.bristle.z);
+        let work = model.step(&mut state, &point, LONG).mean_torque * point.velocity * LONG;
+        Counterexample { deflection, holds: [Hold { point, duration: LONG }].into(), work }
+    };
+    faster(point, limit).map(held).fold(held(*point), better)
+}
+
+/// A cycle around a bristle force `force` (T): it grows at `up` and falls back at `down`, and never
+/// exceeds what is reached. `None` if none yields anything.
+///
+/// The slower the motion, the more it may yield. Of all speeds of the box the fastest are taken that
+/// yield half as much, or as much as is enough.
+pub fn cycle(
+    model: &Composed<f64>,
+    force: f64,
+    reached: [f64; 2],
+    [up, down]: [&Point; 2],
+    [slowest, fastest]: [f64; 2],
+) -> Option<Counterexample> {
+    let limit = |point: &Point| if point.velocity > 0.0 { fastest } else { -slowest };
+    let mut best = of_any_size(model, force, reached, [up, down])?;
+    let strongest = reached[0].abs().max(reached[1].abs());
+    let stored = 0.5 * strongest * strongest / model.deflection(up)?.stiffness;
+    let enough = (0.5 * best.work).max(-ENOUGH * stored);
+    let half = |points: [&Point; 2]| {
+        of_any_size(model, force, reached, points).filter(|cycle| cycle.work <= enough)
+    };
+    let mut quick = *up;
+    if let Some((point, cycle)) =
+        faster(up, limit(up)).find_map(|up| Some((up, half([&up, down])?)))
+    {
+        (quick, best) = (point, cycle);
+    }
+    faster(down, limit(down)).find_map(|down| half([&quick, &down])).or(Some(best))
+}
+
+fn of_any_size(
+    model: &Composed<f64>,
+    force: f64,
+    [low, high]: [f64; 2],
+    points: [&Point; 2],
+) -> Option<Counterexample> {
+    let stiffness = model.deflection(points[0])?.stiffness;
+    let cycles = halvings(0.5 * (high - low), SIZES).filter_map(|size| {
+        let ends = [(force - size).max(low), (force + size).min(high)];
+        between(model, ends.map(|force| force / stiffness), points)
+    });
+    cycles.reduce(better)
+}
+
+fn between(
+    model: &Composed<f64>,
+    [low, high]: [f64; 2],
+    [up, down]: [&Point; 2],
+) -> Option<Counterexample> {
+    let rise = duration(model, low, high, up)?;
+    let fall = duration(model, high, low, down)?;
+    let holds =
+        [Hold { point: *up, duration: rise }, Hold { point: *down, duration: fall }].to_vec();
+    let (work, end) = work(model, Some(low), &holds);
+    // What is still in the bristle where the cycle does not close to the last digit.
+    let stiffness = model.deflection(up)?.stiffness;
+    let left = stiffness * low.abs().max(high.abs()) * (end - low).abs();
+    (work + 2.0 * left < 0.0).then_some(Counterexample { deflection: Some(low), holds, work })
+}
+
+/// The work that the model takes (J), and the deflection at the end; from this deflection on, or
+/// sliding already.
+#[must_use]
+pub fn work(model: &Composed<f64>, deflection: Option<f64>, holds: &[Hold]) -> (f64, f64) {
+    let mut state = match (deflection, holds.first()) {
+        (Some(deflection), _) => State::deflected(deflection),
+        (None, Some(hold)) => model.settled(&hold.point),
+        (None, None) => State::default(),
+    };
+    let mut work = 0.0;
+    for hold in holds {
+        let step = model.step(&mut state, &hold.point, hold.duration);
+        work += step.mean_torque * hold.point.velocity * hold.duration;
+    }
+    (work, state.bristle.z)
+}
+
+/// How long the deflection takes from `from` to `to` at this point; `None` if it does not get there.
+fn duration(model: &Composed<f64>, from: f64, to: f64, point: &Point) -> Option<f64> {
+    let passed = |dt: f64| {
+        let mut state = State::deflected(from);
+        model.step(&mut state, point, dt);
+        if to > from { state.bristle.z >= to } else { state.bristle.z <= to }
+    };
+    if from == to {
+        return None;
+    }
+    let mut after = (to - from).abs() / point.velocity.abs();
+    while !passed(after) {
+        after += after;
+        if !after.is_finite() {
+            return None;
+        }
+    }
+    let mut before = 0.0;
+    loop {
+        let middle = 0.5 * (before + after);
+        if middle <= before || middle >= after {
+            return Some(after);
+        }
+        if passed(middle) {
+            after = middle;
+        } else {
+            before = middle;
+        }
+    }
+}

@@ -1,0 +1,419 @@
+//! Proofs of passivity: what is certified holds at random, what is broken gives off energy.
+
+#![cfg(feature = "std")]
+
+mod common;
+
+use stribeck::catalog::LawId;
+use stribeck::composed::{Composed, Spec};
+use stribeck::dynamics::State;
+use stribeck::passivity::enclosure::Enclosure;
+use stribeck::passivity::region::{Point, Side};
+use stribeck::passivity::replay::{Hold, work};
+use stribeck::passivity::{Condition, Margin, PassivityError, Verdict, check};
+use stribeck::sample::Sample;
+use stribeck::scalar::Real;
+use stribeck::table::Channel;
+
+const BUDGET: usize = 400_000;
+
+/// s0, s1, s2, Fc, Fs, vs, alpha of Canudas de Wit et al. 1995.
+const LUGRE_1995: [f64; 7] = [1e5, 316.227_766_016_837_95, 0.4, 1.0, 1.5, 1e-3, 2.0];
+
+/// Numbers that look random (xorshift64*).
+struct Random(u64);
+
+impl Random {
+    /// From `low` to `high`.
+    #[allow(clippy::cast_precision_loss)]
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let share =
+            (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64;
+        low + share * (high - low)
+    }
+
+    /// A point of the box; half of the speeds are spread over decades.
+    #[allow(clippy::disallowed_methods)]
+    fn point(&mut self, sides: &[Side]) -> Point {
+        let mut point = Sample::at(0.0);
+        for side in sides {
+            let mut x = self.between(side.lower, side.upper);
+            if side.channel == Channel::Velocity && self.between(0.0, 1.0) < 0.5 {
+                x *= 10_f64.powf(self.between(-6.0, 0.0));
+                x = x.clamp(side.lower, side.upper);
+            }
+            match side.channel {
+                Channel::Velocity => point.velocity = x,
+                Channel::Position => point.position = x,
+                Channel::Acceleration => point.acceleration = x,
+                Channel::Temperature => point.temperature = x,
+                Channel::LoadTorque => point.load_torque = x,
+                Channel::LoadTorqueCurvature => point.load_torque_curvature = x,
+                Channel::MotorTorque => point.motor_torque = x,
+                Channel::ExternalTorque => point.external_torque = x,
+                Channel::Time => point.time = x,
+            }
+        }
+        point
+    }
+}
+
+fn side(channel: Channel, lower: f64, upper: f64) -> Side {
+    Side { channel, lower, upper }
+}
+
+fn speed(limit: f64) -> Vec<Side> {
+    vec![side(Channel::Velocity, -limit, limit)]
+}
+
+/// A range for every channel.
+fn wide() -> Vec<Side> {
+    vec![
+        side(Channel::Velocity, -0.9, 0.8),
+        side(Channel::Position, -0.4, 0.6),
+        side(Channel::Acceleration, -2.0, 2.0),
+        side(Channel::Temperature, 22.0, 38.0),
+        side(Channel::LoadTorque, -6.0, 5.0),
+        side(Channel::LoadTorqueCurvature, -3.0, 3.0),
+        side(Channel::MotorTorque, -7.0, 7.0),
+        side(Channel::ExternalTorque, -5.0, 6.0),
+        side(Channel::Time, 0.0, 2.0),
+    ]
+}
+
+fn made(spec: &str) -> Spec {
+    let (law, effects) = spec.split_once('+').unwrap_or((spec, ""));
+    Spec::new(law, effects.split('+').filter(|effect| !effect.is_empty())).unwrap()
+}
+
+fn verdict(spec: &str, values: &[f64], sides: &[Side]) -> Verdict {
+    check(&made(spec), values, sides, BUDGET).unwrap()
+}
+
+fn margin(verdict: &Verdict, condition: Condition) -> Margin {
+    *verdict.margins.iter().find(|margin| margin.condition == condition).unwrap()
+}
+
+/// The counterexample gives off energy and leaves the model as it was.
+fn breaks(model: &Composed<f64>, verdict: &Verdict) {
+    let example = verdict.counterexample.as_ref().expect("what is not passive has an example");
+    let (work, end) = work(model, example.deflection, &example.holds);
+    assert!(work < 0.0, "{verdict:?}");
+    assert_eq!(work, example.work);
+    if let Some(start) = example.deflection {
+        assert!((end - start).abs() <= 1e-9 * start.abs().max(end.abs()), "{start} {end}");
+    }
+}
+
+#[test]
+fn enclosures_hold_what_is_computed_at_points() {
+    let mut random = Random(7);
+    for _ in 0..100_000 {
+        let mut pair = |scale: f64| {
+            let (a, b) = (random.between(-scale, scale), random.between(-scale, scale));
+            let whole = Enclosure::new(a.min(b), a.max(b));
+            (whole, random.between(whole.lower, whole.upper))
+        };
+        let ((x, a), (y, b)) = (pair(4.0), pair(3.0));
+        let holds = |whole: Enclosure, at: f64| {
+            assert!(whole.lower <= at && at <= whole.upper, "{whole:?} {at} of {x:?} {y:?}");
+        };
+        holds(x + y, a + b);
+        holds(x * y, a * b);
+        holds(x / y, a / b);
+        holds(x.exp(), Real::exp(a));
+        holds(x.expm1(), Real::expm1(a));
+        holds(x.phi(1), Real::phi(a, 1));
+        holds(x.phi(2), Real::phi(a, 2));
+        holds(x.tanh(), Real::tanh(a));
+        holds(x.atan(), Real::atan(a));
+        holds(x.cbrt(), Real::cbrt(a));
+        holds(x.sin(), Real::sin(a));
+        holds(x.cos(), Real::cos(a));
+        holds(x.abs(), a.abs());
+        holds(x.abs().sqrt(), Real::sqrt(a.abs()));
+        holds(x.abs().powf(y), Real::powf(a.abs(), b));
+        holds(x.square(), a * a);
+    }
+}
+
+/// Every law, alone and with effects, static or in steady sliding: no sample contradicts a proof,
+/// and each counterexample gives off energy.
+#[test]
+fn no_sample_contradicts_a_certificate() {
+    let sides = wide();
+    let mut random = Random(11);
+    let (mut proved, mut broken) = (0, 0);
+    for spec in common::every_model() {
+        let values = common::values(&spec);
+        let model = spec.with(&values[..]).unwrap();
+        let found = match check(&spec, &values, &sides, BUDGET / 20) {
+            Ok(found) => found,
+            Err(PassivityError::NoBristle(point, _)) => {
+                assert!(model.split(&point).dry() <= 0.0, "{spec}");
+                continue;
+            }
+            Err(error) => panic!("{spec}: {error}"),
+        };
+        match found.passive {
+            Some(true) => {
+                proved += 1;
+                for _ in 0..20_000 {
+                    let point = random.point(&sides);
+                    let split = model.split(&point);
+                    let along = if model.has_state() {
+                        split.dry() + (split.rate + split.additive) * point.velocity.sign()
+                    } else {
+                        split.torque(point.velocity.sign()) * point.velocity.sign()
+                    };
+                    assert!(along >= found.margins[0].lower - 1e-12, "{spec} {point:?}");
+                }
+            }
+            Some(false) => {
+                broken += 1;
+                breaks(&model, &found);
+            }
+            None => assert_eq!(found.counterexample, None),
+        }
+    }
+    assert!(proved >= 60 && broken >= 3, "{proved} proved, {broken} broken");
+}
+
+/// Static laws with parameters of any sign and size: nearly all are decided, and none wrongly.
+#[test]
+fn static_laws_with_any_parameters_are_decided() {
+    let sides = wide();
+    let mut random = Random(17);
+    let (mut proved, mut broken, mut open) = (0, 0, 0);
+    for law in LawId::ALL {
+        let spec = Spec::new(law.info().id, []).unwrap();
+        for _ in 0..if spec.has_state() { 0 } else { 20 } {
+            let scaled = |x: f64| x * random.between(-0.5, 1.5);
+            let values: Vec<_> = common::values(&spec).into_iter().map(scaled).collect();
+            let Ok(model) = spec.with(&values[..]) else { continue };
+            let found = check(&spec, &values, &sides, BUDGET / 10).unwrap();
+            match found.passive {
+                Some(true) => {
+                    proved += 1;
+                    for _ in 0..5_000 {
+                        let point = random.point(&sides);
+                        let power = model.static_torque(&point) * point.velocity;
+                        assert!(power >= -1e-12, "{spec} {values:?} {point:?}");
+                    }
+                }
+                Some(false) => {
+                    broken += 1;
+                    breaks(&model, &found);
+                }
+                None => open += 1,
+            }
+        }
+    }
+    eprintln!("{proved} proved, {broken} broken, {open} not decided");
+    assert!(proved > 50 && broken > 50 && open * 10 < proved + broken);
+}
+
+#[test]
+fn the_margin_is_the_least_friction() {
+    let found = verdict("coulomb", &[0.5, 2.0], &speed(3.0));
+    assert_eq!((found.passive, found.condition), (Some(true), Condition::Sliding));
+    let sliding = margin(&found, Condition::Sliding);
+    assert!(sliding.lower <= 2.0 && sliding.lower > 1.99, "{sliding:?}");
+}
+
+#[test]
+fn friction_that_helps_the_motion_somewhere_is_found() {
+    // a1 v + a2 + a3/(1 + exp(-a4 (v + a5))): the offset pushes slow motion along.
+    let gaz = [0.2, 0.1, 1.0, 20.0, 0.0];
+    let found = verdict("gaz_a", &gaz, &speed(1.0));
+    assert_eq!(found.passive, Some(false));
+    breaks(&made("gaz_a").with(&gaz[..]).unwrap(), &found);
+    let centred = verdict("gaz_a", &[0.2, -0.5, 1.0, 20.0, 0.0], &speed(1.0));
+    assert_eq!(centred.passive, Some(true));
+    // 2.2 - 3 v^2 + v^3 falls below zero between 1.06 and 2.7.
+    let cubic = [2.2, 0.0, -3.0, 1.0];
+    assert_eq!(verdict("hao_a", &cubic, &speed(1.0)).passive, Some(true));
+    let found = verdict("hao_a", &cubic, &speed(3.0));
+    assert_eq!(found.passive, Some(false));
+    breaks(&made("hao_a").with(&cubic[..]).unwrap(), &found);
+}
+
+#[test]
+fn the_1995_example_is_passive_up_to_its_limit_and_not_above() {
+    let model = made("lugre").with(&LUGRE_1995[..]).unwrap();
+    for limit in [0.01, 0.03, 0.0375] {
+        let found = verdict("lugre", &LUGRE_1995, &speed(limit));
+        assert_eq!(found.passive, Some(true), "{limit}: {found:?}");
+    }
+    for limit in [0.0385, 0.05, 1.0] {
+        let found = verdict("lugre", &LUGRE_1995, &speed(limit));
+        assert_eq!((found.passive, found.condition), (Some(false), Condition::Cycle));
+        breaks(&model, &found);
+    }
+}
+
+/// Property 1 of Tadese et al. 2021 as it stands, and where it is needlessly strict: with constant
+/// dry friction the bristle never leaves `|x| <= 1`, and no damping is too much.
+#[test]
+fn property_1_is_sufficient_and_needlessly_strict() {
+    let kind = |damping: f64| [1e3, damping, 0.1, 1.0, 1.0, 0.1, 2.0];
+    let mild = verdict("lugre", &kind(3.9), &speed(1.0));
+    assert_eq!(mild.passive, Some(true));
+    assert_eq!(mild.condition, Condition::Resistance);
+    assert!(margin(&mild, Condition::Damping).lower >= 0.0);
+    let strong = verdict("lugre", &kind(50.0), &speed(1.0));
+    assert!(margin(&strong, Condition::Damping).upper.unwrap() < 0.0);
+    assert_eq!((strong.passive, strong.condition), (Some(true), Condition::Storage));
+    // Falling dry friction: the exact condition still holds where 4 D/|v| does not.
+    let found = verdict("lugre", &LUGRE_1995, &speed(0.03));
+    assert!(margin(&found, Condition::Damping).upper.unwrap() < 0.0);
+    assert_eq!((found.passive, found.condition), (Some(true), Condition::Cycle));
+}
+
+/// Barabanov and Ortega's `s2 > s1 (Fs - Fc)/Fc` is sufficient over any box.
+#[test]
+fn what_is_known_to_be_passive_is_certified_and_random_cycles_agree() {
+    let mut random = Random(23);
+    for _ in 0..40 {
+        let coulomb = random.between(0.5, 3.0);
+        let height = random.between(0.0, 2.0);
+        let damping = random.between(0.1, 100.0);
+        let viscous = damping * height / coulomb * 1.05 + 0.01;
+        let velocity = random.between(0.01, 0.3);
+        let values = [1e4, damping, viscous, coulomb, coulomb + height, velocity, 2.0];
+        let sides = speed(random.between(0.05, 3.0));
+        let found = verdict("lugre", &values, &sides);
+        assert_eq!(found.passive, Some(true), "{values:?} {sides:?} {found:?}");
+        let model = made("lugre").with(&values[..]).unwrap();
+        for _ in 0..2_000 {
+            let work = random_cycle(&model, &mut random, &sides);
+            assert!(work.is_none_or(|work| work >= -1e-15), "{values:?} {work:?}");
+        }
+    }
+}
+
+/// Models that a cycle inside the box breaks: found first by trying cycles, then by the check.
+#[test]
+fn what_a_random_cycle_breaks_is_called_not_passive() {
+    let mut random = Random(31);
+    let mut broken = 0;
+    while broken < 40 {
+        let coulomb = random.between(0.5, 3.0);
+        let damping = random.between(10.0, 500.0);
+        let height = random.between(0.3, 2.0);
+        let velocity = random.between(0.001, 0.05);
+        let values = [1e5, damping, 0.01, coulomb, coulomb + height, velocity, 2.0];
+        let sides = speed(random.between(0.1, 1.0));
+        let model = made("lugre").with(&values[..]).unwrap();
+        let breaks_here = |random: &mut Random| {
+            (0..2_000).any(|_| random_cycle(&model, random, &sides).is_some_and(|w| w < -1e-9))
+        };
+        if !breaks_here(&mut random) {
+            continue;
+        }
+        broken += 1;
+        let found = verdict("lugre", &values, &sides);
+        assert_eq!(found.passive, Some(false), "{values:?} {sides:?} {found:?}");
+        breaks(&model, &found);
+    }
+}
+
+/// The work of a cycle of a bristle between two random points, if it closes.
+#[allow(clippy::disallowed_methods)]
+fn random_cycle(model: &Composed<f64>, random: &mut Random, sides: &[Side]) -> Option<f64> {
+    let points = [random.point(sides), random.point(sides)];
+    let stiffness = model.deflection(&points[0]).unwrap().stiffness;
+    let strongest = model.split(&Sample::at(1e-9)).dry();
+    let ends = [0, 1].map(|_| random.between(-strongest, strongest) / stiffness);
+    let mut holds = Vec::new();
+    for (k, point) in points.into_iter().enumerate() {
+        // z tends to the end at the rate r, for a velocity that is held.
+        let rate = stiffness * point.velocity.abs() / model.split(&point).dry();
+        let end = point.velocity / rate;
+        let (from, to) = (ends[k], ends[1 - k]);
+        let duration = ((end - from) / (end - to)).ln() / rate;
+        if !(duration.is_finite() && duration > 0.0) {
+            return None;
+        }
+        holds.push(Hold { point, duration });
+    }
+    let (work, end) = work(model, Some(ends[0]), &holds);
+    // What is left in the bristle by rounding.
+    let left = stiffness * end.abs().max(ends[0].abs()) * (end - ends[0]).abs();
+    Some(work + left)
+}
+
+#[test]
+fn other_single_deflections() {
+    let dahl = verdict("dahl", &[1e4, 2.0, 1.5], &speed(1.0));
+    assert_eq!((dahl.passive, dahl.condition), (Some(true), Condition::Storage));
+    let bristle = verdict("coulomb+presliding", &[0.4, 1.0, 1e4, 10.0], &speed(0.3));
+    assert_eq!(bristle.passive, Some(true));
+    // The smoothed sign stops the bristle from unwinding in slow reversal.
+    let indri = [1e4, 0.1, 1.0, 0.1, 1e3, 1.0, 0.2, 1.0, 0.3, 0.0];
+    let mut sides = speed(1.0);
+    sides.push(side(Channel::Acceleration, -1.0, 1.0));
+    let found = verdict("indri_b", &indri, &sides);
+    assert_eq!(found.passive, Some(false), "{found:?}");
+    breaks(&made("indri_b").with(&indri[..]).unwrap(), &found);
+}
+
+#[test]
+fn what_cannot_be_decided_is_not_called_either() {
+    for law in [LawId::BlimanSorine, LawId::Leuven, LawId::Gms] {
+        let spec = Spec::new(law.info().id, []).unwrap();
+        let found = check(&spec, &common::values(&spec), &speed(1.0), BUDGET).unwrap();
+        assert_eq!((found.passive, found.condition), (None, Condition::Unknown), "{spec}");
+        assert_eq!(found.counterexample, None);
+    }
+    // Too few evaluations to tell.
+    let found = check(&made("lugre"), &LUGRE_1995, &speed(0.0375), 2_000).unwrap();
+    assert_eq!(found.passive, None);
+}
+
+#[test]
+fn elements_of_constant_strength_are_passive() {
+    let spec = made("gms:2");
+    let names: Vec<_> = spec.parameters().map(|p| p.name).collect();
+    let mut values = common::values(&spec);
+    let height = names.iter().position(|name| *name == "stribeck_height").unwrap();
+    values[height] = 0.0;
+    let found = check(&spec, &values, &speed(1.0), BUDGET).unwrap();
+    assert_eq!((found.passive, found.condition), (Some(true), Condition::Elements));
+}
+
+#[test]
+fn boxes_that_cannot_be_asked_are_refused() {
+    let refused = |spec: &str, values: &[f64], sides: &[Side]| {
+        check(&made(spec), values, sides, BUDGET).unwrap_err().to_string()
+    };
+    assert_eq!(refused("coulomb", &[0.5, 2.0], &[]), "the box has no range of velocity");
+    let spec = made("li");
+    let mut sides = wide();
+    sides[3] = side(Channel::Temperature, -5.0, 5.0);
+    assert_eq!(
+        refused("li", &common::values(&spec), &sides),
+        "the box holds 0 degC, where the law has no limit"
+    );
+    let weak = refused("lugre", &[1e4, 1.0, 0.1, 1.0, -0.5, 0.1, 2.0], &speed(1.0));
+    assert!(weak.starts_with("a bristle needs dry friction above zero"), "{weak}");
+}
+
+#[test]
+fn a_counterexample_leaves_a_state_that_steps_as_any_other() {
+    let model = made("lugre").with(&LUGRE_1995[..]).unwrap();
+    let found = verdict("lugre", &LUGRE_1995, &speed(0.05));
+    let example = found.counterexample.unwrap();
+    let mut state = State::deflected(example.deflection.unwrap());
+    let mut energy = 0.0;
+    for _ in 0..10 {
+        for hold in &example.holds {
+            let step = model.step(&mut state, &hold.point, hold.duration);
+            energy += step.mean_torque * hold.point.velocity * hold.duration;
+        }
+    }
+    assert!((energy - 10.0 * example.work).abs() < 1e-6 * energy.abs(), "{energy}");
+}
