@@ -21,7 +21,7 @@ from stribeck.diagnose.screen import STARTS
 from stribeck.diagnose.trial import SIGNIFICANCE, add_effect
 from stribeck.diagnose.words import where
 from stribeck.errors import FitError
-from stribeck.fit import Fit, fit
+from stribeck.fit import QUICK, Fit, fit
 from stribeck.identify.figures import rms
 
 MOST_STEPS = 8
@@ -187,6 +187,7 @@ def _superfluous(steps: tuple[Step, ...], least_fall: float, seed: int) -> str |
                 starts=1,
                 seed=seed,
                 transient=current.transient,
+                effort=QUICK,
             )
         except FitError:
             continue
