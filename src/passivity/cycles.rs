@@ -16,8 +16,8 @@ use crate::composed::Composed;
 use crate::scalar::Real;
 use crate::table::Channel;
 
-/// Evaluations that one range of forces gets before it is cut.
-const SHARE: usize = 600;
+/// Evaluations that a range of forces gets before it is cut, and by how much more each half gets.
+const SHARE: (usize, usize) = (600, 200);
 
 /// The forces that a bristle reaches, backwards and forwards (T).
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +53,7 @@ pub enum Outcome {
 /// A range of forces, and where in the box a cycle may still break the condition.
 struct Range {
     force: Enclosure,
+    share: usize,
     up: Vec<Region>,
     down: Vec<Region>,
 }
@@ -66,8 +67,12 @@ pub fn look(
     mut budget: usize,
 ) -> Outcome {
     let [low, high] = reach.outer;
-    let whole =
-        Range { force: Enclosure::new(low, high), up: regions.to_vec(), down: regions.to_vec() };
+    let whole = Range {
+        force: Enclosure::new(low, high),
+        share: SHARE.0,
+        up: regions.to_vec(),
+        down: regions.to_vec(),
+    };
     let mut open = vec![whole];
     let mut margin = f64::INFINITY;
     let mut by_cycles = false;
@@ -81,7 +86,7 @@ pub fn look(
             Bristled::of(model, region).map(|bristled| bristled.dissipated(along))
         };
         let mut dissipated = Search::over(regions, channels, &stored);
-        dissipated.run(SHARE, |s| s.lower() >= 0.0 || s.upper() < 0.0);
+        dissipated.run(range.share, |s| s.lower() >= 0.0 || s.upper() < 0.0);
         budget = budget.saturating_sub(dissipated.evaluations);
         if dissipated.lower() >= 0.0 {
             margin = margin.min(dissipated.lower());
@@ -91,10 +96,11 @@ pub fn look(
         let falling = |region: &Region| work(model, region, range.force, false);
         let mut up = Search::over(&range.up, channels, &rising);
         let mut down = Search::over(&range.down, channels, &falling);
-        refine(&mut up, &mut down);
+        refine(&mut up, &mut down, range.share);
         budget = budget.saturating_sub(up.evaluations + down.evaluations);
         let sum = up.lower() + down.lower();
-        if sum >= 0.0 {
+        // Infinity less infinity: the force never grows here, or never falls.
+        if sum >= 0.0 || sum.is_nan() {
             margin = margin.min(sum);
             by_cycles = true;
             continue;
@@ -111,15 +117,16 @@ pub fn look(
         for force in
             [Enclosure::new(range.force.lower, middle), Enclosure::new(middle, range.force.upper)]
         {
-            open.push(Range { force, up: up.clone(), down: down.clone() });
+            let share = range.share + SHARE.1;
+            open.push(Range { force, share, up: up.clone(), down: down.clone() });
         }
     }
     Outcome::Passive { margin, by_cycles }
 }
 
 /// Cuts on the side where more is unknown, until the sum is decided or the share used up.
-fn refine<'a>(up: &mut Search<'a>, down: &mut Search<'a>) {
-    while up.evaluations + down.evaluations < SHARE && up.lower() + down.lower() < 0.0 {
+fn refine<'a>(up: &mut Search<'a>, down: &mut Search<'a>, share: usize) {
+    while up.evaluations + down.evaluations < share && up.lower() + down.lower() < 0.0 {
         let unknown = |search: &Search<'_>| search.upper() - search.lower();
         // Infinity less infinity: nothing is known yet.
         let upwards = unknown(up).is_nan() || unknown(up) >= unknown(down);
@@ -144,7 +151,7 @@ fn breaking(
     let mut up = Search::over(&range.up, channels, &rising);
     let mut down = Search::over(&range.down, channels, &falling);
     let broken = |up: &Search<'_>, down: &Search<'_>| up.upper() + down.upper() < 0.0;
-    while !broken(&up, &down) && up.evaluations + down.evaluations < SHARE {
+    while !broken(&up, &down) && up.evaluations + down.evaluations < range.share {
         let (before_up, before_down) = (up.evaluations, down.evaluations);
         if up.lower() + down.lower() >= 0.0 {
             return None;

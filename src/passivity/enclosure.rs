@@ -307,7 +307,10 @@ impl Real for Enclosure {
         let corner = |x: f64, p: f64| Self::point(elementary::powf(x, p));
         let low = corner(base.lower, p.lower).hull(corner(base.lower, p.upper));
         let high = corner(base.upper, p.lower).hull(corner(base.upper, p.upper));
-        low.hull(high).growing(SLACK, |x| x).within(0.0, f64::INFINITY)
+        let power = low.hull(high).growing(SLACK, |x| x).within(0.0, f64::INFINITY);
+        // Laws put a large number in place of one that is beyond all.
+        let lower = if power.upper < f64::MAX { power.lower } else { power.lower.min(1e30) };
+        Self { lower, upper: power.upper }
     }
 
     fn sqrt(self) -> Self {

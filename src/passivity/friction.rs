@@ -35,6 +35,14 @@ impl Bristled {
         })
     }
 
+    /// The bristle's force along the motion in sliding (T).
+    pub fn strength(&self) -> Enclosure {
+        match self.approach {
+            Approach::Smoothed(sign) => self.dry * sign,
+            _ => self.dry,
+        }
+    }
+
     /// Whether the slope is `1 - x`, with `dz/dt = v - s0 |v|/D z`.
     pub fn is_linear(&self) -> bool {
         self.approach == Approach::Linear
@@ -89,18 +97,7 @@ impl Bristled {
 pub fn sliding(model: &Composed<Enclosure>, region: &Region) -> Enclosure {
     let direction = region.velocity.sign();
     match Bristled::of(model, region) {
-        Some(bristled) if model.has_state() => bristled.sliding(),
+        Some(bristled) if model.has_state() => bristled.strength() + bristled.resistance,
         _ => model.split(region).torque(direction) * direction,
-    }
-}
-
-impl Bristled {
-    /// With the bristle at the deflection at which it slides.
-    fn sliding(&self) -> Enclosure {
-        let strength = match self.approach {
-            Approach::Smoothed(sign) => self.dry * sign,
-            _ => self.dry,
-        };
-        strength + self.resistance
     }
 }

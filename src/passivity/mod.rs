@@ -31,12 +31,16 @@ use crate::table::Channel;
 use cycles::{Outcome, Reach};
 use enclosure::Enclosure;
 use friction::{Bristled, sliding};
-use region::{Point, Region, Side, pieces};
+use region::{Point, Region, Side, faster_than, pieces};
 use replay::Counterexample;
 use search::Search;
 
 /// How close a reported margin is to the least value, relative to it.
 const CLOSE: f64 = 1e-3;
+
+/// Share of the largest speed above which a counterexample is looked for first: one that a joint
+/// could carry out.
+const BRISK: f64 = 1e-3;
 
 /// What a proof rests on, or what stands in its way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -250,34 +254,44 @@ impl Task<'_> {
             return;
         }
         let reach = self.reach();
-        match cycles::look(&self.bounded, &self.regions, &self.channels, reach, self.budget) {
-            Outcome::Passive { margin, by_cycles } => {
-                verdict.passive = Some(true);
-                verdict.condition = if by_cycles { Condition::Cycle } else { Condition::Storage };
-                let condition = verdict.condition;
-                verdict.margins.push(Margin { condition, lower: margin, upper: None, point: None });
-            }
-            Outcome::Active { force, points: [up, down], sum } => {
-                verdict.condition = Condition::Cycle;
-                let found =
-                    replay::cycle(&self.exact, force, reach.inner, [&up, &down], self.speeds());
-                let margin = Margin {
-                    condition: Condition::Cycle,
-                    lower: f64::NEG_INFINITY,
-                    upper: Some(sum),
-                    point: None,
-                };
-                verdict.margins.push(margin);
-                if self.is_free() && found.is_some() {
-                    verdict.passive = Some(false);
-                    verdict.counterexample = found;
-                }
-            }
-            Outcome::Undecided(_) => verdict.condition = Condition::Cycle,
+        let [slowest, fastest] = self.speeds();
+        let brisk = faster_than(&self.regions, BRISK * fastest.max(-slowest));
+        let look = |regions: &[Region], budget| {
+            cycles::look(&self.bounded, regions, &self.channels, reach, budget)
+        };
+        verdict.condition = Condition::Cycle;
+        if self.broken_by(&look(&brisk, self.budget / 4), reach, verdict) {
+            return;
+        }
+        let found = look(&self.regions, self.budget);
+        if let Outcome::Passive { margin: lower, by_cycles } = found {
+            let condition = if by_cycles { Condition::Cycle } else { Condition::Storage };
+            verdict.margins.push(Margin { condition, lower, upper: None, point: None });
+            (verdict.passive, verdict.condition) = (Some(true), condition);
+        } else {
+            self.broken_by(&found, reach, verdict);
         }
     }
 
-    /// The largest dry friction in each direction is the largest force that is reached.
+    /// Whether a cycle has been found that gives off energy when it is carried out.
+    fn broken_by(&self, outcome: &Outcome, reach: Reach, verdict: &mut Verdict) -> bool {
+        let Outcome::Active { force, points: [up, down], sum } = outcome else { return false };
+        if !self.is_free() {
+            return false;
+        }
+        let cycle = replay::cycle(&self.exact, *force, reach.inner, [up, down], self.speeds());
+        let Some(cycle) = cycle else { return false };
+        verdict.margins.push(Margin {
+            condition: Condition::Cycle,
+            lower: f64::NEG_INFINITY,
+            upper: Some(*sum),
+            point: None,
+        });
+        (verdict.passive, verdict.counterexample) = (Some(false), Some(cycle));
+        true
+    }
+
+    /// The largest force of sliding in each direction is the largest that is reached.
     fn reach(&self) -> Reach {
         let strongest = |forward: bool| {
             let regions: Vec<_> = self
@@ -286,7 +300,8 @@ impl Task<'_> {
                 .filter(|region| (region.velocity.lower > 0.0) == forward)
                 .copied()
                 .collect();
-            let weakness = |region: &Region| Some(-self.bounded.split(region).dry());
+            let weakness =
+                |region: &Region| Bristled::of(&self.bounded, region).map(|b| -b.strength());
             let mut search = Search::over(&regions, &self.channels, &weakness);
             search.run(self.budget, |s| s.upper() - s.lower() <= 1e-6 * s.lower().abs());
             if regions.is_empty() { (0.0, 0.0) } else { (-search.lower(), -search.upper()) }

@@ -7,8 +7,8 @@ use super::enclosure::Enclosure;
 use crate::sample::Sample;
 use crate::table::Channel;
 
-/// What is smaller counts as zero: products of such numbers leave the range of numbers.
-pub const LEAST: f64 = 1e-100;
+/// What is smaller counts as zero: far below all that moves, far above where products underflow.
+pub const LEAST: f64 = 1e-30;
 
 /// A box of operating points; a channel that is not read is zero.
 pub type Region = Sample<Enclosure>;
@@ -127,6 +127,27 @@ pub fn halves(region: &Region, channel: Channel) -> Option<[Region; 2]> {
         let upper = Enclosure::new(cut, whole.upper);
         [with(region, channel, lower), with(region, channel, upper)]
     })
+}
+
+/// What of the regions is faster than this speed, either way.
+#[must_use]
+pub fn faster_than(regions: &[Region], speed: f64) -> Vec<Region> {
+    let fast = |region: &Region| {
+        let v = region.velocity;
+        let side = if v.lower > 0.0 {
+            Enclosure { lower: v.lower.max(speed), upper: v.upper }
+        } else {
+            Enclosure { lower: v.lower, upper: v.upper.min(-speed) }
+        };
+        (side.lower <= side.upper).then(|| with(region, Channel::Velocity, side))
+    };
+    regions.iter().filter_map(fast).collect()
+}
+
+/// The region without width in a channel.
+#[must_use]
+pub fn flattened(region: &Region, channel: Channel) -> Region {
+    with(region, channel, Enclosure::point(middle(get(region, channel))))
 }
 
 /// The middle, by ratio where the ends differ by decades.

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use std::vec::Vec;
 
 use super::enclosure::Enclosure;
-use super::region::{Point, Region, at, halves, probes};
+use super::region::{Point, Region, at, flattened, get, halves, probes};
 use crate::table::Channel;
 
 /// What is known of the least value of a function.
@@ -53,22 +53,8 @@ impl<'a> Search<'a> {
     /// Cuts the region with the lowest bound; `false` if nothing is left to cut.
     pub fn refine(&mut self) -> bool {
         let Some(leaf) = self.leaves.pop() else { return false };
-        let cuts: Vec<_> = self
-            .channels
-            .iter()
-            .filter_map(|&channel| halves(&leaf.region, channel))
-            .map(|halves| (self.lowest(&halves), halves))
-            .collect();
-        // Of all cuts the one after which the bound is best; of equal ones the widest first.
-        let best = cuts.into_iter().reduce(|best, cut| {
-            let better = match cut.0.total_cmp(&best.0) {
-                Ordering::Equal => self.breadth(&cut.1) > self.breadth(&best.1),
-                order => order == Ordering::Greater,
-            };
-            if better { cut } else { best }
-        });
-        match best {
-            Some((_, halves)) => {
+        match self.widest(&leaf.region) {
+            Some(halves) => {
                 halves.iter().for_each(|half| self.add(half));
                 true
             }
@@ -77,6 +63,21 @@ impl<'a> Search<'a> {
                 false
             }
         }
+    }
+
+    /// The halves along the channel that matters most: that without whose width the bound would be
+    /// highest. Where none shows, the relatively widest.
+    fn widest(&mut self, region: &Region) -> Option<[Region; 2]> {
+        self.evaluations += self.channels.len();
+        let cuts = self.channels.iter().filter_map(|&channel| {
+            let halves = halves(region, channel)?;
+            let flat = (self.function)(&flattened(region, channel));
+            let bound = flat.map_or(f64::INFINITY, |value| value.lower);
+            Some((bound, breadth(get(region, channel)), halves))
+        });
+        let order =
+            |a: &(f64, f64, _), b: &(f64, f64, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
+        cuts.max_by(order).map(|(_, _, halves)| halves)
     }
 
     /// Cuts until `enough`, or until the evaluations are used up.
@@ -93,23 +94,6 @@ impl<'a> Search<'a> {
         self.leaves.iter().filter(|leaf| leaf.lower < limit).map(|leaf| leaf.region).collect()
     }
 
-    fn lowest(&mut self, halves: &[Region; 2]) -> f64 {
-        self.evaluations += 2;
-        let bound = |half| (self.function)(half).map_or(f64::INFINITY, |value| value.lower);
-        halves.iter().map(bound).fold(f64::INFINITY, f64::min)
-    }
-
-    /// How much of the sign-definite ranges the halves still span, as a sum of relative widths.
-    fn breadth(&self, halves: &[Region; 2]) -> f64 {
-        let [low, high] = halves;
-        let sides = self.channels.iter().map(|&channel| {
-            let (a, b) = (super::region::get(low, channel), super::region::get(high, channel));
-            (b.upper - a.lower) / (b.upper.abs() + a.lower.abs() + f64::MIN_POSITIVE)
-                * f64::from(u8::from(a != b))
-        });
-        sides.sum()
-    }
-
     fn add(&mut self, region: &Region) {
         self.evaluations += 1;
         let Some(value) = (self.function)(region) else { return };
@@ -123,6 +107,11 @@ impl<'a> Search<'a> {
         }
         self.leaves.push(Leaf { lower: value.lower, region: *region });
     }
+}
+
+/// Relative width: 1 where the ends differ by decades.
+fn breadth(side: Enclosure) -> f64 {
+    (side.upper - side.lower) / side.upper.abs().max(side.lower.abs()).max(f64::MIN_POSITIVE)
 }
 
 impl Ord for Leaf {

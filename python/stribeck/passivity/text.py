@@ -22,7 +22,7 @@ UNITS = {"temperature": "degC", "time": "s"}
 
 
 #: Torques below are what viscous friction leaves next to rest.
-REST = 1e-30
+REST = 1e-20
 
 
 def certificate_text(certificate: Certificate) -> str:
