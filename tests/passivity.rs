@@ -361,6 +361,45 @@ fn other_single_deflections() {
     breaks(&made("indri_b").with(&indri[..]).unwrap(), &found);
 }
 
+/// Of each law with a single deflection that is certified: from a joint without tension, random
+/// motions of the box never take out more than they have put in, and where the storage is that of
+/// the spring, they have put in at least as much.
+#[test]
+fn random_motions_agree_with_certificates() {
+    let sides = wide();
+    let mut random = Random(41);
+    let laws = ["lugre", "tadese_t", "tadese_full", "xiao", "dahl", "elastoplastic"];
+    let mut certified = 0;
+    for name in laws {
+        let spec = Spec::new(name, []).unwrap();
+        let values = common::values(&spec);
+        let model = spec.with(&values[..]).unwrap();
+        let found = check(&spec, &values, &sides, BUDGET).unwrap();
+        if found.passive != Some(true) {
+            breaks(&model, &found);
+            continue;
+        }
+        certified += 1;
+        for _ in 0..500 {
+            let (mut state, mut work, mut effort) = (State::default(), 0.0, 0.0);
+            for _ in 0..40 {
+                let point = random.point(&sides);
+                let duration = random.between(0.0, 0.02);
+                let step = model.step(&mut state, &point, duration);
+                let taken = step.mean_torque * point.velocity * duration;
+                work += taken;
+                effort += taken.abs();
+            }
+            let stiffness = model.deflection(&Sample::at(1.0)).unwrap().stiffness;
+            let spring = 0.5 * stiffness * state.bristle.z * state.bristle.z;
+            let stored = if found.condition == Condition::Cycle { 0.0 } else { spring };
+            // The elastoplastic step is right to 6e-6 of the dry friction.
+            assert!(work - stored >= -2e-5 * effort, "{name}: {work} {stored}");
+        }
+    }
+    assert!(certified >= 4, "{certified}");
+}
+
 #[test]
 fn what_cannot_be_decided_is_not_called_either() {
     for law in [LawId::BlimanSorine, LawId::Leuven, LawId::Gms] {
