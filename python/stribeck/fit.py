@@ -11,7 +11,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from stribeck.errors import FitError
+from stribeck.errors import FitError, StribeckError
 from stribeck.identify.choices import Choices
 from stribeck.identify.estimates import Errors, Estimate, estimates
 from stribeck.identify.figures import relative_residual, rms, torque_cutoff
@@ -78,6 +78,17 @@ class Fit:
         """The rows that the parameters were fitted to."""
         return np.flatnonzero(self.recording.moving & ~self.transient)
 
+    @property
+    def passive(self) -> bool | None:
+        """Whether friction gives off no energy over the ranges seen; None where undecided."""
+        from stribeck.passivity import check
+
+        try:
+            return check(self.model).passive
+        except StribeckError:
+            # A box over which the law has no limit, or a bristle without dry friction.
+            return None
+
     def to_dict(self) -> dict[str, Any]:
         """The contract's JSON of `stribeck fit`."""
         return {
@@ -94,7 +105,7 @@ class Fit:
             "evaluations": self.evaluations,
             "seconds": self.seconds,
             "errors": self.errors,
-            "passive": None,
+            "passive": self.passive,
             "rigid_body": list(self.model.rigid_body),
             "drive": self.model.drive,
             "formulas": {terms.name: terms.text for terms in self.model.own},

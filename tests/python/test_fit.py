@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -382,3 +383,11 @@ def test_a_law_of_the_load_finds_the_load_by_itself(tmp_path: Path) -> None:
     assert fit.rmse_held_out == pytest.approx(0.03, rel=0.05)
     assert fit.estimates["load_coulomb"].value == pytest.approx(0.15, abs=0.01)
     assert fit.estimates["inertia"].value == pytest.approx(0.3, abs=0.02)
+
+
+def test_a_fit_says_whether_it_is_passive(plain: sb.Recording) -> None:
+    """A model that pushes in one direction more than friction holds in the other gives energy."""
+    assert sb.fit("coulomb", plain).passive is True
+    pushing = sb.model("gaz_a", a1=0.1, a2=-1.0, a3=5.0, a4=50.0, a5=0.0)
+    box = {"velocity": (-1.0, 1.0)}
+    assert replace(sb.fit("coulomb", plain), model=replace(pushing, box=box)).passive is False

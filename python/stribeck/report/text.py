@@ -73,6 +73,14 @@ STOPPED = {
 }
 
 
+PASSIVITY = {
+    True: "Passive: proved that this friction gives off no energy over the ranges seen.",
+    False: "Not passive: somewhere in the ranges seen this friction gives off energy (stribeck "
+    "check shows where).",
+    None: "Whether this friction gives off energy over the ranges seen cannot be decided.",
+}
+
+
 def paragraph(text: str, indent: int = 2, hang: int = 0) -> str:
     """`text` wrapped to the width, each line indented."""
     first = " " * indent
@@ -296,6 +304,7 @@ def fit_text(fit: Fit) -> str:
             if e.why is not None
         ),
         _errors_text(fit),
+        paragraph(PASSIVITY[fit.passive]),
         trouble,
         notes_text(r.notes, fit.notes),
     )
