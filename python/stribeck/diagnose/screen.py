@@ -33,6 +33,8 @@ STARTS_ON_ALL_ROWS = 3
 ROWS, SAMPLES = 3000, 6000
 #: Steps from each start, and from the best of them.
 FIRST_STEPS, FURTHER_STEPS = 3, 20
+#: The latter on all rows: a fit that is worth it goes on from there.
+FURTHER_STEPS_ON_ALL_ROWS = 4
 #: A step that foresees a smaller relative fall of the squared error ends a search.
 TOLERANCE = 1e-6
 
@@ -127,8 +129,9 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
         varied = np.zeros_like(varied)
     random = np.random.default_rng(seed)
     tried = []
-    most = STARTS if problem.model.memoryless or problem.span else STARTS_ON_ALL_ROWS
-    for k in range(most if varied.any() else 1):
+    few = problem.model.memoryless or problem.rows.size <= SAMPLES
+    starts = STARTS if few else STARTS_ON_ALL_ROWS
+    for k in range(starts if varied.any() else 1):
         at = start.copy()
         if k > 0:
             drawn = start.copy()
@@ -138,7 +141,8 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     best = min(tried, key=lambda search: search.square)
     if not nonlinear.any():
         return best
-    return _steps(problem, best.values, lower, upper, FURTHER_STEPS)
+    further = FURTHER_STEPS if few else FURTHER_STEPS_ON_ALL_ROWS
+    return _steps(problem, best.values, lower, upper, further)
 
 
 def _steps(problem: Problem, at: Array, lower: Array, upper: Array, most: int) -> Search:
