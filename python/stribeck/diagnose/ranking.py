@@ -19,6 +19,7 @@ from stribeck.diagnose.trial import (
 )
 from stribeck.diagnose.words import where
 from stribeck.fit import Fit
+from stribeck.model import catalog
 
 #: An effect that brings this share of the best one's fall, and nothing beside it, is its like.
 ALIKE = 0.9
@@ -40,8 +41,9 @@ def findings(
         and not adds_to(best, t, tried, least, seed)
     }
     tied = [best] + [t for t in good if t.effect in same]
-    # Of those within the standard error the simplest comes first.
-    tied.sort(key=lambda t: (statistic[t.effect] > SIMPLEST, t.parameters, t.rank))
+    # The simplest comes first of those that serve as well as the best.
+    serves = {t.effect: _serves(t, best, statistic[t.effect], tried, least, seed) for t in tied}
+    tied.sort(key=lambda t: (not serves[t.effect], t.parameters, t.rank))
     ordered = tied + [t for t in good if t not in tied]
     first = refined(ordered[0], before, seed)
     if not (passes(first, tried, least) and reported_fall(before, first)):
@@ -71,6 +73,27 @@ def findings(
             )
         )
     return tuple(made)
+
+
+def _serves(
+    trial: Trial, best: Trial, statistic: float, tried: int, least: float, seed: int
+) -> bool:
+    """Whether an effect may stand for the best one.
+
+    Within a standard error of it; or within two, where the best adds nothing beside it. A cause
+    outside the friction needs the former to stand for friction, which is known to vary.
+    """
+    if trial is best or statistic <= SIMPLEST:
+        return True
+    if statistic > TIE or trial.parameters >= best.parameters:
+        return False
+    if _is_friction(best.effect) and not _is_friction(trial.effect):
+        return False
+    return not adds_to(trial, best, tried, least, seed)
+
+
+def _is_friction(effect: str) -> bool:
+    return catalog()["effects"].get(effect, {}).get("group", "friction") == "friction"
 
 
 def share_of_unexplained(before: Fit, after: Fit, floor: NoiseFloor) -> float | None:
