@@ -89,6 +89,7 @@ def demo() -> None:
 def test() -> None:
     run("cargo", "test", "--quiet", "--locked")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
+    run(PYTHON, "-m", "pytest", "-q", "--doctest-modules", "python/stribeck")
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow", *sys.argv[2:])
 
 
