@@ -17,9 +17,8 @@ from stribeck.diagnose.trial import (
     tie_statistic,
     tie_weight,
 )
-from stribeck.diagnose.words import where
+from stribeck.diagnose.words import is_friction, where
 from stribeck.fit import Fit
-from stribeck.model import catalog
 
 #: An effect that brings this share of the best one's fall, and nothing beside it, is its like.
 ALIKE = 0.9
@@ -87,13 +86,9 @@ def _serves(
         return True
     if statistic > TIE or trial.parameters >= best.parameters:
         return False
-    if _is_friction(best.effect) and not _is_friction(trial.effect):
+    if is_friction(best.effect) and not is_friction(trial.effect):
         return False
     return not adds_to(trial, best, tried, least, seed)
-
-
-def _is_friction(effect: str) -> bool:
-    return catalog()["effects"].get(effect, {}).get("group", "friction") == "friction"
 
 
 def share_of_unexplained(before: Fit, after: Fit, floor: NoiseFloor) -> float | None:

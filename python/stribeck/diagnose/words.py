@@ -32,9 +32,12 @@ def where(effect: str, before: Fit, after: Fit) -> str:
         found = (f"{n} = {number(after.model.value(n))}" for n in own.names)
         return f"{own.text} fits with {', '.join(found)}"
     sentence = SENTENCES[effect](before, after)
-    if catalog()["effects"][effect]["group"] in ELSEWHERE:
-        return f"this is not friction: {sentence}"
-    return sentence
+    return sentence if is_friction(effect) else f"this is not friction: {sentence}"
+
+
+def is_friction(effect: str) -> bool:
+    """Whether the cause lies in the friction; of an effect by formula that is taken for granted."""
+    return catalog()["effects"].get(effect, {}).get("group") not in ELSEWHERE
 
 
 def physically(effect: str, model: Model) -> str:
