@@ -59,6 +59,13 @@ LIMITED = (
 )
 
 
+#: Hidden effects that a limited motion shows as others: those may be named instead.
+SHOWN_AS = {
+    ("constant_load", "gain"): ("offset", "gravity", "direction"),
+    ("warm_up_only", "drift"): ("temperature_dry",),
+}
+
+
 @dataclass(frozen=True)
 class Case:
     """One recording to make, and how it is judged."""
@@ -130,8 +137,9 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
     """Compare the JSON of `improve` with the truth.
 
     Hidden effects must be named, or listed as indistinguishable from what was named; nothing else
-    may be added; the held-out error must end at the noise, not above and not below; what the motion
-    cannot show must be listed as untestable and never claimed.
+    may be added, but what a motion shows in place of the hidden effect; the held-out error must end
+    at the noise, not above and not below; what the motion cannot show must be listed as untestable
+    and never claimed, and what it leaves in the error must not be called noise.
     """
     steps = answer["steps"]
     found = [s["effect"] for s in steps]
@@ -144,6 +152,7 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
     def names(step: dict[str, Any]) -> set[str]:
         return {step["effect"], *step.get("indistinguishable_from", [])}
 
+    shown_as = {e for h in hidden for e in SHOWN_AS.get((truth["limit"], h), ())}
     open_effects = list(visible)
     if open_effects and not found:
         problems.append(f"nothing found, hidden: {visible}")
@@ -152,7 +161,7 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
         match = match or [e for e in open_effects if e in names(step)]
         if match:
             open_effects.remove(match[0])
-        else:
+        elif step["effect"] not in shown_as:
             which = "first" if i == 0 else "further"
             problems.append(f"{which} step {step['effect']} is not hidden: {visible or 'nothing'}")
     if open_effects and found:
@@ -168,6 +177,7 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
     if wrong:
         problems.append(f"visible but listed as untestable: {wrong}")
     ratio = answer["final"]["rmse_held_out"] / truth["noise_rms"]
-    if not 0.95 <= ratio <= 1.05:
+    unseen = set(hidden) & cannot and answer["stopped"] != "noise_floor"
+    if not 0.95 <= ratio <= 1.05 and not (unseen and ratio > 1.05):
         problems.append(f"held-out RMSE is {ratio:.3f} of the noise")
     return Verdict(problems, found, ratio, not silent and not wrong)

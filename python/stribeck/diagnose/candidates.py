@@ -16,6 +16,7 @@ from stribeck.diagnose.trial import (
     passes,
     promises,
     reported_fall,
+    served_by_two,
     try_beyond,
     try_effect,
 )
@@ -63,7 +64,8 @@ def tried_on(
 ) -> tuple[list[Trial], int]:
     """Trials that pass, the best first, and how many effects were looked at.
 
-    An effect that contains a simpler one is tried on top of it, where that one passes.
+    An effect that contains a simpler one is tried on top of it, where that one passes; it counts if
+    no other effect does the same there with fewer parameters.
     """
     alone = [effect for effect in possible if _contained(effect, fitted.model) is None]
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
@@ -75,7 +77,10 @@ def tried_on(
         simpler = next((t for t in trials if t.effect == _contained(effect, fitted.model)), None)
         if simpler is not None and passes(simpler, tried, least):
             beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
-            if beyond is not None and passes(beyond[0], tried, least):
+            if beyond is None or not passes(beyond[0], tried, least):
+                continue
+            others = [t for t in trials if t is not simpler and passes(t, tried, least)]
+            if not served_by_two(simpler, beyond[1], others, least, seed):
                 trials.append(beyond[1])
     good = [
         trial

@@ -21,6 +21,10 @@ Array = NDArray[np.float64]
 
 NEIGHBOURS = 40
 FEWEST_PAIRS = 300
+#: Samples over which a residual must last to be smooth in time.
+SMOOTH = 10.0
+#: Strokes of travel below which hardly a position is passed twice.
+ONCE = 1.5
 
 
 @dataclass(frozen=True)
@@ -40,10 +44,17 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     residual = fit.residual[rows]
     if residual.size < FEWEST_PAIRS:
         return NoiseFloor(None, f"too few moving rows ({residual.size}) to compare repeats")
+    lasting = correlation_length(residual)
+    if lasting > SMOOTH and _passes_once(fit):
+        why = (
+            "what is left is smooth in time and the joint passes no position twice, so that slow "
+            "noise cannot be told from a torque that varies along the stroke"
+        )
+        return NoiseFloor(None, why)
     features = state_features(fit, rows)
     step = -(-residual.size // 20000)
     index = np.arange(0, residual.size, step)
-    apart = max(4.0 * correlation_length(residual), 20.0) / step
+    apart = max(4.0 * lasting, 20.0) / step
     tree = cKDTree(features[index])
     distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1)
     far = np.abs(neighbour - np.arange(index.size)[:, None]) > apart
@@ -58,6 +69,15 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     # The nearest half tells most about zero distance.
     near = gap <= np.median(gap)
     return NoiseFloor(float(min(np.sqrt(_at_zero(gap[near], gamma[near])), fit.rmse)))
+
+
+def _passes_once(fit: Fit) -> bool:
+    """Whether the joint only moves on, or there and half the way back."""
+    r = fit.recording
+    if r.position is None:
+        return False
+    travel = float(np.sum(np.abs(r.velocity[r.moving]) * r.dt[r.moving]))
+    return travel < ONCE * float(np.ptp(r.position[r.moving]))
 
 
 def _at_zero(gap: Array, gamma: Array) -> float:

@@ -60,7 +60,8 @@ def diagnose(
     found = findings(fitted, good, tried, least_fall, floor, seed)
     if brief and found:
         return Diagnosis(fitted, floor, "missing", found, could_be.untestable, NOT_ASKED)
-    could = explainable(fitted, best)
+    # Where nothing repeats, a regressor can learn nothing that lasts.
+    could = None if floor.value is None else explainable(fitted, best)
     left = unexplained(best, floor, could, last=not found)
     verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
     shown = visibility(

@@ -100,8 +100,8 @@ def _columns(effect: str, fit: Fit, v: Array, sign: Array, speed: Array) -> list
         return [sign * np.cos(k * np.pi * u) for k in range(1, 15)]
     if effect == "spring" and r.position is not None:
         u = (r.position[rows] - r.position[rows].min()) / (np.ptp(r.position[rows]) or 1.0)
-        # Slower than a ripple, and without the constant: that is an offset.
-        return [np.cos(k * np.pi * u) for k in range(1, 2 * FEWEST_PERIODS)]
+        # Slower than a ripple; with a constant, for nobody knows where the spring is at rest.
+        return [np.cos(k * np.pi * u) for k in range(2 * FEWEST_PERIODS)]
     if effect == "ripple" and r.position is not None:
         phase = 2.0 * np.pi * r.position[rows] / ripple_period_of(fit.model)
         return [wave(k * phase) for k in (3, 4) for wave in (np.cos, np.sin)]

@@ -125,6 +125,25 @@ def try_beyond(
     return beyond, Trial(effect, beyond.fit, evidence(before, beyond.fit))
 
 
+def served_by_two(
+    simpler: Trial, beyond: Trial, others: list[Trial], least: float, seed: int
+) -> bool:
+    """Whether `simpler` and one of `others` do what `beyond`, which contains `simpler`, does.
+
+    With fewer parameters, and within a standard error of its held-out error: a load dependence that
+    differs between motoring and generating, say, equals one that does not and a wrong torque
+    constant.
+    """
+    for other in others:
+        wider = widened(simpler.fit, other.fit.model.written(other.effect))
+        if len(wider.names) >= beyond.parameters:
+            continue
+        both = _try_more(simpler.fit, other.fit.model.written(other.effect), least, seed)
+        if both is not None and tie_statistic(beyond, both) <= SIMPLEST:
+            return True
+    return False
+
+
 def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
     """Try an effect if it promises something."""
     found = screened(before, effect, seed=seed)

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         Explainable,
         Finding,
         Group,
+        NoiseFloor,
         SmallestVisible,
         Unexplained,
         Untestable,
@@ -72,6 +73,9 @@ STOPPED = {
     "max_steps": "Stopped at the largest number of steps allowed; more effects may be missing.",
 }
 
+#: An error of all rows within this ratio of the noise floor is at it; a held-out error from this
+#: ratio of it on is larger.
+AT_THE_NOISE, FORETOLD = 1.05, 1.1
 
 PASSIVITY = {
     True: "Passive: proved that this friction gives off no energy over the ranges seen.",
@@ -517,6 +521,19 @@ def left_text(left: Unexplained) -> str:
     )
 
 
+def foretold_text(fitted: Fit, floor: NoiseFloor) -> str:
+    """Why the held-out error exceeds the noise where the error of all rows does not."""
+    if floor.value is None or fitted.rmse_held_out is None:
+        return ""
+    if fitted.rmse > AT_THE_NOISE * floor.value or fitted.rmse_held_out < FORETOLD * fitted.rmse:
+        return ""
+    return (
+        f"Fitted to all rows {fitted.model.spec} leaves {plain(fitted.rmse)} "
+        f"{fitted.model.torque_unit}, the noise: the held-out error is larger because a part of "
+        "the recording shows what no other part foretells. A longer recording would settle it."
+    )
+
+
 def explainable_text(explainable: Explainable | None, spec: str, unit: str) -> str:
     """How much of what the channels could show a model explains."""
     if explainable is None:
@@ -692,9 +709,10 @@ def improvement_text(improvement: Improvement) -> str:
         paragraph(summary_sentence(improvement), 0),
         paragraph(f"Held-out error after each step ({held_out_meaning(r)}):", 0)
         + f"\n\n{improvement_bars(improvement)}",
-        _floor_sentence(None, floor.why, unit) if floor.value is None else "",
+        paragraph(_floor_sentence(None, floor.why, unit), 0) if floor.value is None else "",
         ("Found, in this order:\n\n" + steps) if steps else "",
         paragraph(f"{stopped} {left_text(improvement.unexplained)}", 0),
+        paragraph(foretold_text(final, floor), 0),
         paragraph(explainable_text(improvement.last.explainable, final.model.spec, unit), 0),
         f"The model now: {final.model.spec}\n\n{parameters_text(final.estimates)}",
         _errors_text(final),
