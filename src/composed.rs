@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
-use crate::dynamics::{Approach, Bristle, Deflection, Interval, Memory, State, Step};
+use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
 use crate::error::ModelError;
 use crate::formula::{Formula, OwnTerms};
 use crate::sample::{Sample, Split};
@@ -322,11 +322,9 @@ impl<S: Real> Composed<S> {
     #[must_use]
     pub fn deflection(&self, sample: &Sample<S::Plain>) -> Option<Deflection<S>> {
         match &self.bristle {
-            Some(bristle) => Some(Deflection {
-                stiffness: bristle.stiffness,
-                drag: bristle.damping.scale(sample.velocity.abs()),
-                approach: Approach::Linear,
-            }),
+            Some(bristle) => {
+                Some(Deflection::of_bristle(bristle.stiffness, bristle.damping, sample.velocity))
+            }
             None => self.law.deflection(sample, &self.constants),
         }
     }

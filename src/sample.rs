@@ -1,6 +1,7 @@
 //! What a law sees at one instant, and what it makes of it.
 
 use crate::scalar::Real;
+use crate::table::Channel;
 
 /// One instant. Rotary joints: rad, N m; prismatic joints: m, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +25,25 @@ pub struct Sample<S> {
     pub external_torque: S,
     /// Time since the start of the recording (s).
     pub time: S,
+}
+
+impl<S: Copy> Sample<S> {
+    /// One of its channels.
+    #[inline]
+    #[must_use]
+    pub fn channel(&self, channel: Channel) -> S {
+        match channel {
+            Channel::Velocity => self.velocity,
+            Channel::Position => self.position,
+            Channel::Acceleration => self.acceleration,
+            Channel::Temperature => self.temperature,
+            Channel::LoadTorque => self.load_torque,
+            Channel::LoadTorqueCurvature => self.load_torque_curvature,
+            Channel::MotorTorque => self.motor_torque,
+            Channel::ExternalTorque => self.external_torque,
+            Channel::Time => self.time,
+        }
+    }
 }
 
 impl<S: Real> Sample<S> {

@@ -207,7 +207,7 @@ impl Program {
                 Some(&parameter) => Value::Full(parameter),
                 None => Value::zero(),
             },
-            Operation::Channel(channel) => Value::Known(channel_of(sample, channel)),
+            Operation::Channel(channel) => Value::Known(sample.channel(channel)),
             Operation::Negate => match stack.pop() {
                 Value::Known(x) => Value::Known(-x),
                 Value::Full(x) => Value::Full(-x),
@@ -363,19 +363,4 @@ fn integer_power<R: Real>(x: R, n: i8) -> R {
     }
     let power = power.unwrap_or_else(R::one);
     if n < 0 { R::one() / power } else { power }
-}
-
-#[inline]
-fn channel_of<P: Real>(sample: &Sample<P>, channel: Channel) -> P {
-    match channel {
-        Channel::Velocity => sample.velocity,
-        Channel::Position => sample.position,
-        Channel::Acceleration => sample.acceleration,
-        Channel::Temperature => sample.temperature,
-        Channel::LoadTorque => sample.load_torque,
-        Channel::LoadTorqueCurvature => sample.load_torque_curvature,
-        Channel::MotorTorque => sample.motor_torque,
-        Channel::ExternalTorque => sample.external_torque,
-        Channel::Time => sample.time,
-    }
 }

@@ -1,6 +1,6 @@
 use super::FrictionLaw;
 use crate::constants::Constants;
-use crate::dynamics::{Approach, Bristle, Deflection, Interval, State, Step};
+use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split, stribeck_curve};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
@@ -55,11 +55,8 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Option<Deflection<S>> {
-        Some(Deflection {
-            stiffness: self.bristle_stiffness,
-            drag: self.bristle_damping.scale(sample.velocity.abs()),
-            approach: Approach::Linear,
-        })
+        let (s0, s1) = (self.bristle_stiffness, self.bristle_damping);
+        Some(Deflection::of_bristle(s0, s1, sample.velocity))
     }
 
     #[inline]

@@ -1,7 +1,7 @@
 use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
-use crate::dynamics::{Approach, Bristle, Deflection, Interval, State, Step};
+use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Quadrant, Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
@@ -200,11 +200,8 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Option<Deflection<S>> {
-        Some(Deflection {
-            stiffness: self.bristle_stiffness,
-            drag: self.damping(sample.velocity).scale(sample.velocity.abs()),
-            approach: Approach::Linear,
-        })
+        let (s0, v) = (self.bristle_stiffness, sample.velocity);
+        Some(Deflection::of_bristle(s0, self.damping(v), v))
     }
 
     #[inline]

@@ -1,7 +1,7 @@
 use super::FrictionLaw;
 use super::curves::{gaussian_curve, saturation};
 use crate::constants::Constants;
-use crate::dynamics::{Approach, Bristle, Deflection, Interval, State, Step};
+use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
@@ -88,11 +88,8 @@ impl<S: Real> FrictionLaw<S> for TadeseT<S> {
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
     ) -> Option<Deflection<S>> {
-        Some(Deflection {
-            stiffness: self.bristle_stiffness,
-            drag: self.bristle_damping.scale(sample.velocity.abs()),
-            approach: Approach::Linear,
-        })
+        let (s0, s1) = (self.bristle_stiffness, self.bristle_damping);
+        Some(Deflection::of_bristle(s0, s1, sample.velocity))
     }
 
     #[inline]

@@ -58,21 +58,6 @@ fn parts(side: &Side) -> Vec<Enclosure> {
     parts
 }
 
-/// A channel of a sample.
-pub fn get<P: Copy>(sample: &Sample<P>, channel: Channel) -> P {
-    match channel {
-        Channel::Velocity => sample.velocity,
-        Channel::Position => sample.position,
-        Channel::Acceleration => sample.acceleration,
-        Channel::Temperature => sample.temperature,
-        Channel::LoadTorque => sample.load_torque,
-        Channel::LoadTorqueCurvature => sample.load_torque_curvature,
-        Channel::MotorTorque => sample.motor_torque,
-        Channel::ExternalTorque => sample.external_torque,
-        Channel::Time => sample.time,
-    }
-}
-
 fn with(region: &Region, channel: Channel, part: Enclosure) -> Region {
     let mut changed = *region;
     let own = match channel {
@@ -120,7 +105,7 @@ pub fn probes(region: &Region) -> [Point; 3] {
 /// Both halves of a region along a channel; `None` where there is nothing between its ends.
 #[must_use]
 pub fn halves(region: &Region, channel: Channel) -> Option<[Region; 2]> {
-    let whole = get(region, channel);
+    let whole = region.channel(channel);
     let cut = middle(whole);
     (whole.lower < cut && cut < whole.upper).then(|| {
         let lower = Enclosure::new(whole.lower, cut);
@@ -147,7 +132,7 @@ pub fn faster_than(regions: &[Region], speed: f64) -> Vec<Region> {
 /// The region without width in a channel.
 #[must_use]
 pub fn flattened(region: &Region, channel: Channel) -> Region {
-    with(region, channel, Enclosure::point(middle(get(region, channel))))
+    with(region, channel, Enclosure::point(middle(region.channel(channel))))
 }
 
 /// The middle, by ratio where the ends differ by decades.

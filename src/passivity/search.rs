@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 use std::vec::Vec;
 
 use super::enclosure::Enclosure;
-use super::region::{Point, Region, at, flattened, get, halves, probes};
+use super::region::{Point, Region, at, flattened, halves, probes};
 use crate::table::Channel;
 
 /// What is known of the least value of a function.
@@ -73,7 +73,7 @@ impl<'a> Search<'a> {
             let halves = halves(region, channel)?;
             let flat = (self.function)(&flattened(region, channel));
             let bound = flat.map_or(f64::INFINITY, |value| value.lower);
-            Some((bound, breadth(get(region, channel)), halves))
+            Some((bound, breadth(region.channel(channel)), halves))
         });
         let order =
             |a: &(f64, f64, _), b: &(f64, f64, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));

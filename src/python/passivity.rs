@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyList};
 use super::columns::{Array, contiguous};
 use super::model::Model;
 use super::{ModelError, refuse};
-use crate::passivity::region::{Point, Side, get};
+use crate::passivity::region::{Point, Side};
 use crate::passivity::replay::{self, Counterexample, Hold};
 use crate::passivity::{Verdict, check};
 use crate::table::Channel;
@@ -117,7 +117,7 @@ fn point<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let row = PyDict::new(py);
     for &channel in channels {
-        row.set_item(channel.name(), get(point, channel))?;
+        row.set_item(channel.name(), point.channel(channel))?;
     }
     Ok(row)
 }

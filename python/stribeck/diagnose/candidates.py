@@ -8,11 +8,11 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
+from stribeck.diagnose.beside import FreerShape
 from stribeck.diagnose.screen import screened
 from stribeck.diagnose.testable import Untestable, untestable
 from stribeck.diagnose.trial import (
     Trial,
-    explained_by_shape,
     passes,
     promises,
     reported_fall,
@@ -20,10 +20,11 @@ from stribeck.diagnose.trial import (
     try_beyond,
     try_effect,
 )
+from stribeck.diagnose.widen import contained
 from stribeck.fit import Fit, own_load
 from stribeck.formula_law import effect_name
 from stribeck.identify.scaling import check_channels
-from stribeck.model import Model, catalog, effect_ids
+from stribeck.model import effect_ids
 
 
 @dataclass(frozen=True)
@@ -67,14 +68,14 @@ def tried_on(
     An effect that contains a simpler one is tried on top of it, where that one passes; it counts if
     no other effect does the same there with fewer parameters.
     """
-    alone = [effect for effect in possible if _contained(effect, fitted.model) is None]
+    alone = [effect for effect in possible if contained(effect, fitted.model) is None]
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         looked_at = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
         promising = [s for s in looked_at if promises(s, least)]
         trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]
     tried = max(len(looked_at), 1)
     for effect in possible:
-        simpler = next((t for t in trials if t.effect == _contained(effect, fitted.model)), None)
+        simpler = next((t for t in trials if t.effect == contained(effect, fitted.model)), None)
         if simpler is not None and passes(simpler, tried, least):
             beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
             if beyond is None or not passes(beyond[0], tried, least):
@@ -82,17 +83,8 @@ def tried_on(
             others = [t for t in trials if t is not simpler and passes(t, tried, least)]
             if not served_by_two(simpler, beyond[1], others, least, seed):
                 trials.append(beyond[1])
-    good = [
-        trial
-        for trial in trials
-        if passes(trial, tried, least)
-        and reported_fall(fitted, trial)
-        and not explained_by_shape(fitted, trial, tried, least)
-    ]
+    good = [t for t in trials if passes(t, tried, least) and reported_fall(fitted, t)]
+    shape = FreerShape.of(fitted) if good else None
+    if shape is not None:
+        good = [t for t in good if not shape.explains(t, tried, least)]
     return sorted(good, key=lambda trial: trial.rank), tried
-
-
-def _contained(effect: str, model: Model) -> str | None:
-    """The simpler effect that `effect` contains and `model` lacks, if there is one."""
-    simpler: str | None = catalog()["effects"].get(effect, {}).get("beyond")
-    return None if simpler is None or model.has(simpler) else simpler

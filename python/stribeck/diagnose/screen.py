@@ -13,15 +13,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.diagnose.widen import widening
 from stribeck.errors import StribeckError
 from stribeck.fit import Fit, own_load
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import ReducedProblem, Search
-from stribeck.identify.scaling import bounds, effect_constants, model_for
+from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.separable import CAUTIOUS, minimise
-from stribeck.model import Model, catalog
+from stribeck.model import Model
 
 Array = NDArray[np.float64]
 
@@ -67,13 +68,7 @@ def widened(before: Fit, effect: str) -> Model:
         The effect is unknown, or in the model already.
     """
     load = own_load(before.model, before.recording)
-    wider = before.model
-    simpler = catalog()["effects"].get(effect, {}).get("beyond")
-    for one in (simpler, effect):
-        if one == effect or (one is not None and not wider.has(one)):
-            constants = effect_constants(one, before.recording, load, before.residual)
-            wider = wider.with_effect(one, constants)
-    return wider
+    return widening(before.model, effect, before.recording, load, before.residual)[-1]
 
 
 def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
@@ -134,9 +129,7 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     for k in range(starts if varied.any() else 1):
         at = start.copy()
         if k > 0:
-            drawn = start.copy()
-            drawn[nonlinear] = reduced.decode(random.uniform(size=int(nonlinear.sum())))
-            at[varied] = drawn[varied]
+            at[varied] = reduced.drawn(start, random)[varied]
         tried.append(_steps(problem, at, lower, upper, FIRST_STEPS))
     best = min(tried, key=lambda search: search.square)
     if not nonlinear.any():

@@ -14,8 +14,9 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.diagnose.beside import held_out_beside
 from stribeck.diagnose.shape import hats
-from stribeck.diagnose.trial import Trial, held_out_beside
+from stribeck.diagnose.trial import Trial
 from stribeck.fit import Fit
 from stribeck.model import catalog
 

@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
+from stribeck.diagnose.widen import widening
 from stribeck.errors import FitError
 from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import check_channels, effect_constants, scaled_parameters
+from stribeck.identify.scaling import check_channels, scaled_parameters
 from stribeck.identify.triangle import UNSEEN, Triangle
-from stribeck.model import Parameter, catalog
+from stribeck.model import Parameter
 
 Array = NDArray[np.float64]
 
@@ -153,23 +154,17 @@ class Widened:
         SpecError, FitError
             The model cannot take the effect, or the recording lacks a channel for it.
         """
-        model, recording = before.model, before.recording
-        simpler = catalog()["effects"].get(effect, {}).get("beyond")
-        beyond = simpler if simpler is not None and not model.has(simpler) else None
-        wider, names = model, [model.names]
-        for one in (beyond, effect):
-            if one is not None:
-                constants = effect_constants(one, recording, before.load, residual)
-                wider = wider.with_effect(one, constants)
-                names.append(wider.names)
+        recording = before.recording
+        models = widening(before.model, effect, recording, before.load, residual)
+        wider = models[-1]
         check_channels(wider, recording)
         rows = scaled_parameters(wider, recording)
         start = np.array([row.start for row in rows])
         values = np.where(np.isfinite(wider.values), wider.values, start)
-        new = [[n for n in b if n not in a] for a, b in itertools.pairwise(names)]
+        new = [[n for n in b.names if n not in a.names] for a, b in itertools.pairwise(models)]
         index = {name: k for k, name in enumerate(wider.names)}
         own = np.array([index[n] for n in new[-1]], dtype=np.intp)
-        between = np.array([index[n] for n in (new[0] if beyond else ())], dtype=np.intp)
+        between = np.array([index[n] for names in new[:-1] for n in names], dtype=np.intp)
         problem = Problem(recording, wider.with_values(values), before.rows, before.load)
         return cls(effect, problem, own, between, tuple(rows[k] for k in own))
 

@@ -7,14 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import ndtr
 
-from stribeck.diagnose.evidence import Evidence, added_torque_test, difference, evidence
+from stribeck.diagnose.evidence import Evidence, difference, evidence
 from stribeck.diagnose.screen import STARTS, Screened, screened, widened
-from stribeck.diagnose.shape import flexible_columns
 from stribeck.errors import StribeckError
 from stribeck.fit import QUICK, Fit, fit
 from stribeck.formula_law import effect_name
-from stribeck.identify.normal import NormalEquations, solve_bounded
-from stribeck.identify.problem import Problem
 from stribeck.model import catalog
 
 #: An effect promises something from this share of the fall that it must bring.
@@ -189,50 +186,3 @@ def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0)
     """Whether `other`'s effect explains something that `first`'s, once in the model, does not."""
     again = _try_more(first.fit, other.fit.model.written(other.effect), least, seed)
     return again is not None and passes(again, tried, least)
-
-
-def explained_by_shape(before: Fit, trial: Trial, tried: int, least: float) -> bool:
-    """Whether a freer form of the effects already in `before` leaves nothing to `trial`."""
-    extra = flexible_columns(before)
-    return extra.shape[1] > 0 and explained_by(before, trial, extra, tried, least)
-
-
-def explained_by(before: Fit, trial: Trial, extra: np.ndarray, tried: int, least: float) -> bool:
-    """Whether columns [m, k] beside `before` leave nothing to `trial`."""
-    without, residual_without = _linear_refit(before, extra)
-    along, residual_along = _linear_refit(trial.fit, extra)
-    level = float(np.mean(without**2))
-    fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
-    p_value = added_torque_test(
-        residual_without - residual_along,
-        residual_along,
-        len(trial.fit.model.names) - len(before.model.names),
-    )
-    return fall < least / 2 or p_value * tried > SIGNIFICANCE
-
-
-def held_out_beside(fitted: Fit, extra: np.ndarray) -> np.ndarray:
-    """Held-out residual of `fitted`, linearised, with columns [m, k] beside it."""
-    return _linear_refit(fitted, extra)[0]
-
-
-def _linear_refit(fitted: Fit, extra: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Held-out and in-sample residuals of `fitted`, linearised, with `extra` columns added."""
-    problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
-    residual, jacobian = problem.linearise(fitted.model.values)
-    columns = np.column_stack([jacobian, extra])
-    size = np.sqrt((columns**2).mean(axis=0))
-    columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
-    group = fitted.recording.block[fitted.rows].astype(np.uint32)
-    sums = NormalEquations.of(columns, residual, group)
-    matrix, vector = sums.total()
-    free = np.full(columns.shape[1], np.inf)
-    # A trace of ridge keeps columns that only one block shows from running away in its refit.
-    ridge = 1e-6 * residual.size * np.eye(columns.shape[1])
-    held_out = residual.copy()
-    for b in range(sums.square.size):
-        step = solve_bounded(matrix - sums.matrix[b] + ridge, vector - sums.vector[b], -free, free)
-        rows = group == b
-        held_out[rows] = residual[rows] - columns[rows] @ step
-    step = solve_bounded(matrix + ridge, vector, -free, free)
-    return held_out, residual - columns @ step

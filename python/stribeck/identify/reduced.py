@@ -73,6 +73,12 @@ class ReducedProblem:
         x = np.where(self._log, logarithmic, low + u * (high - low))
         return np.clip(x, low, high)
 
+    def drawn(self, start: Array, random: np.random.Generator) -> Array:
+        """`start` [p] with nonlinear parameters at random, even over the search coordinates."""
+        values = start.copy()
+        values[self.nonlinear] = self.decode(random.uniform(size=int(self.nonlinear.sum())))
+        return values
+
     def _slope(self, values: Array) -> Array:
         """Derivative of the nonlinear parameters with respect to the search coordinates."""
         low, high = self.lower[self.nonlinear], self.upper[self.nonlinear]

@@ -129,14 +129,11 @@ def _between_bounds(
 ) -> tuple[list[Search], int]:
     """Coarse searches by nlopt, best first, and their evaluations."""
     coarse = ReducedProblem(_coarse(reduced.problem, effort), reduced.lower, reduced.upper)
-    nonlinear = reduced.nonlinear
     tried = []
     for k in range(starts):
         at = start.copy()
         if k > 0:
-            random = start.copy()
-            random[nonlinear] = reduced.decode(rng.uniform(size=int(nonlinear.sum())))
-            at[moved] = random[moved]
+            at[moved] = reduced.drawn(start, rng)[moved]
         tried.append(coarse.search(at, effort.evaluations, 1e-7))
     return sorted(tried, key=lambda search: search.square), coarse.evaluations
 

@@ -63,7 +63,8 @@ class Remembered:
     noise_floor
         In the unit of torque; None where it cannot be estimated.
     left, left_where
-        Share of the squared error above the floor with the best finding added, and where it sits.
+        Share of the squared error that is structure with the best finding added, and where it
+        sits.
     full
         The diagnosis itself, if this session has made it.
     """
