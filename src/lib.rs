@@ -13,6 +13,7 @@
 //! | [`law`], [`effect`] | one file each: table and formula |
 //! | [`catalog`] | the list of laws and effects |
 //! | [`composed`], [`error`] | a law with its effects |
+//! | [`joint`] | friction coupled to an inertia: joints in motion |
 //! | `batch` (feature `std`) | whole recordings: torque, gradient, delay |
 //! | `passivity` (feature `std`) | proofs over a box of operating points, and counterexamples |
 //! | `python` (feature `python`) | the extension module `stribeck._core` |
@@ -46,6 +47,7 @@ pub mod dynamics;
 pub mod effect;
 pub mod error;
 pub mod formula;
+pub mod joint;
 pub mod law;
 mod math;
 #[cfg(feature = "std")]

@@ -32,6 +32,7 @@ from stribeck.model_file import ModelFile, load, read_model_file
 from stribeck.passivity import Certificate, check
 from stribeck.project import Project
 from stribeck.recording import Recording, read
+from stribeck.simulate import Joint, Simulation, simulate
 
 __version__ = "0.1.0"
 
@@ -82,6 +83,7 @@ __all__ = [
     "Fit",
     "FitError",
     "Improvement",
+    "Joint",
     "Model",
     "ModelFile",
     "ModelFileError",
@@ -91,6 +93,7 @@ __all__ = [
     "ProjectError",
     "Recording",
     "RecordingError",
+    "Simulation",
     "SpecError",
     "StribeckError",
     "add",
@@ -110,4 +113,5 @@ __all__ = [
     "project",
     "read",
     "read_model_file",
+    "simulate",
 ]

@@ -1,8 +1,10 @@
 from collections.abc import Mapping, Sequence
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+_Desired: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 class ModelError(ValueError): ...
 
@@ -25,6 +27,26 @@ def work(
     deflection: float | None,
     steps: Sequence[tuple[float, Mapping[str, float]]],
 ) -> tuple[float, float]: ...
+def simulate(
+    model: Model,
+    values: ArrayLike,
+    joint: Mapping[str, float],
+    acting: Mapping[str, ArrayLike],
+    dt: float,
+    start: tuple[float, float],
+    deflection: float,
+    controller: Mapping[str, float] | None = None,
+) -> dict[str, NDArray[np.float64]]: ...
+def stroke(
+    time: ArrayLike, ends: tuple[float, float], dwell: float, limits: Sequence[float]
+) -> tuple[_Desired, float]: ...
+def fourier(
+    time: ArrayLike,
+    centre: float,
+    frequency: float,
+    sine: Sequence[float],
+    cosine: Sequence[float],
+) -> _Desired: ...
 
 @final
 class Formula:

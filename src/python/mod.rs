@@ -3,6 +3,7 @@
 mod catalog;
 mod columns;
 mod formula;
+mod joint;
 mod model;
 mod normal;
 mod passivity;
@@ -32,6 +33,8 @@ mod _core {
     use super::catalog::catalog;
     #[pymodule_export]
     use super::formula::Formula;
+    #[pymodule_export]
+    use super::joint::{fourier, simulate, stroke};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]

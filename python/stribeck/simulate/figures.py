@@ -1,0 +1,41 @@
+"""The picture of a simulated motion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from stribeck.report.figures import AFTER, BEFORE, MEASURED, new_figure, style, title
+
+if TYPE_CHECKING:
+    from stribeck.simulate.result import Simulation
+
+#: Points drawn of each line.
+MOST_POINTS = 4000
+
+
+def simulation_figure(simulation: Simulation) -> Figure:
+    """Position, velocity, and the torques that act, over time."""
+    torque_unit, position_unit = simulation.joint.units
+    rows = np.unique(np.linspace(0, simulation.torque.size - 1, MOST_POINTS).astype(np.intp))
+    time = simulation.time[rows]
+    figure = new_figure(9.0, 7.0)
+    top, middle, bottom = figure.subplots(3, 1, sharex=True)
+    if simulation.tracking_error is not None:
+        top.plot(time, simulation.desired_position[rows], color=MEASURED, lw=1.0, label="desired")
+        middle.plot(time, simulation.desired_velocity[rows], color=MEASURED, lw=1.0)
+    top.plot(time, simulation.position[rows], color=AFTER, lw=1.3, label="simulated")
+    middle.plot(time, simulation.velocity[rows], color=AFTER, lw=1.3)
+    bottom.plot(time, simulation.torque[rows], color=MEASURED, lw=1.0, label="motor")
+    bottom.plot(time, simulation.friction_torque[rows], color=BEFORE, lw=1.3, label="friction")
+    title(top, f"{simulation.model.spec}: position ({position_unit})")
+    title(middle, f"velocity ({position_unit}/s)")
+    title(bottom, f"torque ({torque_unit})" if torque_unit == "N m" else "force (N)")
+    bottom.set_xlabel("time (s)")
+    for axes in (top, middle, bottom):
+        style(axes)
+    for axes in (top, bottom):
+        axes.legend(loc="upper right", frameon=False, fontsize=9)
+    return figure

@@ -1,0 +1,224 @@
+"""Simulate a joint with a friction model: open loop, in closed loop, or pulled by a spring."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stribeck import _core
+from stribeck.errors import SpecError
+from stribeck.fit import Fit
+from stribeck.model import Model
+from stribeck.model_file import ModelFile
+from stribeck.simulate.acting import take_apart
+from stribeck.simulate.drive import Drive, Follow, Pull, Torque
+from stribeck.simulate.joint import Joint
+from stribeck.simulate.result import Simulation
+
+Array = NDArray[np.float64]
+
+#: Steps of one simulation: 4 GB of numbers.
+MOST_STEPS = 20_000_000
+
+
+def simulate(
+    model: Model | ModelFile | Fit,
+    joint: Joint | None,
+    drive: Drive,
+    *,
+    seconds: float | None = None,
+    step: float = 1e-3,
+    position: float | None = None,
+    velocity: float | None = None,
+    deflection: float = 0.0,
+    temperature: ArrayLike | None = None,
+    external_torque: ArrayLike = 0.0,
+) -> Simulation:
+    """Move a joint with friction, step by step.
+
+    Parameters
+    ----------
+    model : Model, ModelFile or Fit
+        With values for all parameters. What it says of the measurement (delay, gain, saturation)
+        is left out.
+    joint : Joint, optional
+        What friction acts on; None: the inertia and gravity identified with the friction.
+    drive : Torque, Follow or Pull
+        What moves the joint.
+    seconds : float, optional
+        How long. The default is the trajectory's, or as long as the torque is given.
+    step : float
+        s; the controller's sampling time too.
+    position, velocity : float, optional
+        At the start, rad or m; the default is where the trajectory begins, else 0.
+    deflection : float
+        Of the bristle at the start, rad or m.
+    temperature : float or array [steps], optional
+        degC; the default is the middle of the model's operating box.
+    external_torque : float or array [steps]
+        Along positive motion, N m or N.
+
+    Returns
+    -------
+    Simulation
+
+    Raises
+    ------
+    SpecError
+        Something is missing, or cannot be.
+
+    Notes
+    -----
+    The implicit midpoint rule with the exact mean of the friction over the step: stable for any
+    step, and energy balances to rounding. A model without a memory holds the joint at rest by any
+    torque up to its level: such a joint stands exactly still.
+
+    Examples
+    --------
+    >>> from stribeck.model import model
+    >>> friction = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> pushed = simulate(friction, Joint.revolute(0.1), Torque(1.9), seconds=60.0)
+    >>> float(pushed.position_end)
+    0.0
+    """
+    asked = model if isinstance(model, Model) else model.model
+    acting = take_apart(asked, joint)
+    _check("step", step, above=0.0)
+    count = _steps(drive, seconds, step)
+    start = _start(drive, position, velocity)
+    columns = _columns(drive, acting.joint, count, step)
+    columns["temperature"] = _column("temperature", _warmth(asked, temperature), count)
+    columns["external"] = _column("external torque", external_torque, count)
+    try:
+        answer = _core.simulate(
+            acting.friction.core, acting.friction.values, _sizes(acting.joint, drive), columns,
+            step, start, deflection, _gains(drive),
+        )  # fmt: skip
+    except _core.ModelError as error:
+        raise SpecError(f"{asked.spec} cannot be simulated: {error}") from None
+    return Simulation(
+        model=asked,
+        joint=acting.joint,
+        drive=drive,
+        step=step,
+        left_out=acting.left_out,
+        temperature=columns["temperature"],
+        desired_position=columns["desired_position"],
+        desired_velocity=columns["desired_velocity"],
+        instant_position=answer["position"],
+        instant_velocity=answer["velocity"],
+        torque=answer["torque"],
+        load_torque=answer["load_torque"],
+        friction_torque=answer["friction_torque"],
+        motor_work=answer["motor_work"],
+        environment_work=answer["environment_work"],
+        friction_work=answer["friction_work"],
+    )
+
+
+def _check(name: str, value: float, above: float) -> None:
+    if not (math.isfinite(value) and value > above):
+        raise SpecError(f"{name} {value:g} cannot be: give a number above {above:g}")
+
+
+def _steps(drive: Drive, seconds: float | None, step: float) -> int:
+    """How many steps."""
+    if seconds is None:
+        if isinstance(drive, Torque) and np.ndim(drive.torque) == 1:
+            return np.size(drive.torque)
+        if not isinstance(drive, Follow):
+            raise SpecError("how long? Give the seconds")
+        seconds = drive.trajectory.duration
+    _check("seconds", seconds, above=0.0)
+    count = round(seconds / step)
+    if not 1 <= count <= MOST_STEPS:
+        raise SpecError(
+            f"{seconds:g} s in steps of {step:g} s are {count} steps: give 1 to {MOST_STEPS}"
+        )
+    return count
+
+
+def _start(drive: Drive, position: float | None, velocity: float | None) -> tuple[float, float]:
+    begin = (0.0, 0.0)
+    if isinstance(drive, Follow):
+        at, speed, _ = drive.trajectory(np.zeros(1))
+        begin = (float(at[0]), float(speed[0]))
+    start = (
+        begin[0] if position is None else position, begin[1] if velocity is None else velocity
+    )  # fmt: skip
+    if not all(map(math.isfinite, start)):
+        raise SpecError("position and velocity at the start must be numbers")
+    return start
+
+
+def _columns(drive: Drive, joint: Joint, count: int, step: float) -> dict[str, Array]:
+    """What the drive does in each step."""
+    begun: Array = step * np.arange(count, dtype=np.float64)
+    names = ("torque", "support", "support_velocity", "desired_position", "desired_velocity")
+    columns = {name: np.zeros(count) for name in names}
+    if isinstance(drive, Torque):
+        columns["torque"] = _column("torque", drive.torque, count)
+    elif isinstance(drive, Pull):
+        columns["support"] = drive.speed * begun
+        columns["support_velocity"] = np.full(count, drive.speed)
+    else:
+        at, speed, _ = drive.trajectory(begun)
+        columns["desired_position"], columns["desired_velocity"] = at, speed
+        if drive.feedforward:
+            columns["torque"] = _rigid_body(drive, joint, begun + 0.5 * step)
+    return columns
+
+
+def _rigid_body(drive: Follow, joint: Joint, time: Array) -> Array:
+    """Torque that inertia and gravity of the desired motion need."""
+    at, _, acceleration = drive.trajectory(time)
+    gravity = joint.gravity_cos * np.cos(at) + joint.gravity_sin * np.sin(at)
+    return joint.inertia * acceleration + joint.gravity + gravity
+
+
+def _column(name: str, values: ArrayLike, count: int) -> Array:
+    given = np.asarray(values, dtype=np.float64)
+    if given.ndim > 1 or (given.ndim == 1 and given.size != count):
+        raise SpecError(f"{name} has {given.size} values for {count} steps: give one a step")
+    if not np.isfinite(given).all():
+        raise SpecError(f"{name} is not a number everywhere")
+    return np.ascontiguousarray(np.broadcast_to(given, count))
+
+
+def _warmth(model: Model, temperature: ArrayLike | None) -> ArrayLike:
+    """The temperature, as given or as the model's box has it."""
+    if temperature is not None:
+        return temperature
+    if "temperature" not in model.core.needs:
+        return 0.0
+    if "temperature" not in model.box:
+        raise SpecError(f"{model.spec} depends on the temperature: give it, in degC")
+    return 0.5 * sum(model.box["temperature"])
+
+
+def _sizes(joint: Joint, drive: Drive) -> dict[str, float]:
+    tie = (drive.stiffness, drive.damping) if isinstance(drive, Pull) else (0.0, 0.0)
+    return {
+        "inertia": joint.inertia,
+        "gravity": joint.gravity,
+        "gravity_cos": joint.gravity_cos,
+        "gravity_sin": joint.gravity_sin,
+        "stiffness": tie[0],
+        "damping": tie[1],
+    }
+
+
+def _gains(drive: Drive) -> dict[str, Any] | None:
+    if not isinstance(drive, Follow):
+        return None
+    c = drive.controller
+    return {
+        "proportional": c.proportional,
+        "integral": c.integral,
+        "derivative": c.derivative,
+        "velocity_weight": c.velocity_weight,
+        "limit": c.limit,
+    }

@@ -1,0 +1,31 @@
+//! Joints in motion: friction coupled implicitly to an inertia, stepped at a fixed rate.
+//!
+//! Over a step the velocity of the midpoint, `w = (v + v+)/2`, is held. It is the root of
+//! `2 J (w - v)/dt + tf(w) = u(w)`, with `tf` the mean friction torque of the exact step: unconditionally
+//! stable, and what the motor and the environment give is what the joint keeps and the friction
+//! takes, to rounding. Everything is computed by value, in a bounded number of operations.
+//!
+//! | file | what |
+//! |---|---|
+//! | `body` | what friction acts on: a mechanism seen from its one coordinate with friction |
+//! | `coupling` | a step of body and friction; stiction as a set |
+//! | `root` | the scalar equation of a step |
+//! | `rigid`, `gravity`, `ball_screw` | one inertia: revolute, prismatic, moved by a screw |
+//! | `trajectory`, `controller` | what the joint shall do, and who sees to it |
+
+mod ball_screw;
+mod body;
+mod controller;
+mod coupling;
+mod gravity;
+mod rigid;
+mod root;
+mod trajectory;
+
+pub use ball_screw::BallScrew;
+pub use body::{Body, Push};
+pub use controller::{Controller, Effort};
+pub use coupling::{Taken, step};
+pub use gravity::Gravity;
+pub use rigid::{Joint, Moving, Posture};
+pub use trajectory::{Fourier, HARMONICS, Profile, Reference, Stroke, Trajectory};

@@ -1,0 +1,119 @@
+use super::body::{Body, Push};
+use super::gravity::Gravity;
+use crate::sample::Sample;
+use crate::scalar::Real;
+
+/// A joint of one inertia, revolute or prismatic, that a spring and a damper may tie to a moving
+/// support.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint<P> {
+    /// Inertia or mass, the motor's included (T s2/X).
+    pub inertia: P,
+    /// Gravity.
+    pub gravity: Gravity<P>,
+    /// Stiffness between joint and support (T/X).
+    pub stiffness: P,
+    /// Damping between joint and support (T s/X).
+    pub damping: P,
+}
+
+/// Where a joint is and how fast it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Posture<P> {
+    /// Position (X).
+    pub position: P,
+    /// Velocity (X/s).
+    pub velocity: P,
+}
+
+impl<P: Real> Joint<P> {
+    /// An inertia that nothing but friction, motor and environment act on.
+    #[must_use]
+    pub fn free(inertia: P) -> Self {
+        let zero = P::zero();
+        Self { inertia, gravity: Gravity::none(), stiffness: zero, damping: zero }
+    }
+
+    /// A revolute joint with gravity `cos * cos q + sin * sin q` (T).
+    #[must_use]
+    pub fn revolute(inertia: P, cos: P, sin: P) -> Self {
+        Self { gravity: Gravity { cos, sin, ..Gravity::none() }, ..Self::free(inertia) }
+    }
+
+    /// Kinetic and potential energy, the spring's included (J).
+    #[must_use]
+    pub fn energy(&self, posture: &Posture<P>, support: P) -> P {
+        let half = P::from_f64(0.5);
+        let Posture { position, velocity } = *posture;
+        let stretch = support - position;
+        half * (self.inertia * velocity * velocity + self.stiffness * stretch * stretch)
+            + self.gravity.potential(position)
+    }
+
+    /// The joint as it goes through a step.
+    #[must_use]
+    pub fn moving<'a>(&'a self, posture: Posture<P>, push: &'a Push<P>) -> Moving<'a, P> {
+        Moving { joint: self, push, posture, elapsed: P::zero() }
+    }
+}
+
+/// A joint on its way through a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<'a, P> {
+    joint: &'a Joint<P>,
+    push: &'a Push<P>,
+    /// Where it has come to.
+    pub posture: Posture<P>,
+    elapsed: P,
+}
+
+impl<P: Real> Moving<'_, P> {
+    /// What spring and damper exert on average over a piece (T).
+    fn tie(&self, velocity: P, h: P) -> P {
+        let middle = self.elapsed + h * P::from_f64(0.5);
+        let support = self.push.support + self.push.support_velocity * middle;
+        let stretch = support - self.posture.position - velocity * h * P::from_f64(0.5);
+        self.joint.stiffness * stretch
+            + self.joint.damping * (self.push.support_velocity - velocity)
+    }
+}
+
+impl<P: Real> Body<P> for Moving<'_, P> {
+    fn velocity(&self) -> P {
+        self.posture.velocity
+    }
+
+    fn inertia(&self) -> P {
+        self.joint.inertia
+    }
+
+    fn sample(&self, velocity: P, h: P) -> Sample<P> {
+        let half = P::from_f64(0.5);
+        let way = velocity * h;
+        let acceleration = (velocity - self.posture.velocity) / (h * half);
+        let external = self.push.external + self.tie(velocity, h);
+        let gravity = self.joint.gravity.mean(self.posture.position, way);
+        Sample {
+            velocity,
+            position: self.posture.position + way * half,
+            acceleration,
+            temperature: self.push.temperature,
+            load_torque: self.joint.inertia * acceleration + gravity - external,
+            load_torque_curvature: P::zero(),
+            motor_torque: self.push.motor,
+            external_torque: external - gravity,
+            time: self.push.time + self.elapsed + h * half,
+        }
+    }
+
+    fn advance(&mut self, velocity: P, h: P) {
+        let Posture { position, velocity: before } = self.posture;
+        self.posture =
+            Posture { position: position + velocity * h, velocity: velocity + velocity - before };
+        self.elapsed += h;
+    }
+
+    fn rest(&mut self) {
+        self.posture.velocity = P::zero();
+    }
+}

@@ -1,0 +1,110 @@
+//! The scalar equation of a step, by Chandrupatla's method: inverse quadratic interpolation where it
+//! is sure to gain, else bisection (Advances in Engineering Software 28, 1997).
+
+use crate::scalar::Real;
+
+/// Evaluations while the root is being enclosed; the distance doubles each time.
+const MOST_WIDENED: usize = 80;
+/// Evaluations while the enclosure closes: bisection alone would need about this many.
+const MOST_NARROWED: usize = 120;
+/// Rounding errors of one evaluation, in units in the last place of what is summed in it.
+const SLACK: f64 = 4.0;
+
+/// Unit in the last place of 1.
+fn rounding<P: Real>() -> P {
+    let double = P::from_f64(1.0 + f64::EPSILON) > P::one();
+    P::from_f64(if double { f64::EPSILON } else { f64::from(f32::EPSILON) })
+}
+
+/// Where a function is zero, that is expected to grow at least as fast as `slope`.
+pub(super) struct Equation<P> {
+    /// Where to begin.
+    pub start: P,
+    /// A lower bound of the slope, if the function is monotone.
+    pub slope: P,
+    /// Size of what is summed in the function: below its rounding, zero is zero.
+    pub size: P,
+}
+
+impl<P: Real> Equation<P> {
+    /// The root: exact to rounding, by a bounded number of evaluations. Where the function does not
+    /// change its sign within reach, the last place looked at.
+    pub fn solve(&self, mut function: impl FnMut(P) -> P) -> P {
+        let settled = self.size * rounding::<P>() * P::from_f64(SLACK);
+        let (mut near, mut f_near) = (self.start, function(self.start));
+        if f_near.abs() <= settled {
+            return near;
+        }
+        let mut way = -f_near / self.slope;
+        for _ in 0..MOST_WIDENED {
+            let far = near + way;
+            let f_far = function(far);
+            if f_far.abs() <= settled || far == near {
+                return far;
+            }
+            if f_far.sign() != f_near.sign() {
+                return narrow(function, [(near, f_near), (far, f_far)], settled);
+            }
+            (near, f_near) = (far, f_far);
+            way += way;
+        }
+        near
+    }
+}
+
+/// Closes an enclosure of a root.
+fn narrow<P: Real>(
+    mut function: impl FnMut(P) -> P,
+    [first, second]: [(P, P); 2],
+    settled: P,
+) -> P {
+    let half = P::from_f64(0.5);
+    let unit = rounding::<P>();
+    let (mut best, mut other) = (second, first);
+    let mut share = half;
+    for _ in 0..MOST_NARROWED {
+        let next = best.0 + share * (other.0 - best.0);
+        if next == best.0 || next == other.0 {
+            break;
+        }
+        let tried = (next, function(next));
+        let left;
+        if tried.1.sign() == best.1.sign() {
+            left = best;
+        } else {
+            left = other;
+            other = best;
+        }
+        best = tried;
+        let nearest = if other.1.abs() < best.1.abs() { other } else { best };
+        let span = (other.0 - best.0).abs();
+        let tolerance = unit * nearest.0.abs();
+        if nearest.1.abs() <= settled || span <= tolerance {
+            return nearest.0;
+        }
+        share = interpolated(best, other, left).unwrap_or(half);
+        let least = tolerance / span;
+        if share < least {
+            share = least;
+        }
+        if share > P::one() - least {
+            share = P::one() - least;
+        }
+    }
+    if other.1.abs() < best.1.abs() { other.0 } else { best.0 }
+}
+
+/// Share of the way from `a` to `b` at which the inverse quadratic through three points is zero, if
+/// that lies where it is sure to gain.
+fn interpolated<P: Real>(a: (P, P), b: (P, P), c: (P, P)) -> Option<P> {
+    let one = P::one();
+    let xi = (a.0 - b.0) / (c.0 - b.0);
+    let phi = (a.1 - b.1) / (c.1 - b.1);
+    if phi * phi < xi && (one - phi) * (one - phi) < one - xi {
+        let first = a.1 / (b.1 - a.1) * (c.1 / (b.1 - c.1));
+        let second = (c.0 - a.0) / (b.0 - a.0) * (a.1 / (c.1 - a.1)) * (b.1 / (c.1 - b.1));
+        Some(first + second)
+    } else {
+        None
+    }
+}

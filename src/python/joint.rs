@@ -1,0 +1,274 @@
+use std::borrow::Cow;
+use std::format;
+use std::vec::Vec;
+
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::columns::{Array, contiguous};
+use super::model::Model;
+use super::{ModelError, refuse};
+use crate::composed::Composed;
+use crate::dynamics::State;
+use crate::joint::{
+    self, Controller, Effort, Fourier, Gravity, HARMONICS, Joint, Posture, Profile, Push,
+    Reference, Stroke, Taken, Trajectory,
+};
+
+/// Sizes of a joint.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(super) struct Sizes {
+    inertia: f64,
+    gravity: f64,
+    gravity_cos: f64,
+    gravity_sin: f64,
+    stiffness: f64,
+    damping: f64,
+}
+
+impl Sizes {
+    fn joint(&self) -> Joint<f64> {
+        let gravity =
+            Gravity { constant: self.gravity, cos: self.gravity_cos, sin: self.gravity_sin };
+        Joint { inertia: self.inertia, gravity, stiffness: self.stiffness, damping: self.damping }
+    }
+}
+
+/// Gains of a controller.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(super) struct Gains {
+    proportional: f64,
+    integral: f64,
+    derivative: f64,
+    velocity_weight: f64,
+    limit: f64,
+}
+
+impl Gains {
+    fn controller(&self) -> Controller<f64> {
+        Controller {
+            proportional: self.proportional,
+            integral: self.integral,
+            derivative: self.derivative,
+            velocity_weight: self.velocity_weight,
+            limit: self.limit,
+        }
+    }
+}
+
+/// What acts in each step: columns of equal length.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(super) struct Acting<'py> {
+    torque: Array<'py>,
+    external: Array<'py>,
+    support: Array<'py>,
+    support_velocity: Array<'py>,
+    temperature: Array<'py>,
+    desired_position: Array<'py>,
+    desired_velocity: Array<'py>,
+}
+
+/// The columns of [`Acting`].
+struct Columns<'a> {
+    torque: Cow<'a, [f64]>,
+    external: Cow<'a, [f64]>,
+    support: Cow<'a, [f64]>,
+    support_velocity: Cow<'a, [f64]>,
+    temperature: Cow<'a, [f64]>,
+    desired_position: Cow<'a, [f64]>,
+    desired_velocity: Cow<'a, [f64]>,
+}
+
+impl<'a> Columns<'a> {
+    fn of(acting: &'a Acting<'_>) -> PyResult<Self> {
+        let columns = Self {
+            torque: contiguous(&acting.torque),
+            external: contiguous(&acting.external),
+            support: contiguous(&acting.support),
+            support_velocity: contiguous(&acting.support_velocity),
+            temperature: contiguous(&acting.temperature),
+            desired_position: contiguous(&acting.desired_position),
+            desired_velocity: contiguous(&acting.desired_velocity),
+        };
+        let others = [
+            &columns.external,
+            &columns.support,
+            &columns.support_velocity,
+            &columns.temperature,
+            &columns.desired_position,
+            &columns.desired_velocity,
+        ];
+        if others.iter().any(|column| column.len() != columns.torque.len()) {
+            return Err(ModelError::new_err("columns that act on a joint differ in length"));
+        }
+        Ok(columns)
+    }
+
+    fn push(&self, k: usize, motor: f64, time: f64) -> Push<f64> {
+        Push {
+            motor,
+            external: self.external[k],
+            support: self.support[k],
+            support_velocity: self.support_velocity[k],
+            temperature: self.temperature[k],
+            time,
+        }
+    }
+
+    fn desired(&self, k: usize) -> Reference<f64> {
+        Reference {
+            position: self.desired_position[k],
+            velocity: self.desired_velocity[k],
+            acceleration: 0.0,
+        }
+    }
+}
+
+/// A motion: postures at the instants between steps, and means over the steps.
+struct Motion {
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+    motor: Vec<f64>,
+    taken: Vec<Taken<f64>>,
+}
+
+/// Moves a joint with friction step by step: dict of `position`, `velocity` [n + 1], and, a step,
+/// `torque`, `load_torque`, `friction_torque` and the works `motor_work`, `environment_work`,
+/// `friction_work` [n].
+#[pyfunction]
+#[pyo3(signature = (model, values, joint, acting, dt, start, deflection, controller=None))]
+#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+pub(super) fn simulate<'py>(
+    py: Python<'py>,
+    model: &Model,
+    values: Array<'py>,
+    joint: Sizes,
+    acting: Acting<'py>,
+    dt: f64,
+    start: (f64, f64),
+    deflection: f64,
+    controller: Option<Gains>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let friction = model.spec.with(&contiguous(&values)).map_err(refuse)?;
+    let (joint, columns) = (joint.joint(), Columns::of(&acting)?);
+    let controller = controller.map(|gains| gains.controller());
+    let start = Posture { position: start.0, velocity: start.1 };
+    let motion =
+        py.detach(|| run(&friction, &joint, controller, &columns, dt, start, deflection))?;
+    let answer = PyDict::new(py);
+    answer.set_item("position", motion.position.into_pyarray(py))?;
+    answer.set_item("velocity", motion.velocity.into_pyarray(py))?;
+    answer.set_item("torque", motion.motor.into_pyarray(py))?;
+    let column = |pick: fn(&Taken<f64>) -> f64| {
+        motion.taken.iter().map(pick).collect::<Vec<_>>().into_pyarray(py)
+    };
+    answer.set_item("load_torque", column(|taken| taken.load))?;
+    answer.set_item("friction_torque", column(|taken| taken.friction))?;
+    answer.set_item("motor_work", column(|taken| taken.motor_work))?;
+    answer.set_item("environment_work", column(|taken| taken.environment_work))?;
+    answer.set_item("friction_work", column(|taken| taken.friction_work))?;
+    Ok(answer)
+}
+
+fn run(
+    friction: &Composed<f64>,
+    joint: &Joint<f64>,
+    controller: Option<Controller<f64>>,
+    columns: &Columns<'_>,
+    dt: f64,
+    start: Posture<f64>,
+    deflection: f64,
+) -> PyResult<Motion> {
+    let count = columns.torque.len();
+    let (mut posture, mut state) = (start, State::deflected(deflection));
+    let mut effort = Effort::default();
+    let mut motion = Motion {
+        position: Vec::with_capacity(count + 1),
+        velocity: Vec::with_capacity(count + 1),
+        motor: Vec::with_capacity(count),
+        taken: Vec::with_capacity(count),
+    };
+    motion.position.push(posture.position);
+    motion.velocity.push(posture.velocity);
+    for (k, &torque) in columns.torque.iter().enumerate() {
+        #[allow(clippy::cast_precision_loss)]
+        let time = k as f64 * dt;
+        let motor = controller.map_or(torque, |controller| {
+            let at = (posture.position, posture.velocity);
+            controller.torque(&mut effort, &columns.desired(k), at, torque, dt)
+        });
+        let push = columns.push(k, motor, time);
+        let mut body = joint.moving(posture, &push);
+        let taken = joint::step(friction, &mut state, &mut body, dt);
+        posture = body.posture;
+        if !(posture.position.is_finite() && posture.velocity.is_finite()) {
+            let message = format!("the motion is beyond all numbers after {time} s");
+            return Err(ModelError::new_err(message));
+        }
+        motion.position.push(posture.position);
+        motion.velocity.push(posture.velocity);
+        motion.motor.push(motor);
+        motion.taken.push(taken);
+    }
+    Ok(motion)
+}
+
+/// Position, velocity and acceleration of a reference, one array each.
+type Desired<'py> =
+    (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
+fn desired<'py>(py: Python<'py>, trajectory: &Trajectory<f64>, time: &[f64]) -> Desired<'py> {
+    let at: Vec<_> = time.iter().map(|&t| trajectory.at(t)).collect();
+    let column =
+        |pick: fn(&Reference<f64>) -> f64| at.iter().map(pick).collect::<Vec<_>>().into_pyarray(py);
+    (column(|r| r.position), column(|r| r.velocity), column(|r| r.acceleration))
+}
+
+/// A stroke there and back with trapezoidal speed (limits are speed and acceleration), or by
+/// polynomials of fifth degree (the limit is their duration).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(super) fn stroke<'py>(
+    py: Python<'py>,
+    time: Array<'py>,
+    ends: (f64, f64),
+    dwell: f64,
+    limits: Vec<f64>,
+) -> PyResult<(Desired<'py>, f64)> {
+    let profile = match limits[..] {
+        [speed, acceleration] => Profile::Trapezoid { speed, acceleration },
+        [duration] => Profile::Quintic { duration },
+        _ => return Err(ModelError::new_err("a stroke has one limit or two")),
+    };
+    let stroke = Stroke { from: ends.0, to: ends.1, profile, dwell };
+    let duration = stroke.duration();
+    Ok((desired(py, &Trajectory::Stroke(stroke), &contiguous(&time)), duration))
+}
+
+/// A Fourier series about a centre.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(super) fn fourier<'py>(
+    py: Python<'py>,
+    time: Array<'py>,
+    centre: f64,
+    frequency: f64,
+    sine: Vec<f64>,
+    cosine: Vec<f64>,
+) -> PyResult<Desired<'py>> {
+    if sine.len() > HARMONICS || cosine.len() > HARMONICS {
+        let message = format!("a Fourier series has {HARMONICS} harmonics at most");
+        return Err(ModelError::new_err(message));
+    }
+    let filled = |given: &[f64]| {
+        let mut all = [0.0; HARMONICS];
+        all[..given.len()].copy_from_slice(given);
+        all
+    };
+    let series = Fourier { centre, frequency, sine: filled(&sine), cosine: filled(&cosine) };
+    Ok(desired(py, &Trajectory::Fourier(series), &contiguous(&time)))
+}
