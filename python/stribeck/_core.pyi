@@ -21,6 +21,20 @@ def passivity(
     sides: Mapping[str, tuple[float, float]],
     budget: int,
 ) -> dict[str, Any]: ...
+def missed(
+    model: Model,
+    values: ArrayLike,
+    sides: Mapping[str, tuple[float, float]],
+    budget: int,
+) -> tuple[bool | None, str, Requirement | None]: ...
+def requirements(
+    model: Model,
+    values: ArrayLike,
+    sides: Mapping[str, tuple[float, float]],
+) -> list[Requirement]: ...
+def margins(
+    model: Model, values: ArrayLike, requirements: Sequence[Requirement]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 def work(
     model: Model,
     values: ArrayLike,
@@ -47,6 +61,15 @@ def fourier(
     sine: Sequence[float],
     cosine: Sequence[float],
 ) -> _Desired: ...
+
+@final
+class Requirement:
+    @property
+    def kind(self) -> str: ...
+    @property
+    def points(self) -> list[dict[str, float]]: ...
+    @property
+    def force(self) -> float | None: ...
 
 @final
 class Formula:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import polars as pl
@@ -15,7 +15,7 @@ from stribeck.errors import FitError, StribeckError
 from stribeck.identify.choices import Choices
 from stribeck.identify.estimates import Errors, Estimate, estimates
 from stribeck.identify.figures import relative_residual, rms, torque_cutoff
-from stribeck.identify.held_out import held_out_prediction
+from stribeck.identify.held_out import Refit, held_out_prediction
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.scaling import check_channels, effect_constants, model_for
@@ -24,6 +24,9 @@ from stribeck.identify.separable import minimise
 from stribeck.identify.transients import stretches, transient_rows
 from stribeck.model import Model, catalog
 from stribeck.recording import Recording
+
+if TYPE_CHECKING:
+    from stribeck.passivity.imposed import PassiveCost
 
 __all__ = [
     "QUICK", "THOROUGH", "Effort", "Estimate", "Fit", "evaluate", "fit", "on_recording",
@@ -43,6 +46,8 @@ class Fit:
         Predicted torque of every row: by the fit, and by the refit without the row's block.
     rmse, rmse_held_out
         Over the scored (moving) rows, in the unit of torque.
+    passive_cost
+        What passivity costs, where it was asked for.
     """
 
     model: Model
@@ -62,6 +67,7 @@ class Fit:
     load: Array | None
     notes: tuple[str, ...] = field(default=())
     errors: Errors = "robust"
+    passive_cost: PassiveCost | None = None
 
     @property
     def residual(self) -> Array:
@@ -106,6 +112,7 @@ class Fit:
             "seconds": self.seconds,
             "errors": self.errors,
             "passive": self.passive,
+            "passive_cost": None if self.passive_cost is None else self.passive_cost.to_dict(),
             "rigid_body": list(self.model.rigid_body),
             "drive": self.model.drive,
             "formulas": {terms.name: terms.text for terms in self.model.own},
@@ -158,6 +165,7 @@ def fit(
     errors: Errors = "robust",
     transient: NDArray[np.bool_] | None = None,
     effort: Effort = THOROUGH,
+    passive: bool = False,
 ) -> Fit:
     """Identify the parameters of `spec` on `recording` by bounded least squares.
 
@@ -183,12 +191,15 @@ def fit(
         Rows that are scored but not fitted to; default: looked for.
     effort : Effort
         How thoroughly; the default is for results, `QUICK` goes on from roughly known values.
+    passive : bool
+        Whether the friction has to be passive over the ranges seen, with a proof (`check`). What
+        that costs is `Fit.passive_cost`; a fit that is passive by itself stays as it is.
 
     Raises
     ------
     SpecError, FitError
         Unknown law or effect; a channel that the model needs and the recording lacks; too few
-        moving rows.
+        moving rows; no values with a proof of passivity.
     """
     began = time.perf_counter()
     choices = Choices(start or {}, bounds or {}, fix or {})
@@ -206,9 +217,52 @@ def fit(
     solution = _identify(made, recording, rows, load, starts, seed, effort)
     values, load = solution.values, solution.load
     made = made.with_values(values)
-    return _finish(
+    fitted = _finish(
         made, recording, marked, rows, load, solution, effort, errors, time.perf_counter() - began
     )
+    return _made_passive(fitted, solution, effort) if passive else fitted
+
+
+def _made_passive(free: Fit, solution: _Solution, effort: Effort) -> Fit:
+    """The fit under conditions of passivity; `free` itself where it is passive."""
+    from stribeck.passivity.constrained import Conditioned
+    from stribeck.passivity.imposed import PassiveCost, impose
+
+    if free.passive:
+        cost = PassiveCost(False, free.rmse, free.rmse_held_out, 0, 0.0)
+        return replace(free, passive_cost=cost)
+    began = time.perf_counter()
+    recording, rows = free.recording, free.rows
+    lower, upper = solution.lower, solution.upper
+
+    def renewed(problem: Problem, values: Array) -> Problem:
+        if not _needs_own_load(free.model):
+            return problem
+        load = own_load(free.model.with_values(values), recording)
+        return Problem(recording, free.model, rows, load)
+
+    found = impose(
+        Problem(recording, free.model, rows, free.load), solution.values, lower, upper,
+        box_of=lambda problem: operating_box(free.model, recording, problem.load), renewed=renewed,
+    )  # fmt: skip
+    held = replace(
+        solution,
+        values=found.values,
+        load=found.problem.load,
+        converged=found.converged,
+        outcome="converged under conditions of passivity" if found.converged else "not converged",
+        evaluations=solution.evaluations + found.evaluations,
+    )
+    cost = PassiveCost(
+        True, free.rmse, free.rmse_held_out, len(found.conditions.requirements),
+        found.conditions.reserve,
+    )  # fmt: skip
+    seconds = free.seconds + time.perf_counter() - began
+    fitted = _finish(
+        free.model.with_values(found.values), recording, free.transient, rows, held.load, held,
+        effort, free.errors, seconds, by=Conditioned(lower, upper, found.conditions),
+    )  # fmt: skip
+    return replace(fitted, passive_cost=cost)
 
 
 @dataclass
@@ -387,6 +441,7 @@ def _finish(
     effort: Effort,
     errors: Errors,
     seconds: float,
+    by: Refit | None = None,
 ) -> Fit:
     problem = Problem(recording, made, rows, load)
     values = made.values
@@ -395,7 +450,9 @@ def _finish(
     _refuse_infinite(problem, prediction)
     if made.has("presliding"):
         _refuse_slack_bristle(problem)
-    held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact)
+    held_out, _ = held_out_prediction(
+        problem, values, lower, upper, exact=effort.exact, by=by
+    )
     moving = recording.moving
     residual = recording.torque - held_out
     blocks = np.unique(recording.block[moving]).size
@@ -420,7 +477,7 @@ def _finish(
             bounds={
                 n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper, strict=True)
             },
-            box=operating_box(recording, load),
+            box=operating_box(made, recording, load),
         ).with_values(values),
         recording=recording,
         estimates=estimates(problem, values, lower, upper, errors),
@@ -483,16 +540,24 @@ def _refuse_slack_bristle(problem: Problem) -> None:
         )
 
 
-def operating_box(recording: Recording, load: Array | None) -> dict[str, tuple[float, float]]:
+def operating_box(
+    model: Model, recording: Recording, load: Array | None
+) -> dict[str, tuple[float, float]]:
     """Ranges of the channels over the scored rows: where the model has been seen."""
     moving = recording.moving
+    given = recording.load_torque is not None
     channels = {
         "velocity": recording.velocity,
         "position": recording.position,
         "acceleration": recording.acceleration,
         "temperature": recording.temperature,
-        "load_torque": recording.load_torque if recording.load_torque is not None else load,
+        "load_torque": recording.load_torque if given else load,
     }
+    if "motor_torque" in model.core.needs and recording.drive is None:
+        beside = recording.load_torque if given and not recording.torque_holds_load else None
+        channels["motor_torque"] = recording.torque if beside is None else recording.torque + beside
+    if "external_torque" in model.core.needs:
+        channels["external_torque"] = recording.external_torque
     return {
         name: (float(column[moving].min()), float(column[moving].max()))
         for name, column in channels.items()

@@ -32,7 +32,10 @@ TOP_KEYS = {
     "constants", "parameters", "fitted_on", "box", "drive", "formulas",
 }  # fmt: skip
 PARAMETER_KEYS = {"value", "symbol", "unit", "bounds", "stderr"}
-BOX_KEYS = {"velocity", "position", "acceleration", "temperature", "load_torque"}
+BOX_KEYS = {
+    "velocity", "position", "acceleration", "temperature", "load_torque", "motor_torque",
+    "external_torque",
+}  # fmt: skip
 FITTED_KEYS = {"path", "sha256", "rows", "time_span", "rmse", "rmse_held_out"}
 
 

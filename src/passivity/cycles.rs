@@ -47,7 +47,12 @@ pub enum Outcome {
         sum: f64,
     },
     /// Not decided around this force (T).
-    Undecided(f64),
+    Undecided {
+        /// The force (T).
+        force: f64,
+        /// Where the bristle grows and falls back with the least work, if it does both.
+        points: Option<[Point; 2]>,
+    },
 }
 
 /// A range of forces, and where in the box a cycle may still break the condition.
@@ -79,7 +84,8 @@ pub fn look(
     while let Some(range) = open.pop() {
         let middle = 0.5 * range.force.lower + 0.5 * range.force.upper;
         if budget == 0 {
-            return Outcome::Undecided(middle);
+            let points = least(model, channels, &range, middle);
+            return Outcome::Undecided { force: middle, points };
         }
         let stored = |region: &Region| {
             let along = range.force * region.velocity.sign();
@@ -110,7 +116,8 @@ pub fn look(
             return Outcome::Active { force: middle, points, sum };
         }
         if !(range.force.lower < middle && middle < range.force.upper) {
-            return Outcome::Undecided(middle);
+            let points = up.best.zip(down.best).map(|(up, down)| [up.1, down.1]);
+            return Outcome::Undecided { force: middle, points };
         }
         // Where one side is so high that no other can make up for it, nothing can break.
         let (up, down) = (up.below(-down.lower()), down.below(-up.lower()));
@@ -164,6 +171,23 @@ fn breaking(
     }
     let (best_up, best_down) = (up.best?, down.best?);
     broken(&up, &down).then_some(([best_up.1, best_down.1], best_up.0 + best_down.0))
+}
+
+/// Where the bristle grows and falls back with the least work at one force, roughly.
+fn least(
+    model: &Composed<Enclosure>,
+    channels: &[Channel],
+    range: &Range,
+    force: f64,
+) -> Option<[Point; 2]> {
+    let force = Enclosure::point(force);
+    let best = |regions: &[Region], rising: bool| {
+        let work = |region: &Region| work(model, region, force, rising);
+        let mut search = Search::over(regions, channels, &work);
+        search.run(range.share, |s| s.upper() <= s.lower());
+        search.best.map(|(_, point)| point)
+    };
+    Some([best(&range.up, true)?, best(&range.down, false)?])
 }
 
 /// Work per deflection where the force grows, or where it falls.

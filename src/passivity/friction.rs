@@ -1,9 +1,9 @@
 //! What friction does along the motion, over a box or at a point.
 
 use super::enclosure::Enclosure;
-use super::region::Region;
 use crate::composed::Composed;
 use crate::dynamics::Approach;
+use crate::sample::Sample;
 use crate::scalar::Real;
 
 /// How far the slope of an approach may be wrong: the sum of a few operations at a point.
@@ -12,31 +12,31 @@ const SLOPE_SLACK: f64 = 1e-14;
 /// A model with one deflection, along the direction of motion: the power it takes is
 /// `|v| (g + drag slope + resistance)` and `df/dt = s0 |v| slope`, with `g` the bristle's force.
 #[derive(Clone, Copy, Debug)]
-pub struct Bristled {
+pub struct Bristled<S> {
     /// Dry magnitude `D` (T).
-    pub dry: Enclosure,
+    pub dry: S,
     /// `zeta`, the parts beside the bristle (T).
-    pub resistance: Enclosure,
+    pub resistance: S,
     /// Damping times speed (T).
-    pub drag: Enclosure,
-    approach: Approach<Enclosure>,
+    pub drag: S,
+    approach: Approach<S>,
 }
 
-impl Bristled {
+impl<S: Real> Bristled<S> {
     /// `None` where the model's state is not a single deflection.
-    pub fn of(model: &Composed<Enclosure>, region: &Region) -> Option<Self> {
-        let deflection = model.deflection(region)?;
-        let split = model.split(region);
+    pub fn of(model: &Composed<S>, sample: &Sample<S::Plain>) -> Option<Self> {
+        let deflection = model.deflection(sample)?;
+        let split = model.split(sample);
         Some(Self {
             dry: split.dry(),
-            resistance: (split.rate + split.additive) * region.velocity.sign(),
+            resistance: (split.rate + split.additive).scale(sample.velocity.sign()),
             drag: deflection.drag,
             approach: deflection.approach,
         })
     }
 
     /// The bristle's force along the motion in sliding (T).
-    pub fn strength(&self) -> Enclosure {
+    pub fn strength(&self) -> S {
         match self.approach {
             Approach::Smoothed(sign) => self.dry * sign,
             _ => self.dry,
@@ -45,9 +45,23 @@ impl Bristled {
 
     /// Whether the slope is `1 - x`, with `dz/dt = v - s0 |v|/D z`.
     pub fn is_linear(&self) -> bool {
-        self.approach == Approach::Linear
+        matches!(self.approach, Approach::Linear)
     }
 
+    /// The way on which the deflection grows along the motion, or on which it falls back, for a
+    /// force `g` along the motion (T).
+    pub fn leg(&self, force: S::Plain, grows: bool) -> Leg<S> {
+        let slope = self.approach.slope(self.dry.divide(force));
+        let load = self.resistance.shift(force);
+        if grows {
+            Leg { load, pace: slope, drag: self.drag }
+        } else {
+            Leg { load, pace: -slope, drag: -self.drag }
+        }
+    }
+}
+
+impl Bristled<Enclosure> {
     /// Power over `|dz/dt|` (T) where the deflection grows along the motion, and where it falls
     /// back, for a force `g` along the motion; `None` where that does not happen.
     pub fn work_per_deflection(&self, force: Enclosure) -> [Option<Enclosure>; 2] {
@@ -93,11 +107,29 @@ impl Bristled {
     }
 }
 
+/// A deflection on its way up or down.
+#[derive(Clone, Copy, Debug)]
+pub struct Leg<S> {
+    /// Friction in which the pace has no part (T).
+    pub load: S,
+    /// Deflection over travel; below zero it goes the other way.
+    pub pace: S,
+    /// Work per deflection of the damping (T).
+    pub drag: S,
+}
+
+impl<S: Real> Leg<S> {
+    /// Power over `|dz/dt|` (T); `None` where the deflection does not go this way.
+    pub fn work(self) -> Option<S> {
+        (self.pace.value() > 0.0).then(|| self.load / self.pace + self.drag)
+    }
+}
+
 /// Friction in steady sliding, along the motion (T).
-pub fn sliding(model: &Composed<Enclosure>, region: &Region) -> Enclosure {
-    let direction = region.velocity.sign();
-    match Bristled::of(model, region) {
+pub fn sliding<S: Real>(model: &Composed<S>, sample: &Sample<S::Plain>) -> S {
+    let direction = sample.velocity.sign();
+    match Bristled::of(model, sample) {
         Some(bristled) if model.has_state() => bristled.strength() + bristled.resistance,
-        _ => model.split(region).torque(direction) * direction,
+        _ => model.split(sample).torque(direction).scale(direction),
     }
 }

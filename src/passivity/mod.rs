@@ -8,6 +8,8 @@
 //! | `friction` | what friction does along the motion |
 //! | [`cycles`] | the exact condition on a single deflection |
 //! | [`replay`] | counterexamples, carried out by the exact step |
+//! | [`requirement`] | what it all asks of the parameters, for a fit |
+//! | [`spread`] | the same at points over the box |
 //!
 //! In each motion of the box velocity, temperature, load ... may change at any time in any way.
 //! Speeds below [`LEAST`](region::LEAST) count as rest.
@@ -17,7 +19,9 @@ pub mod enclosure;
 mod friction;
 pub mod region;
 pub mod replay;
+pub mod requirement;
 pub mod search;
+pub mod spread;
 
 use core::fmt;
 use std::vec::Vec;
@@ -33,6 +37,7 @@ use enclosure::Enclosure;
 use friction::{Bristled, sliding};
 use region::{Point, Region, Side, faster_than, pieces};
 use replay::Counterexample;
+use requirement::Requirement;
 use search::Search;
 
 /// How close a reported margin is to the least value, relative to it.
@@ -101,6 +106,8 @@ pub struct Verdict {
     pub margins: Vec<Margin>,
     /// What breaks passivity.
     pub counterexample: Option<Counterexample>,
+    /// What is missed, or could not be decided; where one is known.
+    pub open: Option<Requirement>,
 }
 
 /// What cannot be asked.
@@ -152,23 +159,30 @@ pub fn check(
     sides: &[Side],
     budget: usize,
 ) -> Result<Verdict, PassivityError> {
-    let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
-    let (bounded, exact) = (spec.with(&numbers)?, spec.with(values)?);
-    let channels: Vec<_> = spec.channels().collect();
-    for &channel in &channels {
-        let side = sides.iter().find(|side| side.channel == channel);
-        let side = side.ok_or(PassivityError::Missing(channel))?;
-        if let (Channel::Temperature, Some(pole)) = (channel, spec.pole())
-            && (side.lower..=side.upper).contains(&pole)
-        {
-            return Err(PassivityError::Pole(pole));
-        }
+    let mut verdict = Task::of(spec, values, sides, budget)?.run()?;
+    if verdict.passive == Some(true) {
+        verdict.open = None;
     }
-    let read: Vec<_> =
-        sides.iter().copied().filter(|side| channels.contains(&side.channel)).collect();
-    let regions = pieces(&read);
-    let task = Task { spec, bounded, exact, channels, regions, budget };
-    task.run()
+    Ok(verdict)
+}
+
+/// Requirements on the parameters at points spread over the box, the worst of each kind: with them
+/// a fit begins. None of a model whose state is more than a single deflection.
+///
+/// # Errors
+/// A model or a box that cannot be used.
+pub fn requirements(
+    spec: &Spec,
+    values: &[f64],
+    sides: &[Side],
+) -> Result<Vec<Requirement>, PassivityError> {
+    let task = Task::of(spec, values, sides, 0)?;
+    let bristle = task.has_bristle();
+    Ok(if task.bounded.has_state() && !bristle {
+        Vec::new()
+    } else {
+        spread::worst(&task.exact, &task.regions, &task.channels, bristle)
+    })
 }
 
 struct Task<'a> {
@@ -180,11 +194,41 @@ struct Task<'a> {
     budget: usize,
 }
 
-impl Task<'_> {
+impl<'a> Task<'a> {
+    fn of(
+        spec: &'a Spec,
+        values: &[f64],
+        sides: &[Side],
+        budget: usize,
+    ) -> Result<Self, PassivityError> {
+        let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
+        let (bounded, exact) = (spec.with(&numbers)?, spec.with(values)?);
+        let channels: Vec<_> = spec.channels().collect();
+        for &channel in &channels {
+            let side = sides.iter().find(|side| side.channel == channel);
+            let side = side.ok_or(PassivityError::Missing(channel))?;
+            if let (Channel::Temperature, Some(pole)) = (channel, spec.pole())
+                && (side.lower..=side.upper).contains(&pole)
+            {
+                return Err(PassivityError::Pole(pole));
+            }
+        }
+        let read: Vec<_> =
+            sides.iter().copied().filter(|side| channels.contains(&side.channel)).collect();
+        let regions = pieces(&read);
+        Ok(Self { spec, bounded, exact, channels, regions, budget })
+    }
+
+    /// Whether its state is a single deflection.
+    fn has_bristle(&self) -> bool {
+        self.bounded.has_state()
+            && !self.lags()
+            && self.regions.first().is_some_and(|region| self.bounded.deflection(region).is_some())
+    }
+
     fn run(&self) -> Result<Verdict, PassivityError> {
-        let single = !self.lags()
-            && self.regions.first().is_some_and(|region| self.bounded.deflection(region).is_some());
-        if self.bounded.has_state() && single {
+        let bristle = self.has_bristle();
+        if bristle {
             self.check_strength()?;
         }
         let slides = self.least(Condition::Sliding, |region| sliding(&self.bounded, region));
@@ -193,6 +237,7 @@ impl Task<'_> {
             condition: Condition::Sliding,
             margins: [slides].to_vec(),
             counterexample: None,
+            open: slides.point.map(Requirement::Sliding),
         };
         if self.branches() {
             verdict.condition = Condition::Unknown;
@@ -212,7 +257,7 @@ impl Task<'_> {
             verdict.passive = (slides.lower >= 0.0).then_some(true);
             return Ok(verdict);
         }
-        if !single {
+        if !bristle {
             verdict.condition = Condition::Unknown;
             if slides.lower >= 0.0 && self.constant_elements() {
                 verdict.passive = Some(true);
@@ -237,7 +282,7 @@ impl Task<'_> {
 
     fn check_deflection(&self, verdict: &mut Verdict) {
         let bristled = |region: &Region| Bristled::of(&self.bounded, region);
-        let part = |condition, function: fn(&Bristled) -> Enclosure| {
+        let part = |condition, function: fn(&Bristled<Enclosure>) -> Enclosure| {
             let value = |region: &Region| bristled(region).map_or(Enclosure::ALL, |b| function(&b));
             self.least(condition, value)
         };
@@ -260,6 +305,7 @@ impl Task<'_> {
             cycles::look(&self.bounded, regions, &self.channels, reach, budget)
         };
         verdict.condition = Condition::Cycle;
+        verdict.open = None;
         if self.broken_by(&look(&brisk, self.budget / 4), reach, verdict) {
             return;
         }
@@ -271,11 +317,15 @@ impl Task<'_> {
         } else {
             self.broken_by(&found, reach, verdict);
         }
+        if let Outcome::Undecided { force, points: Some([up, down]) } = found {
+            verdict.open = Some(Requirement::Cycle { force, up, down });
+        }
     }
 
     /// Whether a cycle has been found that gives off energy when it is carried out.
     fn broken_by(&self, outcome: &Outcome, reach: Reach, verdict: &mut Verdict) -> bool {
         let Outcome::Active { force, points: [up, down], sum } = outcome else { return false };
+        verdict.open = Some(Requirement::Cycle { force: *force, up: *up, down: *down });
         if !self.is_free() {
             return false;
         }

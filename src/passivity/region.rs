@@ -37,7 +37,7 @@ pub fn pieces(sides: &[Side]) -> Vec<Region> {
         let parts = parts(side);
         made = made
             .iter()
-            .flat_map(|region| parts.iter().map(|&part| with(region, side.channel, part)))
+            .flat_map(|region| parts.iter().map(|&part| set(region, side.channel, part)))
             .collect();
     }
     made
@@ -58,8 +58,9 @@ fn parts(side: &Side) -> Vec<Enclosure> {
     parts
 }
 
-fn with(region: &Region, channel: Channel, part: Enclosure) -> Region {
-    let mut changed = *region;
+/// A sample with another value of a channel.
+pub fn set<P: Copy>(sample: &Sample<P>, channel: Channel, value: P) -> Sample<P> {
+    let mut changed = *sample;
     let own = match channel {
         Channel::Velocity => &mut changed.velocity,
         Channel::Position => &mut changed.position,
@@ -71,7 +72,7 @@ fn with(region: &Region, channel: Channel, part: Enclosure) -> Region {
         Channel::ExternalTorque => &mut changed.external_torque,
         Channel::Time => &mut changed.time,
     };
-    *own = part;
+    *own = value;
     changed
 }
 
@@ -96,10 +97,16 @@ pub fn at(point: &Point) -> Region {
     map(point, Enclosure::point)
 }
 
+/// The middle of a region.
+#[must_use]
+pub fn middle_of(region: &Region) -> Point {
+    map(region, middle)
+}
+
 /// Points of a region that are worth a look: its middle and two opposite corners.
 #[must_use]
 pub fn probes(region: &Region) -> [Point; 3] {
-    [map(region, middle), map(region, |x| x.lower), map(region, |x| x.upper)]
+    [middle_of(region), map(region, |x| x.lower), map(region, |x| x.upper)]
 }
 
 /// Both halves of a region along a channel; `None` where there is nothing between its ends.
@@ -110,7 +117,7 @@ pub fn halves(region: &Region, channel: Channel) -> Option<[Region; 2]> {
     (whole.lower < cut && cut < whole.upper).then(|| {
         let lower = Enclosure::new(whole.lower, cut);
         let upper = Enclosure::new(cut, whole.upper);
-        [with(region, channel, lower), with(region, channel, upper)]
+        [set(region, channel, lower), set(region, channel, upper)]
     })
 }
 
@@ -124,7 +131,7 @@ pub fn faster_than(regions: &[Region], speed: f64) -> Vec<Region> {
         } else {
             Enclosure { lower: v.lower, upper: v.upper.min(-speed) }
         };
-        (side.lower <= side.upper).then(|| with(region, Channel::Velocity, side))
+        (side.lower <= side.upper).then(|| set(region, Channel::Velocity, side))
     };
     regions.iter().filter_map(fast).collect()
 }
@@ -132,7 +139,7 @@ pub fn faster_than(regions: &[Region], speed: f64) -> Vec<Region> {
 /// The region without width in a channel.
 #[must_use]
 pub fn flattened(region: &Region, channel: Channel) -> Region {
-    with(region, channel, Enclosure::point(middle(region.channel(channel))))
+    set(region, channel, Enclosure::point(middle(region.channel(channel))))
 }
 
 /// The middle, by ratio where the ends differ by decades.

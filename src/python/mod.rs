@@ -40,5 +40,5 @@ mod _core {
     #[pymodule_export]
     use super::normal::{normal_equations, triangle};
     #[pymodule_export]
-    use super::passivity::{passivity, work};
+    use super::passivity::{Requirement, margins, missed, passivity, requirements, work};
 }

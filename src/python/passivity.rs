@@ -1,7 +1,9 @@
 use std::collections::BTreeMap;
-use std::string::String;
+use std::string::{String, ToString};
 use std::vec::Vec;
 
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -10,7 +12,7 @@ use super::model::Model;
 use super::{ModelError, refuse};
 use crate::passivity::region::{Point, Side};
 use crate::passivity::replay::{self, Counterexample, Hold};
-use crate::passivity::{Verdict, check};
+use crate::passivity::{PassivityError, Verdict, check, requirement};
 use crate::table::Channel;
 
 /// Whether a model is passive over a box, all of it being friction: dict of `passive`, `condition`,
@@ -24,17 +26,115 @@ pub(super) fn passivity<'py>(
     sides: BTreeMap<String, (f64, f64)>,
     budget: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let mut box_sides = Vec::new();
-    for (name, (lower, upper)) in sides {
+    let box_sides = operating_box(sides)?;
+    let values = contiguous(&values);
+    let verdict = py.detach(|| check(&model.spec, &values, &box_sides, budget)).map_err(refuse)?;
+    written(py, &verdict, &model.spec.channels().collect::<Vec<_>>())
+}
+
+/// Of a model over a box: whether it is passive, the condition that decides, and the requirement
+/// that is missed or open.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(super) fn missed<'py>(
+    py: Python<'py>,
+    model: &Model,
+    values: Array<'py>,
+    sides: BTreeMap<String, (f64, f64)>,
+    budget: usize,
+) -> PyResult<(Option<bool>, &'static str, Option<Requirement>)> {
+    let sides = operating_box(sides)?;
+    let values = contiguous(&values);
+    let own = |asked| Requirement { asked, channels: model.spec.channels().collect() };
+    match py.detach(|| check(&model.spec, &values, &sides, budget)) {
+        Ok(verdict) => Ok((verdict.passive, verdict.condition.name(), verdict.open.map(own))),
+        Err(PassivityError::NoBristle(point, _)) => {
+            let asked = requirement::Requirement::Strength(point);
+            Ok((Some(false), asked.name(), Some(own(asked))))
+        }
+        Err(error) => Err(refuse(error)),
+    }
+}
+
+/// What passivity asks at points spread over a box, the worst of each kind.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(super) fn requirements<'py>(
+    py: Python<'py>,
+    model: &Model,
+    values: Array<'py>,
+    sides: BTreeMap<String, (f64, f64)>,
+) -> PyResult<Vec<Requirement>> {
+    let sides = operating_box(sides)?;
+    let values = contiguous(&values);
+    let found = py
+        .detach(|| crate::passivity::requirements(&model.spec, &values, &sides))
+        .map_err(refuse)?;
+    let own = |asked| Requirement { asked, channels: model.spec.channels().collect() };
+    Ok(found.into_iter().map(own).collect())
+}
+
+/// The margins (T) of requirements, and their derivatives by all parameters.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, clippy::type_complexity)]
+pub(super) fn margins<'py>(
+    py: Python<'py>,
+    model: &Model,
+    values: Array<'py>,
+    requirements: Vec<PyRef<'py, Requirement>>,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
+    let values = contiguous(&values);
+    let (mut margins, mut slopes) = (Vec::new(), Vec::new());
+    for requirement in &requirements {
+        let (margin, row) = requirement.asked.gradient(&model.spec, &values).map_err(refuse)?;
+        margins.push(margin);
+        slopes.extend(row);
+    }
+    let slopes = Array2::from_shape_vec((margins.len(), values.len()), slopes);
+    let slopes = slopes.map_err(|error| ModelError::new_err(error.to_string()))?;
+    Ok((margins.into_pyarray(py), slopes.into_pyarray(py)))
+}
+
+/// What passivity asks of the parameters at single operating points.
+#[pyclass(frozen, module = "stribeck._core")]
+pub(super) struct Requirement {
+    asked: requirement::Requirement,
+    channels: Vec<Channel>,
+}
+
+#[pymethods]
+impl Requirement {
+    /// `strength`, `sliding` or `cycle`.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        self.asked.name()
+    }
+
+    /// The operating points that it is about.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        self.asked.points().iter().map(|p| point(py, p, &self.channels)).collect()
+    }
+
+    /// The bristle's force, of a cycle (T).
+    #[getter]
+    fn force(&self) -> Option<f64> {
+        match self.asked {
+            requirement::Requirement::Cycle { force, .. } => Some(force),
+            _ => None,
+        }
+    }
+}
+
+fn operating_box(sides: BTreeMap<String, (f64, f64)>) -> PyResult<Vec<Side>> {
+    let side = |(name, (lower, upper)): (String, (f64, f64))| {
         let channel = Channel::ALL.into_iter().find(|channel| channel.name() == name);
         let channel = channel.ok_or_else(|| {
             ModelError::new_err(std::format!("the box's channel '{name}' is unknown"))
         })?;
-        box_sides.push(Side { channel, lower, upper });
-    }
-    let values = contiguous(&values);
-    let verdict = py.detach(|| check(&model.spec, &values, &box_sides, budget)).map_err(refuse)?;
-    written(py, &verdict, &model.spec.channels().collect::<Vec<_>>())
+        Ok(Side { channel, lower, upper })
+    };
+    sides.into_iter().map(side).collect()
 }
 
 /// The work that a model takes over steps that are held one after the other (J), from a

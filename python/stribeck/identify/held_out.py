@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,37 @@ Array = NDArray[np.float64]
 SETTLED = 1e-8
 
 
+class Refit(Protocol):
+    """How a refit goes on from known values [p]."""
+
+    def step(self, values: Array, triangle: Triangle) -> Array:
+        """Values after one Gauss-Newton step of the free parameters, from their factors there."""
+
+    def search(self, problem: Problem, values: Array) -> Array:
+        """Values at the minimum that `values` lead to."""
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """Refits within bounds [p]; equal ones hold a parameter."""
+
+    lower: Array
+    upper: Array
+
+    def step(self, values: Array, triangle: Triangle) -> Array:
+        """One bounded step of the free parameters."""
+        free = np.flatnonzero(self.lower < self.upper)
+        at = values[free]
+        lower, upper = self.lower[free], self.upper[free]
+        refit = values.copy()
+        refit[free] = np.clip(at + triangle.solve(lower - at, upper - at), lower, upper)
+        return refit
+
+    def search(self, problem: Problem, values: Array) -> Array:
+        """A damped search."""
+        return minimise(problem, values, self.lower, self.upper, tolerance=SETTLED)[0].values
+
+
 def held_out_prediction(
     problem: Problem,
     values: Array,
@@ -25,6 +57,7 @@ def held_out_prediction(
     upper: Array,
     *,
     exact: bool = True,
+    by: Refit | None = None,
 ) -> tuple[Array, Array]:
     """Predict each block from a refit without it.
 
@@ -38,6 +71,8 @@ def held_out_prediction(
         Evaluate the model at each refit. Otherwise its linearisation serves, which is enough to
         tell candidates apart and spares running a model with a state many times; rows at rest
         then keep the prediction of the fit to all rows.
+    by : Refit
+        How a refit goes; default: within the bounds.
 
     Returns
     -------
@@ -52,6 +87,7 @@ def held_out_prediction(
     refits = np.tile(values, (count, 1))
     if count < 2:
         return np.full_like(prediction, np.nan), refits
+    by = by or Bounded(lower, upper)
     free = np.flatnonzero(lower < upper)
     residual, jacobian = problem.linearise(values, free)
     parts = triangles(jacobian, residual, group, count)
@@ -61,12 +97,12 @@ def held_out_prediction(
         if kept.all():
             continue
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
-        refits[b] = _step(values, others, free, lower, upper)
+        refits[b] = by.step(values, others)
         if not exact:
             prediction[problem.rows[~kept]] += jacobian[~kept] @ (refits[b] - values)[free]
             continue
         if not linear:
-            refits[b] = _refined(problem, refits[b], values, others.square, kept, lower, upper)
+            refits[b] = _refined(problem, refits[b], values, others.square, kept, free, by)
         rows = block == b
         prediction[rows] = problem.predict(refits[b])[rows]
     return prediction, refits
@@ -81,7 +117,7 @@ def held_out_residual(problem: Problem, values: Array, lower: Array, upper: Arra
     parts = triangles(jacobian, residual, group, count)
     for b in np.unique(group):
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
-        change = (_step(values, others, free, lower, upper) - values)[free]
+        change = (Bounded(lower, upper).step(values, others) - values)[free]
         residual[group == b] -= jacobian[group == b] @ change
     return residual
 
@@ -92,8 +128,8 @@ def _refined(
     values: Array,
     square: float,
     kept: NDArray[np.bool_],
-    lower: Array,
-    upper: Array,
+    free: NDArray[np.intp],
+    by: Refit,
 ) -> Array:
     """A second step from `refit`; a damped search from `values` where the first went too far.
 
@@ -102,22 +138,9 @@ def _refined(
     square : float
         Sum of squares at `values`, over the rows that are `kept`.
     """
-    free = np.flatnonzero(lower < upper)
     with np.errstate(all="ignore"):
         residual, jacobian = problem.linearise(refit, free)
     others = Triangle.of(jacobian[kept], residual[kept])
     if others.square <= square:
-        return _step(refit, others, free, lower, upper)
-    remaining = replace(problem, rows=problem.rows[kept])
-    return minimise(remaining, values, lower, upper, tolerance=SETTLED)[0].values
-
-
-def _step(
-    values: Array, triangle: Triangle, free: NDArray[np.intp], lower: Array, upper: Array
-) -> Array:
-    """One bounded Gauss-Newton step of the free parameters."""
-    at = values[free]
-    step = triangle.solve(lower[free] - at, upper[free] - at)
-    refit = values.copy()
-    refit[free] = np.clip(at + step, lower[free], upper[free])
-    return refit
+        return by.step(refit, others)
+    return by.search(replace(problem, rows=problem.rows[kept]), values)

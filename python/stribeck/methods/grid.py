@@ -101,7 +101,7 @@ def grid_fit(
     made = replace(
         made,
         bounds={n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper, strict=True)},
-        box=operating_box(recording, None),
+        box=operating_box(made, recording, None),
     ).with_values(values)
     return replace(_as_fit(made, whole, search), seconds=time.perf_counter() - began)
 

@@ -136,7 +136,7 @@ def three_step_fit(
     made = replace(
         made,
         bounds={n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper, strict=True)},
-        box=operating_box(loaded, None),
+        box=operating_box(made, loaded, None),
     ).with_values(values)
     steps = (
         _step("speed and temperature", warm, values, first),

@@ -1,0 +1,189 @@
+"""A fit that is passive: conditions are added until the whole box is proved.
+
+Passivity asks something at every operating point of the box. As few points as decide are held:
+the exchange method of semi-infinite programming (Blankenship and Falk 1976). Each round asks what
+the fit so far misses, first at points spread over the box, then by the proof itself, and fits again
+under that too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck import _core
+from stribeck.errors import FitError, SpecError
+from stribeck.identify.problem import Problem
+from stribeck.model import Model
+from stribeck.passivity.check import BUDGET
+from stribeck.passivity.conditions import Conditions
+from stribeck.passivity.constrained import minimise_under
+from stribeck.passivity.operating_box import Box, operating_box
+
+Array = NDArray[np.float64]
+
+#: The share of its size that each margin keeps at first, and ten times as much whenever that is not
+#: enough for a proof; no more than the last.
+RESERVES = (1e-4, 1e-3, 1e-2, 1e-1)
+#: Most fits under conditions.
+MOST_ROUNDS = 60
+
+
+@dataclass(frozen=True)
+class PassiveCost:
+    """What passivity costs a fit.
+
+    Attributes
+    ----------
+    imposed
+        Whether conditions were needed; otherwise the free fit is passive already.
+    rmse_free, rmse_held_out_free
+        Of the fit without them, in the unit of torque.
+    conditions
+        How many operating points and cycles are held.
+    reserve
+        Share of its terms that each margin keeps, so that the proof succeeds.
+    """
+
+    imposed: bool
+    rmse_free: float
+    rmse_held_out_free: float | None
+    conditions: int
+    reserve: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "imposed": self.imposed,
+            "rmse_free": self.rmse_free,
+            "rmse_held_out_free": self.rmse_held_out_free,
+            "conditions": self.conditions,
+            "reserve": self.reserve,
+        }
+
+
+@dataclass(frozen=True)
+class Passive:
+    """Values with a proof, the problem that they solve, and what was held."""
+
+    values: Array
+    problem: Problem
+    conditions: Conditions
+    converged: bool
+    evaluations: int
+
+
+def impose(
+    problem: Problem,
+    values: Array,
+    lower: Array,
+    upper: Array,
+    box_of: Callable[[Problem], Box],
+    renewed: Callable[[Problem, Array], Problem],
+) -> Passive:
+    """The best values near `values` whose friction is proved passive over the box.
+
+    Parameters
+    ----------
+    values, lower, upper : arrays [p]
+        The best values without any condition, and bounds.
+    box_of
+        The operating box that a problem has.
+    renewed
+        The problem with the load torque that follows from values, where it is identified too.
+
+    Raises
+    ------
+    FitError
+        No values within the bounds were found with a proof.
+    """
+    conditions = Conditions(problem.model, reserve=0.0)
+    evaluations, converged = 0, True
+    for _ in range(MOST_ROUNDS):
+        box = _box(conditions.friction(values), box_of(problem))
+        more = _missed(conditions, values, box)
+        if more is None:
+            return Passive(values, problem, conditions, converged, evaluations)
+        conditions = more
+        search, count = minimise_under(problem, values, lower, upper, conditions)
+        evaluations += count
+        if not np.isfinite(search.square):
+            raise FitError(_impossible(conditions, values))
+        values, converged = search.values, search.converged
+        problem = renewed(problem, values)
+    raise FitError(
+        f"{problem.model.spec} was not proved passive in {MOST_ROUNDS} rounds, with "
+        f"{len(conditions.requirements)} conditions held: narrow the bounds (--bound), or take "
+        f"another law"
+    )
+
+
+def _missed(conditions: Conditions, values: Array, box: Box) -> Conditions | None:
+    """The conditions with what these values miss; None: proved passive."""
+    held = len(conditions.requirements)
+    if held:
+        more = conditions.with_missed(conditions.spread(values, box), values)
+        if len(more.requirements) > held:
+            return more
+    friction = conditions.friction(values)
+    passive, condition, asked = _core.missed(friction.core, friction.values, dict(box), BUDGET)
+    if passive:
+        return None
+    if condition == "unknown" or asked is None:
+        raise FitError(_undecidable(friction, condition))
+    reserves = RESERVES if held == 0 else [r for r in RESERVES if r > conditions.reserve]
+    more = conditions.with_missed([asked], values)
+    if held and len(more.requirements) > held:
+        return more
+    # What is asked holds, and yet nothing is proved: more is kept of every margin.
+    for reserve in reserves:
+        more = replace(conditions, reserve=reserve).with_missed([asked], values)
+        if len(more.requirements) > held:
+            return more.with_missed(more.spread(values, box), values) if held == 0 else more
+    raise FitError(_undecidable(friction, condition))
+
+
+def _box(friction: Model, box: Box) -> dict[str, tuple[float, float]]:
+    known = {name: side for name, side in box.items() if name in friction.core.needs}
+    try:
+        return operating_box(replace(friction, box={}), known)
+    except SpecError:
+        missing = [name for name in friction.core.needs if name not in known]
+        raise FitError(
+            f"{friction.spec} cannot be proved passive: its friction depends on "
+            f"{' and '.join(missing)}, whose range the recording does not show; fit it without "
+            f"--passive"
+        ) from None
+
+
+def _undecidable(friction: Model, condition: str) -> str:
+    why = (
+        "no exact condition is known for states or branches of this kind"
+        if condition == "unknown"
+        else f"the condition {condition!r} stays undecided however much of it is kept in reserve"
+    )
+    return (
+        f"{friction.spec} cannot be fitted as passive: {why}; fit it without --passive, or take "
+        f"another law"
+    )
+
+
+def _impossible(conditions: Conditions, values: Array) -> str:
+    shares, _ = conditions.shares(values)
+    worst = conditions.requirements[int(np.argmin(shares))]
+    at = " and ".join(
+        ", ".join(f"{name} {value:.4g}" for name, value in point.items()) for point in worst.points
+    )
+    kind = {
+        "strength": "dry friction is not positive",
+        "sliding": "friction does not oppose the motion",
+        "cycle": "the bristle gives off energy between two points",
+    }[worst.kind]
+    return (
+        f"no passive {conditions.model.spec} was found within its bounds: with the best values "
+        f"{kind} ({at}); widen the bounds (--bound), leave an effect out, or take another law"
+    )

@@ -1,0 +1,101 @@
+//! What passivity asks of the parameters of a model at single operating points.
+//!
+//! Each requirement is necessary: a model that misses one gives off energy. All of them over a whole
+//! box are sufficient, so a fit that meets those that matter may end in a proof.
+
+use std::vec::Vec;
+
+use super::friction::{Bristled, Leg, sliding};
+use super::region::Point;
+use crate::composed::{Composed, Spec};
+use crate::error::ModelError;
+use crate::scalar::{Dual, Real};
+
+/// Holds where its margin is not negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Requirement {
+    /// A bristle has some strength: margin in T.
+    Strength(Point),
+    /// Friction in steady sliding opposes the motion: margin in T.
+    Sliding(Point),
+    /// A bristle that grows at one point and falls back at the other, around this force (T), takes
+    /// work; the margin is that work per travel (T). Where it does not move so, nothing is asked.
+    Cycle {
+        /// The bristle's force (T).
+        force: f64,
+        /// Where it grows.
+        up: Point,
+        /// Where it falls back.
+        down: Point,
+    },
+}
+
+impl Requirement {
+    /// The name users read.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Strength(_) => "strength",
+            Self::Sliding(_) => "sliding",
+            Self::Cycle { .. } => "cycle",
+        }
+    }
+
+    /// The operating points that it is about.
+    #[must_use]
+    pub fn points(&self) -> Vec<Point> {
+        match *self {
+            Self::Strength(point) | Self::Sliding(point) => [point].into(),
+            Self::Cycle { up, down, .. } => [up, down].into(),
+        }
+    }
+
+    /// By how much it is met.
+    pub fn margin<S: Real<Plain = f64>>(&self, model: &Composed<S>) -> S {
+        match self {
+            Self::Strength(point) => model.split(point).dry(),
+            Self::Sliding(point) => sliding(model, point),
+            Self::Cycle { force, up, down } => {
+                let legs = (leg(model, up, *force, true), leg(model, down, *force, false));
+                let (Some(up), Some(down)) = legs else { return S::zero() };
+                // Work per deflection up and down, times both paces: finite where one stops.
+                up.load * down.pace
+                    + down.load * up.pace
+                    + (up.drag + down.drag) * up.pace * down.pace
+            }
+        }
+    }
+
+    /// The margin, and its derivatives by all parameters.
+    ///
+    /// # Errors
+    /// Values at which the model cannot be evaluated.
+    pub fn gradient(
+        &self,
+        spec: &Spec,
+        values: &[f64],
+    ) -> Result<(f64, Vec<f64>), ModelError<'static>> {
+        let margin = self.margin(&spec.with(values)?);
+        let mut variables: Vec<_> = values.iter().map(|&x| Dual::<f64, 1>::constant(x)).collect();
+        let mut slopes = Vec::with_capacity(values.len());
+        for k in 0..values.len() {
+            variables[k] = Dual::variable(values[k], 0);
+            slopes.push(self.margin(&spec.with(&variables)?).derivative[0]);
+            variables[k] = Dual::constant(values[k]);
+        }
+        Ok((margin, slopes))
+    }
+}
+
+/// The bristle at a point on its way up or down; it stands where it would go the other way.
+fn leg<S: Real<Plain = f64>>(
+    model: &Composed<S>,
+    point: &Point,
+    force: f64,
+    rising: bool,
+) -> Option<Leg<S>> {
+    let direction = point.velocity.sign();
+    let leg = Bristled::of(model, point)?.leg(force * direction, (direction > 0.0) == rising);
+    let pace = if leg.pace.value() > 0.0 { leg.pace } else { S::zero() };
+    Some(Leg { pace, ..leg })
+}

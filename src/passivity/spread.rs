@@ -1,0 +1,103 @@
+//! Requirements at points spread over a box: nothing is proved by them, they lead a fit.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::friction::{Bristled, sliding};
+use super::region::{Point, Region, middle_of, set};
+use super::requirement::Requirement;
+use crate::composed::Composed;
+use crate::scalar::Real;
+use crate::table::Channel;
+
+/// Speeds of a region, each half of the one before.
+const SPEEDS: usize = 28;
+
+/// Values of a channel along which friction may rise and fall several times, and of any other.
+const VALUES: (usize, usize) = (13, 5);
+
+/// Forces of a bristle, over all that it reaches.
+const FORCES: u8 = 24;
+
+/// Of each region the least strength and sliding friction, and around each force the worst cycle.
+#[must_use]
+pub fn worst(
+    model: &Composed<f64>,
+    regions: &[Region],
+    channels: &[Channel],
+    bristle: bool,
+) -> Vec<Requirement> {
+    let points: Vec<_> = regions.iter().map(|region| points(region, channels)).collect();
+    let mut found = Vec::new();
+    for points in &points {
+        found.extend(least(points, |point| sliding(model, point)).map(Requirement::Sliding));
+        if bristle {
+            let dry = |point: &Point| model.split(point).dry();
+            found.extend(least(points, dry).map(Requirement::Strength));
+        }
+    }
+    if bristle {
+        found.extend(cycles(model, &points.concat()));
+    }
+    found
+}
+
+/// The point with the least value.
+fn least(points: &[Point], value: impl Fn(&Point) -> f64) -> Option<Point> {
+    let valued = points.iter().map(|point| (value(point), point));
+    valued.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| *point)
+}
+
+/// Around each force the points where the bristle grows and falls back with the least work.
+fn cycles(model: &Composed<f64>, points: &[Point]) -> Vec<Requirement> {
+    let bristles: Vec<_> =
+        points.iter().filter_map(|point| Some((*point, Bristled::of(model, point)?))).collect();
+    let [low, high] = bristles.iter().fold([0.0_f64; 2], |[low, high], (point, bristled)| {
+        let force = bristled.strength() * point.velocity.sign();
+        [low.min(force), high.max(force)]
+    });
+    (1..FORCES)
+        .filter_map(|k| {
+            let force = low + (high - low) * f64::from(k) / f64::from(FORCES);
+            let cheapest = |rising: bool| {
+                let work = bristles.iter().filter_map(|(point, bristled)| {
+                    let direction = point.velocity.sign();
+                    let leg = bristled.leg(force * direction, (direction > 0.0) == rising);
+                    Some((leg.work()?, *point))
+                });
+                work.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
+            };
+            Some(Requirement::Cycle { force, up: cheapest(true)?, down: cheapest(false)? })
+        })
+        .collect()
+}
+
+/// All combinations of values of the channels, with speeds over decades.
+fn points(region: &Region, channels: &[Channel]) -> Vec<Point> {
+    let mut made = vec![middle_of(region)];
+    for &channel in channels {
+        let values = values(region, channel);
+        made = made
+            .iter()
+            .flat_map(|point| values.iter().map(|&value| set(point, channel, value)))
+            .collect();
+    }
+    made
+}
+
+#[allow(clippy::cast_precision_loss)]
+fn values(region: &Region, channel: Channel) -> Vec<f64> {
+    let side = region.channel(channel);
+    if channel == Channel::Velocity {
+        let fastest = if side.lower > 0.0 { side.upper } else { side.lower };
+        let halves = core::iter::successors(Some(fastest), |speed| Some(0.5 * speed));
+        return halves.take(SPEEDS).filter(|v| (side.lower..=side.upper).contains(v)).collect();
+    }
+    if side.lower == side.upper {
+        return vec![side.lower];
+    }
+    let (many, few) = VALUES;
+    let count = if channel == Channel::Position { many } else { few };
+    let step = (side.upper - side.lower) / (count - 1) as f64;
+    (0..count).map(|k| (side.lower + step * k as f64).min(side.upper)).collect()
+}
