@@ -242,7 +242,8 @@ def _made_passive(free: Fit, solution: _Solution, effort: Effort) -> Fit:
         return Problem(recording, free.model, rows, load)
 
     found = impose(
-        Problem(recording, free.model, rows, free.load), solution.values, lower, upper,
+        Problem(recording, free.model, rows, free.load), solution.values,
+        scaled_bounds(free.model, recording)[2], lower, upper,
         box_of=lambda problem: operating_box(free.model, recording, problem.load), renewed=renewed,
     )  # fmt: skip
     held = replace(

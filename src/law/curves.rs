@@ -50,6 +50,8 @@ pub fn saturation<S: Real>(x: S) -> S {
 pub fn gaussian_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S) -> StribeckCurve<S> {
     let ratio =
         if velocity.value() == 0.0 { S::zero() } else { stribeck_velocity.divide(velocity) };
+    // Of a number between bounds the square is only known to be positive by its size.
+    let ratio = ratio.abs();
     StribeckCurve::of(ratio * ratio, S::from_f64(2.0))
 }
 

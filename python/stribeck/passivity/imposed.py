@@ -80,6 +80,7 @@ class Passive:
 def impose(
     problem: Problem,
     values: Array,
+    typical: Array,
     lower: Array,
     upper: Array,
     box_of: Callable[[Problem], Box],
@@ -89,8 +90,9 @@ def impose(
 
     Parameters
     ----------
-    values, lower, upper : arrays [p]
-        The best values without any condition, and bounds.
+    values, typical, lower, upper : arrays [p]
+        The best values without any condition; those that a search starts from, to go on from where
+        the best ones lead to nothing passive; bounds.
     box_of
         The operating box that a problem has.
     renewed
@@ -109,8 +111,11 @@ def impose(
         if more is None:
             return Passive(values, problem, conditions, converged, evaluations)
         conditions = more
-        search, count = minimise_under(problem, values, lower, upper, conditions)
-        evaluations += count
+        searches = [minimise_under(problem, values, lower, upper, conditions)]
+        if not np.isfinite(searches[0][0].square):
+            searches.append(minimise_under(problem, typical, lower, upper, conditions))
+        search = searches[-1][0]
+        evaluations += sum(count for _, count in searches)
         if not np.isfinite(search.square):
             raise FitError(_impossible(conditions, values))
         values, converged = search.values, search.converged
