@@ -244,7 +244,8 @@ def _made_passive(free: Fit, solution: _Solution, effort: Effort) -> Fit:
     found = impose(
         Problem(recording, free.model, rows, free.load), solution.values,
         scaled_bounds(free.model, recording)[2], lower, upper,
-        box_of=lambda problem: operating_box(free.model, recording, problem.load), renewed=renewed,
+        box_of=lambda at, load: operating_box(free.model.with_values(at), recording, load),
+        renewed=renewed,
     )  # fmt: skip
     held = replace(
         solution,
@@ -285,10 +286,16 @@ def own_load(model: Model, recording: Recording) -> Array | None:
     load = np.zeros_like(recording.torque)
     if "inertia" in model.rigid_body and recording.acceleration is not None:
         load += model.value("inertia") * recording.acceleration
-    if "gravity" in model.rigid_body and recording.position is not None:
-        load += model.value("gravity_cos") * np.cos(recording.position)
-        load += model.value("gravity_sin") * np.sin(recording.position)
-    return load
+    gravity = _own_gravity(model, recording)
+    return load if gravity is None else load + gravity
+
+
+def _own_gravity(model: Model, recording: Recording) -> Array | None:
+    """Gravity that `model` has identified, every row; None without one."""
+    if "gravity" not in model.rigid_body or recording.position is None:
+        return None
+    cosine = model.value("gravity_cos") * np.cos(recording.position)
+    return cosine + model.value("gravity_sin") * np.sin(recording.position)
 
 
 def _needs_own_load(model: Model) -> bool:
@@ -451,9 +458,7 @@ def _finish(
     _refuse_infinite(problem, prediction)
     if made.has("presliding"):
         _refuse_slack_bristle(problem)
-    held_out, _ = held_out_prediction(
-        problem, values, lower, upper, exact=effort.exact, by=by
-    )
+    held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact, by=by)
     moving = recording.moving
     residual = recording.torque - held_out
     blocks = np.unique(recording.block[moving]).size
@@ -558,7 +563,8 @@ def operating_box(
         beside = recording.load_torque if given and not recording.torque_holds_load else None
         channels["motor_torque"] = recording.torque if beside is None else recording.torque + beside
     if "external_torque" in model.core.needs:
-        channels["external_torque"] = recording.external_torque
+        gravity = _own_gravity(model, recording)
+        channels["external_torque"] = recording.external_torque if gravity is None else -gravity
     return {
         name: (float(column[moving].min()), float(column[moving].max()))
         for name, column in channels.items()

@@ -55,6 +55,11 @@ from stribeck.improve import improve as improve_from
     show_default=True,
     help="Standard errors: robust for a sampled motion, independent for separate points.",
 )
+@click.option(
+    "--passive",
+    is_flag=True,
+    help="Identify under conditions of passivity: `stribeck check` proves the result.",
+)
 @output_option
 @method_options
 @starts_option
@@ -62,14 +67,19 @@ from stribeck.improve import improve as improve_from
 @seed_option
 @json_option
 def fit(
-    data: str, spec: str | None, written: Written, errors: Errors, output: str | None,
-    method: Method, starts: int, reading: dict[str, Any], seed: int, as_json: bool,
+    data: str, spec: str | None, written: Written, errors: Errors, passive: bool,
+    output: str | None, method: Method, starts: int, reading: dict[str, Any], seed: int,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """Identify a model's parameters on DATA."""
     check_output(output)
+    if passive and method.name != "rms":
+        raise SpecError(f"--passive goes with --method rms, not {method.name}: leave one out")
     recording = read_recording(data, reading)
     if method.name == "rms":
-        fitted = written_fit(spec, written, recording, starts=starts, seed=seed, errors=errors)
+        fitted = written_fit(
+            spec, written, recording, starts=starts, seed=seed, errors=errors, passive=passive
+        )
     else:
         model = written.choices.applied(written.model(spec))
         fitted = method.fit(model, recording, reading, starts=starts, seed=seed)

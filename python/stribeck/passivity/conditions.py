@@ -72,7 +72,7 @@ class Conditions:
         missed = known & (margins < (self.reserve - SLACK) * sizes)
         return replace(
             self,
-            requirements=(*self.requirements, *(asked[k] for k in np.flatnonzero(missed))),
+            requirements=(*self.requirements, *(asked[k] for k in np.flatnonzero(missed).tolist())),
             sizes=np.concatenate([self.sizes, sizes[missed]]),
         )
 

@@ -83,7 +83,7 @@ def impose(
     typical: Array,
     lower: Array,
     upper: Array,
-    box_of: Callable[[Problem], Box],
+    box_of: Callable[[Array, Array | None], Box],
     renewed: Callable[[Problem, Array], Problem],
 ) -> Passive:
     """The best values near `values` whose friction is proved passive over the box.
@@ -94,7 +94,7 @@ def impose(
         The best values without any condition; those that a search starts from, to go on from where
         the best ones lead to nothing passive; bounds.
     box_of
-        The operating box that a problem has.
+        The operating box of values and their load torque.
     renewed
         The problem with the load torque that follows from values, where it is identified too.
 
@@ -106,7 +106,7 @@ def impose(
     conditions = Conditions(problem.model, reserve=0.0)
     evaluations, converged = 0, True
     for _ in range(MOST_ROUNDS):
-        box = _box(conditions.friction(values), box_of(problem))
+        box = _box(conditions.friction(values), box_of(values, problem.load))
         more = _missed(conditions, values, box)
         if more is None:
             return Passive(values, problem, conditions, converged, evaluations)

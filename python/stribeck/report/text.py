@@ -308,10 +308,29 @@ def fit_text(fit: Fit) -> str:
             if e.why is not None
         ),
         _errors_text(fit),
-        paragraph(PASSIVITY[fit.passive]),
+        paragraph(PASSIVITY[fit.passive] + cost_sentence(fit)),
         trouble,
         notes_text(r.notes, fit.notes),
     )
+
+
+def cost_sentence(fit: Fit) -> str:
+    """What passivity costs, where it was asked for; with a space before it."""
+    cost = fit.passive_cost
+    if cost is None:
+        return ""
+    if not cost.imposed:
+        return " It costs nothing: the best fit is passive by itself."
+    change = change_text(cost.rmse_free, fit.rmse)
+    unit = fit.model.torque_unit
+    sentence = (
+        f" Held at {cost.conditions} operating points and cycles, with which the error (RMSE) goes "
+        f"from {plain(cost.rmse_free)} to {plain(fit.rmse)} {unit} ({change})"
+    )
+    if cost.rmse_held_out_free is None or fit.rmse_held_out is None:
+        return sentence + "."
+    held_out = f"{plain(cost.rmse_held_out_free)} to {plain(fit.rmse_held_out)} {unit}"
+    return f"{sentence}, held out from {held_out}."
 
 
 def worst_places(assessment: Assessment, most: int = 3) -> list[str]:
