@@ -167,7 +167,7 @@ def improve(
     stopped = "nothing_passes"
     if found.findings:
         stopped = "max_steps"
-    elif found.noise_floor.value is not None and not found.unexplained.is_structure:
+    elif not found.unexplained.is_structure and found.noise_floor.is_reached_by(way.current.rmse):
         stopped = "noise_floor"
     return Improvement(
         first, way.steps, way.current, found.noise_floor, stopped, found.untestable,

@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 NEIGHBOURS = 40
 FEWEST_PAIRS = 300
+#: An error of so many times the noise floor is more than noise.
+REACHED = 1.5
 #: Samples over which a residual must last to be smooth in time.
 SMOOTH = 10.0
 #: Strokes of travel below which hardly a position is passed twice.
@@ -33,6 +35,10 @@ class NoiseFloor:
 
     value: float | None
     why: str | None = None
+
+    def is_reached_by(self, rmse: float) -> bool:
+        """Whether an error may be noise: repeats of the same state differ by hardly less."""
+        return self.value is not None and rmse <= REACHED * self.value
 
 
 def noise_floor(fit: Fit) -> NoiseFloor:

@@ -22,12 +22,18 @@ from stribeck.fit import Fit
 
 #: An effect that brings this share of the best one's fall, and nothing beside it, is its like.
 ALIKE = 0.9
+#: An effect that takes less than this share of the squared error above the noise floor is not what
+#: is missing, however certain: much larger causes are left.
+MATERIAL = 0.05
 
 
 def findings(
     before: Fit, good: list[Trial], tried: int, least: float, floor: NoiseFloor, seed: int
 ) -> tuple[Finding, ...]:
-    """Order the trials that pass; effects that are one on this data, the simplest first."""
+    """Order the trials that pass; effects that are one on this data, the simplest first.
+
+    None where even the best takes hardly any of what is missing.
+    """
     if not good:
         return ()
     best = good[0]
@@ -49,6 +55,9 @@ def findings(
         # What a quick fit promised does not stand up to a thorough one.
         rest = [t for t in good if t.effect != first.effect]
         return findings(before, rest, tried, least, floor, seed)
+    taken = share_of_unexplained(before, first.fit, floor)
+    if taken is not None and taken < MATERIAL:
+        return ()
     ordered[0] = first
     alike = [t.effect for t in tied]
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}

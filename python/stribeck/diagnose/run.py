@@ -61,8 +61,9 @@ def diagnose(
     if brief and found:
         return Diagnosis(fitted, floor, "missing", found, could_be.untestable, NOT_ASKED)
     # Where nothing repeats, a regressor can learn nothing that lasts.
-    could = None if floor.value is None else explainable(fitted, best)
-    left = unexplained(best, floor, could, last=not found)
+    after = found[0].fit if found else fitted
+    could = None if floor.value is None else explainable(fitted, after)
+    left = unexplained(after, floor, could, last=not found)
     verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
     shown = visibility(
         fitted,

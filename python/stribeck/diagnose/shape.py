@@ -27,6 +27,18 @@ def hats(x: Array, count: int) -> list[Array]:
     return [np.interp(x, knots, row) for row in rows[1:]]
 
 
+def waves(position: Array, harmonics: range) -> list[Array]:
+    """Half waves over the stroke that `position` covers, one for each of `harmonics`."""
+    u = (position - position.min()) / (np.ptp(position) or 1.0)
+    return [np.cos(k * np.pi * u) for k in harmonics]
+
+
+def powers(torque: Array, reference: float) -> list[Array]:
+    """Odd functions of a torque that bend ever later: a wrong torque constant at high torque."""
+    ratio = np.abs(torque) / (reference or 1.0)
+    return [torque * ratio**power for power in (1.0, 2.0, 4.0, 8.0)]
+
+
 def displacement_since_reversal(recording: Recording) -> Array:
     """Distance moved since the direction last changed, every row, in the unit of position."""
     v = np.where(recording.moving, recording.velocity, 0.0)
@@ -96,21 +108,17 @@ def _columns(effect: str, fit: Fit, v: Array, sign: Array, speed: Array) -> list
         by = sign if effect == "temperature_dry" else v
         return [by * h for h in hats(r.temperature[rows], 6)]
     if effect == "position" and r.position is not None:
-        u = (r.position[rows] - r.position[rows].min()) / (np.ptp(r.position[rows]) or 1.0)
-        return [sign * np.cos(k * np.pi * u) for k in range(1, 15)]
+        return [sign * wave for wave in waves(r.position[rows], range(1, 15))]
     if effect == "spring" and r.position is not None:
-        u = (r.position[rows] - r.position[rows].min()) / (np.ptp(r.position[rows]) or 1.0)
         # Slower than a ripple; with a constant, for nobody knows where the spring is at rest.
-        return [np.cos(k * np.pi * u) for k in range(2 * FEWEST_PERIODS)]
+        return waves(r.position[rows], range(2 * FEWEST_PERIODS))
     if effect == "ripple" and r.position is not None:
         phase = 2.0 * np.pi * r.position[rows] / ripple_period_of(fit.model)
         return [wave(k * phase) for k in (3, 4) for wave in (np.cos, np.sin)]
     if effect == "drift":
         return [sign * h for h in hats(r.elapsed[rows], 6)]
     if effect == "saturation":
-        total = fit.prediction[rows]
-        ratio = np.abs(total) / fit.model.constants["reference_torque"]
-        return [total * ratio**power for power in (1.0, 2.0, 4.0, 8.0)]
+        return powers(fit.prediction[rows], fit.model.constants["reference_torque"])
     if effect == "presliding":
         travel = displacement_since_reversal(r)[rows]
         return [sign * h for h in hats(np.log(travel + 1e-9 * (travel.max() or 1.0)), 8)]

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnose.beside import held_out_beside
-from stribeck.diagnose.shape import hats
+from stribeck.diagnose.shape import hats, powers, waves
 from stribeck.diagnose.trial import Trial
 from stribeck.fit import Fit
 from stribeck.model import catalog
@@ -36,16 +36,12 @@ def _of_acceleration(fit: Fit) -> list[Array]:
 
 def _of_position(fit: Fit) -> list[Array]:
     q = fit.recording.position
-    if q is None:
-        return []
-    u = (q[fit.rows] - q[fit.rows].min()) / (np.ptp(q[fit.rows]) or 1.0)
-    return [np.cos(k * np.pi * u) for k in range(1, 8)]
+    return [] if q is None else waves(q[fit.rows], range(1, 8))
 
 
 def _of_torque(fit: Fit) -> list[Array]:
     total = fit.prediction[fit.rows]
-    size = np.abs(total) / (np.abs(total).max() or 1.0)
-    return [total * size**power for power in (1.0, 2.0, 4.0, 8.0)]
+    return powers(total, float(np.abs(total).max()))
 
 
 #: Effects of fixed form: their channel, and free functions of it on the rows fitted to.

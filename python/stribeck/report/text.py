@@ -540,10 +540,16 @@ def left_text(left: Unexplained) -> str:
     )
 
 
-def foretold_text(fitted: Fit, floor: NoiseFloor) -> str:
-    """Why the held-out error exceeds the noise where the error of all rows does not."""
+def above_noise_text(fitted: Fit, floor: NoiseFloor) -> str:
+    """Why an error without structure that could be shown exceeds the noise floor."""
     if floor.value is None or fitted.rmse_held_out is None:
         return ""
+    if not floor.is_reached_by(fitted.rmse):
+        return (
+            f"Repeats of the same state differ by {plain(floor.value)} {fitted.model.torque_unit} "
+            f"only: what {fitted.model.spec} leaves repeats, but is no function of what was "
+            "recorded (vibration of the structure, say)."
+        )
     if fitted.rmse > AT_THE_NOISE * floor.value or fitted.rmse_held_out < FORETOLD * fitted.rmse:
         return ""
     return (
@@ -722,6 +728,7 @@ def improvement_text(improvement: Improvement) -> str:
     steps = "\n\n".join(
         finding_text(step.finding, unit, k) for k, step in enumerate(improvement.steps, 1)
     )
+    is_structure = improvement.unexplained.is_structure
     stopped = STOPPED[improvement.stopped]
     return _joined(
         f"Improving {improvement.base.model.spec} on {file_name(r)}",
@@ -731,7 +738,7 @@ def improvement_text(improvement: Improvement) -> str:
         paragraph(_floor_sentence(None, floor.why, unit), 0) if floor.value is None else "",
         ("Found, in this order:\n\n" + steps) if steps else "",
         paragraph(f"{stopped} {left_text(improvement.unexplained)}", 0),
-        paragraph(foretold_text(final, floor), 0),
+        paragraph("" if is_structure else above_noise_text(final, floor), 0),
         paragraph(explainable_text(improvement.last.explainable, final.model.spec, unit), 0),
         f"The model now: {final.model.spec}\n\n{parameters_text(final.estimates)}",
         _errors_text(final),
