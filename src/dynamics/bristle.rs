@@ -44,13 +44,13 @@ impl<S: Real> Bristle<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
-        let (velocity, dt) = (interval.velocity(), interval.dt);
+        let held = Held { dry, velocity: interval.velocity(), dt: interval.dt };
         let before = state.z;
-        let path = self.advance(state, dry, velocity, dt);
+        let path = self.advance(state, &held);
         let torque = if interval.mean_velocity.is_some() {
             let end = split.dry();
             let moved = (end - dry) / self.stiffness;
-            state.z += moved.scale(velocity.sign()) * path.following();
+            state.z += moved.scale(held.velocity.sign()) * path.following();
             let rate = self.rate(state.z, end, interval.sample.velocity);
             self.stiffness * state.z + self.damping * rate + split.rate + split.additive
         } else {
@@ -59,7 +59,7 @@ impl<S: Real> Bristle<S> {
         if !interval.mean {
             return Step::same(torque);
         }
-        Step { torque, mean_torque: self.mean_torque(before, state, split, dt, &path) }
+        Step { torque, mean_torque: self.mean_torque(before, state, split, &held, &path) }
     }
 
     /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
@@ -74,20 +74,16 @@ impl<S: Real> Bristle<S> {
         velocity: S::Plain,
         dt: S::Plain,
     ) -> Step<S> {
+        let held = Held { dry: split.dry(), velocity, dt };
         let before = state.z;
-        let path = self.advance(state, split.dry(), velocity, dt);
+        let path = self.advance(state, &held);
         let torque = self.torque(state, split, &path);
-        Step { torque, mean_torque: self.mean_torque(before, state, split, dt, &path) }
+        Step { torque, mean_torque: self.mean_torque(before, state, split, &held, &path) }
     }
 
     #[inline]
-    fn advance(
-        &self,
-        state: &mut BristleState<S>,
-        dry: S,
-        velocity: S::Plain,
-        dt: S::Plain,
-    ) -> Path<S> {
+    fn advance(&self, state: &mut BristleState<S>, held: &Held<S>) -> Path<S> {
+        let Held { dry, velocity, dt } = *held;
         let speed = velocity.abs();
         if speed.value() == 0.0 {
             return Path::Rest;
@@ -96,9 +92,9 @@ impl<S: Real> Bristle<S> {
         let pull = self.stiffness.scale(speed);
         if pull.value() * dt.value().max(SHORTEST) >= SATURATED * dry.value() {
             if dt.value() > 0.0 {
-                state.z = (dry / self.stiffness).scale(velocity.sign());
+                state.z = self.settled(held);
             }
-            return Path::Saturated { dry, travel: pull.scale(dt) };
+            return Path::Saturated { travel: pull.scale(dt) };
         }
         // dz/dt decays exponentially, so it is carried forward rather than differenced.
         let pace = pull / dry;
@@ -107,6 +103,12 @@ impl<S: Real> Bristle<S> {
         let slip = (-(pace * state.z)).shift(velocity);
         state.z.add_scaled(&(phi * slip), dt);
         Path::Transient { y, phi, slip }
+    }
+
+    /// Where the deflection tends to.
+    #[inline]
+    fn settled(&self, held: &Held<S>) -> S {
+        (held.dry / self.stiffness).scale(held.velocity.sign())
     }
 
     /// Torque at the end of the step, with the velocity that was held.
@@ -138,31 +140,45 @@ impl<S: Real> Bristle<S> {
         before: S,
         state: &BristleState<S>,
         split: &Split<S>,
-        dt: S::Plain,
+        held: &Held<S>,
         path: &Path<S>,
     ) -> S {
+        let dt = held.dt;
         let steady = split.rate + split.additive;
         match path {
             Path::Rest => self.stiffness * state.z + steady,
-            Path::Saturated { dry, travel } if dt.value() > 0.0 => {
+            Path::Saturated { travel } if dt.value() > 0.0 => {
                 // The mean still holds the transient's area, (z - end)/x.
-                let area = (before - state.z) * (*dry / *travel);
+                let area = (before - state.z) * (held.dry / *travel);
                 let slip = (state.z - before).scale(S::Plain::one() / dt);
                 self.stiffness * (state.z + area) + self.damping * slip + steady
             }
             Path::Saturated { .. } => self.stiffness * state.z + steady,
             Path::Transient { y, phi, slip } => {
-                let mean = before + (y.phi(2) * *slip).scale(dt);
+                // Counted from where the deflection is for most of the step, nothing cancels.
+                let mean = if y.value() < -1.0 {
+                    let settled = self.settled(held);
+                    settled + (before - settled) * *phi
+                } else {
+                    before + (y.phi(2) * *slip).scale(dt)
+                };
                 self.stiffness * mean + self.damping * (*phi * *slip) + steady
             }
         }
     }
 }
 
+/// What stays the same over a step.
+struct Held<S: Real> {
+    dry: S,
+    velocity: S::Plain,
+    dt: S::Plain,
+}
+
 /// How a step went, and what is read from it.
 enum Path<S> {
     Rest,
-    Saturated { dry: S, travel: S },
+    Saturated { travel: S },
     Transient { y: S, phi: S, slip: S },
 }
 
