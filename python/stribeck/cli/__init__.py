@@ -19,6 +19,7 @@ from stribeck.cli.plan import plan
 from stribeck.cli.project import project
 from stribeck.cli.simulate import simulate
 from stribeck.cli.study import study
+from stribeck.cli.validate import validate
 from stribeck.errors import StribeckError, nearest
 
 
@@ -51,6 +52,7 @@ for command in (demo, inspect, models, effects, fit, compare, diagnose, add, imp
 cli.add_command(plan)
 cli.add_command(check)
 cli.add_command(simulate)
+cli.add_command(validate)
 cli.add_command(points)
 cli.add_command(arm)
 cli.add_command(study)

@@ -1,25 +1,32 @@
 """Joints in motion: a friction model on an inertia, in open or closed loop.
 
-`simulate` moves it; `Joint` says what is moved, `Torque`, `Follow` or `Pull` by what.
+`simulate` moves it; `Joint` says what is moved, `Torque`, `Follow` or `Pull` by what. `validate`
+holds a simulated motion against a measured one.
 """
 
 from stribeck.simulate.drive import Controller, Drive, Follow, Pull, Torque
 from stribeck.simulate.joint import Joint
 from stribeck.simulate.result import Simulation
 from stribeck.simulate.run import simulate
-from stribeck.simulate.trajectory import Fourier, Quintic, Trajectory, Trapezoid
+from stribeck.simulate.trajectory import Fourier, Quintic, Sampled, Trajectory, Trapezoid
+from stribeck.simulate.validation import Growth, Validation, validate, validate_closed_loop
 
 __all__ = [
     "Controller",
     "Drive",
     "Follow",
     "Fourier",
+    "Growth",
     "Joint",
     "Pull",
     "Quintic",
+    "Sampled",
     "Simulation",
     "Torque",
     "Trajectory",
     "Trapezoid",
+    "Validation",
     "simulate",
+    "validate",
+    "validate_closed_loop",
 ]

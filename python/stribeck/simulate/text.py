@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from stribeck.simulate.result import Simulation
+    from stribeck.simulate.validation import Validation
 
 
 def simulation_text(simulation: Simulation) -> str:
@@ -35,4 +36,25 @@ def simulation_text(simulation: Simulation) -> str:
     )
     if simulation.left_out:
         lines.append(f"  left out      {', '.join(simulation.left_out)}: of the measurement")
+    return "\n".join(lines)
+
+
+def validation_text(validation: Validation) -> str:
+    """How far the simulated motion is from the measured one."""
+    _, position = validation.joint.units
+    how = "in closed loop" if validation.closed_loop else "driven by the measured torque alone"
+    summary = validation.to_dict()
+    lines = [
+        f"{summary['model']}, {how}, over {summary['rows']} rows:",
+        f"  position off by {summary['position_rmse']:.3g} {position} RMS "
+        f"({100.0 * summary['position_relative_error']:.2g} % of its standard deviation), "
+        f"{summary['position_largest_error']:.3g} at most",
+    ]
+    if validation.closed_loop:
+        lines.append(f"  torque off by {100.0 * summary['torque_relative_error']:.2g} %")
+    for growth in validation.growth:
+        lines.append(
+            f"  after {growth.seconds:>5g} s  off by {growth.error:.3g} {position}, "
+            f"having moved by {growth.way:.3g} (RMS of {growth.starts} starts)"
+        )
     return "\n".join(lines)

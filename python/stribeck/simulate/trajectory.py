@@ -177,3 +177,30 @@ def _without(vector: Array, directions: Sequence[Array]) -> Array:
     """What of a vector is orthogonal to all `directions`."""
     basis, _ = np.linalg.qr(np.column_stack(directions))
     return vector - basis @ (basis.T @ vector)
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A desired position that was recorded, held between samples; its velocity by differences.
+
+    Attributes
+    ----------
+    position
+        rad or m, array [n].
+    step
+        s.
+    """
+
+    position: Array
+    step: float
+
+    @property
+    def duration(self) -> float:
+        """To the last sample, s."""
+        return (self.position.size - 1) * self.step
+
+    def __call__(self, time: Array) -> tuple[Array, Array, Array]:
+        """Position, velocity and acceleration at `time` [n] in s, arrays [n]."""
+        row = np.clip(np.rint(time / self.step).astype(np.intp), 0, self.position.size - 1)
+        velocity = np.gradient(self.position, self.step)
+        return self.position[row], velocity[row], np.gradient(velocity, self.step)[row]

@@ -1,0 +1,53 @@
+"""`stribeck validate`: a model driven by the measured torque, against the measured motion."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from stribeck.cli.common import (
+    check_output,
+    echo_json,
+    json_option,
+    model_fit,
+    read_recording,
+    recording_options,
+    say,
+    seed_option,
+    starts_option,
+)
+from stribeck.report.files import save_figure
+from stribeck.simulate import Joint
+from stribeck.simulate import validate as drive
+
+
+@click.command()
+@click.argument("data")
+@click.argument("model")
+@click.option("--plot", "picture", help="Write both motions' picture (PNG, SVG, PDF).")
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def validate(
+    data: str, model: str, picture: str | None, starts: int, reading: dict[str, Any], seed: int,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Simulate MODEL, driven by the torque of DATA alone, and compare the motion.
+
+    A spec is fitted to DATA first. Without --inertia the joint is the one that was identified.
+    """
+    check_output(picture)
+    recording = read_recording(data, reading)
+    fitted = model_fit(model, recording, starts=starts, seed=seed, refit=False)
+    inertia = reading["inertia"]
+    joint = None if inertia is None else Joint(inertia, kind=recording.joint_kind)
+    validation = drive(fitted, recording, joint)
+    if picture is not None:
+        save_figure(validation.plot(), picture)
+        say(f"wrote {picture}")
+    if as_json:
+        echo_json(validation.to_dict())
+    else:
+        click.echo(repr(validation))
