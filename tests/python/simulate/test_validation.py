@@ -40,9 +40,7 @@ def friction(**changed: float) -> sb.Model:
 
 def recorded(folder: Path) -> sb.Recording:
     """A closed loop as a controller would log it: posture and torque at the instants."""
-    moved = sb.simulate(
-        friction(), JOINT, Follow(TRAPEZOID, CONTROLLER), seconds=seconds, step=STEP
-    )
+    moved = sb.simulate(friction(), JOINT, Follow(TRAPEZOID, CONTROLLER), seconds=10.0, step=STEP)
     gravity = np.cos(moved.instant_position[:-1])
     frame = pl.DataFrame(
         {
