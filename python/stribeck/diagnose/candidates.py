@@ -13,10 +13,10 @@ from stribeck.diagnose.screen import screened
 from stribeck.diagnose.testable import Untestable, untestable
 from stribeck.diagnose.trial import (
     Trial,
+    instead_of,
     passes,
     promises,
     reported_fall,
-    served_by_two,
     try_beyond,
     try_effect,
 )
@@ -65,8 +65,8 @@ def tried_on(
 ) -> tuple[list[Trial], int]:
     """Trials that pass, the best first, and how many effects were looked at.
 
-    An effect that contains a simpler one is tried on top of it, where that one passes; it counts if
-    no other effect does the same there with fewer parameters.
+    An effect that contains a simpler one is tried on top of it, where that one passes. If another
+    effect does the same there with fewer parameters, those two take its place: the larger of them.
     """
     alone = [effect for effect in possible if contained(effect, fitted.model) is None]
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
@@ -74,17 +74,35 @@ def tried_on(
         promising = [s for s in looked_at if promises(s, least)]
         trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]
     tried = max(len(looked_at), 1)
+    good = [t for t in trials if passes(t, tried, least)]
+    pairs: list[_Pair] = []
     for effect in possible:
-        simpler = next((t for t in trials if t.effect == contained(effect, fitted.model)), None)
-        if simpler is not None and passes(simpler, tried, least):
-            beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
-            if beyond is None or not passes(beyond[0], tried, least):
-                continue
-            others = [t for t in trials if t is not simpler and passes(t, tried, least)]
-            if not served_by_two(simpler, beyond[1], others, least, seed):
-                trials.append(beyond[1])
-    good = [t for t in trials if passes(t, tried, least) and reported_fall(fitted, t)]
+        simpler = next((t for t in good if t.effect == contained(effect, fitted.model)), None)
+        if simpler is None:
+            continue
+        beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
+        if beyond is None or not passes(beyond[0], tried, least):
+            continue
+        others = [t for t in good if t is not simpler]
+        other = instead_of(beyond[1], simpler, others, least, seed)
+        if other is not None:
+            pairs.append(_Pair(beyond[1], min(simpler, other, key=lambda trial: trial.rank)))
+        elif passes(beyond[1], tried, least):
+            good.append(beyond[1])
+    good = [t for t in good if reported_fall(fitted, t)]
     shape = FreerShape.of(fitted) if good else None
     if shape is not None:
         good = [t for t in good if not shape.explains(t, tried, least)]
-    return sorted(good, key=lambda trial: trial.rank), tried
+    good.sort(key=lambda trial: trial.rank)
+    for pair in pairs:
+        if pair.larger in good and pair.together.rank < good[0].rank:
+            good.sort(key=lambda trial: trial is not pair.larger)
+    return good, tried
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """Two effects that do what a wider one does, and the larger of the two."""
+
+    together: Trial
+    larger: Trial

@@ -122,10 +122,10 @@ def try_beyond(
     return beyond, Trial(effect, beyond.fit, evidence(before, beyond.fit))
 
 
-def served_by_two(
-    simpler: Trial, beyond: Trial, others: list[Trial], least: float, seed: int
-) -> bool:
-    """Whether `simpler` and one of `others` do what `beyond`, which contains `simpler`, does.
+def instead_of(
+    beyond: Trial, simpler: Trial, others: list[Trial], least: float, seed: int
+) -> Trial | None:
+    """One of `others` that with `simpler` does what `beyond`, which contains `simpler`, does.
 
     With fewer parameters, and within a standard error of its held-out error: a load dependence that
     differs between motoring and generating, say, equals one that does not and a wrong torque
@@ -137,8 +137,8 @@ def served_by_two(
             continue
         both = _try_more(simpler.fit, other.fit.model.written(other.effect), least, seed)
         if both is not None and tie_statistic(beyond, both) <= SIMPLEST:
-            return True
-    return False
+            return other
+    return None
 
 
 def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:

@@ -90,3 +90,31 @@ def test_hats_hold_every_piecewise_linear_curve() -> None:
     left = curve - columns @ np.linalg.lstsq(columns, curve, rcond=None)[0]
     assert np.abs(left).max() < 1e-12
     assert hats(np.zeros(50), 5) == []
+
+
+def turning(slow: float) -> pl.DataFrame:
+    """A joint that turns forward only, with a slow wave of torque along its way."""
+    rng = np.random.default_rng(3)
+    t = np.arange(6000) / 100.0
+    v = 1.0 + 0.5 * np.sin(2 * np.pi * 0.2 * t)
+    q = np.cumsum(v) / 100.0
+    noise = 0.03 * rng.standard_normal(t.size)
+    torque = 3.0 + 1.2 * v + slow * np.sin(1.7 * q) + noise
+    zero = np.zeros(t.size)
+    return pl.DataFrame(
+        {"time": t, "position": q, "velocity": v, "torque": torque, "load_torque": zero}
+    )
+
+
+def test_where_no_position_is_passed_twice_a_wave_is_not_called_noise(tmp_path: Path) -> None:
+    floor = noise_floor(sb.fit("coulomb", record(tmp_path, turning(0.5))))
+    assert floor.value is None and "passes no position twice" in str(floor.why)
+    assert not floor.is_reached_by(0.03)
+    found = sb.improve("coulomb", record(tmp_path, turning(0.5), "again"))
+    assert found.stopped == "nothing_passes" and found.unexplained.share is None
+
+
+def test_white_noise_needs_no_repeats(tmp_path: Path) -> None:
+    floor = noise_floor(sb.fit("coulomb", record(tmp_path, turning(0.0))))
+    assert floor.value == pytest.approx(0.03, rel=0.1)
+    assert floor.is_reached_by(0.031) and not floor.is_reached_by(0.06)

@@ -1,0 +1,39 @@
+"""An effect that contains a simpler one is named only where nothing simpler does the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import stribeck as sb
+from synthetic import joint, motion, record
+
+
+def names(recording: sb.Recording) -> list[str]:
+    return [step.finding.effect for step in sb.improve("coulomb", recording).steps]
+
+
+def test_load_and_a_wrong_torque_constant_are_no_quadrants(tmp_path: Path) -> None:
+    """Both together differ between motoring and generating, and have fewer parameters."""
+    frame = joint()
+    v, tl = motion()[2], frame["load_torque"].to_numpy()
+    friction = 0.15 * np.abs(tl) * np.sign(v)
+    torque = (frame["torque"].to_numpy() + friction) * 1.06
+    recording = record(tmp_path, frame.with_columns(torque=torque))
+    assert sorted(names(recording)) == ["gain", "load"]
+
+
+def test_quadrants_that_neither_makes_are_named(tmp_path: Path) -> None:
+    """A load dependence that grows with speed while the joint drives the load."""
+    frame = joint()
+    v, tl = motion()[2], frame["load_torque"].to_numpy()
+    extra = 0.1 * np.abs(tl) * np.sign(v) * (1.0 + np.where(v * tl > 0, 1.5 * np.abs(v), 0.0))
+    recording = record(tmp_path, joint(extra))
+    assert "quadrant" in names(recording)
+
+
+def test_what_a_springs_rest_position_does_is_no_offset(tmp_path: Path) -> None:
+    """Nobody knows where a spring is at rest: its mean along the motion is its own."""
+    q = motion()[1]
+    pull = 0.4 * np.exp(1.2 * q)
+    assert names(record(tmp_path, joint(pull - pull.mean() + 0.03))) == ["spring"]
