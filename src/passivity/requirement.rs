@@ -11,6 +11,9 @@ use crate::composed::{Composed, Spec};
 use crate::error::ModelError;
 use crate::scalar::{Dual, Real};
 
+/// Derivatives that are carried along in one evaluation.
+const AT_ONCE: usize = 8;
+
 /// Holds where its margin is not negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Requirement {
@@ -75,13 +78,21 @@ impl Requirement {
         spec: &Spec,
         values: &[f64],
     ) -> Result<(f64, Vec<f64>), ModelError<'static>> {
-        let margin = self.margin(&spec.with(values)?);
-        let mut variables: Vec<_> = values.iter().map(|&x| Dual::<f64, 1>::constant(x)).collect();
+        let mut variables: Vec<_> =
+            values.iter().map(|&x| Dual::<f64, AT_ONCE>::constant(x)).collect();
+        let mut margin = 0.0;
         let mut slopes = Vec::with_capacity(values.len());
-        for k in 0..values.len() {
-            variables[k] = Dual::variable(values[k], 0);
-            slopes.push(self.margin(&spec.with(&variables)?).derivative[0]);
-            variables[k] = Dual::constant(values[k]);
+        for first in (0..values.len()).step_by(AT_ONCE) {
+            let some = first..values.len().min(first + AT_ONCE);
+            for (direction, k) in some.clone().enumerate() {
+                variables[k] = Dual::variable(values[k], direction);
+            }
+            let with_slopes = self.margin(&spec.with(&variables)?);
+            margin = with_slopes.value;
+            slopes.extend_from_slice(&with_slopes.derivative[..some.len()]);
+            for k in some {
+                variables[k] = Dual::constant(values[k]);
+            }
         }
         Ok((margin, slopes))
     }

@@ -20,53 +20,92 @@ SLACK = 1e-9
 
 
 @dataclass(frozen=True)
+class FrictionOf:
+    """The friction of a model, and which of the model's parameters are its own.
+
+    Attributes
+    ----------
+    own : int array [k]
+        Where the friction's parameters stand among the model's.
+    known : bool array [k]
+        Those that the model has; the others are zero.
+    """
+
+    friction: Model
+    own: NDArray[np.intp]
+    known: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, model: Model) -> FrictionOf:
+        """Of a model whatever its values."""
+        friction, _ = friction_part(model)
+        places = {name: k for k, name in enumerate(model.names)}
+        known = np.array([name in places for name in friction.names], dtype=bool)
+        own = np.array([places.get(name, 0) for name in friction.names], dtype=np.intp)
+        return cls(friction, own, known)
+
+    def values(self, values: Array) -> Array:
+        """The friction's values [k] among the model's [p]."""
+        return np.where(self.known, values[self.own], 0.0)
+
+    def margins(
+        self, requirements: Sequence[_core.Requirement], values: Array
+    ) -> tuple[Array, Array]:
+        """Margins [n] in the unit of torque, and their slopes [n, p] by the model's parameters."""
+        core = self.friction.core
+        margins, own = _core.margins(core, self.values(values), list(requirements))
+        slopes = np.zeros((margins.size, values.size))
+        slopes[:, self.own[self.known]] = own[:, self.known]
+        return margins, slopes
+
+
+@dataclass(frozen=True)
 class Conditions:
     """Requirements at single operating points and cycles, each necessary for passivity.
 
     Attributes
     ----------
-    model
-        Whose parameters are meant; the friction alone is asked.
+    part
+        The friction, which alone is asked.
     requirements
         What is asked; nothing else is held.
-    sizes : array [k]
+    sizes : array [n]
         Sum of the sizes of the terms of each margin, where it was first missed. Margins are
         counted as shares of it, so that friction which vanishes with speed counts like any other.
     reserve
         The share of its size that each margin has to keep.
     """
 
-    model: Model
+    part: FrictionOf
     requirements: tuple[_core.Requirement, ...] = ()
     sizes: Array = field(default_factory=lambda: np.empty(0))
     reserve: float = 0.0
 
-    def friction(self, values: Array) -> Model:
-        """The friction with these values of the model's parameters."""
-        return friction_part(self.model.with_values(values))[0]
-
     def shares(self, values: Array) -> tuple[Array, Array]:
-        """Margins beyond the reserve as shares of their sizes [k], and their slopes [k, p].
+        """Margins beyond the reserve as shares of their sizes [n], and their slopes [n, p].
 
         Raises
         ------
         stribeck._core.ModelError
             The friction means nothing at these values.
         """
-        margins, slopes = self._margins(self.requirements, values)
+        margins, slopes = self.part.margins(self.requirements, values)
         return margins / self.sizes - self.reserve, slopes / self.sizes[:, None]
 
     def hold(self, values: Array) -> bool:
         """Whether all of them hold."""
         if not self.requirements:
             return True
-        return bool(np.all(self.shares(values)[0] >= -SLACK))
+        try:
+            return bool(np.all(self.shares(values)[0] >= -SLACK))
+        except _core.ModelError:
+            return False
 
     def with_missed(self, asked: Sequence[_core.Requirement], values: Array) -> Conditions:
         """With those of what is `asked` that do not keep the reserve at these values."""
         if not asked:
             return self
-        margins, slopes = self._margins(asked, values)
+        margins, slopes = self.part.margins(asked, values)
         sizes = np.abs(slopes * values).sum(axis=1)
         known = np.isfinite(margins) & np.isfinite(sizes) & (sizes > 0.0)
         missed = known & (margins < (self.reserve - SLACK) * sizes)
@@ -78,17 +117,4 @@ class Conditions:
 
     def spread(self, values: Array, box: Box) -> list[_core.Requirement]:
         """What is asked at points over the box, the worst of each kind."""
-        friction = self.friction(values)
-        return _core.requirements(friction.core, friction.values, dict(box))
-
-    def _margins(
-        self, requirements: Sequence[_core.Requirement], values: Array
-    ) -> tuple[Array, Array]:
-        """Margins [k] in the unit of torque, and their slopes [k, p] by the model's parameters."""
-        friction = self.friction(values)
-        margins, own = _core.margins(friction.core, friction.values, list(requirements))
-        slopes = np.zeros((margins.size, values.size))
-        for k, name in enumerate(friction.names):
-            if name in self.model.names:
-                slopes[:, self.model.names.index(name)] = own[:, k]
-        return margins, slopes
+        return _core.requirements(self.part.friction.core, self.part.values(values), dict(box))

@@ -22,9 +22,9 @@ from stribeck.passivity.conditions import Conditions
 Array = NDArray[np.float64]
 
 #: Most steps, those that are taken back included.
-MOST_STEPS = 40
+MOST_STEPS = 25
 #: The search ends when its next step foresees a smaller relative fall of the sum of squares.
-SETTLED = 1e-9
+SETTLED = 1e-7
 #: Damping of the step after one that is taken back, in squared lengths of the columns.
 FIRST_DAMPING = 1e-3
 #: A damping beyond which a step is too short to bring anything.
@@ -52,6 +52,7 @@ def minimise_under(
     if point is None:
         return Search(values, np.inf, False, "the model is not finite at the start"), 1
     held, damping, evaluations = conditions.hold(values), 0.0, 1
+    outcome = "stopped at the largest number of steps"
     for _ in range(MOST_STEPS):
         refit = step_under(_damped(point, damping), values, free, lower, upper, conditions)
         if refit is None:
@@ -70,9 +71,10 @@ def minimise_under(
         else:
             damping = max(10.0 * damping, FIRST_DAMPING)
             if damping > MOST_DAMPING:
+                outcome = "converged (to rounding)"
                 break
     square = point.square if held else np.inf
-    return Search(values, square, held, "converged (no step falls further)"), evaluations
+    return Search(values, square, outcome.startswith("converged"), outcome), evaluations
 
 
 def step_under(
@@ -93,7 +95,7 @@ def step_under(
     plain = values.copy()
     plain[free] += triangle.solve(lower[free] - values[free], upper[free] - values[free])
     plain = np.clip(plain, lower, upper)
-    if not conditions.requirements or _holds(conditions, plain):
+    if conditions.hold(plain):
         return plain
     step = _Step(triangle, values, free, lower, upper, conditions)
     found = step.least(np.zeros(free.size))
@@ -145,13 +147,6 @@ def _damped(triangle: Triangle, damping: float) -> Triangle:
     )
 
 
-def _holds(conditions: Conditions, values: Array) -> bool:
-    try:
-        return conditions.hold(values)
-    except _core.ModelError:
-        return False
-
-
 class _Step:
     """A step in coordinates in which one unit of each moves the torque by the residual's size."""
 
@@ -175,6 +170,7 @@ class _Step:
         self.lower = (lower[free] - values[free]) / self.unit
         self.upper = (upper[free] - values[free]) / self.unit
         self.bounds = lower, upper
+        self._last: tuple[bytes, tuple[Array, Array]] | None = None
 
     def values(self, y: Array) -> Array:
         """The parameters [p] after a step."""
@@ -188,7 +184,14 @@ class _Step:
         return float(left @ left), 2.0 * (self.factor.T @ left)
 
     def shares(self, y: Array) -> tuple[Array, Array]:
-        """Of the conditions [k], and their slopes; where the friction means nothing, far off."""
+        """Of the conditions [n], and their slopes; where the friction means nothing, far off."""
+        # The optimiser asks for the objective and the conditions at each point in turn.
+        key = y.tobytes()
+        if self._last is None or self._last[0] != key:
+            self._last = key, self._shares(y)
+        return self._last[1]
+
+    def _shares(self, y: Array) -> tuple[Array, Array]:
         try:
             with np.errstate(all="ignore"):
                 shares, slopes = self.conditions.shares(self.values(y))

@@ -20,15 +20,15 @@ from stribeck.errors import FitError, SpecError
 from stribeck.identify.problem import Problem
 from stribeck.model import Model
 from stribeck.passivity.check import BUDGET
-from stribeck.passivity.conditions import Conditions
+from stribeck.passivity.conditions import Conditions, FrictionOf
 from stribeck.passivity.constrained import minimise_under
 from stribeck.passivity.operating_box import Box, operating_box
 
 Array = NDArray[np.float64]
 
-#: The share of its size that each margin keeps at first, and ten times as much whenever that is not
-#: enough for a proof; no more than the last.
-RESERVES = (1e-4, 1e-3, 1e-2, 1e-1)
+#: The shares of its size that each margin keeps: the first from the start, the next one whenever that
+#: is not enough for a proof.
+RESERVES = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 #: Most fits under conditions.
 MOST_ROUNDS = 60
 
@@ -103,10 +103,10 @@ def impose(
     FitError
         No values within the bounds were found with a proof.
     """
-    conditions = Conditions(problem.model, reserve=0.0)
+    conditions = Conditions(FrictionOf.of(problem.model.with_values(values)))
     evaluations, converged = 0, True
     for _ in range(MOST_ROUNDS):
-        box = _box(conditions.friction(values), box_of(values, problem.load))
+        box = _box(conditions.part.friction, box_of(values, problem.load))
         more = _missed(conditions, values, box)
         if more is None:
             return Passive(values, problem, conditions, converged, evaluations)
@@ -117,7 +117,7 @@ def impose(
         search = searches[-1][0]
         evaluations += sum(count for _, count in searches)
         if not np.isfinite(search.square):
-            raise FitError(_impossible(conditions, values))
+            raise FitError(_impossible(problem.model.spec, conditions, values))
         values, converged = search.values, search.converged
         problem = renewed(problem, values)
     raise FitError(
@@ -134,22 +134,23 @@ def _missed(conditions: Conditions, values: Array, box: Box) -> Conditions | Non
         more = conditions.with_missed(conditions.spread(values, box), values)
         if len(more.requirements) > held:
             return more
-    friction = conditions.friction(values)
-    passive, condition, asked = _core.missed(friction.core, friction.values, dict(box), BUDGET)
+    friction = conditions.part.friction
+    own = conditions.part.values(values)
+    passive, condition, asked = _core.missed(friction.core, own, dict(box), BUDGET)
     if passive:
         return None
     if condition == "unknown" or asked is None:
         raise FitError(_undecidable(friction, condition))
-    reserves = RESERVES if held == 0 else [r for r in RESERVES if r > conditions.reserve]
-    more = conditions.with_missed([asked], values)
-    if held and len(more.requirements) > held:
-        return more
-    # What is asked holds, and yet nothing is proved: more is kept of every margin.
-    for reserve in reserves:
-        more = replace(conditions, reserve=reserve).with_missed([asked], values)
+    if held:
+        more = conditions.with_missed([asked], values)
         if len(more.requirements) > held:
-            return more.with_missed(more.spread(values, box), values) if held == 0 else more
-    raise FitError(_undecidable(friction, condition))
+            return more
+    # Nothing more is missed, and yet nothing is proved: more is kept of every margin.
+    reserve = next((reserve for reserve in RESERVES if reserve > conditions.reserve), None)
+    if reserve is None:
+        raise FitError(_undecidable(friction, condition))
+    more = replace(conditions, reserve=reserve)
+    return more.with_missed([asked, *more.spread(values, box)], values)
 
 
 def _box(friction: Model, box: Box) -> dict[str, tuple[float, float]]:
@@ -177,7 +178,7 @@ def _undecidable(friction: Model, condition: str) -> str:
     )
 
 
-def _impossible(conditions: Conditions, values: Array) -> str:
+def _impossible(spec: str, conditions: Conditions, values: Array) -> str:
     shares, _ = conditions.shares(values)
     worst = conditions.requirements[int(np.argmin(shares))]
     at = " and ".join(
@@ -189,6 +190,6 @@ def _impossible(conditions: Conditions, values: Array) -> str:
         "cycle": "the bristle gives off energy between two points",
     }[worst.kind]
     return (
-        f"no passive {conditions.model.spec} was found within its bounds: with the best values "
+        f"no passive {spec} was found within its bounds: with the best values "
         f"{kind} ({at}); widen the bounds (--bound), leave an effect out, or take another law"
     )
