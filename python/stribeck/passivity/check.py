@@ -56,6 +56,17 @@ def check(model: Model | ModelFile | Fit, box: Box | None = None) -> Certificate
     >>> friction = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
     >>> check(friction, {"velocity": (-3.0, 3.0)}).passive
     True
+
+    A bristle with a hundred times the damping that property 1 allows, ``4 D/|v|`` = 8/3 N m s/rad:
+    where dry friction is constant, no damping is too much.
+
+    >>> bristle = {"presliding_stiffness": 1e4, "presliding_damping": 267.0}
+    >>> damped = model(
+    ...     "coulomb+presliding", coulomb_friction=2.0, viscous_friction=0.5, **bristle
+    ... )
+    >>> answer = check(damped, {"velocity": (-3.0, 3.0)})
+    >>> answer.passive, answer.condition
+    (True, 'storage')
     """
     asked = model if isinstance(model, Model) else model.model
     asked._known_values()

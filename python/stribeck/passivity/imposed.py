@@ -26,8 +26,8 @@ from stribeck.passivity.operating_box import Box, operating_box
 
 Array = NDArray[np.float64]
 
-#: The shares of its size that each margin keeps: the first from the start, the next one whenever that
-#: is not enough for a proof.
+#: The shares of its size that each margin keeps: the first from the start, the next one whenever
+#: that is not enough for a proof.
 RESERVES = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
 #: Most fits under conditions.
 MOST_ROUNDS = 60

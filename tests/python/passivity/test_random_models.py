@@ -1,0 +1,233 @@
+"""Random models that are known to be passive, and known not to be: `check` is right on all.
+
+The proofs are made beforehand and share nothing with the check: signs and published conditions on
+one side, on the other a point or a closed cycle inside the box, integrated by hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import astuple
+
+import numpy as np
+import pytest
+import stribeck as sb
+from bristle_cycles import Bristle, Cycles
+
+Case = tuple[sb.Model, dict[str, tuple[float, float]]]
+Random = np.random.Generator
+
+FEW, ALL = 12, 200
+
+
+def speeds(rng: Random, low: float = 0.05, high: float = 3.0) -> dict[str, tuple[float, float]]:
+    """A box of different speeds each way."""
+    return {"velocity": (-rng.uniform(low, high), rng.uniform(low, high))}
+
+
+def lugre(bristle: Bristle) -> sb.Model:
+    """The law of the catalog with the numbers of a bristle."""
+    names = ("a1", "a2", "a3", "a4", "a5", "a6", "a7")
+    return sb.model("lugre", **dict(zip(names, astuple(bristle), strict=True)))
+
+
+def around_a_curve(bristle: Bristle) -> sb.Model:
+    """The same bristle, put around a law with a Stribeck curve."""
+    return sb.model(
+        "coulomb+stribeck+presliding", viscous_friction=bristle.viscous,
+        coulomb_friction=bristle.coulomb, stribeck_height=bristle.static - bristle.coulomb,
+        stribeck_velocity=bristle.speed, stribeck_exponent=bristle.exponent,
+        presliding_stiffness=bristle.stiffness, presliding_damping=bristle.damping,
+    )  # fmt: skip
+
+
+# Passive by construction.
+
+
+def damped_as_published(rng: Random) -> Case:
+    """Barabanov and Ortega 2000: ``s2 > s1 (Fs - Fc)/Fc`` suffices at any speed."""
+    coulomb, height, damping = rng.uniform(0.5, 3.0), rng.uniform(0.0, 2.0), rng.uniform(0.1, 100.0)
+    viscous = 1.02 * damping * height / coulomb + 0.01
+    vs, alpha = rng.uniform(0.01, 0.3), rng.uniform(0.8, 2.5)
+    bristle = Bristle(1e4, damping, viscous, coulomb, coulomb + height, vs, alpha)
+    return lugre(bristle), speeds(rng)
+
+
+def constant_strength(rng: Random) -> Case:
+    """With constant D the deflection stays in range, and no damping is too much."""
+    model = sb.model(
+        "coulomb+presliding", viscous_friction=rng.uniform(0.0, 1.0),
+        coulomb_friction=rng.uniform(0.3, 5.0), presliding_stiffness=10 ** rng.uniform(2.0, 6.0),
+        presliding_damping=10 ** rng.uniform(-1.0, 4.0),
+    )  # fmt: skip
+    return model, speeds(rng)
+
+
+def spring_and_slider(rng: Random) -> Case:
+    """Dahl's bristle: no damping, and a slope that has the sign of what is left."""
+    model = sb.model(
+        "dahl", a1=10 ** rng.uniform(2.0, 5.0), a2=rng.uniform(0.2, 5.0), a3=rng.uniform(0.5, 2.0)
+    )
+    return model, speeds(rng)
+
+
+def sums_of_friction(rng: Random) -> Case:
+    """Each term opposes the motion by itself."""
+    model = sb.model(
+        "wolf", a1=rng.uniform(0.1, 3.0), a2=rng.uniform(0.1, 3.0), a3=rng.uniform(0.01, 1.0),
+        a4=rng.uniform(0.5, 3.0), a5=rng.uniform(0.0, 2.0), a6=rng.uniform(0.3, 2.0),
+    )  # fmt: skip
+    return model, speeds(rng)
+
+
+def heavier_with_load(rng: Random) -> Case:
+    """Dry friction that grows with the load's size and shrinks with warmth, but not to zero."""
+    coldest, warmest, reference = 20.0, 45.0, 30.0
+    coulomb = rng.uniform(0.5, 3.0)
+    model = sb.model(
+        "coulomb+load+temperature_dry",
+        constants={"reference_load": 10.0, "reference_temperature": reference},
+        viscous_friction=rng.uniform(0.0, 1.0), coulomb_friction=coulomb,
+        load_coulomb=rng.uniform(0.0, 0.3), load_exponent=1.0,
+        temperature_dry_slope=-rng.uniform(0.0, 0.9) / (warmest - reference),
+        temperature_dry_curvature=0.0, temperature_dry_load=0.0,
+    )  # fmt: skip
+    box = {"temperature": (coldest, warmest), "load_torque": (-30.0, 20.0)}
+    return model, speeds(rng) | box
+
+
+PASSIVE = (
+    damped_as_published, constant_strength, spring_and_slider, sums_of_friction, heavier_with_load,
+)  # fmt: skip
+
+
+# Not passive, with a motion that shows it.
+
+
+def giving_bristle(rng: Random) -> tuple[Bristle, float]:
+    """A bristle, and a speed up to which a closed cycle gives off energy.
+
+    More than a millionth of what its spring holds on the way: far above rounding.
+    """
+    while True:
+        coulomb = rng.uniform(0.5, 3.0)
+        bristle = Bristle(
+            10 ** rng.uniform(4.0, 5.5), rng.uniform(10.0, 500.0), rng.uniform(0.0, 0.05), coulomb,
+            coulomb + rng.uniform(0.3, 2.0), rng.uniform(1e-3, 0.05), rng.uniform(1.0, 2.5),
+        )  # fmt: skip
+        limit = rng.uniform(0.1, 1.0)
+        cycles = Cycles.inside(bristle, limit, 4000, rng)
+        if np.any(cycles.work < -1e-6 * cycles.energy):
+            return bristle, limit
+
+
+def broken_by_a_cycle(rng: Random) -> Case:
+    """A law of the catalog with its own bristle."""
+    bristle, limit = giving_bristle(rng)
+    return lugre(bristle), {"velocity": (-limit, limit)}
+
+
+def broken_as_composed(rng: Random) -> Case:
+    """A law with two effects, one of them the bristle."""
+    bristle, limit = giving_bristle(rng)
+    return around_a_curve(bristle), {"velocity": (-limit, limit)}
+
+
+def broken_at_a_point(rng: Random) -> Case:
+    """A cubic that is below zero at one speed of the box."""
+    while True:
+        a = rng.uniform((0.2, 0.0, -4.0, 0.3), (2.0, 1.0, -0.5, 2.0))
+        limit = rng.uniform(0.5, 3.0)
+        v = np.linspace(0.0, limit, 2000)
+        if np.min(a[0] + a[1] * v + a[2] * v**2 + a[3] * v**3) < -1e-6:
+            model = sb.model("hao_a", **{f"a{k + 1}": value for k, value in enumerate(a)})
+            return model, {"velocity": (-limit, 0.5 * limit)}
+
+
+def pushed_by_load(rng: Random) -> Case:
+    """Dry friction that a load in the box turns into a push."""
+    coulomb, slope = rng.uniform(0.5, 3.0), rng.uniform(0.05, 0.5)
+    model = sb.model(
+        "coulomb+load", constants={"reference_load": 10.0}, viscous_friction=rng.uniform(0.0, 0.2),
+        coulomb_friction=coulomb, load_coulomb=-slope, load_exponent=1.0,
+    )  # fmt: skip
+    reach = 1.2 * coulomb / slope * 10.0
+    at = model.torque([1e-3], load_torque=[reach])
+    assert at[0] < 0.0
+    return model, speeds(rng) | {"load_torque": (-reach, reach)}
+
+
+ACTIVE = (broken_by_a_cycle, broken_as_composed, broken_at_a_point, pushed_by_load)
+
+
+def case(kinds: tuple[Callable[[Random], Case], ...], number: int) -> Case:
+    """One of the random models; the same number is the same model."""
+    return kinds[number % len(kinds)](np.random.default_rng([number, len(kinds)]))
+
+
+def bristle_of(model: sb.Model) -> Bristle:
+    """The numbers of `lugre` or `around_a_curve`."""
+    if model.law == "lugre":
+        return Bristle(*model.values)
+    viscous, coulomb, height, speed, exponent, stiffness, damping = model.values
+    return Bristle(stiffness, damping, viscous, coulomb, coulomb + height, speed, exponent)
+
+
+def sampled_work(model: sb.Model, example: sb.passivity.Counterexample) -> tuple[float, float]:
+    """Work over a counterexample from the sampled torque, and the deflection at its end.
+
+    The trapezoidal rule on `Model.torque` at the ends of short steps.
+    """
+    work, state = 0.0, example.deflection or 0.0
+    for step in example.steps:
+        held = {name: value for name, value in step.items() if name != "duration"}
+        count = 20_000
+        dt = step["duration"] / count
+        # Between two stretches the torque jumps, the deflection does not.
+        start = model.torque(**held, dt=0.0, state=state)
+        columns = {name: np.full(count, value) for name, value in held.items()}
+        torque = np.append(start, model.torque(**columns, dt=dt, state=state))
+        work += float(np.sum(0.5 * (torque[1:] + torque[:-1]))) * held["velocity"] * dt
+        if example.deflection is not None:
+            state = bristle_of(model).deflection(held["velocity"], float(torque[-1]))
+    return work, state
+
+
+def gives_off_energy(number: int) -> None:
+    """By the check, by the exact step and by the sampled torque."""
+    model, box = case(ACTIVE, number)
+    certificate = sb.check(model, box)
+    assert certificate.passive is False, (number, model, box)
+    example = certificate.counterexample
+    assert example is not None
+    for step in example.steps:
+        for name, (low, high) in box.items():
+            assert low <= step[name] <= high
+    work, end = example.replay()
+    assert work == example.net_work < 0.0
+    sampled, left = sampled_work(model, example)
+    assert sampled < 0.0
+    assert sampled == pytest.approx(work, rel=1e-2)
+    if example.deflection is not None:
+        assert end == pytest.approx(example.deflection, rel=1e-9)
+        assert left == pytest.approx(example.deflection, rel=1e-3, abs=1e-9)
+
+
+@pytest.mark.parametrize("number", range(FEW))
+def test_known_to_give_off_energy(number: int) -> None:
+    gives_off_energy(number)
+
+
+def test_all_known_to_be_passive() -> None:
+    for number in range(ALL):
+        model, box = case(PASSIVE, number)
+        certificate = sb.check(model, box)
+        assert certificate.passive is True, (number, model, box)
+        assert certificate.margin is not None
+        assert certificate.margin >= 0.0
+
+
+@pytest.mark.slow
+def test_all_known_to_give_off_energy() -> None:
+    for number in range(ALL):
+        gives_off_energy(number)
