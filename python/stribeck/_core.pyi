@@ -50,6 +50,7 @@ def simulate(
     start: tuple[float, float],
     deflection: float,
     controller: Mapping[str, float] | None = None,
+    transmission: Mapping[str, float] | None = None,
 ) -> dict[str, NDArray[np.float64]]: ...
 def stroke(
     time: ArrayLike, ends: tuple[float, float], dwell: float, limits: Sequence[float]

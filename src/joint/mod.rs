@@ -11,12 +11,14 @@
 //! | `coupling` | a step of body and friction; stiction as a set |
 //! | `root` | the scalar equation of a step |
 //! | `rigid`, `gravity`, `ball_screw` | one inertia: revolute, prismatic, moved by a screw |
+//! | `elastic` | motor and load with a spring and play between them |
 //! | `trajectory`, `controller` | what the joint shall do, and who sees to it |
 
 mod ball_screw;
 mod body;
 mod controller;
 mod coupling;
+mod elastic;
 mod gravity;
 mod rigid;
 mod root;
@@ -26,6 +28,7 @@ pub use ball_screw::BallScrew;
 pub use body::{Body, Push};
 pub use controller::{Controller, Effort};
 pub use coupling::{Taken, step};
+pub use elastic::{ElasticJoint, ElasticPosture, MovingApart, Transmission};
 pub use gravity::Gravity;
 pub use rigid::{Joint, Moving, Posture};
 pub use trajectory::{Fourier, HARMONICS, Profile, Reference, Stroke, Trajectory};

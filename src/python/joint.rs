@@ -12,8 +12,8 @@ use super::{ModelError, refuse};
 use crate::composed::Composed;
 use crate::dynamics::State;
 use crate::joint::{
-    self, Controller, Effort, Fourier, Gravity, HARMONICS, Joint, Posture, Profile, Push,
-    Reference, Stroke, Taken, Trajectory,
+    self, Controller, Effort, ElasticJoint, ElasticPosture, Fourier, Gravity, HARMONICS, Joint,
+    Posture, Profile, Push, Reference, Stroke, Taken, Trajectory, Transmission,
 };
 
 /// Sizes of a joint.
@@ -33,6 +33,66 @@ impl Sizes {
         let gravity =
             Gravity { constant: self.gravity, cos: self.gravity_cos, sin: self.gravity_sin };
         Joint { inertia: self.inertia, gravity, stiffness: self.stiffness, damping: self.damping }
+    }
+}
+
+/// What is between motor and load.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(super) struct Apart {
+    motor_inertia: f64,
+    stiffness: f64,
+    damping: f64,
+    backlash: f64,
+}
+
+impl Apart {
+    fn joint(&self, load: Joint<f64>) -> ElasticJoint<f64> {
+        let Self { motor_inertia, stiffness, damping, backlash } = *self;
+        ElasticJoint {
+            motor_inertia,
+            transmission: Transmission { stiffness, damping, backlash },
+            load,
+        }
+    }
+}
+
+/// A joint on its way.
+enum Mechanism {
+    Rigid(Joint<f64>, Posture<f64>),
+    Elastic(ElasticJoint<f64>, ElasticPosture<f64>),
+}
+
+impl Mechanism {
+    /// Where the motor is, and where the load.
+    fn postures(&self) -> [Posture<f64>; 2] {
+        match self {
+            Self::Rigid(_, posture) => [*posture; 2],
+            Self::Elastic(_, apart) => [apart.motor, apart.load],
+        }
+    }
+
+    fn step(
+        &mut self,
+        friction: &Composed<f64>,
+        state: &mut State<f64>,
+        push: &Push<f64>,
+        dt: f64,
+    ) -> Taken<f64> {
+        match self {
+            Self::Rigid(joint, posture) => {
+                let mut body = joint.moving(*posture, push);
+                let taken = joint::step(friction, state, &mut body, dt);
+                *posture = body.posture;
+                taken
+            }
+            Self::Elastic(joint, apart) => {
+                let mut body = joint.moving(*apart, push);
+                let taken = joint::step(friction, state, &mut body, dt);
+                *apart = body.posture();
+                taken
+            }
+        }
     }
 }
 
@@ -130,17 +190,17 @@ impl<'a> Columns<'a> {
 
 /// A motion: postures at the instants between steps, and means over the steps.
 struct Motion {
-    position: Vec<f64>,
-    velocity: Vec<f64>,
+    postures: Vec<[Posture<f64>; 2]>,
     motor: Vec<f64>,
     taken: Vec<Taken<f64>>,
 }
 
-/// Moves a joint with friction step by step: dict of `position`, `velocity` [n + 1], and, a step,
-/// `torque`, `load_torque`, `friction_torque` and the works `motor_work`, `environment_work`,
+/// Moves a joint with friction step by step: dict of `position`, `velocity`, `load_position` and
+/// `load_velocity` [n + 1], and, a step, `torque`, `load_torque`, `friction_torque` and the works `motor_work`, `environment_work`,
 /// `friction_work` [n].
 #[pyfunction]
-#[pyo3(signature = (model, values, joint, acting, dt, start, deflection, controller=None))]
+#[pyo3(signature = (model, values, joint, acting, dt, start, deflection, controller=None,
+    transmission=None))]
 #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
 pub(super) fn simulate<'py>(
     py: Python<'py>,
@@ -152,16 +212,26 @@ pub(super) fn simulate<'py>(
     start: (f64, f64),
     deflection: f64,
     controller: Option<Gains>,
+    transmission: Option<Apart>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let friction = model.spec.with(&contiguous(&values)).map_err(refuse)?;
     let (joint, columns) = (joint.joint(), Columns::of(&acting)?);
     let controller = controller.map(|gains| gains.controller());
     let start = Posture { position: start.0, velocity: start.1 };
-    let motion =
-        py.detach(|| run(&friction, &joint, controller, &columns, dt, start, deflection))?;
+    let mechanism = match transmission {
+        Some(apart) => Mechanism::Elastic(apart.joint(joint), ElasticPosture::together(start)),
+        None => Mechanism::Rigid(joint, start),
+    };
+    let state = State::deflected(deflection);
+    let motion = py.detach(|| run(&friction, mechanism, state, controller, &columns, dt))?;
     let answer = PyDict::new(py);
-    answer.set_item("position", motion.position.into_pyarray(py))?;
-    answer.set_item("velocity", motion.velocity.into_pyarray(py))?;
+    let place = |pick: fn(&[Posture<f64>; 2]) -> f64| {
+        motion.postures.iter().map(pick).collect::<Vec<_>>().into_pyarray(py)
+    };
+    answer.set_item("position", place(|[motor, _]| motor.position))?;
+    answer.set_item("velocity", place(|[motor, _]| motor.velocity))?;
+    answer.set_item("load_position", place(|[_, load]| load.position))?;
+    answer.set_item("load_velocity", place(|[_, load]| load.velocity))?;
     answer.set_item("torque", motion.motor.into_pyarray(py))?;
     let column = |pick: fn(&Taken<f64>) -> f64| {
         motion.taken.iter().map(pick).collect::<Vec<_>>().into_pyarray(py)
@@ -176,41 +246,36 @@ pub(super) fn simulate<'py>(
 
 fn run(
     friction: &Composed<f64>,
-    joint: &Joint<f64>,
+    mut mechanism: Mechanism,
+    mut state: State<f64>,
     controller: Option<Controller<f64>>,
     columns: &Columns<'_>,
     dt: f64,
-    start: Posture<f64>,
-    deflection: f64,
 ) -> PyResult<Motion> {
     let count = columns.torque.len();
-    let (mut posture, mut state) = (start, State::deflected(deflection));
     let mut effort = Effort::default();
     let mut motion = Motion {
-        position: Vec::with_capacity(count + 1),
-        velocity: Vec::with_capacity(count + 1),
+        postures: Vec::with_capacity(count + 1),
         motor: Vec::with_capacity(count),
         taken: Vec::with_capacity(count),
     };
-    motion.position.push(posture.position);
-    motion.velocity.push(posture.velocity);
+    let mut at = mechanism.postures();
+    motion.postures.push(at);
     for (k, &torque) in columns.torque.iter().enumerate() {
         #[allow(clippy::cast_precision_loss)]
         let time = k as f64 * dt;
         let motor = controller.map_or(torque, |controller| {
-            let at = (posture.position, posture.velocity);
-            controller.torque(&mut effort, &columns.desired(k), at, torque, dt)
+            let measured = (at[0].position, at[0].velocity);
+            controller.torque(&mut effort, &columns.desired(k), measured, torque, dt)
         });
         let push = columns.push(k, motor, time);
-        let mut body = joint.moving(posture, &push);
-        let taken = joint::step(friction, &mut state, &mut body, dt);
-        posture = body.posture;
-        if !(posture.position.is_finite() && posture.velocity.is_finite()) {
+        let taken = mechanism.step(friction, &mut state, &push, dt);
+        at = mechanism.postures();
+        if !at.iter().all(|at| at.position.is_finite() && at.velocity.is_finite()) {
             let message = format!("the motion is beyond all numbers after {time} s");
             return Err(ModelError::new_err(message));
         }
-        motion.position.push(posture.position);
-        motion.velocity.push(posture.velocity);
+        motion.postures.push(at);
         motion.motor.push(motor);
         motion.taken.push(taken);
     }

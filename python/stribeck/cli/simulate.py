@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,7 @@ from stribeck.simulate import (
     Quintic,
     Torque,
     Trajectory,
+    Transmission,
     Trapezoid,
 )
 from stribeck.simulate import simulate as move
@@ -70,6 +71,10 @@ SECONDS = 10.0
 @click.option("--gravity", type=float, default=0.0, help="Force of gravity along it, N.")
 @click.option("--rotor-inertia", type=float, help="Of motor and ball screw, kg m2.")
 @click.option("--pitch", type=float, help="Travel a turn of the ball screw, m.")
+@click.option("--motor-inertia", type=float, help="Of a motor apart from its load, kg m2 or kg.")
+@click.option("--transmission", type=float, help="Stiffness between motor and load.")
+@click.option("--transmission-damping", type=float, default=0.0, help="Damping between them.")
+@click.option("--backlash", type=float, default=0.0, help="Play between them, rad or m.")
 @click.option(
     "--trajectory", "path", type=click.Choice(["trapezoid", "quintic", "fourier"]),
     default="quintic", show_default=True, help="The desired motion.",
@@ -119,12 +124,12 @@ def simulate(
     if seed < 0:
         raise SpecError(f"seed {seed} is negative: give 0 or more")
     asked = _model(model, values)
-    acting = take_apart(asked, _joint(sizes))
-    drive = _drive(sizes, acting.joint, seed)
+    joint = _with_transmission(_joint(sizes), sizes)
+    drive = _drive(sizes, take_apart(asked, joint).joint, seed)
     if seconds is None and not isinstance(drive, Follow):
         seconds = SECONDS
     simulation = move(
-        asked, _joint(sizes), drive, seconds=seconds, step=step, position=position,
+        asked, joint, drive, seconds=seconds, step=step, position=position,
         temperature=temperature,
     )  # fmt: skip
     if output is not None:
@@ -182,6 +187,22 @@ def _joint(sizes: dict[str, Any]) -> Joint | None:
     return Joint.ball_screw(mass, *screw, gravity=sizes["gravity"])
 
 
+def _with_transmission(joint: Joint | None, sizes: dict[str, Any]) -> Joint | None:
+    """The joint with its motor apart, where that was said."""
+    motor, stiffness = sizes["motor_inertia"], sizes["transmission"]
+    if motor is None and stiffness is None:
+        if sizes["backlash"] or sizes["transmission_damping"]:
+            raise SpecError("--backlash and --transmission-damping need --transmission")
+        return joint
+    if motor is None or stiffness is None or joint is None:
+        raise SpecError(
+            "a motor apart from its load needs --motor-inertia, --transmission and the load's "
+            "--inertia or --mass"
+        )
+    apart = Transmission(motor, stiffness, sizes["transmission_damping"], sizes["backlash"])
+    return replace(joint, transmission=apart)
+
+
 def _drive(sizes: dict[str, Any], joint: Joint, seed: int) -> Drive:
     """What moves the joint."""
     torque, spring, speed = sizes["torque"], sizes["spring"], sizes["pull_speed"]
@@ -203,8 +224,8 @@ def _controller(sizes: dict[str, Any], joint: Joint) -> Controller:
     frequency = math.tau * sizes["bandwidth"]
     kp, kd = sizes["kp"], sizes["kd"]
     return Controller(
-        proportional=joint.inertia * frequency**2 if kp is None else kp,
-        derivative=2.0 * joint.inertia * frequency if kd is None else kd,
+        proportional=joint.total_inertia * frequency**2 if kp is None else kp,
+        derivative=2.0 * joint.total_inertia * frequency if kd is None else kd,
         integral=sizes["ki"],
         limit=sizes["limit"],
     )

@@ -5,7 +5,7 @@ holds a simulated motion against a measured one.
 """
 
 from stribeck.simulate.drive import Controller, Drive, Follow, Pull, Torque
-from stribeck.simulate.joint import Joint
+from stribeck.simulate.joint import Joint, Transmission
 from stribeck.simulate.result import Simulation
 from stribeck.simulate.run import simulate
 from stribeck.simulate.trajectory import Fourier, Quintic, Sampled, Trajectory, Trapezoid
@@ -24,6 +24,7 @@ __all__ = [
     "Simulation",
     "Torque",
     "Trajectory",
+    "Transmission",
     "Trapezoid",
     "Validation",
     "simulate",

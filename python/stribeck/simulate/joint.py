@@ -9,19 +9,56 @@ from stribeck.errors import SpecError
 
 
 @dataclass(frozen=True)
+class Transmission:
+    """A spring, a damper and play between motor and load.
+
+    Friction, controller and recorded position are those of the motor, at the joint side.
+
+    Attributes
+    ----------
+    motor_inertia
+        kg m2 or kg, at the joint side.
+    stiffness, damping
+        N m/rad, N m s/rad, or N for N m and m for rad; damping while the flanks touch.
+    backlash
+        Play from one flank to the other, rad or m.
+    """
+
+    motor_inertia: float
+    stiffness: float
+    damping: float = 0.0
+    backlash: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("motor_inertia", "stiffness"):
+            _check(f"the transmission's {name}", getattr(self, name), above=0.0)
+        for name in ("damping", "backlash"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0.0):
+                raise SpecError(f"the transmission's {name} is {value:g}: give 0 or more")
+
+
+def _check(what: str, value: float, above: float) -> None:
+    if not (math.isfinite(value) and value > above):
+        raise SpecError(f"{what} is {value:g}: give one above {above:g}")
+
+
+@dataclass(frozen=True)
 class Joint:
-    """A joint of one inertia.
+    """A joint of one inertia, or of two with a transmission between them.
 
     Attributes
     ----------
     inertia
-        Inertia or mass, the motor's included: kg m2 or kg.
+        Inertia or mass, the motor's included unless there is a transmission: kg m2 or kg.
     gravity
         Constant force or torque of gravity, against positive motion: N m or N.
     gravity_cos, gravity_sin
         Gravity of a revolute joint, ``gravity_cos cos q + gravity_sin sin q``: N m.
     kind
         ``"revolute"`` or ``"prismatic"``.
+    transmission
+        Between motor and load; None: they are one.
 
     Examples
     --------
@@ -34,13 +71,13 @@ class Joint:
     gravity_cos: float = 0.0
     gravity_sin: float = 0.0
     kind: str = "revolute"
+    transmission: Transmission | None = None
 
     def __post_init__(self) -> None:
         for name in ("inertia", "gravity", "gravity_cos", "gravity_sin"):
             if not math.isfinite(getattr(self, name)):
                 raise SpecError(f"the joint's {name} is {getattr(self, name)}: give a number")
-        if self.inertia <= 0.0:
-            raise SpecError(f"the joint's inertia is {self.inertia:g}: give one above 0")
+        _check("the joint's inertia", self.inertia, above=0.0)
 
     @classmethod
     def revolute(
@@ -80,6 +117,16 @@ class Joint:
         if mass < 0.0 or rotor_inertia < 0.0:
             raise SpecError("mass and rotor inertia of a ball screw cannot be below 0")
         return cls.prismatic(mass + rotor_inertia * (math.tau / pitch) ** 2, gravity=gravity)
+
+    @property
+    def motor_inertia(self) -> float:
+        """What friction acts on at once, kg m2 or kg: all of it without a transmission."""
+        return self.inertia if self.transmission is None else self.transmission.motor_inertia
+
+    @property
+    def total_inertia(self) -> float:
+        """Of motor and load, kg m2 or kg."""
+        return self.inertia if self.transmission is None else self.inertia + self.motor_inertia
 
     @property
     def units(self) -> tuple[str, str]:

@@ -26,7 +26,9 @@ class Simulation:
     Attributes
     ----------
     instant_position, instant_velocity
-        At the instants ``k step``, arrays [steps + 1].
+        At the instants ``k step``, of the motor where it is apart, arrays [steps + 1].
+    instant_load_position
+        Likewise of the load: the same without a transmission.
     torque, load_torque, friction_torque
         Means over each step, arrays [steps]; motor torque is the sum of the other two.
     desired_position, desired_velocity
@@ -50,6 +52,7 @@ class Simulation:
     desired_velocity: Array
     instant_position: Array
     instant_velocity: Array
+    instant_load_position: Array
     torque: Array
     load_torque: Array
     friction_torque: Array
@@ -96,13 +99,17 @@ class Simulation:
 
     @property
     def energy(self) -> dict[str, float]:
-        """Energies of the whole motion, J: ``imbalance`` is rounding."""
+        """Energies of the whole motion, J: ``imbalance`` is rounding.
+
+        Kinetic energy is that of what friction acts on; a load beyond a transmission counts to the
+        environment.
+        """
         motor, environment, friction = (
             float(work.sum())
             for work in (self.motor_work, self.environment_work, self.friction_work)
         )
         start, end = self.instant_velocity[0], self.instant_velocity[-1]
-        kinetic = float(0.5 * self.joint.inertia * (end**2 - start**2))
+        kinetic = float(0.5 * self.joint.motor_inertia * (end**2 - start**2))
         return {
             "motor": motor,
             "environment": environment,
@@ -121,6 +128,9 @@ class Simulation:
             "torque": self.torque,
             "load_torque": self.load_torque,
         }
+        if self.joint.transmission is not None:
+            ends = self.instant_load_position
+            columns["load_position"] = 0.5 * (ends[1:] + ends[:-1])
         if "temperature" in self.model.core.needs:
             columns["temperature"] = self.temperature
         return pl.DataFrame(columns)

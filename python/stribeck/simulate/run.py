@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from dataclasses import asdict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -95,7 +95,7 @@ def simulate(
     try:
         answer = _core.simulate(
             acting.friction.core, acting.friction.values, _sizes(acting.joint, drive), columns,
-            step, start, deflection, _gains(drive),
+            step, start, deflection, _gains(drive), _apart(acting.joint),
         )  # fmt: skip
     except _core.ModelError as error:
         raise SpecError(f"{asked.spec} cannot be simulated: {error}") from None
@@ -110,6 +110,7 @@ def simulate(
         desired_velocity=columns["desired_velocity"],
         instant_position=answer["position"],
         instant_velocity=answer["velocity"],
+        instant_load_position=answer["load_position"],
         torque=answer["torque"],
         load_torque=answer["load_torque"],
         friction_torque=answer["friction_torque"],
@@ -176,7 +177,7 @@ def _rigid_body(drive: Follow, joint: Joint, time: Array) -> Array:
     """Torque that inertia and gravity of the desired motion need."""
     at, _, acceleration = drive.trajectory(time)
     gravity = joint.gravity_cos * np.cos(at) + joint.gravity_sin * np.sin(at)
-    return joint.inertia * acceleration + joint.gravity + gravity
+    return joint.total_inertia * acceleration + joint.gravity + gravity
 
 
 def _column(name: str, values: ArrayLike, count: int) -> Array:
@@ -211,14 +212,11 @@ def _sizes(joint: Joint, drive: Drive) -> dict[str, float]:
     }
 
 
-def _gains(drive: Drive) -> dict[str, Any] | None:
+def _apart(joint: Joint) -> dict[str, float] | None:
+    return None if joint.transmission is None else asdict(joint.transmission)
+
+
+def _gains(drive: Drive) -> dict[str, float] | None:
     if not isinstance(drive, Follow):
         return None
-    c = drive.controller
-    return {
-        "proportional": c.proportional,
-        "integral": c.integral,
-        "derivative": c.derivative,
-        "velocity_weight": c.velocity_weight,
-        "limit": c.limit,
-    }
+    return asdict(drive.controller)

@@ -1,0 +1,282 @@
+//! A planar arm of two joints in the horizontal plane (Indri et al., eq 4), friction in both.
+//!
+//! The second angle is relative to the first link. With `h(q2)` the coupling,
+//! `M = [[a + d + 2h, d + h], [d + h, d]]`. Over a step with mean velocities `w`, momentum changes by
+//! `M+ v+ - M v`, and the second joint feels the mean of `dT/dq2`, `v+' N v dh/(2 dq2)` with
+//! `dM = N dh`: so kinetic energy changes by exactly what motors give and friction takes.
+
+use super::coupling::{Taken, friction_over, required};
+use super::gravity::Gravity;
+use super::root::Equation;
+use crate::composed::Composed;
+use crate::dynamics::{Memory, State};
+use crate::sample::Sample;
+use crate::scalar::Real;
+
+/// Both joints may come to rest and break loose in a step: what is left after so many pieces is
+/// spent as the last one was.
+const MOST_PIECES: usize = 5;
+/// A speed (rad/s) at which friction is that at the edge of motion.
+const EDGE: f64 = 1e-30;
+
+/// The inertial parameters of eq 12.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanarArm<P> {
+    /// `Gamma_1z + m2 l1^2`, link 1 with link 2 at its end (kg m2).
+    pub inertia_1: P,
+    /// `Gamma_2z`, link 2 about its joint (kg m2).
+    pub inertia_2: P,
+    /// `l1 m2 s_2x`, first moment of link 2 along it, times the length of link 1 (kg m2).
+    pub moment_x: P,
+    /// `l1 m2 s_2y`, likewise across it (kg m2).
+    pub moment_y: P,
+}
+
+/// Where both joints are and how fast they move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArmPosture<P> {
+    /// Angles (rad).
+    pub position: [P; 2],
+    /// Velocities (rad/s).
+    pub velocity: [P; 2],
+}
+
+/// What acts over a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArmPush<P> {
+    /// Motor torques (N m), held.
+    pub motor: [P; 2],
+    /// Joint temperatures (degC).
+    pub temperature: [P; 2],
+    /// Time at the start of the step (s).
+    pub time: P,
+}
+
+impl<P: Real<Plain = P>> PlanarArm<P> {
+    /// `h` and its mean slope have the form of gravity's potential and torque.
+    fn coupling(&self) -> Gravity<P> {
+        Gravity { constant: P::zero(), cos: -self.moment_y, sin: -self.moment_x }
+    }
+
+    /// `M11`, `M12` and `M22` at the second angle (kg m2).
+    #[must_use]
+    pub fn inertia(&self, second: P) -> [P; 3] {
+        let coupling = self.coupling().potential(second);
+        let across = self.inertia_2 + coupling;
+        [self.inertia_1 + across + coupling, across, self.inertia_2]
+    }
+
+    /// Kinetic energy (J).
+    #[must_use]
+    pub fn energy(&self, posture: &ArmPosture<P>) -> P {
+        let momentum = self.momentum(posture.position[1], posture.velocity);
+        let [first, second] = posture.velocity;
+        P::from_f64(0.5) * (momentum[0] * first + momentum[1] * second)
+    }
+
+    fn momentum(&self, second: P, [v1, v2]: [P; 2]) -> [P; 2] {
+        let [own, across, other] = self.inertia(second);
+        [own * v1 + across * v2, across * v1 + other * v2]
+    }
+
+    /// Mean torques that the motion over a piece of length `h` needs, at these mean velocities (N m).
+    fn load(&self, posture: &ArmPosture<P>, mean: [P; 2], h: P) -> [P; 2] {
+        let (q2, before) = (posture.position[1], posture.velocity);
+        let after = [0, 1].map(|i| mean[i] + mean[i] - before[i]);
+        let way = mean[1] * h;
+        let (start, end) = (self.momentum(q2, before), self.momentum(q2 + way, after));
+        let slope = self.coupling().mean(q2, way);
+        let [[v1, v2], [u1, u2]] = [before, after];
+        let turning = (u1 * v1 + u1 * v1 + u1 * v2 + u2 * v1) * slope * P::from_f64(0.5);
+        [(end[0] - start[0]) / h, (end[1] - start[1]) / h - turning]
+    }
+
+    /// Moves the arm over `dt` (s) with the friction of both joints, whose states go along.
+    pub fn step(
+        &self,
+        friction: [&Composed<P>; 2],
+        states: &mut [State<P>; 2],
+        posture: &mut ArmPosture<P>,
+        push: &ArmPush<P>,
+        dt: P,
+    ) -> [Taken<P>; 2] {
+        let elapsed = P::zero();
+        let mut course =
+            ArmCourse { arm: self, friction, states, posture: *posture, push, elapsed };
+        let mut taken = [Taken::nothing(); 2];
+        for piece in 1..=MOST_PIECES {
+            let left = dt - course.elapsed;
+            if left <= P::zero() {
+                break;
+            }
+            let (mean, h, stopped) = course.piece(left, piece < MOST_PIECES);
+            course.go(&mut taken, mean, h, dt);
+            for (joint, stopped) in stopped.into_iter().enumerate() {
+                if stopped {
+                    course.posture.velocity[joint] = P::zero();
+                }
+            }
+            if h == left {
+                break;
+            }
+        }
+        *posture = course.posture;
+        taken
+    }
+}
+
+/// How a joint goes through a piece of a step.
+#[derive(Clone, Copy)]
+enum Way<P> {
+    /// Its friction has a memory: one torque for each velocity.
+    Any,
+    /// Dry friction acts against this direction, carried on through rest.
+    Along(P),
+    /// It is at rest, unless friction does not hold it.
+    Resting,
+}
+
+/// An arm on its way through a step.
+struct ArmCourse<'a, P: Real> {
+    arm: &'a PlanarArm<P>,
+    friction: [&'a Composed<P>; 2],
+    states: &'a mut [State<P>; 2],
+    posture: ArmPosture<P>,
+    push: &'a ArmPush<P>,
+    elapsed: P,
+}
+
+impl<P: Real<Plain = P>> ArmCourse<'_, P> {
+    fn way(&self, joint: usize) -> Way<P> {
+        let velocity = self.posture.velocity[joint];
+        if !matches!(self.friction[joint].memory(), Memory::None) {
+            Way::Any
+        } else if velocity.abs() <= P::from_f64(EDGE) {
+            Way::Resting
+        } else {
+            Way::Along(velocity.sign())
+        }
+    }
+
+    fn sample(&self, joint: usize, mean: [P; 2], h: P) -> Sample<P> {
+        let half = P::from_f64(0.5);
+        let velocity = mean[joint];
+        Sample {
+            velocity,
+            position: self.posture.position[joint] + velocity * h * half,
+            acceleration: (velocity - self.posture.velocity[joint]) / (h * half),
+            temperature: self.push.temperature[joint],
+            load_torque: self.arm.load(&self.posture, mean, h)[joint],
+            load_torque_curvature: P::zero(),
+            motor_torque: self.push.motor[joint],
+            external_torque: P::zero(),
+            time: self.push.time + self.elapsed + h * half,
+        }
+    }
+
+    /// Friction of a joint in excess of what these mean velocities ask for (N m).
+    fn excess(&self, joint: usize, mean: [P; 2], h: P, direction: Option<P>) -> P {
+        let sample = self.sample(joint, mean, h);
+        let edge = P::from_f64(EDGE);
+        let velocity = match direction {
+            Some(direction) if sample.velocity * direction < edge => direction * edge,
+            _ => sample.velocity,
+        };
+        let acting = Sample { velocity, ..sample };
+        let mut state = self.states[joint];
+        friction_over(self.friction[joint], &mut state, &acting, h) - required(&sample)
+    }
+
+    /// The mean velocity of a joint for which friction is right, the other's being `mean`'s or
+    /// following from it.
+    fn solve(&self, joint: usize, slope: P, h: P, mean: impl Fn(P) -> [P; 2]) -> P {
+        let zero = P::zero();
+        let before = self.posture.velocity[joint];
+        let size = slope * before.abs() + self.push.motor[joint].abs();
+        let root = |start: P, direction: Option<P>| {
+            Equation { start, slope, size }
+                .solve(|velocity| self.excess(joint, mean(velocity), h, direction))
+        };
+        match self.way(joint) {
+            Way::Any => root(before, None),
+            Way::Along(direction) => root(before, Some(direction)),
+            Way::Resting => {
+                let at_rest = mean(zero);
+                let one = P::one();
+                if self.excess(joint, at_rest, h, Some(one)) < zero {
+                    root(zero, Some(one))
+                } else if self.excess(joint, at_rest, h, Some(-one)) > zero {
+                    root(zero, Some(-one))
+                } else {
+                    zero
+                }
+            }
+        }
+    }
+
+    /// Mean velocities over a piece in which no joint comes to rest.
+    fn velocities(&self, h: P) -> [P; 2] {
+        let [own, across, other] = self.arm.inertia(self.posture.position[1]);
+        let per_step = P::from_f64(2.0) / h;
+        let second = |first: P| {
+            self.solve(1, other * per_step, h, |second| [first, second])
+        };
+        let free = own - across * across / other;
+        let first = self.solve(0, free * per_step, h, |first| [first, second(first)]);
+        [first, second(first)]
+    }
+
+    /// How far beyond rest the joint that is furthest has come at the end of a piece (rad/s):
+    /// negative while all still move their way.
+    fn overshoot(&self, mean: [P; 2]) -> P {
+        let mut most = -P::one();
+        for (joint, mean) in mean.into_iter().enumerate() {
+            if let Way::Along(direction) = self.way(joint) {
+                let beyond = (self.posture.velocity[joint] - mean - mean) * direction;
+                let beyond = beyond / self.posture.velocity[joint].abs();
+                if beyond > most {
+                    most = beyond;
+                }
+            }
+        }
+        most
+    }
+
+    /// Mean velocities and length of the next piece, and which joints are at rest at its end.
+    fn piece(&self, left: P, may_stop: bool) -> ([P; 2], P, [bool; 2]) {
+        let mean = self.velocities(left);
+        if !may_stop || self.overshoot(mean) < P::zero() {
+            return (mean, left, [false; 2]);
+        }
+        let one = P::one();
+        let start = P::from_f64(0.5);
+        let share = Equation { start, slope: one, size: P::from_f64(0.25) }.solve(|share| {
+            let share = if share > P::zero() { share } else { return -one };
+            self.overshoot(self.velocities(left * if share < one { share } else { one }))
+        });
+        let h = left * if share < one { share } else { one };
+        let mean = self.velocities(h);
+        let near = P::from_f64(STOPPED);
+        let stopped = [0, 1].map(|joint| match self.way(joint) {
+            Way::Along(direction) => {
+                let before = self.posture.velocity[joint];
+                (mean[joint] + mean[joint] - before) * direction <= near * before.abs()
+            }
+            _ => false,
+        });
+        (mean, h, stopped)
+    }
+
+    /// Goes through a piece.
+    fn go(&mut self, taken: &mut [Taken<P>; 2], mean: [P; 2], h: P, dt: P) {
+        let samples = [0, 1].map(|joint| self.sample(joint, mean, h));
+        for (joint, sample) in samples.iter().enumerate() {
+            friction_over(self.friction[joint], &mut self.states[joint], sample, h);
+            taken[joint].add(sample, required(sample), h, dt);
+            self.posture.position[joint] += mean[joint] * h;
+            let before = self.posture.velocity[joint];
+            self.posture.velocity[joint] = mean[joint] + mean[joint] - before;
+        }
+        self.elapsed += h;
+    }
+}

@@ -1,0 +1,188 @@
+//! A motor that moves its load through a spring with play.
+//!
+//! Friction acts at the motor. Twist `d = theta - q`, of which the spring feels `e`, what exceeds the
+//! play on either side: `U(e) = k e^2/2`. Over a step the mean torque is `(U(e+) - U(e))/(d+ - d)`, and
+//! the damper's `c (e+ - e)/h (e+ - e)/(d+ - d)`: the first gives back exactly what it has stored, the
+//! second only takes. The load follows from its own scalar equation, within that of the motor.
+
+use super::body::{Body, Push};
+use super::rigid::{Joint, Moving, Posture};
+use super::root::Equation;
+use crate::sample::Sample;
+use crate::scalar::Real;
+
+/// A spring and a damper with play.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transmission<P> {
+    /// Stiffness `k` (T/X).
+    pub stiffness: P,
+    /// Damping `c` while the flanks touch (T s/X).
+    pub damping: P,
+    /// Play from one flank to the other (X).
+    pub backlash: P,
+}
+
+impl<P: Real> Transmission<P> {
+    /// What the spring feels of a twist.
+    fn stretch(&self, twist: P) -> P {
+        let side = self.backlash * P::from_f64(0.5);
+        if twist > side {
+            twist - side
+        } else if twist < -side {
+            twist + side
+        } else {
+            P::zero()
+        }
+    }
+
+    /// Mean torque on the load as the twist changes by `change` within `h` (T).
+    #[must_use]
+    pub fn mean(&self, twist: P, change: P, h: P) -> P {
+        let (before, after) = (self.stretch(twist), self.stretch(twist + change));
+        let (taken_up, play) = (after - before, self.backlash.is_zero());
+        let share = if play || before.sign() * after.sign() > P::zero() {
+            P::one()
+        } else if change.is_zero() {
+            P::zero()
+        } else {
+            taken_up / change
+        };
+        let mean = (before + after) * P::from_f64(0.5);
+        (self.stiffness * mean + self.damping * taken_up / h) * share
+    }
+
+    /// Energy in the spring (J).
+    #[must_use]
+    pub fn potential(&self, twist: P) -> P {
+        let stretch = self.stretch(twist);
+        P::from_f64(0.5) * self.stiffness * stretch * stretch
+    }
+}
+
+/// Two inertias and what is between them; motor quantities at the joint side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticJoint<P> {
+    /// Inertia of the motor (T s2/X).
+    pub motor_inertia: P,
+    /// Between motor and load.
+    pub transmission: Transmission<P>,
+    /// What is moved, without the motor.
+    pub load: Joint<P>,
+}
+
+/// Where both inertias are and how fast they move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ElasticPosture<P> {
+    /// Of the motor.
+    pub motor: Posture<P>,
+    /// Of the load.
+    pub load: Posture<P>,
+    /// Position of the motor minus that of the load (X), carried along by itself: a stiff spring
+    /// would feel the rounding of a difference.
+    pub twist: P,
+}
+
+impl<P: Real> ElasticPosture<P> {
+    /// Both inertias at the same place and speed.
+    #[must_use]
+    pub fn together(posture: Posture<P>) -> Self {
+        Self { motor: posture, load: posture, twist: P::zero() }
+    }
+}
+
+impl<P: Real> ElasticJoint<P> {
+    /// Kinetic and potential energy, that of the springs included (J).
+    #[must_use]
+    pub fn energy(&self, posture: &ElasticPosture<P>, support: P) -> P {
+        let speed = posture.motor.velocity;
+        P::from_f64(0.5) * self.motor_inertia * speed * speed
+            + self.transmission.potential(posture.twist)
+            + self.load.energy(&posture.load, support)
+    }
+
+    /// The joint as it goes through a step; what pushes it from outside acts on the load.
+    #[must_use]
+    pub fn moving<'a>(
+        &'a self,
+        posture: ElasticPosture<P>,
+        push: &'a Push<P>,
+    ) -> MovingApart<'a, P> {
+        let ElasticPosture { motor, load, twist } = posture;
+        MovingApart { joint: self, push, motor, load: self.load.moving(load, push), twist }
+    }
+}
+
+/// Motor and load on their way through a step.
+#[derive(Clone, Copy, Debug)]
+pub struct MovingApart<'a, P> {
+    joint: &'a ElasticJoint<P>,
+    push: &'a Push<P>,
+    motor: Posture<P>,
+    load: Moving<'a, P>,
+    twist: P,
+}
+
+impl<P: Real> MovingApart<'_, P> {
+    /// Where both have come to.
+    #[must_use]
+    pub fn posture(&self) -> ElasticPosture<P> {
+        ElasticPosture { motor: self.motor, load: self.load.posture, twist: self.twist }
+    }
+
+    /// Mean torque between them at these mean velocities (T).
+    fn between(&self, motor: P, load: P, h: P) -> P {
+        self.joint.transmission.mean(self.twist, (motor - load) * h, h)
+    }
+
+    /// Mean velocity of the load while the motor moves at `motor`.
+    fn load_velocity(&self, motor: P, h: P) -> P {
+        let start = self.load.velocity();
+        let slope = self.load.inertia() / (h * P::from_f64(0.5));
+        let pull = self.between(motor, start, h).abs();
+        let size = pull + self.load.sample(start, h).external_torque.abs() + slope * start.abs();
+        Equation { start, slope, size }.solve(|velocity| {
+            self.load.sample(velocity, h).load_torque - self.between(motor, velocity, h)
+        })
+    }
+}
+
+impl<P: Real> Body<P> for MovingApart<'_, P> {
+    fn velocity(&self) -> P {
+        self.motor.velocity
+    }
+
+    fn inertia(&self) -> P {
+        self.joint.motor_inertia
+    }
+
+    fn sample(&self, velocity: P, h: P) -> Sample<P> {
+        let half = P::from_f64(0.5);
+        let acceleration = (velocity - self.motor.velocity) / (h * half);
+        let load = self.load.sample(self.load_velocity(velocity, h), h);
+        let pull = self.between(velocity, load.velocity, h);
+        Sample {
+            velocity,
+            position: self.motor.position + velocity * h * half,
+            acceleration,
+            temperature: self.push.temperature,
+            load_torque: self.joint.motor_inertia * acceleration + pull,
+            load_torque_curvature: P::zero(),
+            motor_torque: self.push.motor,
+            external_torque: -pull,
+            time: load.time,
+        }
+    }
+
+    fn advance(&mut self, velocity: P, h: P) {
+        let load = self.load_velocity(velocity, h);
+        self.twist += (velocity - load) * h;
+        self.load.advance(load, h);
+        let Posture { position, velocity: before } = self.motor;
+        self.motor =
+            Posture { position: position + velocity * h, velocity: velocity + velocity - before };
+    }
+
+    fn rest(&mut self) {
+        self.motor.velocity = P::zero();
+    }
+}
