@@ -18,6 +18,8 @@ use crate::scalar::Real;
 const MOST_PIECES: usize = 5;
 /// A speed (rad/s) at which friction is that at the edge of motion.
 const EDGE: f64 = 1e-30;
+/// A joint this slow, relative to the start of a piece that was to end at its rest, is at rest.
+const STOPPED: f64 = 1e-9;
 
 /// The inertial parameters of eq 12.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -218,9 +220,7 @@ impl<P: Real<Plain = P>> ArmCourse<'_, P> {
     fn velocities(&self, h: P) -> [P; 2] {
         let [own, across, other] = self.arm.inertia(self.posture.position[1]);
         let per_step = P::from_f64(2.0) / h;
-        let second = |first: P| {
-            self.solve(1, other * per_step, h, |second| [first, second])
-        };
+        let second = |first: P| self.solve(1, other * per_step, h, |second| [first, second]);
         let free = own - across * across / other;
         let first = self.solve(0, free * per_step, h, |first| [first, second(first)]);
         [first, second(first)]

@@ -33,7 +33,7 @@ pub struct Taken<P> {
 }
 
 impl<P: Real> Taken<P> {
-    fn nothing() -> Self {
+    pub(super) fn nothing() -> Self {
         let zero = P::zero();
         Self {
             friction: zero,
@@ -45,7 +45,7 @@ impl<P: Real> Taken<P> {
     }
 
     /// Adds a piece of length `h` of a step of length `dt`.
-    fn add(&mut self, sample: &Sample<P>, friction: P, h: P, dt: P) {
+    pub(super) fn add(&mut self, sample: &Sample<P>, friction: P, h: P, dt: P) {
         let (share, way) = (h / dt, sample.velocity * h);
         self.friction += friction * share;
         self.load += sample.load_torque * share;
@@ -220,12 +220,12 @@ impl<P: Real<Plain = P>, B: Body<P>> Course<'_, P, B> {
 }
 
 /// Friction that goes with a sample (T).
-fn required<P: Real>(sample: &Sample<P>) -> P {
+pub(super) fn required<P: Real>(sample: &Sample<P>) -> P {
     sample.motor_torque - sample.load_torque
 }
 
 /// Mean friction torque as a sample is held for `h`; the state goes along.
-fn friction_over<P: Real<Plain = P>>(
+pub(super) fn friction_over<P: Real<Plain = P>>(
     model: &Composed<P>,
     state: &mut State<P>,
     sample: &Sample<P>,

@@ -12,8 +12,10 @@
 //! | `root` | the scalar equation of a step |
 //! | `rigid`, `gravity`, `ball_screw` | one inertia: revolute, prismatic, moved by a screw |
 //! | `elastic` | motor and load with a spring and play between them |
+//! | `arm` | two joints in the plane, each with its friction |
 //! | `trajectory`, `controller` | what the joint shall do, and who sees to it |
 
+mod arm;
 mod ball_screw;
 mod body;
 mod controller;
@@ -24,6 +26,7 @@ mod rigid;
 mod root;
 mod trajectory;
 
+pub use arm::{ArmPosture, ArmPush, PlanarArm};
 pub use ball_screw::BallScrew;
 pub use body::{Body, Push};
 pub use controller::{Controller, Effort};

@@ -1,0 +1,107 @@
+//! A planar arm of two joints, friction in both.
+
+use stribeck::composed::{Composed, Spec};
+use stribeck::dynamics::State;
+use stribeck::joint::{ArmPosture, ArmPush, PlanarArm, Taken};
+
+const DT: f64 = 1e-3;
+
+/// Nominal parameters of Indri et al., eq 15, with a first link of 0.35 m.
+const ARM: PlanarArm<f64> =
+    PlanarArm { inertia_1: 3.689, inertia_2: 0.275, moment_x: 0.35 * 0.97, moment_y: 0.35 * 0.1 };
+
+fn model(id: &str, values: &[f64]) -> Composed<f64> {
+    Spec::new(id, []).unwrap().with(values).unwrap()
+}
+
+fn moved(
+    friction: [&Composed<f64>; 2],
+    start: ArmPosture<f64>,
+    steps: u32,
+    torque: impl Fn(f64) -> [f64; 2],
+) -> Vec<(ArmPosture<f64>, [Taken<f64>; 2])> {
+    let (mut posture, mut states) = (start, [State::default(); 2]);
+    (0..steps)
+        .map(|k| {
+            let time = f64::from(k) * DT;
+            let push = ArmPush { motor: torque(time), temperature: [30.0; 2], time };
+            let taken = ARM.step(friction, &mut states, &mut posture, &push, DT);
+            (posture, taken)
+        })
+        .collect()
+}
+
+const SWINGING: ArmPosture<f64> = ArmPosture { position: [0.2, -0.4], velocity: [1.5, -4.0] };
+
+/// Without friction and motors nothing acts about the base: energy and angular momentum stay.
+#[test]
+fn a_free_arm_keeps_energy_and_angular_momentum() {
+    let free = model("coulomb", &[0.0, 0.0]);
+    let steps = moved([&free; 2], SWINGING, 20_000, |_| [0.0; 2]);
+    let momentum = |p: &ArmPosture<f64>| {
+        let [own, across, _] = ARM.inertia(p.position[1]);
+        own * p.velocity[0] + across * p.velocity[1]
+    };
+    for (posture, _) in &steps {
+        let energy = ARM.energy(posture) / ARM.energy(&SWINGING) - 1.0;
+        assert!(energy.abs() < 1e-11, "energy is off by {energy:e}");
+        let turning = momentum(posture) / momentum(&SWINGING) - 1.0;
+        assert!(turning.abs() < 1e-11, "angular momentum is off by {turning:e}");
+    }
+    // It does move: the second joint turns about itself.
+    assert!(steps.last().unwrap().0.position[1].abs() > 10.0);
+}
+
+#[test]
+fn what_motors_give_is_kept_or_taken_by_friction() {
+    let frictions = [
+        [model("coulomb", &[0.8, 5.0]), model("coulomb", &[0.2, 1.0])],
+        [
+            model("bittencourt_a", &[4.0, 2.0, 0.1, 2.0, 0.8]),
+            model("lugre", &[900.0, 1.0, 0.2, 0.8, 1.2, 0.1, 2.0]),
+        ],
+    ];
+    for [first, second] in &frictions {
+        let mut before = SWINGING;
+        #[allow(clippy::disallowed_methods)]
+        let torque = |t: f64| [9.0 * (2.0 * t).sin(), 2.5 * (5.0 * t).cos()];
+        for (after, taken) in moved([first, second], SWINGING, 10_000, torque) {
+            let (was, is) = (ARM.energy(&before), ARM.energy(&after));
+            let given: f64 = taken.iter().map(|t| t.motor_work).sum();
+            let lost: f64 = taken.iter().map(|t| t.friction_work).sum();
+            let size = was.max(is).max(given.abs()).max(lost.abs());
+            let imbalance = (given - lost - (is - was)).abs() / size;
+            assert!(imbalance < 1e-11, "imbalance {imbalance:e}");
+            before = after;
+        }
+    }
+}
+
+/// Dry friction in both: the arm comes to rest, joint by joint, and stays there for a minute.
+#[test]
+fn both_joints_stop_and_stay() {
+    let friction = [model("coulomb", &[0.8, 5.0]), model("coulomb", &[0.2, 1.0])];
+    let steps = moved([&friction[0], &friction[1]], SWINGING, 60_000, |_| [3.0, -0.6]);
+    let still = |joint: usize| {
+        steps.iter().position(|(posture, _)| posture.velocity[joint] == 0.0).unwrap()
+    };
+    assert_ne!(still(0), still(1));
+    let end = steps[59_999].0;
+    assert_eq!(end.velocity, [0.0; 2]);
+    assert_eq!(end, steps[10_000].0);
+    // Friction never gave anything.
+    assert!(steps.iter().flat_map(|(_, taken)| taken).all(|taken| taken.friction_work >= -1e-15));
+}
+
+/// A push that overcomes the first joint alone turns it, and the second one holds.
+#[test]
+fn friction_holds_a_joint_that_the_other_one_swings() {
+    let friction = [model("coulomb", &[0.8, 1.0]), model("coulomb", &[0.2, 4.0])];
+    let start = ArmPosture { position: [0.0; 2], velocity: [0.0; 2] };
+    let steps = moved([&friction[0], &friction[1]], start, 1_000, |_| [3.0, 0.0]);
+    let (end, taken) = steps[999];
+    assert!(end.velocity[0] > 0.2);
+    assert_eq!(end.position[1], 0.0);
+    // It holds what the first one's acceleration asks of it.
+    assert!(taken[1].friction < -0.1, "{}", taken[1].friction);
+}
