@@ -52,6 +52,15 @@ def simulate(
     controller: Mapping[str, float] | None = None,
     transmission: Mapping[str, float] | None = None,
 ) -> dict[str, NDArray[np.float64]]: ...
+def simulate_arm(
+    models: tuple[Model, Model],
+    values: tuple[ArrayLike, ArrayLike],
+    arm: Mapping[str, float],
+    acting: Mapping[str, ArrayLike],
+    dt: float,
+    start: tuple[Sequence[float], Sequence[float]],
+    controllers: tuple[Mapping[str, float] | None, Mapping[str, float] | None],
+) -> dict[str, NDArray[np.float64]]: ...
 def stroke(
     time: ArrayLike, ends: tuple[float, float], dwell: float, limits: Sequence[float]
 ) -> tuple[_Desired, float]: ...

@@ -108,7 +108,7 @@ pub(super) struct Gains {
 }
 
 impl Gains {
-    fn controller(&self) -> Controller<f64> {
+    pub(super) fn controller(&self) -> Controller<f64> {
         Controller {
             proportional: self.proportional,
             integral: self.integral,

@@ -1,5 +1,6 @@
 //! The extension module `stribeck._core`: a thin adapter, no mathematics.
 
+mod arm;
 mod catalog;
 mod columns;
 mod formula;
@@ -29,6 +30,8 @@ fn refuse(error: impl core::error::Error) -> PyErr {
 mod _core {
     #[pymodule_export]
     use super::ModelError;
+    #[pymodule_export]
+    use super::arm::simulate_arm;
     #[pymodule_export]
     use super::catalog::catalog;
     #[pymodule_export]

@@ -4,6 +4,7 @@
 holds a simulated motion against a measured one.
 """
 
+from stribeck.simulate.arm import ArmMotion, PlanarArm, simulate_arm
 from stribeck.simulate.drive import Controller, Drive, Follow, Pull, Torque
 from stribeck.simulate.joint import Joint, Transmission
 from stribeck.simulate.result import Simulation
@@ -12,12 +13,14 @@ from stribeck.simulate.trajectory import Fourier, Quintic, Sampled, Trajectory, 
 from stribeck.simulate.validation import Growth, Validation, validate, validate_closed_loop
 
 __all__ = [
+    "ArmMotion",
     "Controller",
     "Drive",
     "Follow",
     "Fourier",
     "Growth",
     "Joint",
+    "PlanarArm",
     "Pull",
     "Quintic",
     "Sampled",
@@ -28,6 +31,7 @@ __all__ = [
     "Trapezoid",
     "Validation",
     "simulate",
+    "simulate_arm",
     "validate",
     "validate_closed_loop",
 ]

@@ -46,6 +46,22 @@ def take_apart(model: Model, joint: Joint | None) -> Acting:
     SpecError
         There is no inertia, or the model holds a drive train that only explains recordings.
     """
+    plain = model.friction
+    friction, left_out = friction_of(model)
+    if joint is not None and joint.kind == "revolute" and plain.position_unit == "m":
+        raise SpecError(f"{plain.spec} is about forces and metres: give a prismatic joint (--mass)")
+    known = dict(zip(plain.names, plain.values, strict=True))
+    return Acting(friction, _joint(plain, joint, known), left_out)
+
+
+def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
+    """What of a model acts as torque without being a rigid body, and what is left out of it.
+
+    Raises
+    ------
+    SpecError
+        Values are missing, or the model holds a drive train that only explains recordings.
+    """
     model._known_values()
     plain = model.friction
     trains = [effect for effect in plain.effects if effect in DRIVE_TRAIN]
@@ -54,8 +70,6 @@ def take_apart(model: Model, joint: Joint | None) -> Acting:
             f"{plain.spec} has {trains[0]}, which explains a recording and moves nothing: "
             f"simulate a model without it"
         )
-    if joint is not None and joint.kind == "revolute" and plain.position_unit == "m":
-        raise SpecError(f"{plain.spec} is about forces and metres: give a prismatic joint (--mass)")
     taken = (*plain.rigid_body, *(e for e in plain.effects if e in RIGID_BODY_EFFECTS))
     known = dict(zip(plain.names, plain.values, strict=True))
     left_out = tuple(effect for effect in plain.effects if effect in MEASUREMENT)
@@ -65,8 +79,7 @@ def take_apart(model: Model, joint: Joint | None) -> Acting:
         rigid_body=(),
         values=np.empty(0),
     )
-    friction = friction.with_values([known.get(name, 0.0) for name in friction.names])
-    return Acting(friction, _joint(plain, joint, known), left_out)
+    return friction.with_values([known.get(name, 0.0) for name in friction.names]), left_out
 
 
 def _joint(model: Model, joint: Joint | None, known: dict[str, float]) -> Joint:

@@ -86,12 +86,12 @@ def simulate(
     """
     asked = model if isinstance(model, Model) else model.model
     acting = take_apart(asked, joint)
-    _check("step", step, above=0.0)
-    count = _steps(drive, seconds, step)
+    check_positive("step", step)
+    count = steps_of(drive, seconds, step)
     start = _start(drive, position, velocity)
     columns = _columns(drive, acting.joint, count, step)
-    columns["temperature"] = _column("temperature", _warmth(asked, temperature), count)
-    columns["external"] = _column("external torque", external_torque, count)
+    columns["temperature"] = column("temperature", _warmth(asked, temperature), count)
+    columns["external"] = column("external torque", external_torque, count)
     try:
         answer = _core.simulate(
             acting.friction.core, acting.friction.values, _sizes(acting.joint, drive), columns,
@@ -120,12 +120,13 @@ def simulate(
     )
 
 
-def _check(name: str, value: float, above: float) -> None:
-    if not (math.isfinite(value) and value > above):
-        raise SpecError(f"{name} {value:g} cannot be: give a number above {above:g}")
+def check_positive(name: str, value: float) -> None:
+    """Refuse what is not above 0."""
+    if not (math.isfinite(value) and value > 0.0):
+        raise SpecError(f"{name} {value:g} cannot be: give a number above 0")
 
 
-def _steps(drive: Drive, seconds: float | None, step: float) -> int:
+def steps_of(drive: Drive, seconds: float | None, step: float) -> int:
     """How many steps."""
     if seconds is None:
         if isinstance(drive, Torque) and np.ndim(drive.torque) == 1:
@@ -133,7 +134,7 @@ def _steps(drive: Drive, seconds: float | None, step: float) -> int:
         if not isinstance(drive, Follow):
             raise SpecError("how long? Give the seconds")
         seconds = drive.trajectory.duration
-    _check("seconds", seconds, above=0.0)
+    check_positive("seconds", seconds)
     count = round(seconds / step)
     if not 1 <= count <= MOST_STEPS:
         raise SpecError(
@@ -161,7 +162,7 @@ def _columns(drive: Drive, joint: Joint, count: int, step: float) -> dict[str, A
     names = ("torque", "support", "support_velocity", "desired_position", "desired_velocity")
     columns = {name: np.zeros(count) for name in names}
     if isinstance(drive, Torque):
-        columns["torque"] = _column("torque", drive.torque, count)
+        columns["torque"] = column("torque", drive.torque, count)
     elif isinstance(drive, Pull):
         columns["support"] = drive.speed * begun
         columns["support_velocity"] = np.full(count, drive.speed)
@@ -180,7 +181,8 @@ def _rigid_body(drive: Follow, joint: Joint, time: Array) -> Array:
     return joint.total_inertia * acceleration + joint.gravity + gravity
 
 
-def _column(name: str, values: ArrayLike, count: int) -> Array:
+def column(name: str, values: ArrayLike, count: int) -> Array:
+    """One number a step, from one or from as many."""
     given = np.asarray(values, dtype=np.float64)
     if given.ndim > 1 or (given.ndim == 1 and given.size != count):
         raise SpecError(f"{name} has {given.size} values for {count} steps: give one a step")
