@@ -104,7 +104,7 @@ pub(super) fn simulate_arm<'py>(
     answer.set_item("position", matrix(motion.postures.iter().map(|p| p.position), py)?)?;
     answer.set_item("velocity", matrix(motion.postures.iter().map(|p| p.velocity), py)?)?;
     answer.set_item("torque", matrix(motion.motor.iter().copied(), py)?)?;
-    let mut column = |name: &str, pick: fn(&Taken<f64>) -> f64| -> PyResult<()> {
+    let column = |name: &str, pick: fn(&Taken<f64>) -> f64| -> PyResult<()> {
         let rows = motion.taken.iter().map(|taken| [pick(&taken[0]), pick(&taken[1])]);
         answer.set_item(name, matrix(rows, py)?)
     };
