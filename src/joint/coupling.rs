@@ -17,6 +17,10 @@ const MOST_PIECES: usize = 3;
 /// A speed (X/s) at which friction is that at the edge of motion.
 const EDGE: f64 = 1e-30;
 
+/// Friction that grows faster with the load than the load itself stops a joint at once: in this
+/// share of a step.
+const JAMMED: f64 = 1e-9;
+
 /// What a step took and gave: means over it (T), and work (J).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taken<P> {
@@ -200,9 +204,16 @@ impl<P: Real<Plain = P>, B: Body<P>> Course<'_, P, B> {
     /// How long a joint takes to rest, at half its velocity on average, if that is within `h`.
     fn time_to_rest(&self, mean: P, h: P) -> P {
         let (direction, speed) = (mean.sign(), (mean + mean).abs());
+        let shortest = h * P::from_f64(JAMMED);
         let time = |deceleration: P| {
             let time = speed / deceleration;
-            if time < h { time } else { h }
+            if time < shortest {
+                shortest
+            } else if time < h {
+                time
+            } else {
+                h
+            }
         };
         let equation =
             Equation { start: speed / h, slope: self.body.inertia(), size: self.size(mean, h) };
