@@ -14,6 +14,25 @@
 //! | `elastic` | motor and load with a spring and play between them |
 //! | `arm` | two joints in the plane, each with its friction |
 //! | `trajectory`, `controller` | what the joint shall do, and who sees to it |
+//!
+//! ```
+//! use stribeck::composed::Spec;
+//! use stribeck::dynamics::State;
+//! use stribeck::joint::{self, Joint, Posture, Push};
+//!
+//! let friction = Spec::new("coulomb", [])?.with(&[0.5, 2.0])?;
+//! let (joint, mut state) = (Joint::revolute(0.3, 1.0, 0.0), State::default());
+//! let mut posture = Posture { position: 0.0, velocity: 0.0 };
+//! let push = Push::by_motor(2.5);
+//! for _ in 0..60_000 {
+//!     let mut body = joint.moving(posture, &push);
+//!     joint::step(&friction, &mut state, &mut body, 1e-3);
+//!     posture = body.posture;
+//! }
+//! // 2.5 N m against gravity of 1 N m: less than the 2 N m that hold it.
+//! assert_eq!(posture.position, 0.0);
+//! # Ok::<(), stribeck::error::ModelError>(())
+//! ```
 
 mod arm;
 mod ball_screw;

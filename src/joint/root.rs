@@ -27,10 +27,16 @@ pub(super) struct Equation<P> {
 }
 
 impl<P: Real> Equation<P> {
+    /// What counts as zero; beyond all numbers nothing does.
+    fn settled(&self) -> P {
+        let settled = self.size * rounding::<P>() * P::from_f64(SLACK);
+        if settled.value().is_finite() { settled } else { P::zero() }
+    }
+
     /// The root: exact to rounding, by a bounded number of evaluations. Where the function does not
     /// change its sign within reach, the last place looked at.
     pub fn solve(&self, mut function: impl FnMut(P) -> P) -> P {
-        let settled = self.size * rounding::<P>() * P::from_f64(SLACK);
+        let settled = self.settled();
         let (mut near, mut f_near) = (self.start, function(self.start));
         if f_near.abs() <= settled {
             return near;

@@ -20,8 +20,8 @@ from stribeck.simulate.result import Simulation
 
 Array = NDArray[np.float64]
 
-#: Steps of one simulation: 4 GB of numbers.
-MOST_STEPS = 20_000_000
+#: Steps of one simulation: 2 GB of numbers.
+MOST_STEPS = 10_000_000
 
 
 def simulate(
@@ -135,12 +135,12 @@ def steps_of(drive: Drive, seconds: float | None, step: float) -> int:
             raise SpecError("how long? Give the seconds")
         seconds = drive.trajectory.duration
     check_positive("seconds", seconds)
-    count = round(seconds / step)
-    if not 1 <= count <= MOST_STEPS:
+    count = seconds / step
+    if not 0.5 < count <= MOST_STEPS:
         raise SpecError(
-            f"{seconds:g} s in steps of {step:g} s are {count} steps: give 1 to {MOST_STEPS}"
+            f"{seconds:g} s in steps of {step:g} s are {count:.3g} steps: give 1 to {MOST_STEPS}"
         )
-    return count
+    return round(count)
 
 
 def _start(drive: Drive, position: float | None, velocity: float | None) -> tuple[float, float]:

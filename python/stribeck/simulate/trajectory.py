@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -154,8 +153,10 @@ class Fourier:
         order = np.arange(1.0, harmonics + 1.0)
         rng = np.random.default_rng(seed)
         sine, cosine = rng.uniform(-1.0, 1.0, (2, harmonics)) / order
-        sine = _without(sine, [order])
-        cosine = _without(cosine, [np.ones(harmonics), order**2])
+        # At rest at the start: sum of k sine; without acceleration: of k^2 cosine; at the centre.
+        sine = _without(sine, order)
+        flat = np.ones(harmonics)
+        cosine = _without(_without(cosine, flat), _without(order**2, flat))
         drawn = cls(period, tuple(sine.tolist()), tuple(cosine.tolist()))
         largest = np.abs(drawn(np.linspace(0.0, period, 2000))[0]).max()
         scale = amplitude / largest
@@ -173,10 +174,10 @@ class Fourier:
         )
 
 
-def _without(vector: Array, directions: Sequence[Array]) -> Array:
-    """What of a vector is orthogonal to all `directions`."""
-    basis, _ = np.linalg.qr(np.column_stack(directions))
-    return vector - basis @ (basis.T @ vector)
+def _without(vector: Array, direction: Array) -> Array:
+    """What of a vector is orthogonal to a direction; sums in a fixed order."""
+    share = math.fsum(vector * direction) / math.fsum(direction * direction)
+    return vector - share * direction
 
 
 @dataclass(frozen=True)

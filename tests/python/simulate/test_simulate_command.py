@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import stribeck as sb
 from click.testing import CliRunner
 from stribeck.cli import cli
 from stribeck.errors import SpecError
-from stribeck.simulate import Controller, Follow, Joint, Quintic, Torque
+from stribeck.simulate import Controller, Follow, Fourier, Joint, Quintic, Torque
 
 COULOMB = ["coulomb", "--value", "a1=0.5", "--value", "a2=2"]
 
@@ -69,6 +70,12 @@ def test_a_model_file_with_its_own_inertia_needs_no_joint(tmp_path):
         ([*COULOMB, "--inertia", "1", "--torque", "1", "--spring", "3"], "give one of them"),
         ([*COULOMB, "--inertia", "1", "--step", "0"], "step 0 cannot be"),
         ([*COULOMB, "--inertia", "1", "--step", "1e-12"], "give 1 to"),
+        ([*COULOMB, "--inertia", "1", "--step", "1e-320"], "give 1 to"),
+        ([*COULOMB, "--inertia", "nan"], "give a number"),
+        ([*COULOMB, "--inertia", "1", "--kp", "nan"], "give 0 or more"),
+        ([*COULOMB, "--inertia", "1", "--period", "0", "--trajectory", "fourier"], "above 0"),
+        ([*COULOMB, "--inertia", "1", "--seconds", "nan"], "seconds nan cannot be"),
+        ([*COULOMB, "--inertia", "1", "--torque", "1e308"], "beyond all numbers"),
         ([*COULOMB, "--inertia", "1", "--to", "0"], "give two places"),
         ([*COULOMB, "--inertia", "1", "--value", "a2"], "write --value NAME=NUMBER"),
         ([*COULOMB, "--inertia", "1", "-o", "moved.txt"], ".csv or .parquet"),
@@ -97,6 +104,17 @@ def test_what_belongs_to_the_measurement_is_left_out():
     assert moved.left_out == ("gain",)
     same = sb.simulate(plain, Joint.revolute(0.3), follow)
     assert moved.position_end == same.position_end
+
+
+def test_a_fourier_series_starts_and_ends_at_rest():
+    series = Fourier.from_rest(0.7, 4.0, seed=3, centre=0.2)
+    ends = np.array([0.0, 4.0])
+    position, velocity, acceleration = series(ends)
+    assert position == pytest.approx([0.2, 0.2], abs=1e-12)
+    assert velocity == pytest.approx([0.0, 0.0], abs=1e-12)
+    assert acceleration == pytest.approx([0.0, 0.0], abs=1e-11)
+    reach = np.abs(series(np.linspace(0.0, 4.0, 5000))[0] - 0.2).max()
+    assert reach == pytest.approx(0.7, rel=1e-4)
 
 
 def test_a_model_of_forces_is_not_put_on_a_revolute_joint():
