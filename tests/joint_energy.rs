@@ -54,9 +54,8 @@ fn energy_balances_over_every_step_with_every_model() {
 
 #[test]
 fn energy_balances_in_single_precision() {
-    for law in ["coulomb", "lugre", "gms", "dahl", "tadese_t", "leuven"] {
-        let spec = Spec::new(law, []).unwrap();
-        let imbalance = largest_imbalance::<f32>(&spec, 1e-3, 2000);
+    for spec in common::every_model() {
+        let imbalance = largest_imbalance::<f32>(&spec, 1e-3, 400);
         assert!(imbalance < 2e-6, "{spec}: {imbalance:e}");
     }
 }

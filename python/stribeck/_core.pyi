@@ -46,7 +46,6 @@ def simulate(
     values: ArrayLike,
     joint: Mapping[str, float],
     acting: Mapping[str, ArrayLike],
-    dt: float,
     start: tuple[float, float],
     deflection: float,
     controller: Mapping[str, float] | None = None,

@@ -59,7 +59,8 @@ impl<P: Real> Taken<P> {
     }
 }
 
-/// Moves `body` over `dt` (s) with friction `model`, whose `state` goes along.
+/// Moves `body` over `dt` (s) with friction `model`, whose `state` goes along; with `dt <= 0` nothing
+/// moves.
 pub fn step<P: Real<Plain = P>>(
     model: &Composed<P>,
     state: &mut State<P>,
@@ -67,6 +68,9 @@ pub fn step<P: Real<Plain = P>>(
     dt: P,
 ) -> Taken<P> {
     let mut course = Course { model, state, body, dt, taken: Taken::nothing() };
+    if dt <= P::zero() {
+        return course.taken;
+    }
     if matches!(model.memory(), Memory::None) {
         course.in_pieces();
     } else {
@@ -97,7 +101,8 @@ enum Piece<P> {
 impl<P: Real<Plain = P>, B: Body<P>> Course<'_, P, B> {
     /// Mean friction torque over a piece, from the present state.
     fn friction(&self, sample: &Sample<P>, h: P) -> P {
-        friction_over(self.model, &mut self.state.clone(), sample, h)
+        let mut state = *self.state;
+        friction_over(self.model, &mut state, sample, h)
     }
 
     /// Friction in excess of what a mean velocity over a piece asks for (T): zero where it is right.

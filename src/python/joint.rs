@@ -123,6 +123,8 @@ impl Gains {
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Acting<'py> {
+    time: Array<'py>,
+    dt: Array<'py>,
     torque: Array<'py>,
     external: Array<'py>,
     support: Array<'py>,
@@ -134,6 +136,8 @@ pub(super) struct Acting<'py> {
 
 /// The columns of [`Acting`].
 struct Columns<'a> {
+    time: Cow<'a, [f64]>,
+    dt: Cow<'a, [f64]>,
     torque: Cow<'a, [f64]>,
     external: Cow<'a, [f64]>,
     support: Cow<'a, [f64]>,
@@ -146,6 +150,8 @@ struct Columns<'a> {
 impl<'a> Columns<'a> {
     fn of(acting: &'a Acting<'_>) -> PyResult<Self> {
         let columns = Self {
+            time: contiguous(&acting.time),
+            dt: contiguous(&acting.dt),
             torque: contiguous(&acting.torque),
             external: contiguous(&acting.external),
             support: contiguous(&acting.support),
@@ -155,6 +161,8 @@ impl<'a> Columns<'a> {
             desired_velocity: contiguous(&acting.desired_velocity),
         };
         let others = [
+            &columns.time,
+            &columns.dt,
             &columns.external,
             &columns.support,
             &columns.support_velocity,
@@ -168,14 +176,14 @@ impl<'a> Columns<'a> {
         Ok(columns)
     }
 
-    fn push(&self, k: usize, motor: f64, time: f64) -> Push<f64> {
+    fn push(&self, k: usize, motor: f64) -> Push<f64> {
         Push {
             motor,
             external: self.external[k],
             support: self.support[k],
             support_velocity: self.support_velocity[k],
             temperature: self.temperature[k],
-            time,
+            time: self.time[k],
         }
     }
 
@@ -199,7 +207,7 @@ struct Motion {
 /// `load_velocity` [n + 1], and, a step, `torque`, `load_torque`, `friction_torque` and the works `motor_work`, `environment_work`,
 /// `friction_work` [n].
 #[pyfunction]
-#[pyo3(signature = (model, values, joint, acting, dt, start, deflection, controller=None,
+#[pyo3(signature = (model, values, joint, acting, start, deflection, controller=None,
     transmission=None))]
 #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
 pub(super) fn simulate<'py>(
@@ -208,7 +216,6 @@ pub(super) fn simulate<'py>(
     values: Array<'py>,
     joint: Sizes,
     acting: Acting<'py>,
-    dt: f64,
     start: (f64, f64),
     deflection: f64,
     controller: Option<Gains>,
@@ -223,7 +230,7 @@ pub(super) fn simulate<'py>(
         None => Mechanism::Rigid(joint, start),
     };
     let state = State::deflected(deflection);
-    let motion = py.detach(|| run(&friction, mechanism, state, controller, &columns, dt))?;
+    let motion = py.detach(|| run(&friction, mechanism, state, controller, &columns))?;
     let answer = PyDict::new(py);
     let place = |pick: fn(&[Posture<f64>; 2]) -> f64| {
         motion.postures.iter().map(pick).collect::<Vec<_>>().into_pyarray(py)
@@ -250,7 +257,6 @@ fn run(
     mut state: State<f64>,
     controller: Option<Controller<f64>>,
     columns: &Columns<'_>,
-    dt: f64,
 ) -> PyResult<Motion> {
     let count = columns.torque.len();
     let mut effort = Effort::default();
@@ -262,17 +268,16 @@ fn run(
     let mut at = mechanism.postures();
     motion.postures.push(at);
     for (k, &torque) in columns.torque.iter().enumerate() {
-        #[allow(clippy::cast_precision_loss)]
-        let time = k as f64 * dt;
+        let dt = columns.dt[k];
         let motor = controller.map_or(torque, |controller| {
             let measured = (at[0].position, at[0].velocity);
             controller.torque(&mut effort, &columns.desired(k), measured, torque, dt)
         });
-        let push = columns.push(k, motor, time);
+        let push = columns.push(k, motor);
         let taken = mechanism.step(friction, &mut state, &push, dt);
         at = mechanism.postures();
         if !at.iter().all(|at| at.position.is_finite() && at.velocity.is_finite()) {
-            let message = format!("the motion is beyond all numbers after {time} s");
+            let message = format!("the motion is beyond all numbers after {} s", columns.time[k]);
             return Err(ModelError::new_err(message));
         }
         motion.postures.push(at);

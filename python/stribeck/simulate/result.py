@@ -25,8 +25,10 @@ class Simulation:
 
     Attributes
     ----------
+    instants
+        The times between steps, s, array [steps + 1].
     instant_position, instant_velocity
-        At the instants ``k step``, of the motor where it is apart, arrays [steps + 1].
+        At those times, of the motor where it is apart, arrays [steps + 1].
     instant_load_position
         Likewise of the load: the same without a transmission.
     torque, load_torque, friction_torque
@@ -45,7 +47,7 @@ class Simulation:
     model: Model
     joint: Joint
     drive: Drive
-    step: float
+    instants: Array
     left_out: tuple[str, ...]
     temperature: Array
     desired_position: Array
@@ -61,14 +63,9 @@ class Simulation:
     friction_work: Array
 
     @property
-    def instants(self) -> Array:
-        """The times between steps, s, array [steps + 1]."""
-        return self.step * np.arange(self.instant_position.size, dtype=np.float64)
-
-    @property
     def time(self) -> Array:
         """The middles of the steps, s, array [steps]."""
-        return self.step * (np.arange(self.torque.size, dtype=np.float64) + 0.5)
+        return 0.5 * (self.instants[1:] + self.instants[:-1])
 
     @property
     def position(self) -> Array:
@@ -78,12 +75,12 @@ class Simulation:
     @property
     def velocity(self) -> Array:
         """Mean over each step, rad/s or m/s, array [steps]."""
-        return np.diff(self.instant_position) / self.step
+        return np.diff(self.instant_position) / np.diff(self.instants)
 
     @property
     def acceleration(self) -> Array:
         """Mean over each step, rad/s2 or m/s2, array [steps]."""
-        return np.diff(self.instant_velocity) / self.step
+        return np.diff(self.instant_velocity) / np.diff(self.instants)
 
     @property
     def position_end(self) -> float:
@@ -142,8 +139,8 @@ class Simulation:
             "model": self.model.spec,
             "joint_kind": self.joint.kind,
             "inertia": self.joint.inertia,
-            "seconds": self.torque.size * self.step,
-            "step": self.step,
+            "seconds": float(self.instants[-1]),
+            "step": float(self.instants[-1]) / self.torque.size,
             "steps": self.torque.size,
             "left_out": list(self.left_out),
             "position": {

@@ -30,7 +30,7 @@ def simulate(
     drive: Drive,
     *,
     seconds: float | None = None,
-    step: float = 1e-3,
+    step: float | Array = 1e-3,
     position: float | None = None,
     velocity: float | None = None,
     deflection: float = 0.0,
@@ -50,7 +50,7 @@ def simulate(
         What moves the joint.
     seconds : float, optional
         How long. The default is the trajectory's, or as long as the torque is given.
-    step : float
+    step : float or array [steps]
         s; the controller's sampling time too.
     position, velocity : float, optional
         At the start, rad or m; the default is where the trajectory begins, else 0.
@@ -86,16 +86,16 @@ def simulate(
     """
     asked = model if isinstance(model, Model) else model.model
     acting = take_apart(asked, joint)
-    check_positive("step", step)
-    count = steps_of(drive, seconds, step)
-    start = _start(drive, position, velocity)
-    columns = _columns(drive, acting.joint, count, step)
+    instants = _instants(drive, seconds, step)
+    count = instants.size - 1
+    columns = _columns(drive, acting.joint, instants)
     columns["temperature"] = column("temperature", _warmth(asked, temperature), count)
     columns["external"] = column("external torque", external_torque, count)
+    start = _start(drive, position, velocity)
     try:
         answer = _core.simulate(
             acting.friction.core, acting.friction.values, _sizes(acting.joint, drive), columns,
-            step, start, deflection, _gains(drive), _apart(acting.joint),
+            start, deflection, _gains(drive), _apart(acting.joint),
         )  # fmt: skip
     except _core.ModelError as error:
         raise SpecError(f"{asked.spec} cannot be simulated: {error}") from None
@@ -103,7 +103,7 @@ def simulate(
         model=asked,
         joint=acting.joint,
         drive=drive,
-        step=step,
+        instants=instants,
         left_out=acting.left_out,
         temperature=columns["temperature"],
         desired_position=columns["desired_position"],
@@ -124,6 +124,17 @@ def check_positive(name: str, value: float) -> None:
     """Refuse what is not above 0."""
     if not (math.isfinite(value) and value > 0.0):
         raise SpecError(f"{name} {value:g} cannot be: give a number above 0")
+
+
+def _instants(drive: Drive, seconds: float | None, step: float | Array) -> Array:
+    """The times between steps, array [steps + 1]."""
+    if isinstance(step, np.ndarray):
+        if seconds is not None or step.ndim != 1 or not step.size:
+            raise SpecError("with one step after the other given, the seconds follow from them")
+        check_positive("step", float(step.min()))
+        return np.concatenate([[0.0], np.cumsum(step, dtype=np.float64)])
+    check_positive("step", step)
+    return step * np.arange(steps_of(drive, seconds, step) + 1, dtype=np.float64)
 
 
 def steps_of(drive: Drive, seconds: float | None, step: float) -> int:
@@ -156,11 +167,13 @@ def _start(drive: Drive, position: float | None, velocity: float | None) -> tupl
     return start
 
 
-def _columns(drive: Drive, joint: Joint, count: int, step: float) -> dict[str, Array]:
+def _columns(drive: Drive, joint: Joint, instants: Array) -> dict[str, Array]:
     """What the drive does in each step."""
-    begun: Array = step * np.arange(count, dtype=np.float64)
+    begun, length = instants[:-1], np.diff(instants)
+    count = begun.size
     names = ("torque", "support", "support_velocity", "desired_position", "desired_velocity")
     columns = {name: np.zeros(count) for name in names}
+    columns["time"], columns["dt"] = begun, length
     if isinstance(drive, Torque):
         columns["torque"] = column("torque", drive.torque, count)
     elif isinstance(drive, Pull):
@@ -170,7 +183,7 @@ def _columns(drive: Drive, joint: Joint, count: int, step: float) -> dict[str, A
         at, speed, _ = drive.trajectory(begun)
         columns["desired_position"], columns["desired_velocity"] = at, speed
         if drive.feedforward:
-            columns["torque"] = _rigid_body(drive, joint, begun + 0.5 * step)
+            columns["torque"] = _rigid_body(drive, joint, begun + 0.5 * length)
     return columns
 
 

@@ -154,7 +154,7 @@ def validate(
     ----------
     model : Model, ModelFile or Fit
     recording : Recording
-        With motor torque and position, in even time steps. Its load torque, where it has one, is
+        With motor torque and position. Its load torque, where it has one, is
         taken as it was recorded, but for the inertia.
     joint : Joint, optional
         Default: the inertia and gravity identified with the friction.
@@ -164,7 +164,7 @@ def validate(
     Raises
     ------
     SpecError
-        There is no inertia, or time steps are not even.
+        There is no inertia, or no motor torque.
     """
     bench = _Bench.of(model, recording, joint)
     pieces = [bench.run(rows) for rows in bench.stretches]
@@ -201,7 +201,7 @@ def validate_closed_loop(
     Raises
     ------
     SpecError
-        As `validate`; the recording has several runs.
+        As `validate`; the recording has several runs or uneven time steps.
     """
     bench = _Bench.of(model, recording, joint)
     if len(bench.stretches) != 1:
@@ -213,9 +213,10 @@ def validate_closed_loop(
             f"desired_position has {desired.size} values for {bench.position.size} rows: "
             f"give one a row"
         )
+    step = _even_step(recording, rows)
     moved = simulate(
-        bench.model, bench.joint_given, Follow(Sampled(desired[rows], bench.step), controller),
-        seconds=(rows.size - 1) * bench.step, step=bench.step, **bench.begin(rows),
+        bench.model, bench.joint_given, Follow(Sampled(desired[rows], step), controller),
+        seconds=(rows.size - 1) * step, step=step, **bench.begin(rows),
     )  # fmt: skip
     return Validation(
         model=bench.model,
@@ -239,7 +240,6 @@ class _Bench:
     joint_given: Joint | None
     recording: Recording
     position: Array
-    step: float
     external: Array
     stretches: list[NDArray[np.intp]]
 
@@ -258,10 +258,7 @@ class _Bench:
             external = acting.joint.inertia * recording.acceleration - recording.load_torque
         stretches = [np.flatnonzero(recording.segment == k) for k in np.unique(recording.segment)]
         stretches = [rows for rows in stretches if rows.size > 1]
-        step = _even_step(recording, stretches)
-        return cls(
-            asked, acting.joint, joint, recording, recording.position, step, external, stretches
-        )
+        return cls(asked, acting.joint, joint, recording, recording.position, external, stretches)
 
     def begin(self, rows: NDArray[np.intp]) -> dict[str, Any]:
         """Where the measured motion is at the first row, and what acts besides the motor."""
@@ -277,14 +274,16 @@ class _Bench:
         """Position at each of the rows, driven by the measured torque held over each step."""
         moved = simulate(
             self.model, self.joint_given, Torque(self.recording.torque[rows[:-1]]),
-            step=self.step, **self.begin(rows),
+            step=np.diff(self.recording.time[rows]), **self.begin(rows),
         )  # fmt: skip
         return moved.instant_position
 
     def growth(self, horizons: Sequence[float]) -> Iterator[Growth]:
         """The error at each horizon for which the recording is long enough."""
+        steps = np.concatenate([np.diff(self.recording.time[rows]) for rows in self.stretches])
+        step = float(np.median(steps))
         for seconds in horizons:
-            ahead = round(seconds / self.step)
+            ahead = round(seconds / step)
             ends = [rows[:-ahead] for rows in self.stretches if ahead and rows.size > ahead]
             if not ends:
                 continue
@@ -302,15 +301,14 @@ class _Bench:
             )
 
 
-def _even_step(recording: Recording, stretches: list[NDArray[np.intp]]) -> float:
+def _even_step(recording: Recording, rows: NDArray[np.intp]) -> float:
     """The recording's time step, s."""
-    steps = np.concatenate([np.diff(recording.time[rows]) for rows in stretches])
+    steps = np.diff(recording.time[rows])
     step = float(np.median(steps))
-    uneven = np.flatnonzero(np.abs(steps - step) > EVEN * step)
-    if uneven.size:
+    if np.any(np.abs(steps - step) > EVEN * step):
         raise SpecError(
             f"{recording.path}: time steps go from {steps.min():g} to {steps.max():g} s, and a "
-            f"simulation needs even ones: resample it"
+            f"controller samples evenly: resample it"
         )
     return step
 
