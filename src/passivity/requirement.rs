@@ -22,7 +22,8 @@ pub enum Requirement {
     /// Friction in steady sliding opposes the motion: margin in T.
     Sliding(Point),
     /// A bristle that grows at one point and falls back at the other, around this force (T), takes
-    /// work; the margin is that work per travel (T). Where it does not move so, nothing is asked.
+    /// work; the margin is that work per travel (T). Of a leg on which it does not move so, the
+    /// bristle stands, which asks no more than sliding does.
     Cycle {
         /// The bristle's force (T).
         force: f64,
@@ -61,10 +62,15 @@ impl Requirement {
             Self::Cycle { force, up, down } => {
                 let legs = (leg(model, up, *force, true), leg(model, down, *force, false));
                 let (Some(up), Some(down)) = legs else { return S::zero() };
-                // Work per deflection up and down, times both paces: finite where one stops.
-                up.load * down.pace
+                let pace = up.pace + down.pace;
+                if pace.value() <= 0.0 {
+                    return (up.load + down.load).scale(0.5);
+                }
+                // Work per deflection up and down, over the travels per deflection 1/pace.
+                let work = up.load * down.pace
                     + down.load * up.pace
-                    + (up.drag + down.drag) * up.pace * down.pace
+                    + (up.drag + down.drag) * up.pace * down.pace;
+                work / pace
             }
         }
     }

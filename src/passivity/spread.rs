@@ -1,5 +1,6 @@
 //! Requirements at points spread over a box: nothing is proved by them, they lead a fit.
 
+use core::iter::successors;
 use std::vec;
 use std::vec::Vec;
 
@@ -16,8 +17,11 @@ const SPEEDS: usize = 28;
 /// Values of a channel along which friction may rise and fall several times, and of any other.
 const VALUES: (usize, usize) = (13, 5);
 
-/// Forces of a bristle, over all that it reaches.
-const FORCES: u8 = 24;
+/// Forces of a bristle, evenly over all that it reaches.
+const EVEN_FORCES: u8 = 24;
+
+/// Forces either way, each half of the one before: around zero the work of both legs cancels.
+const SMALL_FORCES: usize = 10;
 
 /// Of each region the least strength and sliding friction, and around each force the worst cycle.
 #[must_use]
@@ -56,9 +60,12 @@ fn cycles(model: &Composed<f64>, points: &[Point]) -> Vec<Requirement> {
         let force = bristled.strength() * point.velocity.sign();
         [low.min(force), high.max(force)]
     });
-    (1..FORCES)
-        .filter_map(|k| {
-            let force = low + (high - low) * f64::from(k) / f64::from(FORCES);
+    let even = (1..EVEN_FORCES)
+        .map(|k| low + (high - low) * f64::from(k) / f64::from(EVEN_FORCES))
+        .chain([0.0]);
+    let small = [low, high].into_iter().flat_map(|end| halvings(end).skip(3).take(SMALL_FORCES));
+    even.chain(small)
+        .filter_map(|force| {
             let cheapest = |rising: bool| {
                 let work = bristles.iter().filter_map(|(point, bristled)| {
                     let direction = point.velocity.sign();
@@ -70,6 +77,11 @@ fn cycles(model: &Composed<f64>, points: &[Point]) -> Vec<Requirement> {
             Some(Requirement::Cycle { force, up: cheapest(true)?, down: cheapest(false)? })
         })
         .collect()
+}
+
+/// A number, half of it, a quarter ...
+fn halvings(first: f64) -> impl Iterator<Item = f64> {
+    successors(Some(first), |x| Some(0.5 * x))
 }
 
 /// All combinations of values of the channels, with speeds over decades.
@@ -89,9 +101,11 @@ fn points(region: &Region, channels: &[Channel]) -> Vec<Point> {
 fn values(region: &Region, channel: Channel) -> Vec<f64> {
     let side = region.channel(channel);
     if channel == Channel::Velocity {
-        let fastest = if side.lower > 0.0 { side.upper } else { side.lower };
-        let halves = core::iter::successors(Some(fastest), |speed| Some(0.5 * speed));
-        return halves.take(SPEEDS).filter(|v| (side.lower..=side.upper).contains(v)).collect();
+        let forward = side.lower > 0.0;
+        let (slowest, fastest) =
+            if forward { (side.lower, side.upper) } else { (side.upper, side.lower) };
+        let between = halvings(fastest).take(SPEEDS).filter(|v| v.abs() > slowest.abs());
+        return between.chain([slowest]).collect();
     }
     if side.lower == side.upper {
         return vec![side.lower];

@@ -25,8 +25,16 @@ class Refit(Protocol):
     def step(self, values: Array, triangle: Triangle) -> Array:
         """Values after one Gauss-Newton step of the free parameters, from their factors there."""
 
-    def search(self, problem: Problem, values: Array) -> Array:
-        """Values at the minimum that `values` lead to."""
+    def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
+        """Values after more steps, from a `refit` that one step from `values` has led to.
+
+        Parameters
+        ----------
+        problem
+            On the rows that are left.
+        square : float
+            Sum of squares at `values`, over these rows.
+        """
 
 
 @dataclass(frozen=True)
@@ -45,8 +53,14 @@ class Bounded:
         refit[free] = np.clip(at + triangle.solve(lower - at, upper - at), lower, upper)
         return refit
 
-    def search(self, problem: Problem, values: Array) -> Array:
-        """A damped search."""
+    def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
+        """A second step; a damped search from `values` where the first went too far."""
+        free = np.flatnonzero(self.lower < self.upper)
+        with np.errstate(all="ignore"):
+            residual, jacobian = problem.linearise(refit, free)
+        others = Triangle.of(jacobian, residual)
+        if others.square <= square:
+            return self.step(refit, others)
         return minimise(problem, values, self.lower, self.upper, tolerance=SETTLED)[0].values
 
 
@@ -102,7 +116,8 @@ def held_out_prediction(
             prediction[problem.rows[~kept]] += jacobian[~kept] @ (refits[b] - values)[free]
             continue
         if not linear:
-            refits[b] = _refined(problem, refits[b], values, others.square, kept, free, by)
+            remaining = replace(problem, rows=problem.rows[kept])
+            refits[b] = by.refine(remaining, refits[b], values, others.square)
         rows = block == b
         prediction[rows] = problem.predict(refits[b])[rows]
     return prediction, refits
@@ -120,27 +135,3 @@ def held_out_residual(problem: Problem, values: Array, lower: Array, upper: Arra
         change = (Bounded(lower, upper).step(values, others) - values)[free]
         residual[group == b] -= jacobian[group == b] @ change
     return residual
-
-
-def _refined(
-    problem: Problem,
-    refit: Array,
-    values: Array,
-    square: float,
-    kept: NDArray[np.bool_],
-    free: NDArray[np.intp],
-    by: Refit,
-) -> Array:
-    """A second step from `refit`; a damped search from `values` where the first went too far.
-
-    Parameters
-    ----------
-    square : float
-        Sum of squares at `values`, over the rows that are `kept`.
-    """
-    with np.errstate(all="ignore"):
-        residual, jacobian = problem.linearise(refit, free)
-    others = Triangle.of(jacobian[kept], residual[kept])
-    if others.square <= square:
-        return by.step(refit, others)
-    return by.search(replace(problem, rows=problem.rows[kept]), values)

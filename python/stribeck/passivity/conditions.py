@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 
 #: What is short of its reserve by less than this share counts as held.
 SLACK = 1e-9
+#: Most that are added at once: neighbours of one that is missed are mostly met together with it.
+MOST_AT_ONCE = 16
 
 
 @dataclass(frozen=True)
@@ -102,16 +104,17 @@ class Conditions:
             return False
 
     def with_missed(self, asked: Sequence[_core.Requirement], values: Array) -> Conditions:
-        """With those of what is `asked` that do not keep the reserve at these values."""
+        """With what is `asked` and does not keep the reserve at these values, the worst of it."""
         if not asked:
             return self
         margins, slopes = self.part.margins(asked, values)
         sizes = np.abs(slopes * values).sum(axis=1)
         known = np.isfinite(margins) & np.isfinite(sizes) & (sizes > 0.0)
-        missed = known & (margins < (self.reserve - SLACK) * sizes)
+        missed = np.flatnonzero(known & (margins < (self.reserve - SLACK) * sizes))
+        missed = missed[np.argsort(margins[missed] / sizes[missed], kind="stable")][:MOST_AT_ONCE]
         return replace(
             self,
-            requirements=(*self.requirements, *(asked[k] for k in np.flatnonzero(missed).tolist())),
+            requirements=(*self.requirements, *(asked[k] for k in missed.tolist())),
             sizes=np.concatenate([self.sizes, sizes[missed]]),
         )
 

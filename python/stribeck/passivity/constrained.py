@@ -1,15 +1,12 @@
-"""Least squares under conditions: Gauss and Newton's steps, each solved by nlopt's SLSQP.
+"""Least squares under conditions, by Gauss and Newton's steps with damping.
 
-The residual is linearised, the conditions are not: a step minimises the squared linearised
-residual under the conditions themselves, so every point after the first step holds them. Only p
-columns of a triangular factor enter it, whatever the number of rows.
+The residual is linearised, the conditions are not, so every point after the first step holds them.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-import nlopt
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +15,7 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import Search
 from stribeck.identify.triangle import Triangle
 from stribeck.passivity.conditions import Conditions
+from stribeck.passivity.step import step_under
 
 Array = NDArray[np.float64]
 
@@ -31,10 +29,6 @@ FIRST_DAMPING = 1e-3
 MOST_DAMPING = 1e8
 #: From a point that misses a condition a step may miss its foreseen square by this factor.
 ASTRAY = 1.5
-#: Most evaluations of one step; they cost nothing but the conditions.
-MOST_EVALUATIONS = 400
-#: Conditions are aimed at with this much to spare, so that rounding does not miss them.
-AIM = 1e-10
 
 
 def minimise_under(
@@ -52,7 +46,7 @@ def minimise_under(
     if point is None:
         return Search(values, np.inf, False, "the model is not finite at the start"), 1
     held, damping, evaluations = conditions.hold(values), 0.0, 1
-    outcome = "stopped at the largest number of steps"
+    outcome, retreated = "stopped at the largest number of steps", False
     for _ in range(MOST_STEPS):
         refit = step_under(_damped(point, damping), values, free, lower, upper, conditions)
         if refit is None:
@@ -66,44 +60,17 @@ def minimise_under(
         evaluations += 1
         # A step that only short ones would spare is taken all the same: the conditions come first.
         if tried is not None and (tried.square <= limit or (not held and damping > 1.0)):
-            values, point, held, damping = refit, tried, True, 0.1 * damping
-            damping = damping if damping > FIRST_DAMPING else 0.0
+            values, point, held = refit, tried, True
+            # Right after a step that went too far a longer one would go too far again.
+            damping, retreated = damping if retreated else 0.1 * damping, False
+            damping = damping if damping >= FIRST_DAMPING else 0.0
         else:
-            damping = max(10.0 * damping, FIRST_DAMPING)
+            damping, retreated = max(10.0 * damping, FIRST_DAMPING), True
             if damping > MOST_DAMPING:
                 outcome = "converged (to rounding)"
                 break
     square = point.square if held else np.inf
     return Search(values, square, outcome.startswith("converged"), outcome), evaluations
-
-
-def step_under(
-    triangle: Triangle,
-    values: Array,
-    free: NDArray[np.intp],
-    lower: Array,
-    upper: Array,
-    conditions: Conditions,
-) -> Array | None:
-    """The values [p] with the least linearised square that hold the conditions; None: none found.
-
-    Parameters
-    ----------
-    triangle
-        Of the columns of the `free` parameters, at `values`.
-    """
-    plain = values.copy()
-    plain[free] += triangle.solve(lower[free] - values[free], upper[free] - values[free])
-    plain = np.clip(plain, lower, upper)
-    if conditions.hold(plain):
-        return plain
-    step = _Step(triangle, values, free, lower, upper, conditions)
-    found = step.least(np.zeros(free.size))
-    if found is None:
-        inside = step.inside()
-        found = None if inside is None else step.least(inside)
-        found = inside if found is None else found
-    return None if found is None else step.values(found)
 
 
 @dataclass(frozen=True)
@@ -120,8 +87,8 @@ class Conditioned:
         refit = step_under(triangle, values, free, self.lower, self.upper, self.conditions)
         return values.copy() if refit is None else refit
 
-    def search(self, problem: Problem, values: Array) -> Array:
-        """As many steps as it takes."""
+    def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
+        """A damped search from `values`: under conditions one step may lead far astray."""
         found, _ = minimise_under(problem, values, self.lower, self.upper, self.conditions)
         return found.values
 
@@ -145,131 +112,3 @@ def _damped(triangle: Triangle, damping: float) -> Triangle:
         np.concatenate([triangle.factor, np.diag(lengths)]),
         np.concatenate([triangle.right, np.zeros(lengths.size)]),
     )
-
-
-class _Step:
-    """A step in coordinates in which one unit of each moves the torque by the residual's size."""
-
-    def __init__(
-        self,
-        triangle: Triangle,
-        values: Array,
-        free: NDArray[np.intp],
-        lower: Array,
-        upper: Array,
-        conditions: Conditions,
-    ) -> None:
-        size = np.sqrt(triangle.square) or 1.0
-        lengths = np.sqrt(np.einsum("ij,ij->j", triangle.factor, triangle.factor))
-        own = np.abs(values[free]) + np.where(values[free] == 0.0, 1.0, 0.0)
-        # A parameter that the data does not show moves by its own size.
-        self.unit = np.minimum(size / np.maximum(lengths, size * 1e-12), own)
-        self.factor = triangle.factor * self.unit / size
-        self.right = triangle.right / size
-        self.start, self.free, self.conditions = values, free, conditions
-        self.lower = (lower[free] - values[free]) / self.unit
-        self.upper = (upper[free] - values[free]) / self.unit
-        self.bounds = lower, upper
-        self._last: tuple[bytes, tuple[Array, Array]] | None = None
-
-    def values(self, y: Array) -> Array:
-        """The parameters [p] after a step."""
-        moved = self.start.copy()
-        moved[self.free] += self.unit * y
-        return np.clip(moved, *self.bounds)
-
-    def square(self, y: Array) -> tuple[float, Array]:
-        """Of the linearised residual, and its slope."""
-        left = self.factor @ y - self.right
-        return float(left @ left), 2.0 * (self.factor.T @ left)
-
-    def shares(self, y: Array) -> tuple[Array, Array]:
-        """Of the conditions [n], and their slopes; where the friction means nothing, far off."""
-        # The optimiser asks for the objective and the conditions at each point in turn.
-        key = y.tobytes()
-        if self._last is None or self._last[0] != key:
-            self._last = key, self._shares(y)
-        return self._last[1]
-
-    def _shares(self, y: Array) -> tuple[Array, Array]:
-        try:
-            with np.errstate(all="ignore"):
-                shares, slopes = self.conditions.shares(self.values(y))
-        except _core.ModelError:
-            shares = np.full(len(self.conditions.requirements), -1.0)
-            slopes = np.zeros((shares.size, self.start.size))
-        shares = np.nan_to_num(shares, nan=-1.0, posinf=1e6, neginf=-1e6)
-        return shares, np.nan_to_num(slopes[:, self.free] * self.unit, posinf=1e6, neginf=-1e6)
-
-    def least(self, start: Array) -> Array | None:
-        """The least square under the conditions from `start`; None where none was found."""
-        best: tuple[float, Array] | None = None
-
-        def objective(y: Array, gradient: Array) -> float:
-            nonlocal best
-            square, slope = self.square(y)
-            if gradient.size:
-                gradient[:] = slope
-            if best is None or square < best[0]:
-                held = np.all(self.shares(y)[0] >= 0.0)
-                best = (square, y.copy()) if held else best
-            return square
-
-        def short(result: Array, y: Array, gradient: Array) -> None:
-            shares, slopes = self.shares(y)
-            result[:] = AIM - shares
-            if gradient.size:
-                gradient[:] = -slopes
-
-        optimizer = nlopt.opt(nlopt.LD_SLSQP, start.size)
-        optimizer.set_lower_bounds(self.lower)
-        optimizer.set_upper_bounds(self.upper)
-        optimizer.set_min_objective(objective)
-        optimizer.add_inequality_mconstraint(short, np.zeros(len(self.conditions.requirements)))
-        _run(optimizer, start)
-        return None if best is None else best[1]
-
-    def inside(self) -> Array | None:
-        """A step after which the conditions hold, from one after which they may not.
-
-        The least share is raised as a variable of its own, until all conditions hold.
-        """
-        count = self.free.size
-        room = 1e-3 + self.conditions.reserve
-        found: Array | None = None
-
-        def objective(x: Array, gradient: Array) -> float:
-            square, slope = self.square(x[:count])
-            if gradient.size:
-                gradient[:count], gradient[count] = 1e-6 * slope, -1.0
-            return 1e-6 * square - float(x[count])
-
-        def short(result: Array, x: Array, gradient: Array) -> None:
-            nonlocal found
-            shares, slopes = self.shares(x[:count])
-            if np.all(shares >= 0.0):
-                found = x[:count].copy()
-            result[:] = x[count] - shares
-            if gradient.size:
-                gradient[:, :count], gradient[:, count] = -slopes, 1.0
-
-        start = np.append(np.zeros(count), self.shares(np.zeros(count))[0].min())
-        optimizer = nlopt.opt(nlopt.LD_SLSQP, count + 1)
-        optimizer.set_lower_bounds(np.append(self.lower, -np.inf))
-        optimizer.set_upper_bounds(np.append(self.upper, room))
-        optimizer.set_min_objective(objective)
-        optimizer.add_inequality_mconstraint(short, np.zeros(len(self.conditions.requirements)))
-        _run(optimizer, start)
-        return found
-
-
-def _run(optimizer: nlopt.opt, start: Array) -> None:
-    """Optimise; what it met on the way is kept by its functions, whatever it ends with."""
-    optimizer.set_ftol_rel(1e-13)
-    optimizer.set_xtol_abs(1e-12)
-    optimizer.set_maxeval(MOST_EVALUATIONS)
-    try:
-        optimizer.optimize(start)
-    except (nlopt.RoundoffLimited, nlopt.runtime_error):
-        # Raised at an optimum too, when no further fall can be resolved.
-        return

@@ -1,0 +1,205 @@
+"""One step of least squares under conditions, by nlopt's SLSQP.
+
+What is minimised is the square of the linearised residual: a few numbers of a triangular factor,
+whatever the number of rows. The conditions stand as they are, with their gradients.
+"""
+
+from __future__ import annotations
+
+import nlopt
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck import _core
+from stribeck.identify.triangle import Triangle
+from stribeck.passivity.conditions import Conditions
+
+Array = NDArray[np.float64]
+
+#: Most evaluations of one step; they cost nothing but the conditions.
+MOST_EVALUATIONS = 300
+#: Conditions are aimed at with this much to spare, so that rounding does not miss them.
+AIM = 1e-10
+#: Combinations of parameters that the data shows less than this share of the best count as it.
+LEAST_SHOWN = 1e-4
+#: Weight of the squared residual while only the conditions are looked for.
+ASIDE = 1e-6
+#: So far beyond the reserve is enough to be inside.
+INSIDE = 1e-3
+#: In place of a share that is no number, or beyond all.
+FAR = 1e6
+
+
+def step_under(
+    triangle: Triangle,
+    values: Array,
+    free: NDArray[np.intp],
+    lower: Array,
+    upper: Array,
+    conditions: Conditions,
+) -> Array | None:
+    """The values [p] with the least linearised square that hold the conditions; None: none found.
+
+    Parameters
+    ----------
+    triangle
+        Of the columns of the `free` parameters, at `values`.
+    """
+    plain = values.copy()
+    plain[free] += triangle.solve(lower[free] - values[free], upper[free] - values[free])
+    plain = np.clip(plain, lower, upper)
+    if conditions.hold(plain):
+        return plain
+    step = _Step(triangle, values, free, lower, upper, conditions)
+    found = step.least(np.zeros(free.size))
+    if found is None:
+        inside = step.inside()
+        found = None if inside is None else step.least(inside)
+        found = inside if found is None else found
+    return None if found is None else step.values(found)
+
+
+class _Step:
+    """A step in coordinates in which the squared residual is round, or nearly so.
+
+    One unit of a coordinate `w` moves the torque by the residual's size.
+    """
+
+    def __init__(
+        self,
+        triangle: Triangle,
+        values: Array,
+        free: NDArray[np.intp],
+        lower: Array,
+        upper: Array,
+        conditions: Conditions,
+    ) -> None:
+        size = np.sqrt(triangle.square) or 1.0
+        lengths = np.sqrt(np.einsum("ij,ij->j", triangle.factor, triangle.factor))
+        own = np.where(values[free] == 0.0, 1.0, np.abs(values[free]))
+        # A parameter that the data does not show moves by its own size.
+        unit = np.minimum(size / np.maximum(lengths, size * 1e-12), own)
+        factor = triangle.factor * unit / size
+        _, shown, directions = np.linalg.svd(factor)
+        self.turn = unit[:, None] * directions.T / np.maximum(shown, LEAST_SHOWN * shown[0])
+        self.factor = factor @ (self.turn / unit[:, None])
+        self.right = triangle.right / size
+        self.start, self.free, self.conditions = values, free, conditions
+        self.lower, self.upper = lower, upper
+        low, high = np.isfinite(lower[free]), np.isfinite(upper[free])
+        # Bounds are conditions like the others here: the distance to each, in units.
+        self.walls = np.concatenate([self.turn[low], -self.turn[high]])
+        room = np.concatenate([(values - lower)[free][low], (upper - values)[free][high]])
+        scale = np.concatenate([unit[low], unit[high]])
+        self.walls, self.room = self.walls / scale[:, None], room / scale
+        self._last: tuple[bytes, tuple[Array, Array]] | None = None
+
+    @property
+    def count(self) -> int:
+        """Of the conditions and bounds."""
+        return len(self.conditions.requirements) + self.room.size
+
+    def values(self, w: Array) -> Array:
+        """The parameters [p] after a step."""
+        moved = self.start.copy()
+        moved[self.free] += self.turn @ w
+        return np.clip(moved, self.lower, self.upper)
+
+    def square(self, w: Array) -> tuple[float, Array]:
+        """Of the linearised residual, and its slope."""
+        left = self.factor @ w - self.right
+        return float(left @ left), 2.0 * (self.factor.T @ left)
+
+    def shares(self, w: Array) -> tuple[Array, Array]:
+        """Of the conditions [n], and their slopes; where the friction means nothing, far off."""
+        # The optimiser asks for the objective and the conditions at each point in turn.
+        key = w.tobytes()
+        if self._last is None or self._last[0] != key:
+            self._last = key, self._shares(w)
+        return self._last[1]
+
+    def _shares(self, w: Array) -> tuple[Array, Array]:
+        try:
+            with np.errstate(all="ignore"):
+                shares, slopes = self.conditions.shares(self.values(w))
+                slopes = slopes[:, self.free] @ self.turn
+        except _core.ModelError:
+            shares = np.full(len(self.conditions.requirements), -1.0)
+            slopes = np.zeros((shares.size, self.free.size))
+        shares = np.nan_to_num(shares, nan=-1.0, posinf=FAR, neginf=-FAR)
+        return shares, np.nan_to_num(slopes, posinf=FAR, neginf=-FAR)
+
+    def least(self, start: Array) -> Array | None:
+        """The least square under the conditions from `start`; None where none was found."""
+        best: tuple[float, Array] | None = None
+
+        def objective(w: Array, gradient: Array) -> float:
+            nonlocal best
+            square, slope = self.square(w)
+            if gradient.size:
+                gradient[:] = slope
+            inside = self.room + self.walls @ w >= -AIM
+            if (best is None or square < best[0]) and inside.all():
+                held = np.all(self.shares(w)[0] >= 0.0)
+                best = (square, w.copy()) if held else best
+            return square
+
+        def short(result: Array, w: Array, gradient: Array) -> None:
+            shares, slopes = self.shares(w)
+            result[: shares.size] = AIM - shares
+            result[shares.size :] = -self.room - self.walls @ w
+            if gradient.size:
+                gradient[: shares.size], gradient[shares.size :] = -slopes, -self.walls
+
+        optimizer = nlopt.opt(nlopt.LD_SLSQP, start.size)
+        optimizer.set_min_objective(objective)
+        optimizer.add_inequality_mconstraint(short, np.zeros(self.count))
+        _run(optimizer, start)
+        return None if best is None else best[1]
+
+    def inside(self) -> Array | None:
+        """A step after which the conditions hold, from one after which they may not.
+
+        The least share is raised as a variable of its own, until all conditions hold.
+        """
+        count = self.free.size
+        found: Array | None = None
+
+        def objective(x: Array, gradient: Array) -> float:
+            square, slope = self.square(x[:count])
+            if gradient.size:
+                gradient[:count], gradient[count] = ASIDE * slope, -1.0
+            return ASIDE * square - float(x[count])
+
+        def short(result: Array, x: Array, gradient: Array) -> None:
+            nonlocal found
+            w = x[:count]
+            shares, slopes = self.shares(w)
+            wall = self.room + self.walls @ w
+            if np.all(shares >= 0.0) and np.all(wall >= -AIM):
+                found = w.copy()
+            result[: shares.size], result[shares.size :] = x[count] - shares, -wall
+            if gradient.size:
+                gradient[: shares.size, :count], gradient[: shares.size, count] = -slopes, 1.0
+                gradient[shares.size :, :count], gradient[shares.size :, count] = -self.walls, 0.0
+
+        start = np.zeros(count + 1)
+        start[count] = self.shares(start[:count])[0].min()
+        optimizer = nlopt.opt(nlopt.LD_SLSQP, count + 1)
+        optimizer.set_upper_bounds(np.append(np.full(count, np.inf), INSIDE))
+        optimizer.set_min_objective(objective)
+        optimizer.add_inequality_mconstraint(short, np.zeros(self.count))
+        _run(optimizer, start)
+        return found
+
+
+def _run(optimizer: nlopt.opt, start: Array) -> None:
+    """Optimise; what it met on the way is kept by its functions, whatever it ends with."""
+    optimizer.set_ftol_rel(1e-13)
+    optimizer.set_xtol_abs(1e-12)
+    optimizer.set_maxeval(MOST_EVALUATIONS)
+    try:
+        optimizer.optimize(start)
+    except (nlopt.RoundoffLimited, nlopt.runtime_error):
+        # Raised at an optimum too, when no further fall can be resolved.
+        return
