@@ -10,7 +10,7 @@ use stribeck::dynamics::State;
 use stribeck::passivity::enclosure::Enclosure;
 use stribeck::passivity::region::{Point, Side};
 use stribeck::passivity::replay::{Hold, work};
-use stribeck::passivity::{Condition, Margin, PassivityError, Verdict, check};
+use stribeck::passivity::{Condition, Margin, PassivityError, Verdict, check, requirements};
 use stribeck::sample::Sample;
 use stribeck::scalar::Real;
 use stribeck::table::Channel;
@@ -318,6 +318,62 @@ fn what_a_random_cycle_breaks_is_called_not_passive() {
         let found = verdict("lugre", &values, &sides);
         assert_eq!(found.passive, Some(false), "{values:?} {sides:?} {found:?}");
         breaks(&model, &found);
+    }
+}
+
+/// What is proved misses no requirement, and what misses one is not proved.
+#[test]
+fn requirements_agree_with_certificates() {
+    let mut random = Random(47);
+    let (mut met, mut missed) = (0, 0);
+    for _ in 0..60 {
+        let coulomb = random.between(0.5, 3.0);
+        let static_friction = coulomb + random.between(0.0, 2.0);
+        let (damping, viscous) = (random.between(0.1, 300.0), random.between(0.0, 2.0));
+        let values = [1e4, damping, viscous, coulomb, static_friction, 0.02, 2.0];
+        let sides = speed(random.between(0.05, 1.0));
+        let (spec, found) = (made("lugre"), verdict("lugre", &values, &sides));
+        let asked = requirements(&spec, &values, &sides).unwrap();
+        let model = spec.with(&values[..]).unwrap();
+        let least = asked.iter().map(|r| r.margin(&model)).fold(f64::INFINITY, f64::min);
+        match found.passive {
+            Some(true) => {
+                met += 1;
+                assert_eq!(found.open, None);
+                assert!(least >= -1e-12, "{values:?} {least}");
+            }
+            Some(false) => {
+                missed += 1;
+                let open = found.open.expect("what is broken is said");
+                assert!(open.margin(&model) < 0.0, "{values:?} {open:?}");
+            }
+            None => assert!(least > -1e-9),
+        }
+    }
+    assert!(met >= 10 && missed >= 10, "{met} met, {missed} missed");
+}
+
+#[test]
+fn slopes_of_requirements_are_those_of_their_margins() {
+    let sides = wide();
+    for name in ["lugre", "tadese_full", "dahl", "bittencourt_b", "hao_a"] {
+        let spec = made(name);
+        let values = common::values(&spec);
+        for asked in requirements(&spec, &values, &sides).unwrap() {
+            let (margin, slopes) = asked.gradient(&spec, &values).unwrap();
+            assert_eq!(margin, asked.margin(&spec.with(&values[..]).unwrap()));
+            for (k, slope) in slopes.iter().enumerate() {
+                let step = 1e-6 * values[k].abs().max(1e-6);
+                let at = |by: f64| {
+                    let mut moved = values.clone();
+                    moved[k] += by;
+                    asked.margin(&spec.with(&moved[..]).unwrap())
+                };
+                let difference = (at(step) - at(-step)) / (2.0 * step);
+                let size = slope.abs().max(difference.abs()) + margin.abs() / values[k].abs();
+                assert!((slope - difference).abs() <= 1e-4 * size, "{name} {asked:?} {k}");
+            }
+        }
     }
 }
 
