@@ -15,6 +15,7 @@ import os
 import polars as pl
 
 from stribeck.compare import Comparison, compare
+from stribeck.compensate import Compensator, HInfinity, Tracking, compensate, largest_factor, teach
 from stribeck.design import Plan, plan
 from stribeck.diagnose import Diagnosis, Finding, diagnose
 from stribeck.errors import (
@@ -77,11 +78,13 @@ __all__ = [
     "Addition",
     "Certificate",
     "Comparison",
+    "Compensator",
     "Diagnosis",
     "Estimate",
     "Finding",
     "Fit",
     "FitError",
+    "HInfinity",
     "Improvement",
     "Joint",
     "Model",
@@ -96,15 +99,18 @@ __all__ = [
     "Simulation",
     "SpecError",
     "StribeckError",
+    "Tracking",
     "add",
     "catalog",
     "check",
     "compare",
+    "compensate",
     "diagnose",
     "effects",
     "evaluate",
     "fit",
     "improve",
+    "largest_factor",
     "law",
     "laws",
     "load",
@@ -114,4 +120,5 @@ __all__ = [
     "read",
     "read_model_file",
     "simulate",
+    "teach",
 ]

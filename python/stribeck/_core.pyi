@@ -60,6 +60,23 @@ def simulate_arm(
     start: tuple[Sequence[float], Sequence[float]],
     controllers: tuple[Mapping[str, float] | None, Mapping[str, float] | None],
 ) -> dict[str, NDArray[np.float64]]: ...
+def compensate(
+    model: Model,
+    values: ArrayLike,
+    joint: Mapping[str, float],
+    given: Mapping[str, ArrayLike],
+    dt: float,
+    controller: Mapping[str, float],
+    compensator: Mapping[str, object] | None = None,
+    bandwidth: float | None = None,
+    guided: bool = False,
+) -> dict[str, NDArray[np.float64]]: ...
+def largest_factor(
+    compensator: tuple[Model, ArrayLike],
+    friction: tuple[Model, ArrayLike, ArrayLike],
+    sides: Mapping[str, tuple[float, float]],
+    budget: int,
+) -> tuple[float, float, dict[str, float] | None]: ...
 def stroke(
     time: ArrayLike, ends: tuple[float, float], dwell: float, limits: Sequence[float]
 ) -> tuple[_Desired, float]: ...

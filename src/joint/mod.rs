@@ -14,6 +14,7 @@
 //! | `elastic` | motor and load with a spring and play between them |
 //! | `arm` | two joints in the plane, each with its friction |
 //! | `trajectory`, `controller` | what the joint shall do, and who sees to it |
+//! | `compensator`, `observer` | friction cancelled by a model of it, and what is left of it |
 //!
 //! ```
 //! use stribeck::composed::Spec;
@@ -37,10 +38,12 @@
 mod arm;
 mod ball_screw;
 mod body;
+mod compensator;
 mod controller;
 mod coupling;
 mod elastic;
 mod gravity;
+mod observer;
 mod rigid;
 mod root;
 mod trajectory;
@@ -48,9 +51,11 @@ mod trajectory;
 pub use arm::{ArmPosture, ArmPush, PlanarArm};
 pub use ball_screw::BallScrew;
 pub use body::{Body, Push};
+pub use compensator::Compensator;
 pub use controller::{Controller, Effort};
 pub use coupling::{Taken, step};
 pub use elastic::{ElasticJoint, ElasticPosture, MovingApart, Transmission};
 pub use gravity::Gravity;
+pub use observer::Observer;
 pub use rigid::{Joint, Moving, Posture};
 pub use trajectory::{Fourier, HARMONICS, Profile, Reference, Stroke, Trajectory};

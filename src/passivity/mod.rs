@@ -8,6 +8,7 @@
 //! | `friction` | what friction does along the motion |
 //! | [`cycles`] | the exact condition on a single deflection |
 //! | [`replay`] | counterexamples, carried out by the exact step |
+//! | [`factor`] | how much of one friction another may cancel |
 //! | [`requirement`] | what it all asks of the parameters, for a fit |
 //! | [`spread`] | the same at points over the box |
 //!
@@ -16,6 +17,7 @@
 
 pub mod cycles;
 pub mod enclosure;
+pub mod factor;
 mod friction;
 pub mod region;
 pub mod replay;

@@ -29,7 +29,7 @@ pub(super) struct Sizes {
 }
 
 impl Sizes {
-    fn joint(&self) -> Joint<f64> {
+    pub(super) fn joint(&self) -> Joint<f64> {
         let gravity =
             Gravity { constant: self.gravity, cos: self.gravity_cos, sin: self.gravity_sin };
         Joint { inertia: self.inertia, gravity, stiffness: self.stiffness, damping: self.damping }

@@ -3,6 +3,7 @@
 mod arm;
 mod catalog;
 mod columns;
+mod compensation;
 mod formula;
 mod joint;
 mod model;
@@ -34,6 +35,8 @@ mod _core {
     use super::arm::simulate_arm;
     #[pymodule_export]
     use super::catalog::catalog;
+    #[pymodule_export]
+    use super::compensation::{compensate, largest_factor};
     #[pymodule_export]
     use super::formula::Formula;
     #[pymodule_export]

@@ -126,7 +126,7 @@ impl Requirement {
     }
 }
 
-fn operating_box(sides: BTreeMap<String, (f64, f64)>) -> PyResult<Vec<Side>> {
+pub(super) fn operating_box(sides: BTreeMap<String, (f64, f64)>) -> PyResult<Vec<Side>> {
     let side = |(name, (lower, upper)): (String, (f64, f64))| {
         let channel = Channel::ALL.into_iter().find(|channel| channel.name() == name);
         let channel = channel.ok_or_else(|| {
@@ -210,7 +210,7 @@ fn motion<'py>(
     Ok(answer)
 }
 
-fn point<'py>(
+pub(super) fn point<'py>(
     py: Python<'py>,
     point: &Point,
     channels: &[Channel],

@@ -11,6 +11,7 @@ from stribeck import __version__
 from stribeck.cli.benchmark import benchmark
 from stribeck.cli.catalog import effects, inspect, models
 from stribeck.cli.check import check
+from stribeck.cli.compensate import compensate
 from stribeck.cli.demo import demo
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
@@ -52,6 +53,7 @@ for command in (demo, inspect, models, effects, fit, compare, diagnose, add, imp
 cli.add_command(plan)
 cli.add_command(check)
 cli.add_command(simulate)
+cli.add_command(compensate)
 cli.add_command(validate)
 cli.add_command(points)
 cli.add_command(arm)

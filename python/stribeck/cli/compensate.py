@@ -1,0 +1,153 @@
+"""`stribeck compensate`: a joint with its friction compensated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import click
+
+from stribeck.cli.common import (
+    check_output,
+    echo_json,
+    is_model_file,
+    json_option,
+    say,
+    seed_option,
+)
+from stribeck.cli.simulate import _joint, _model, _trajectory
+from stribeck.compensate import Compensator, Factor, HInfinity, largest_factor
+from stribeck.compensate import compensate as follow
+from stribeck.compensate.controller import BANDWIDTH
+from stribeck.errors import SpecError
+from stribeck.model import Model
+from stribeck.model_file import ModelFile, read_model_file
+from stribeck.passivity.operating_box import parse_sides
+from stribeck.report.files import save_figure
+from stribeck.simulate.acting import take_apart
+
+LARGEST = "largest"
+
+
+@click.command()
+@click.argument("model")
+@click.option(
+    "--value", "values", multiple=True, metavar="NAME=NUMBER",
+    help="A parameter's value, where MODEL is no file.",
+)  # fmt: skip
+@click.option("--with", "others", multiple=True, metavar="FILE", help="Compare with this model.")
+@click.option("--plant", metavar="FILE", help="What really resists. [default: MODEL]")
+@click.option(
+    "--factor", default="1", show_default=True,
+    help="Share that is compensated, 0 to 1; 'largest': proved not to overcompensate.",
+)  # fmt: skip
+@click.option(
+    "--box", "sides", multiple=True, metavar="CHANNEL=LOW:HIGH",
+    help="Where 'largest' is proved. [default: the model file's box]",
+)  # fmt: skip
+@click.option("--feedforward", is_flag=True, help="From the desired velocity, not the measured.")
+@click.option("--observer", type=float, help="Also observe the friction left, this bandwidth, Hz.")
+@click.option("--inertia", type=float, help="Inertia of a revolute joint, kg m2.")
+@click.option("--gravity-cos", type=float, default=0.0, help="Gravity torque at 0 rad, N m.")
+@click.option("--gravity-sin", type=float, default=0.0, help="Gravity torque at pi/2, N m.")
+@click.option("--mass", type=float, help="Mass of a prismatic joint, kg.")
+@click.option("--gravity", type=float, default=0.0, help="Force of gravity along it, N.")
+@click.option("--rotor-inertia", type=float, help="Of motor and ball screw, kg m2.")
+@click.option("--pitch", type=float, help="Travel a turn of the ball screw, m.")
+@click.option(
+    "--trajectory", "path", type=click.Choice(["trapezoid", "quintic", "fourier"]),
+    default="quintic", show_default=True, help="The desired motion.",
+)  # fmt: skip
+@click.option("--from", "start", type=float, default=0.0, help="Where a stroke starts, rad or m.")
+@click.option("--to", "end", type=float, help="Where it turns; a Fourier series' reach.")
+@click.option("--speed", type=float, help="Largest speed of a stroke, rad/s or m/s.")
+@click.option("--acceleration", type=float, help="Of a trapezoid, rad/s2 or m/s2.")
+@click.option("--dwell", type=float, default=0.5, show_default=True, help="Rest at its ends, s.")
+@click.option("--period", type=float, default=10.0, help="Of a Fourier series, s.")
+@click.option(
+    "--bandwidth", type=float, default=BANDWIDTH, show_default=True,
+    help="Of the H-infinity PID where gains are not given, Hz.",
+)  # fmt: skip
+@click.option("--kp", type=float, help="Gain Kp of the H-infinity PID, 1/s.")
+@click.option("--ki", type=float, help="Gain KI, 1/s2, with Kp^2 > 2 KI.")
+@click.option("--gain", type=float, help="Gain K + 1/gamma^2, N m s/rad or N s/m.")
+@click.option("--seconds", type=float, help="How long. [default: there and back]")
+@click.option("--step", type=float, default=1e-3, show_default=True, help="s.")
+@click.option("--temperature", type=float, help="degC. [default: middle of the plant's box]")
+@click.option("--plot", "picture", help="Write the errors' picture (PNG, SVG, PDF).")
+@seed_option
+@json_option
+def compensate(
+    model: str, values: tuple[str, ...], others: tuple[str, ...], plant: str | None, factor: str,
+    sides: tuple[str, ...], feedforward: bool, observer: float | None, seconds: float | None,
+    step: float, temperature: float | None, picture: str | None, seed: int, as_json: bool,
+    **sizes: Any,
+) -> None:  # fmt: skip
+    """Follow a trajectory without friction compensation, then with that of MODEL.
+
+    The controller is the H-infinity PID of Tadese et al. 2021. The joint really has the friction of
+    --plant. Without --inertia or --mass it is the one that was identified with the friction.
+    """
+    check_output(picture)
+    if seed < 0:
+        raise SpecError(f"seed {seed} is negative: give 0 or more")
+    asked = _known(model, values)
+    friction = asked if plant is None else _known(plant)
+    joint = _joint(sizes)
+    inertia = take_apart(_model_of(friction), joint).joint.inertia
+    cancels = [_known(other) for other in others] + [asked]
+    factors = [_factor(factor, each, friction, sides) for each in cancels]
+    tracking = follow(
+        friction,
+        joint,
+        _trajectory(sizes, take_apart(_model_of(friction), joint).joint, seed),
+        [
+            Compensator(
+                _model_of(each), share.value if isinstance(share, Factor) else share,
+                feedback=not feedforward,
+            )
+            for each, share in zip(cancels, factors, strict=True)
+        ],
+        controller=_gains(sizes, inertia), seconds=seconds, step=step, temperature=temperature,
+        observer=observer,
+    )  # fmt: skip
+    proofs = [share for share in factors if isinstance(share, Factor)]
+    if picture is not None:
+        save_figure(tracking.plot(), picture)
+        say(f"wrote {picture}")
+    if as_json:
+        echo_json({**tracking.to_dict(), "factors": [proof.to_dict() for proof in proofs]})
+    else:
+        click.echo("\n".join(map(repr, (tracking, *proofs))))
+
+
+def _known(argument: str, values: tuple[str, ...] = ()) -> Model | ModelFile:
+    """A model with its values; a file keeps its standard errors."""
+    if is_model_file(argument) and not values:
+        return read_model_file(argument)
+    return _model(argument, values)
+
+
+def _model_of(known: Model | ModelFile) -> Model:
+    return known if isinstance(known, Model) else known.model
+
+
+def _factor(
+    text: str, compensator: Model | ModelFile, friction: Model | ModelFile, sides: tuple[str, ...]
+) -> Factor | float:
+    """The share, as it was said or as it is proved."""
+    if text == LARGEST:
+        return largest_factor(compensator, friction, parse_sides(sides))
+    if sides:
+        raise SpecError("--box is where --factor largest is proved: give both or none")
+    try:
+        return float(text)
+    except ValueError:
+        raise SpecError(f"--factor {text}: give a number from 0 to 1, or largest") from None
+
+
+def _gains(sizes: dict[str, Any], inertia: float) -> HInfinity:
+    """The gains given; others follow from the bandwidth."""
+    usual = HInfinity.with_bandwidth(inertia, sizes["bandwidth"])
+    given = {"proportional": sizes["kp"], "integral": sizes["ki"], "gain": sizes["gain"]}
+    return replace(usual, **{name: gain for name, gain in given.items() if gain is not None})

@@ -1,0 +1,263 @@
+use std::collections::BTreeMap;
+use std::string::String;
+use std::vec::Vec;
+
+use numpy::IntoPyArray;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use super::columns::{Array, contiguous};
+use super::joint::{Gains, Sizes};
+use super::model::Model;
+use super::passivity::{operating_box, point};
+use super::{ModelError, refuse};
+use crate::composed::Composed;
+use crate::dynamics::State;
+use crate::joint::{
+    self, Compensator, Controller, Effort, Gravity, Joint, Observer, Posture, Push, Reference,
+    Taken,
+};
+use crate::passivity::enclosure::Enclosure;
+use crate::passivity::factor;
+use crate::sample::Sample;
+
+/// What a loop is given, a row a step.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(super) struct Given<'py> {
+    position: Array<'py>,
+    velocity: Array<'py>,
+    acceleration: Array<'py>,
+    temperature: Array<'py>,
+}
+
+/// A compensator by feedback or by feedforward.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(super) struct Cancels<'py> {
+    model: PyRef<'py, Model>,
+    values: Array<'py>,
+    factor: f64,
+    feedback: bool,
+}
+
+/// What the loop consists of besides the joint.
+struct Loop<'a> {
+    controller: Controller<f64>,
+    compensator: Option<Compensator<'a, f64>>,
+    feedback: bool,
+    observer: Option<Observer<f64>>,
+    /// Whether the controller is a hand that guides the joint.
+    guided: bool,
+}
+
+/// What happened.
+struct Course {
+    postures: Vec<Posture<f64>>,
+    taken: Vec<Taken<f64>>,
+    motor: Vec<f64>,
+    controller: Vec<f64>,
+    compensation: Vec<f64>,
+    observed: Vec<f64>,
+}
+
+/// Moves a joint along a desired motion with gravity and a share of its friction compensated, by a
+/// controller or, `guided`, by a hand that pulls like one: dict of `position` and `velocity`
+/// [n + 1], and, a step, `torque` of the motor, `controller_torque`, `compensation`, `observed`,
+/// `load_torque` and `friction_torque` [n].
+#[pyfunction]
+#[pyo3(signature = (model, values, joint, given, dt, controller, compensator=None,
+    bandwidth=None, guided=false))]
+#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+pub(super) fn compensate<'py>(
+    py: Python<'py>,
+    model: &Model,
+    values: Array<'py>,
+    joint: Sizes,
+    given: Given<'py>,
+    dt: f64,
+    controller: Gains,
+    compensator: Option<Cancels<'py>>,
+    bandwidth: Option<f64>,
+    guided: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let friction = model.spec.with(&contiguous(&values)).map_err(refuse)?;
+    let joint = joint.joint();
+    let cancels = compensator
+        .as_ref()
+        .map(|c| c.model.spec.with(&contiguous(&c.values)).map_err(refuse))
+        .transpose()?;
+    let factor = compensator.as_ref().map_or(0.0, |c| c.factor);
+    let parts = Loop {
+        controller: controller.controller(),
+        compensator: cancels.as_ref().map(|model| Compensator::new(model, factor)),
+        feedback: compensator.as_ref().is_some_and(|c| c.feedback),
+        observer: bandwidth.map(|bandwidth| Observer::new(joint.inertia, bandwidth)),
+        guided,
+    };
+    let desired = rows(&given)?;
+    let temperature = contiguous(&given.temperature);
+    let course = py.detach(|| parts.run(&friction, &joint, &desired, &temperature, dt))?;
+    let answer = PyDict::new(py);
+    let (position, velocity): (Vec<_>, Vec<_>) =
+        course.postures.iter().map(|at| (at.position, at.velocity)).unzip();
+    let (load, resisted): (Vec<_>, Vec<_>) =
+        course.taken.iter().map(|taken| (taken.load, taken.friction)).unzip();
+    for (name, column) in [
+        ("position", position),
+        ("velocity", velocity),
+        ("torque", course.motor),
+        ("controller_torque", course.controller),
+        ("compensation", course.compensation),
+        ("observed", course.observed),
+        ("load_torque", load),
+        ("friction_torque", resisted),
+    ] {
+        answer.set_item(name, column.into_pyarray(py))?;
+    }
+    Ok(answer)
+}
+
+fn rows(given: &Given<'_>) -> PyResult<Vec<Reference<f64>>> {
+    let [position, velocity, acceleration] =
+        [&given.position, &given.velocity, &given.acceleration].map(contiguous);
+    let count = contiguous(&given.temperature).len();
+    if [&position, &velocity, &acceleration].iter().any(|column| column.len() != count) {
+        return Err(ModelError::new_err("columns that a loop is given differ in length"));
+    }
+    Ok((0..count)
+        .map(|k| Reference {
+            position: position[k],
+            velocity: velocity[k],
+            acceleration: acceleration[k],
+        })
+        .collect())
+}
+
+impl Loop<'_> {
+    fn run(
+        mut self,
+        friction: &Composed<f64>,
+        joint: &Joint<f64>,
+        desired: &[Reference<f64>],
+        temperature: &[f64],
+        dt: f64,
+    ) -> PyResult<Course> {
+        let mut course = Course::of(desired.len());
+        let (mut state, mut effort) = (State::default(), Effort::default());
+        let mut at = desired.first().map_or(Posture { position: 0.0, velocity: 0.0 }, |first| {
+            Posture { position: first.position, velocity: first.velocity }
+        });
+        course.postures.push(at);
+        for (k, (wanted, &temperature)) in desired.iter().zip(temperature).enumerate() {
+            #[allow(clippy::cast_precision_loss)]
+            let time = k as f64 * dt;
+            let gravity = joint.gravity.mean(at.position, 0.0);
+            let measured = (at.position, at.velocity);
+            let inertial = if self.guided { 0.0 } else { joint.inertia * wanted.acceleration };
+            let pid = self.controller.torque(&mut effort, wanted, measured, 0.0, dt);
+            let compensation =
+                self.cancelled(&joint.gravity, inertial, wanted, at, temperature, time, dt);
+            let observed = self.observer.map_or(0.0, |observer| observer.estimate);
+            let hand = if self.guided { pid } else { 0.0 };
+            let motor = gravity + inertial + compensation + observed + pid - hand;
+            let push = Push {
+                motor,
+                external: hand,
+                support: 0.0,
+                support_velocity: 0.0,
+                temperature,
+                time,
+            };
+            let mut body = joint.moving(at, &push);
+            let taken = joint::step(friction, &mut state, &mut body, dt);
+            let before = at.velocity;
+            at = body.posture;
+            if !(at.position.is_finite() && at.velocity.is_finite()) {
+                let message = std::format!("the motion is beyond all numbers after {time} s");
+                return Err(ModelError::new_err(message));
+            }
+            if let Some(observer) = &mut self.observer {
+                observer.update(motor - gravity - compensation, (before, at.velocity), dt);
+            }
+            course.postures.push(at);
+            course.taken.push(taken);
+            course.motor.push(motor);
+            course.controller.push(pid);
+            course.compensation.push(compensation);
+            course.observed.push(observed);
+        }
+        Ok(course)
+    }
+
+    /// The compensator's torque, from the measured motion or the desired one.
+    #[allow(clippy::too_many_arguments)]
+    fn cancelled(
+        &mut self,
+        gravity: &Gravity<f64>,
+        inertial: f64,
+        wanted: &Reference<f64>,
+        at: Posture<f64>,
+        temperature: f64,
+        time: f64,
+        dt: f64,
+    ) -> f64 {
+        let (position, velocity) = if self.feedback {
+            (at.position, at.velocity)
+        } else {
+            (wanted.position, wanted.velocity)
+        };
+        let weight = gravity.mean(position, 0.0);
+        let sample = Sample {
+            position,
+            acceleration: wanted.acceleration,
+            temperature,
+            load_torque: weight + inertial,
+            external_torque: -weight,
+            motor_torque: weight + inertial,
+            time,
+            ..Sample::at(velocity)
+        };
+        self.compensator.as_mut().map_or(0.0, |compensator| compensator.torque(&sample, dt))
+    }
+}
+
+impl Course {
+    fn of(count: usize) -> Self {
+        Self {
+            postures: Vec::with_capacity(count + 1),
+            taken: Vec::with_capacity(count),
+            motor: Vec::with_capacity(count),
+            controller: Vec::with_capacity(count),
+            compensation: Vec::with_capacity(count),
+            observed: Vec::with_capacity(count),
+        }
+    }
+}
+
+/// The largest share of a compensator that nowhere exceeds a friction whose parameters lie between
+/// bounds: what is proved, what the bound comes to at one point, and that point.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(super) fn largest_factor<'py>(
+    py: Python<'py>,
+    compensator: (PyRef<'py, Model>, Array<'py>),
+    friction: (PyRef<'py, Model>, Array<'py>, Array<'py>),
+    sides: BTreeMap<String, (f64, f64)>,
+    budget: usize,
+) -> PyResult<(f64, f64, Option<Bound<'py, PyDict>>)> {
+    let sides = operating_box(sides)?;
+    let (cancels, values) = (&compensator.0.spec, contiguous(&compensator.1));
+    let (resists, lower, upper) = (&friction.0.spec, &friction.1, &friction.2);
+    let bounds: Vec<_> = contiguous(lower)
+        .iter()
+        .zip(contiguous(upper).iter())
+        .map(|(&lower, &upper)| Enclosure::new(lower, upper))
+        .collect();
+    let found = py
+        .detach(|| factor::largest((cancels, &values), (resists, &bounds), &sides, budget))
+        .map_err(refuse)?;
+    let channels: Vec<_> = sides.iter().map(|side| side.channel).collect();
+    let place = found.point.map(|at| point(py, &at, &channels)).transpose()?;
+    Ok((found.proved, found.at_point, place))
+}
