@@ -39,7 +39,7 @@ def percent(value: float | None) -> str:
 
 def main() -> None:
     """Run every recording and print the table, then the commands."""
-    print("| recording | found, in this order (tied with) | held-out RMSE | relative residual |")
+    print("| recording | found, in this order, with its confidence (tied with) | held-out RMSE | relative residual |")
     print("|---|---|---|---|")
     commands = []
     for name, file, sidecar in RECORDINGS:
@@ -49,7 +49,8 @@ def main() -> None:
         found = []
         for step in got["steps"]:
             tied = step["indistinguishable_from"]
-            found.append(step["effect"] + (f" ({', '.join(tied)})" if tied else ""))
+            sure = "> 0.99" if step["confidence"] > 0.99 else f"{step['confidence']:.2f}"
+            found.append(f"{step['effect']} {sure}" + (f" ({', '.join(tied)})" if tied else ""))
         errors = [got["rmse_held_out_base"], *(s["rmse_held_out_after"] for s in got["steps"])]
         print(
             f"| {name} | {', then '.join(found) or 'none'} | "
