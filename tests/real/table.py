@@ -39,8 +39,8 @@ def percent(value: float | None) -> str:
 
 def main() -> None:
     """Run every recording and print the table, then the commands."""
-    found = "found, in this order, with its confidence (tied with)"
-    print(f"| recording | {found} | held-out RMSE | relative residual |")
+    findings = "found, in this order, with its confidence (tied with)"
+    print(f"| recording | {findings} | held-out RMSE | relative residual |")
     print("|---|---|---|---|")
     commands = []
     for name, file, sidecar in RECORDINGS:
