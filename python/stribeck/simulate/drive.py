@@ -82,7 +82,7 @@ class Follow:
 
 @dataclass(frozen=True)
 class Pull:
-    """A spring, and a damper beside it, whose far end moves at constant speed.
+    """A spring, slack at first, and a damper beside it, whose far end moves at constant speed.
 
     Attributes
     ----------

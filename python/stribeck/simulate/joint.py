@@ -31,16 +31,16 @@ class Transmission:
 
     def __post_init__(self) -> None:
         for name in ("motor_inertia", "stiffness"):
-            _check(f"the transmission's {name}", getattr(self, name), above=0.0)
+            _check_positive(f"the transmission's {name}", getattr(self, name))
         for name in ("damping", "backlash"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0.0):
                 raise SpecError(f"the transmission's {name} is {value:g}: give 0 or more")
 
 
-def _check(what: str, value: float, above: float) -> None:
-    if not (math.isfinite(value) and value > above):
-        raise SpecError(f"{what} is {value:g}: give one above {above:g}")
+def _check_positive(what: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0.0):
+        raise SpecError(f"{what} is {value:g}: give one above 0")
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class Joint:
         for name in ("inertia", "gravity", "gravity_cos", "gravity_sin"):
             if not math.isfinite(getattr(self, name)):
                 raise SpecError(f"the joint's {name} is {getattr(self, name)}: give a number")
-        _check("the joint's inertia", self.inertia, above=0.0)
+        _check_positive("the joint's inertia", self.inertia)
 
     @classmethod
     def revolute(

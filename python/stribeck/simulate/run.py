@@ -88,10 +88,12 @@ def simulate(
     acting = take_apart(asked, joint)
     instants = _instants(drive, seconds, step)
     count = instants.size - 1
-    columns = _columns(drive, acting.joint, instants)
+    start = _start(drive, position, velocity)
+    if not math.isfinite(deflection):
+        raise SpecError(f"deflection {deflection} at the start cannot be: give a number")
+    columns = _columns(drive, acting.joint, instants, start[0])
     columns["temperature"] = column("temperature", _warmth(asked, temperature), count)
     columns["external"] = column("external torque", external_torque, count)
-    start = _start(drive, position, velocity)
     try:
         answer = _core.simulate(
             acting.friction.core, acting.friction.values, _sizes(acting.joint, drive), columns,
@@ -167,7 +169,7 @@ def _start(drive: Drive, position: float | None, velocity: float | None) -> tupl
     return start
 
 
-def _columns(drive: Drive, joint: Joint, instants: Array) -> dict[str, Array]:
+def _columns(drive: Drive, joint: Joint, instants: Array, start: float) -> dict[str, Array]:
     """What the drive does in each step."""
     begun, length = instants[:-1], np.diff(instants)
     count = begun.size
@@ -177,7 +179,7 @@ def _columns(drive: Drive, joint: Joint, instants: Array) -> dict[str, Array]:
     if isinstance(drive, Torque):
         columns["torque"] = column("torque", drive.torque, count)
     elif isinstance(drive, Pull):
-        columns["support"] = drive.speed * begun
+        columns["support"] = start + drive.speed * begun
         columns["support_velocity"] = np.full(count, drive.speed)
     else:
         at, speed, _ = drive.trajectory(begun)
