@@ -70,6 +70,7 @@ def compensate(
     compensator: Mapping[str, object] | None = None,
     bandwidth: float | None = None,
     guided: bool = False,
+    resolution: float = 0.0,
 ) -> dict[str, NDArray[np.float64]]: ...
 def largest_factor(
     compensator: tuple[Model, ArrayLike],

@@ -41,8 +41,27 @@ pub(super) struct Cancels<'py> {
     feedback: bool,
 }
 
+/// What is seen of a joint: exactly where it is and how fast it moves, or an encoder's steps and
+/// their differences.
+struct Encoder {
+    resolution: f64,
+    last: Option<f64>,
+}
+
+impl Encoder {
+    fn measured(&mut self, at: Posture<f64>, dt: f64) -> Posture<f64> {
+        if self.resolution == 0.0 {
+            return at;
+        }
+        let position = self.resolution * (at.position / self.resolution).round();
+        let last = self.last.replace(position).unwrap_or(position);
+        Posture { position, velocity: (position - last) / dt }
+    }
+}
+
 /// What the loop consists of besides the joint.
 struct Loop<'a> {
+    encoder: Encoder,
     controller: Controller<f64>,
     compensator: Option<Compensator<'a, f64>>,
     feedback: bool,
@@ -64,10 +83,10 @@ struct Course {
 /// Moves a joint along a desired motion with gravity and a share of its friction compensated, by a
 /// controller or, `guided`, by a hand that pulls like one: dict of `position` and `velocity`
 /// [n + 1], and, a step, `torque` of the motor, `controller_torque`, `compensation`, `observed`,
-/// `load_torque` and `friction_torque` [n].
+/// `load_torque` and `friction_torque` [n]. With a `resolution` the joint is seen by an encoder.
 #[pyfunction]
 #[pyo3(signature = (model, values, joint, given, dt, controller, compensator=None,
-    bandwidth=None, guided=false))]
+    bandwidth=None, guided=false, resolution=0.0))]
 #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
 pub(super) fn compensate<'py>(
     py: Python<'py>,
@@ -80,6 +99,7 @@ pub(super) fn compensate<'py>(
     compensator: Option<Cancels<'py>>,
     bandwidth: Option<f64>,
     guided: bool,
+    resolution: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let friction = model.spec.with(&contiguous(&values)).map_err(refuse)?;
     let joint = joint.joint();
@@ -89,6 +109,7 @@ pub(super) fn compensate<'py>(
         .transpose()?;
     let factor = compensator.as_ref().map_or(0.0, |c| c.factor);
     let parts = Loop {
+        encoder: Encoder { resolution, last: None },
         controller: controller.controller(),
         compensator: cancels.as_ref().map(|model| Compensator::new(model, factor)),
         feedback: compensator.as_ref().is_some_and(|c| c.feedback),
@@ -149,15 +170,21 @@ impl Loop<'_> {
             Posture { position: first.position, velocity: first.velocity }
         });
         course.postures.push(at);
+        // Of the step before: what acted beside friction, and the velocity seen at its start.
+        let (mut known, mut before) = (0.0, at.velocity);
         for (k, (wanted, &temperature)) in desired.iter().zip(temperature).enumerate() {
             #[allow(clippy::cast_precision_loss)]
             let time = k as f64 * dt;
-            let gravity = joint.gravity.mean(at.position, 0.0);
-            let measured = (at.position, at.velocity);
+            let seen = self.encoder.measured(at, dt);
+            if let Some(observer) = &mut self.observer {
+                observer.update(known, (before, seen.velocity), dt);
+            }
+            let gravity = joint.gravity.mean(seen.position, 0.0);
+            let measured = (seen.position, seen.velocity);
             let inertial = if self.guided { 0.0 } else { joint.inertia * wanted.acceleration };
             let pid = self.controller.torque(&mut effort, wanted, measured, 0.0, dt);
             let compensation =
-                self.cancelled(&joint.gravity, inertial, wanted, at, temperature, time, dt);
+                self.cancelled(&joint.gravity, inertial, wanted, seen, temperature, time, dt);
             let observed = self.observer.map_or(0.0, |observer| observer.estimate);
             let hand = if self.guided { pid } else { 0.0 };
             let motor = gravity + inertial + compensation + observed + pid - hand;
@@ -171,15 +198,12 @@ impl Loop<'_> {
             };
             let mut body = joint.moving(at, &push);
             let taken = joint::step(friction, &mut state, &mut body, dt);
-            let before = at.velocity;
             at = body.posture;
             if !(at.position.is_finite() && at.velocity.is_finite()) {
                 let message = std::format!("the motion is beyond all numbers after {time} s");
                 return Err(ModelError::new_err(message));
             }
-            if let Some(observer) = &mut self.observer {
-                observer.update(motor - gravity - compensation, (before, at.velocity), dt);
-            }
+            (known, before) = (motor - gravity - compensation, seen.velocity);
             course.postures.push(at);
             course.taken.push(taken);
             course.motor.push(motor);

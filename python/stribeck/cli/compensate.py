@@ -47,6 +47,10 @@ LARGEST = "largest"
 )  # fmt: skip
 @click.option("--feedforward", is_flag=True, help="From the desired velocity, not the measured.")
 @click.option("--observer", type=float, help="Also observe the friction left, this bandwidth, Hz.")
+@click.option(
+    "--encoder", type=float, default=0.0, show_default=True,
+    help="Resolution of the encoder, rad or m; 0 is exact.",
+)  # fmt: skip
 @click.option("--inertia", type=float, help="Inertia of a revolute joint, kg m2.")
 @click.option("--gravity-cos", type=float, default=0.0, help="Gravity torque at 0 rad, N m.")
 @click.option("--gravity-sin", type=float, default=0.0, help="Gravity torque at pi/2, N m.")
@@ -79,9 +83,9 @@ LARGEST = "largest"
 @json_option
 def compensate(
     model: str, values: tuple[str, ...], others: tuple[str, ...], plant: str | None, factor: str,
-    sides: tuple[str, ...], feedforward: bool, observer: float | None, seconds: float | None,
-    step: float, temperature: float | None, picture: str | None, seed: int, as_json: bool,
-    **sizes: Any,
+    sides: tuple[str, ...], feedforward: bool, observer: float | None, encoder: float,
+    seconds: float | None, step: float, temperature: float | None, picture: str | None, seed: int,
+    as_json: bool, **sizes: Any,
 ) -> None:  # fmt: skip
     """Follow a trajectory without friction compensation, then with that of MODEL.
 
@@ -109,7 +113,7 @@ def compensate(
             for each, share in zip(cancels, factors, strict=True)
         ],
         controller=_gains(sizes, inertia), seconds=seconds, step=step, temperature=temperature,
-        observer=observer,
+        observer=observer, encoder=encoder,
     )  # fmt: skip
     proofs = [share for share in factors if isinstance(share, Factor)]
     if picture is not None:

@@ -18,7 +18,7 @@ from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
 
 #: Evaluations of the friction over a box after which a search gives up: some seconds.
-BUDGET = 400_000
+BUDGET = 100_000
 #: Standard errors that the parameters of a model file may be off, as in a 95 % interval.
 STANDARD_ERRORS = 1.96
 

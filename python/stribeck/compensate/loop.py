@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -102,10 +103,11 @@ class Motion:
 
 @dataclass(frozen=True)
 class Bench:
-    """A joint with its true friction, and what it shall do."""
+    """A joint with its true friction, what is seen of it, and what it shall do."""
 
     acting: Acting
     step: float
+    encoder: float
     desired: tuple[Array, Array, Array]
     temperature: Array
 
@@ -119,6 +121,7 @@ class Bench:
         seconds: float | None,
         step: float,
         temperature: ArrayLike | None,
+        encoder: float,
     ) -> Bench:
         """Checked, with a row a step.
 
@@ -132,6 +135,8 @@ class Bench:
         if acting.joint.transmission is not None:
             raise SpecError("compensation is of a joint of one inertia: leave the transmission out")
         check_positive("step", step)
+        if not (math.isfinite(encoder) and encoder >= 0.0):
+            raise SpecError(f"the encoder's step is {encoder:g}: give 0 or more")
         duration = trajectory.duration if seconds is None else seconds
         check_positive("seconds", duration)
         count = round(duration / step)
@@ -141,7 +146,7 @@ class Bench:
             )
         desired = trajectory(step * np.arange(count, dtype=np.float64))
         warmth = default_temperature(acting.friction, temperature)
-        return cls(acting, step, desired, column("temperature", warmth, count))
+        return cls(acting, step, encoder, desired, column("temperature", warmth, count))
 
     def run(
         self,
@@ -180,6 +185,7 @@ class Bench:
             answer = _core.compensate(
                 friction.core, friction.values, sizes, given, self.step, gains,
                 None if compensator is None else self._cancels(compensator), bandwidth, guided,
+                self.encoder,
             )  # fmt: skip
         except _core.ModelError as error:
             raise SpecError(f"{friction.spec} cannot be moved: {error}") from None

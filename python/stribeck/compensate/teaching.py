@@ -68,13 +68,16 @@ class Teaching:
         return float(np.sqrt(np.mean(hand**2))), float(np.abs(hand).max())
 
     def overcompensated(self, motion: Motion) -> float:
-        """Share of the time in motion in which compensation pushes harder than friction holds."""
+        """Share of the time in motion in which compensation pushes harder than friction holds.
+
+        It pushes along the motion; a bristle that springs back pushes by itself and holds nothing.
+        """
         way = np.diff(motion.position)
         moving = way != 0.0
         if not moving.any():
             return 0.0
-        left = (motion.friction_torque - motion.compensation) * np.sign(way)
-        return float(np.mean(left[moving] < 0.0))
+        pushed, held = motion.compensation * np.sign(way), motion.friction_torque * np.sign(way)
+        return float(np.mean((pushed > np.maximum(held, 0.0))[moving]))
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON."""
@@ -107,6 +110,7 @@ def teach(
     seconds: float | None = None,
     step: float = 1e-3,
     temperature: ArrayLike | None = None,
+    encoder: float = 0.0,
 ) -> Teaching:
     """Guide a joint by hand: its motor gives ``g + alpha tf``, first with ``alpha`` 0.
 
@@ -125,6 +129,9 @@ def teach(
         s.
     temperature : float or array [steps], optional
         degC; the default is the middle of the friction's operating box.
+    encoder : float
+        Resolution of the encoder, rad or m: position in these steps and velocity by their
+        differences are all that is measured; 0 measures both exactly.
 
     Raises
     ------
@@ -138,8 +145,9 @@ def teach(
                 f"use feedback"
             )
     bench = Bench.of(
-        friction, joint, guidance.trajectory, seconds=seconds, step=step, temperature=temperature
-    )
+        friction, joint, guidance.trajectory, seconds=seconds, step=step, temperature=temperature,
+        encoder=encoder,
+    )  # fmt: skip
     hand = Controller(guidance.stiffness, guidance.damping)
     return Teaching(
         friction=bench.acting.friction,

@@ -102,6 +102,7 @@ def compensate(
     step: float = 1e-3,
     temperature: ArrayLike | None = None,
     observer: float | None = None,
+    encoder: float = 0.0,
 ) -> Tracking:
     """Follow a trajectory without compensation, then with each compensator.
 
@@ -124,6 +125,9 @@ def compensate(
     observer : float, optional
         Bandwidth, Hz, of an observer whose estimate of the friction that is left is compensated
         too, in all motions.
+    encoder : float
+        Resolution of the encoder, rad or m: position in these steps and velocity by their
+        differences are all that is measured; 0 measures both exactly.
 
     Raises
     ------
@@ -142,8 +146,9 @@ def compensate(
     True
     """
     bench = Bench.of(
-        friction, joint, trajectory, seconds=seconds, step=step, temperature=temperature
-    )
+        friction, joint, trajectory, seconds=seconds, step=step, temperature=temperature,
+        encoder=encoder,
+    )  # fmt: skip
     inertia = bench.acting.joint.inertia
     gains = HInfinity.with_bandwidth(inertia) if controller is None else controller
     if observer is not None and not (math.isfinite(observer) and observer > 0.0):

