@@ -28,6 +28,25 @@ fn known_exactly_all_may_be_cancelled() {
 }
 
 #[test]
+fn numbers_outside_the_bounds_are_compared_all_the_same() {
+    // Another Stribeck velocity: its curve is not straight in that.
+    let mut other = VALUES;
+    other[3] *= 4.0;
+    for (cancels, resists) in [(VALUES, other), (other, VALUES)] {
+        let points = resists.map(Enclosure::point);
+        let found = largest((&spec(), &cancels), (&spec(), &points), &SIDES, BUDGET).unwrap();
+        let (cancels, resists) = (spec().with(&cancels).unwrap(), spec().with(&resists).unwrap());
+        let ratio = |v: f64| {
+            let sample = Sample::at(v);
+            resists.static_torque(&sample) / cancels.static_torque(&sample)
+        };
+        let least = (1..20_000).map(|k| ratio(1e-4 * f64::from(k))).fold(f64::INFINITY, f64::min);
+        assert!(found.proved <= least, "{} above {least}", found.proved);
+        assert!(found.proved > 0.99 * least, "{} far below {least}", found.proved);
+    }
+}
+
+#[test]
 fn no_friction_within_the_bounds_is_exceeded() {
     let reach = 0.04;
     let found = largest((&spec(), &VALUES), (&spec(), &within(reach)), &SIDES, BUDGET).unwrap();

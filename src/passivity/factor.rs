@@ -103,12 +103,15 @@ struct Spread {
 
 impl Spread {
     fn of(spec: &Spec, values: &[f64], bounds: &[Enclosure]) -> Result<Self, ModelError<'static>> {
+        // The theorem speaks of all numbers between the nominal ones and the others.
+        let between: Vec<_> =
+            bounds.iter().zip(values).map(|(x, &v)| x.hull(Enclosure::point(v))).collect();
         let uncertain: Vec<_> =
             (0..bounds.len()).filter(|&k| bounds[k] != Enclosure::point(values[k])).collect();
         let part = |some: &[usize]| {
-            let mut variables: Vec<_> = bounds.iter().map(|&x| Dual::constant(x)).collect();
+            let mut variables: Vec<_> = between.iter().map(|&x| Dual::constant(x)).collect();
             for (direction, &k) in some.iter().enumerate() {
-                variables[k] = Dual::variable(bounds[k], direction);
+                variables[k] = Dual::variable(between[k], direction);
             }
             let off = some.iter().map(|&k| bounds[k] - Enclosure::point(values[k])).collect();
             Ok((spec.with(&variables)?, off))

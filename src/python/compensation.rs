@@ -14,8 +14,7 @@ use super::{ModelError, refuse};
 use crate::composed::Composed;
 use crate::dynamics::State;
 use crate::joint::{
-    self, Compensator, Controller, Effort, Gravity, Joint, Observer, Posture, Push, Reference,
-    Taken,
+    self, Compensator, Controller, Effort, Joint, Observer, Posture, Push, Reference, Taken,
 };
 use crate::passivity::enclosure::Enclosure;
 use crate::passivity::factor;
@@ -181,12 +180,12 @@ impl Loop<'_> {
             }
             let gravity = joint.gravity.mean(seen.position, 0.0);
             let measured = (seen.position, seen.velocity);
-            let inertial = if self.guided { 0.0 } else { joint.inertia * wanted.acceleration };
             let pid = self.controller.torque(&mut effort, wanted, measured, 0.0, dt);
-            let compensation =
-                self.cancelled(&joint.gravity, inertial, wanted, seen, temperature, time, dt);
+            let sample = Sample { time, ..self.sample(joint, wanted, seen, temperature) };
+            let compensation = self.compensator.as_mut().map_or(0.0, |c| c.torque(&sample, dt));
             let observed = self.observer.map_or(0.0, |observer| observer.estimate);
             let hand = if self.guided { pid } else { 0.0 };
+            let inertial = self.inertial(joint, wanted);
             let motor = gravity + inertial + compensation + observed + pid - hand;
             let push = Push {
                 motor,
@@ -214,35 +213,35 @@ impl Loop<'_> {
         Ok(course)
     }
 
-    /// The compensator's torque, from the measured motion or the desired one.
-    #[allow(clippy::too_many_arguments)]
-    fn cancelled(
-        &mut self,
-        gravity: &Gravity<f64>,
-        inertial: f64,
+    /// What the compensator is given: the motion that is seen, or the desired one.
+    fn sample(
+        &self,
+        joint: &Joint<f64>,
         wanted: &Reference<f64>,
-        at: Posture<f64>,
+        seen: Posture<f64>,
         temperature: f64,
-        time: f64,
-        dt: f64,
-    ) -> f64 {
+    ) -> Sample<f64> {
         let (position, velocity) = if self.feedback {
-            (at.position, at.velocity)
+            (seen.position, seen.velocity)
         } else {
             (wanted.position, wanted.velocity)
         };
-        let weight = gravity.mean(position, 0.0);
-        let sample = Sample {
+        let weight = joint.gravity.mean(position, 0.0);
+        let load = weight + self.inertial(joint, wanted);
+        Sample {
             position,
             acceleration: wanted.acceleration,
             temperature,
-            load_torque: weight + inertial,
+            load_torque: load,
             external_torque: -weight,
-            motor_torque: weight + inertial,
-            time,
+            motor_torque: load,
             ..Sample::at(velocity)
-        };
-        self.compensator.as_mut().map_or(0.0, |compensator| compensator.torque(&sample, dt))
+        }
+    }
+
+    /// What the desired acceleration takes; of a hand's intention nobody knows.
+    fn inertial(&self, joint: &Joint<f64>, wanted: &Reference<f64>) -> f64 {
+        if self.guided { 0.0 } else { joint.inertia * wanted.acceleration }
     }
 }
 

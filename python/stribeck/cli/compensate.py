@@ -16,7 +16,16 @@ from stribeck.cli.common import (
     seed_option,
 )
 from stribeck.cli.simulate import _joint, _model, _trajectory
-from stribeck.compensate import Compensator, Factor, HInfinity, largest_factor
+from stribeck.compensate import (
+    Compensator,
+    Factor,
+    Guidance,
+    HInfinity,
+    Teaching,
+    Tracking,
+    largest_factor,
+    teach,
+)
 from stribeck.compensate import compensate as follow
 from stribeck.compensate.controller import BANDWIDTH
 from stribeck.errors import SpecError
@@ -38,7 +47,7 @@ LARGEST = "largest"
 @click.option("--with", "others", multiple=True, metavar="FILE", help="Compare with this model.")
 @click.option("--plant", metavar="FILE", help="What really resists. [default: MODEL]")
 @click.option(
-    "--factor", default="1", show_default=True,
+    "--factor", "share", default="1", show_default=True,
     help="Share that is compensated, 0 to 1; 'largest': proved not to overcompensate.",
 )  # fmt: skip
 @click.option(
@@ -46,6 +55,7 @@ LARGEST = "largest"
     help="Where 'largest' is proved. [default: the model file's box]",
 )  # fmt: skip
 @click.option("--feedforward", is_flag=True, help="From the desired velocity, not the measured.")
+@click.option("--guided", is_flag=True, help="A hand leads the joint, its motor only compensates.")
 @click.option("--observer", type=float, help="Also observe the friction left, this bandwidth, Hz.")
 @click.option(
     "--encoder", type=float, default=0.0, show_default=True,
@@ -82,15 +92,16 @@ LARGEST = "largest"
 @seed_option
 @json_option
 def compensate(
-    model: str, values: tuple[str, ...], others: tuple[str, ...], plant: str | None, factor: str,
-    sides: tuple[str, ...], feedforward: bool, observer: float | None, encoder: float,
+    model: str, values: tuple[str, ...], others: tuple[str, ...], plant: str | None, share: str,
+    sides: tuple[str, ...], feedforward: bool, guided: bool, observer: float | None, encoder: float,
     seconds: float | None, step: float, temperature: float | None, picture: str | None, seed: int,
     as_json: bool, **sizes: Any,
 ) -> None:  # fmt: skip
     """Follow a trajectory without friction compensation, then with that of MODEL.
 
-    The controller is the H-infinity PID of Tadese et al. 2021. The joint really has the friction of
-    --plant. Without --inertia or --mass it is the one that was identified with the friction.
+    The controller is the H-infinity PID of Tadese et al. 2021, or a hand (direct teaching). The
+    joint really has the friction of --plant. Without --inertia or --mass it is the one that was
+    identified with the friction.
     """
     check_output(picture)
     if seed < 0:
@@ -98,31 +109,36 @@ def compensate(
     asked = _known(model, values)
     friction = asked if plant is None else _known(plant)
     joint = _joint(sizes)
-    inertia = take_apart(_model_of(friction), joint).joint.inertia
+    moved = take_apart(_model_of(friction), joint).joint
     cancels = [_known(other) for other in others] + [asked]
-    factors = [_factor(factor, each, friction, sides) for each in cancels]
-    tracking = follow(
-        friction,
-        joint,
-        _trajectory(sizes, take_apart(_model_of(friction), joint).joint, seed),
-        [
-            Compensator(
-                _model_of(each), share.value if isinstance(share, Factor) else share,
-                feedback=not feedforward,
-            )
-            for each, share in zip(cancels, factors, strict=True)
-        ],
-        controller=_gains(sizes, inertia), seconds=seconds, step=step, temperature=temperature,
-        observer=observer, encoder=encoder,
-    )  # fmt: skip
-    proofs = [share for share in factors if isinstance(share, Factor)]
-    if picture is not None:
-        save_figure(tracking.plot(), picture)
-        say(f"wrote {picture}")
-    if as_json:
-        echo_json({**tracking.to_dict(), "factors": [proof.to_dict() for proof in proofs]})
+    factors = [_factor(share, each, friction, sides) for each in cancels]
+    compensators = [
+        Compensator(_model_of(each), _share(factor), feedback=not feedforward)
+        for each, factor in zip(cancels, factors, strict=True)
+    ]
+    path = _trajectory(sizes, moved, seed)
+    course: dict[str, Any] = {
+        "seconds": seconds, "step": step, "temperature": temperature, "encoder": encoder,
+    }  # fmt: skip
+    result: Tracking | Teaching
+    if guided:
+        if observer is not None or picture is not None:
+            raise SpecError("--observer and --plot are of tracking errors: leave out --guided")
+        hand = Guidance.with_bandwidth(path, moved.inertia)
+        result = teach(friction, joint, hand, compensators, **course)
     else:
-        click.echo("\n".join(map(repr, (tracking, *proofs))))
+        gains = _gains(sizes, moved.inertia)
+        result = follow(
+            friction, joint, path, compensators, controller=gains, observer=observer, **course
+        )
+        if picture is not None:
+            save_figure(result.plot(), picture)
+            say(f"wrote {picture}")
+    proofs = [factor for factor in factors if isinstance(factor, Factor)]
+    if as_json:
+        echo_json({**result.to_dict(), "factors": [proof.to_dict() for proof in proofs]})
+    else:
+        click.echo("\n".join(map(repr, (result, *proofs))))
 
 
 def _known(argument: str, values: tuple[str, ...] = ()) -> Model | ModelFile:
@@ -134,6 +150,10 @@ def _known(argument: str, values: tuple[str, ...] = ()) -> Model | ModelFile:
 
 def _model_of(known: Model | ModelFile) -> Model:
     return known if isinstance(known, Model) else known.model
+
+
+def _share(factor: Factor | float) -> float:
+    return factor.value if isinstance(factor, Factor) else factor
 
 
 def _factor(

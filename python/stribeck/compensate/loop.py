@@ -139,11 +139,13 @@ class Bench:
             raise SpecError(f"the encoder's step is {encoder:g}: give 0 or more")
         duration = trajectory.duration if seconds is None else seconds
         check_positive("seconds", duration)
-        count = round(duration / step)
-        if not 1 <= count <= MOST_STEPS:
+        steps = duration / step
+        if not 0.5 < steps <= MOST_STEPS:
             raise SpecError(
-                f"{duration:g} s in steps of {step:g} s are {count} steps: give 1 to {MOST_STEPS}"
+                f"{duration:g} s in steps of {step:g} s are {steps:.3g} steps: "
+                f"give 1 to {MOST_STEPS}"
             )
+        count = round(steps)
         desired = trajectory(step * np.arange(count, dtype=np.float64))
         warmth = default_temperature(acting.friction, temperature)
         return cls(acting, step, encoder, desired, column("temperature", warmth, count))

@@ -78,6 +78,15 @@ def test_table_and_picture(files: tuple[Path, Path], tmp_path: Path) -> None:
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_hand_needs_less_with_compensation(files: tuple[Path, Path]) -> None:
+    words = ("compensate", files[0], "--inertia", 0.5, "--guided", "--factor", 0.85)
+    without, much = json.loads(run(*words, "--json"))["motions"]
+    # To break loose it has to pull as before: a law without a memory gives nothing at rest.
+    assert much["interaction_rms"] < 0.5 * without["interaction_rms"]
+    assert much["interaction_largest"] > 0.85 * 2.0
+    assert "exceeds friction" in run(*words)
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
@@ -87,6 +96,9 @@ def test_table_and_picture(files: tuple[Path, Path], tmp_path: Path) -> None:
         (("--kp", "1", "--ki", "1"), "must exceed 2 KI"),
         (("--observer", "0"), "bandwidth is 0 Hz"),
         (("--seed", "-1"), "is negative"),
+        (("--guided", "--observer", "5"), "leave out --guided"),
+        (("--guided", "--feedforward"), "use feedback"),
+        (("--seconds", "1e300"), "steps: give 1 to"),
         (("--encoder", "-1"), "encoder's step is -1"),
     ],
 )
