@@ -1,4 +1,5 @@
 //! Friction compensated by a model of it, and the observer for what is left.
+#![allow(clippy::disallowed_methods)]
 
 use stribeck::composed::{Composed, Spec};
 use stribeck::dynamics::State;
