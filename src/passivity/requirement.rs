@@ -112,7 +112,11 @@ fn leg<S: Real<Plain = f64>>(
     rising: bool,
 ) -> Option<Leg<S>> {
     let direction = point.velocity.sign();
-    let leg = Bristled::of(model, point)?.leg(force * direction, (direction > 0.0) == rising);
-    let pace = if leg.pace.value() > 0.0 { leg.pace } else { S::zero() };
-    Some(Leg { pace, ..leg })
+    let bristled = Bristled::of(model, point)?;
+    let leg = bristled.leg(force * direction, (direction > 0.0) == rising);
+    if leg.pace.value() > 0.0 {
+        return Some(leg);
+    }
+    // Where it stands it slides, whatever force the cycle is around.
+    Some(Leg { load: bristled.strength() + bristled.resistance, pace: S::zero(), ..leg })
 }

@@ -108,7 +108,7 @@ class Conditions:
         if not asked:
             return self
         margins, slopes = self.part.margins(asked, values)
-        sizes = np.abs(slopes * values).sum(axis=1)
+        sizes = np.maximum(np.abs(slopes * values).sum(axis=1), self._least_sizes(asked, values))
         known = np.isfinite(margins) & np.isfinite(sizes) & (sizes > 0.0)
         missed = np.flatnonzero(known & (margins < (self.reserve - SLACK) * sizes))
         missed = missed[np.argsort(margins[missed] / sizes[missed], kind="stable")][:MOST_AT_ONCE]
@@ -117,6 +117,13 @@ class Conditions:
             requirements=(*self.requirements, *(asked[k] for k in missed.tolist())),
             sizes=np.concatenate([self.sizes, sizes[missed]]),
         )
+
+    def _least_sizes(self, asked: Sequence[_core.Requirement], values: Array) -> Array:
+        """Least sizes [n]: a bristle's strength counts beside all dry friction, however weak."""
+        own = self.part.values(values)
+        roles = np.array([p.role for p in self.part.friction.parameters])
+        dry = float(np.abs(own[roles == "dry"]).sum())
+        return np.array([dry if one.kind == "strength" else 0.0 for one in asked])
 
     def spread(self, values: Array, box: Box) -> list[_core.Requirement]:
         """What is asked at points over the box, the worst of each kind."""
