@@ -15,7 +15,14 @@ from stribeck.cli.common import (
     say,
     seed_option,
 )
-from stribeck.cli.simulate import _joint, _model, _trajectory
+from stribeck.cli.motion import (
+    joint_of,
+    joint_options,
+    model_of,
+    trajectory_of,
+    trajectory_options,
+    value_option,
+)
 from stribeck.compensate import (
     Compensator,
     Factor,
@@ -40,10 +47,7 @@ LARGEST = "largest"
 
 @click.command()
 @click.argument("model")
-@click.option(
-    "--value", "values", multiple=True, metavar="NAME=NUMBER",
-    help="A parameter's value, where MODEL is no file.",
-)  # fmt: skip
+@value_option
 @click.option("--with", "others", multiple=True, metavar="FILE", help="Compare with this model.")
 @click.option("--plant", metavar="FILE", help="What really resists. [default: MODEL]")
 @click.option(
@@ -61,23 +65,8 @@ LARGEST = "largest"
     "--encoder", type=float, default=0.0, show_default=True,
     help="Resolution of the encoder, rad or m; 0 is exact.",
 )  # fmt: skip
-@click.option("--inertia", type=float, help="Inertia of a revolute joint, kg m2.")
-@click.option("--gravity-cos", type=float, default=0.0, help="Gravity torque at 0 rad, N m.")
-@click.option("--gravity-sin", type=float, default=0.0, help="Gravity torque at pi/2, N m.")
-@click.option("--mass", type=float, help="Mass of a prismatic joint, kg.")
-@click.option("--gravity", type=float, default=0.0, help="Force of gravity along it, N.")
-@click.option("--rotor-inertia", type=float, help="Of motor and ball screw, kg m2.")
-@click.option("--pitch", type=float, help="Travel a turn of the ball screw, m.")
-@click.option(
-    "--trajectory", "path", type=click.Choice(["trapezoid", "quintic", "fourier"]),
-    default="quintic", show_default=True, help="The desired motion.",
-)  # fmt: skip
-@click.option("--from", "start", type=float, default=0.0, help="Where a stroke starts, rad or m.")
-@click.option("--to", "end", type=float, help="Where it turns; a Fourier series' reach.")
-@click.option("--speed", type=float, help="Largest speed of a stroke, rad/s or m/s.")
-@click.option("--acceleration", type=float, help="Of a trapezoid, rad/s2 or m/s2.")
-@click.option("--dwell", type=float, default=0.5, show_default=True, help="Rest at its ends, s.")
-@click.option("--period", type=float, default=10.0, help="Of a Fourier series, s.")
+@joint_options
+@trajectory_options
 @click.option(
     "--bandwidth", type=float, default=BANDWIDTH, show_default=True,
     help="Of the H-infinity PID where gains are not given, Hz.",
@@ -108,7 +97,7 @@ def compensate(
         raise SpecError(f"seed {seed} is negative: give 0 or more")
     asked = _known(model, values)
     friction = asked if plant is None else _known(plant)
-    joint = _joint(sizes)
+    joint = joint_of(sizes)
     moved = take_apart(_model_of(friction), joint).joint
     cancels = [_known(other) for other in others] + [asked]
     factors = [_factor(share, each, friction, sides) for each in cancels]
@@ -116,7 +105,7 @@ def compensate(
         Compensator(_model_of(each), _share(factor), feedback=not feedforward)
         for each, factor in zip(cancels, factors, strict=True)
     ]
-    path = _trajectory(sizes, moved, seed)
+    path = trajectory_of(sizes, moved, seed)
     course: dict[str, Any] = {
         "seconds": seconds, "step": step, "temperature": temperature, "encoder": encoder,
     }  # fmt: skip
@@ -145,7 +134,7 @@ def _known(argument: str, values: tuple[str, ...] = ()) -> Model | ModelFile:
     """A model with its values; a file keeps its standard errors."""
     if is_model_file(argument) and not values:
         return read_model_file(argument)
-    return _model(argument, values)
+    return model_of(argument, values)
 
 
 def _model_of(known: Model | ModelFile) -> Model:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,46 +12,35 @@ import click
 from stribeck.cli.common import (
     check_output,
     echo_json,
-    is_model_file,
     json_option,
     say,
     seed_option,
 )
+from stribeck.cli.motion import (
+    joint_of,
+    joint_options,
+    model_of,
+    trajectory_of,
+    trajectory_options,
+    value_option,
+)
 from stribeck.errors import SpecError
 from stribeck.generate import file_bytes
-from stribeck.model import Model
-from stribeck.model import model as named
-from stribeck.model_file import load, write_whole
+from stribeck.model_file import write_whole
 from stribeck.report.files import save_figure, write_bytes_whole
 from stribeck.simulate import (
     Controller,
     Drive,
     Follow,
-    Fourier,
     Joint,
     Pull,
-    Quintic,
     Torque,
-    Trajectory,
     Transmission,
-    Trapezoid,
 )
 from stribeck.simulate import simulate as move
 from stribeck.simulate.acting import take_apart
 
 FORMATS = (".csv", ".parquet")
-
-
-@dataclass(frozen=True)
-class Usual:
-    """What is taken where nothing is said, for a kind of joint: rad or m, and per s, s2."""
-
-    stroke: float
-    speed: float
-    acceleration: float
-
-
-USUAL = {"revolute": Usual(1.0, 1.0, 5.0), "prismatic": Usual(0.2, 0.1, 0.5)}
 #: Of the closed loop of inertia and controller, Hz.
 BANDWIDTH = 5.0
 #: How long a joint is pushed or pulled where nothing is said, s.
@@ -60,31 +49,13 @@ SECONDS = 10.0
 
 @click.command()
 @click.argument("model")
-@click.option(
-    "--value", "values", multiple=True, metavar="NAME=NUMBER",
-    help="A parameter's value, where MODEL is no file.",
-)  # fmt: skip
-@click.option("--inertia", type=float, help="Inertia of a revolute joint, kg m2.")
-@click.option("--gravity-cos", type=float, default=0.0, help="Gravity torque at 0 rad, N m.")
-@click.option("--gravity-sin", type=float, default=0.0, help="Gravity torque at pi/2, N m.")
-@click.option("--mass", type=float, help="Mass of a prismatic joint, kg.")
-@click.option("--gravity", type=float, default=0.0, help="Force of gravity along it, N.")
-@click.option("--rotor-inertia", type=float, help="Of motor and ball screw, kg m2.")
-@click.option("--pitch", type=float, help="Travel a turn of the ball screw, m.")
+@value_option
+@joint_options
 @click.option("--motor-inertia", type=float, help="Of a motor apart from its load, kg m2 or kg.")
 @click.option("--transmission", type=float, help="Stiffness between motor and load.")
 @click.option("--transmission-damping", type=float, default=0.0, help="Damping between them.")
 @click.option("--backlash", type=float, default=0.0, help="Play between them, rad or m.")
-@click.option(
-    "--trajectory", "path", type=click.Choice(["trapezoid", "quintic", "fourier"]),
-    default="quintic", show_default=True, help="The desired motion.",
-)  # fmt: skip
-@click.option("--from", "start", type=float, default=0.0, help="Where a stroke starts, rad or m.")
-@click.option("--to", "end", type=float, help="Where it turns; a Fourier series' reach.")
-@click.option("--speed", type=float, help="Largest speed of a stroke, rad/s or m/s.")
-@click.option("--acceleration", type=float, help="Of a trapezoid, rad/s2 or m/s2.")
-@click.option("--dwell", type=float, default=0.5, show_default=True, help="Rest at its ends, s.")
-@click.option("--period", type=float, default=10.0, help="Of a Fourier series, s.")
+@trajectory_options
 @click.option("--kp", type=float, help="Proportional gain of the controller.")
 @click.option("--ki", type=float, default=0.0, help="Integral gain.")
 @click.option("--kd", type=float, help="Derivative gain.")
@@ -123,8 +94,8 @@ def simulate(
         raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
     if seed < 0:
         raise SpecError(f"seed {seed} is negative: give 0 or more")
-    asked = _model(model, values)
-    joint = _with_transmission(_joint(sizes), sizes)
+    asked = model_of(model, values)
+    joint = _with_transmission(joint_of(sizes), sizes)
     drive = _drive(sizes, take_apart(asked, joint).joint, seed)
     if seconds is None and not isinstance(drive, Follow):
         seconds = SECONDS
@@ -148,43 +119,6 @@ def simulate(
         echo_json(simulation.to_dict())
     else:
         click.echo(repr(simulation))
-
-
-def _model(argument: str, values: tuple[str, ...]) -> Model:
-    """The model, with its values."""
-    if is_model_file(argument):
-        if values:
-            raise SpecError(f"--value {values[0]}: {argument} has its values, leave it out")
-        return load(argument)
-    given: dict[str, Any] = {}
-    for text in values:
-        name, _, number = text.partition("=")
-        try:
-            given[name.strip()] = float(number)
-        except ValueError:
-            raise SpecError(f"--value {text}: write --value NAME=NUMBER") from None
-    return named(argument, **given)
-
-
-def _joint(sizes: dict[str, Any]) -> Joint | None:
-    """The joint that was described, if one was."""
-    inertia, mass = sizes["inertia"], sizes["mass"]
-    screw = (sizes["rotor_inertia"], sizes["pitch"])
-    if inertia is not None and mass is not None:
-        raise SpecError("--inertia is for a revolute joint, --mass for a prismatic one: give one")
-    if mass is None:
-        if screw != (None, None) or sizes["gravity"] != 0.0:
-            raise SpecError("--rotor-inertia, --pitch and --gravity belong to a joint with --mass")
-        if inertia is None:
-            return None
-        return Joint.revolute(
-            inertia, gravity_cos=sizes["gravity_cos"], gravity_sin=sizes["gravity_sin"]
-        )
-    if screw == (None, None):
-        return Joint.prismatic(mass, gravity=sizes["gravity"])
-    if None in screw:
-        raise SpecError("a ball screw needs both --rotor-inertia and --pitch")
-    return Joint.ball_screw(mass, *screw, gravity=sizes["gravity"])
 
 
 def _with_transmission(joint: Joint | None, sizes: dict[str, Any]) -> Joint | None:
@@ -216,7 +150,8 @@ def _drive(sizes: dict[str, Any], joint: Joint, seed: int) -> Drive:
         return Pull(spring, speed)
     if speed is not None:
         raise SpecError("--pull-speed needs --spring, the stiffness")
-    return Follow(_trajectory(sizes, joint, seed), _controller(sizes, joint), sizes["feedforward"])
+    path = trajectory_of(sizes, joint, seed)
+    return Follow(path, _controller(sizes, joint), sizes["feedforward"])
 
 
 def _controller(sizes: dict[str, Any], joint: Joint) -> Controller:
@@ -229,19 +164,3 @@ def _controller(sizes: dict[str, Any], joint: Joint) -> Controller:
         integral=sizes["ki"],
         limit=sizes["limit"],
     )
-
-
-def _trajectory(sizes: dict[str, Any], joint: Joint, seed: int) -> Trajectory:
-    usual = USUAL[joint.kind]
-    start = sizes["start"]
-    end = start + usual.stroke if sizes["end"] is None else sizes["end"]
-    if sizes["path"] == "fourier":
-        return Fourier.from_rest(abs(end - start), sizes["period"], seed=seed, centre=start)
-    speed = usual.speed if sizes["speed"] is None else sizes["speed"]
-    if sizes["path"] == "quintic":
-        if not speed > 0.0:
-            raise SpecError(f"--speed {speed:g}: give one above 0")
-        # The largest speed of the polynomial is 15/8 of the mean.
-        return Quintic(start, end, 1.875 * abs(end - start) / speed, sizes["dwell"])
-    acceleration = usual.acceleration if sizes["acceleration"] is None else sizes["acceleration"]
-    return Trapezoid(start, end, speed, acceleration, sizes["dwell"])
