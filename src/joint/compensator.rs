@@ -1,3 +1,5 @@
+//! Friction cancelled: a share of what a model of it says.
+
 use crate::composed::Composed;
 use crate::dynamics::State;
 use crate::sample::Sample;

@@ -1,3 +1,5 @@
+//! The torque that nobody has accounted for, from velocities alone.
+
 use crate::scalar::Real;
 
 /// Observes the torque that acts against a known inertia besides what is known to act: `D' = w (tau
