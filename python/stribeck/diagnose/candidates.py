@@ -84,7 +84,7 @@ def tried_on(
         if beyond is None or not passes(beyond[0], tried, least):
             continue
         others = [t for t in good if t is not simpler]
-        other = instead_of(beyond[1], simpler, others, least, seed)
+        other = instead_of(beyond[1], simpler, others, fitted, least, seed)
         if other is not None:
             pairs.append(_Pair(beyond[1], min(simpler, other, key=lambda trial: trial.rank)))
         elif passes(beyond[1], tried, least):

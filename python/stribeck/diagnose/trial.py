@@ -9,9 +9,11 @@ from scipy.special import ndtr
 
 from stribeck.diagnose.evidence import Evidence, difference, evidence
 from stribeck.diagnose.screen import STARTS, Screened, screened, widened
+from stribeck.diagnose.tangent import MOST_ROWS, orthonormal, rest
 from stribeck.errors import StribeckError
 from stribeck.fit import QUICK, Fit, fit
 from stribeck.formula_law import effect_name
+from stribeck.identify.problem import Problem
 from stribeck.model import catalog
 
 #: An effect promises something from this share of the fall that it must bring.
@@ -22,6 +24,8 @@ SIGNIFICANCE = 0.01
 SIMPLEST = 1.0
 #: Held-out errors within so many standard errors of their difference may be one.
 TIE = 2.0
+#: Cosine of the angle between two torques from which one may be tried in place of the other.
+RESEMBLING = 0.7
 
 
 @dataclass(frozen=True)
@@ -123,7 +127,7 @@ def try_beyond(
 
 
 def instead_of(
-    beyond: Trial, simpler: Trial, others: list[Trial], least: float, seed: int
+    beyond: Trial, simpler: Trial, others: list[Trial], before: Fit, least: float, seed: int
 ) -> Trial | None:
     """One of `others` that with `simpler` does what `beyond`, which contains `simpler`, does.
 
@@ -131,7 +135,7 @@ def instead_of(
     differs between motoring and generating, say, equals one that does not and a wrong torque
     constant.
     """
-    for other in others:
+    for other in _like(beyond, simpler, others, before):
         wider = widened(simpler.fit, other.fit.model.written(other.effect))
         if len(wider.names) >= beyond.parameters:
             continue
@@ -139,6 +143,24 @@ def instead_of(
         if both is not None and tie_statistic(beyond, both) <= SIMPLEST:
             return other
     return None
+
+
+def _like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> list[Trial]:
+    """Those of `others` whose torque, beside `simpler`, resembles what `beyond` adds to that."""
+    fit = simpler.fit
+    rows = fit.rows[:: -(-fit.rows.size // MOST_ROWS)]
+    _, tangent = Problem(fit.recording, fit.model, rows, fit.load).linearise(fit.model.values)
+    basis = orthonormal(tangent)
+    torques = [beyond.fit.prediction - fit.prediction]
+    torques += [other.fit.prediction - before.prediction for other in others]
+    left = rest(basis, np.column_stack([torque[rows] for torque in torques]))
+    size = np.sqrt(np.sum(left**2, axis=0))
+    along = np.abs(left.T @ left[:, 0])[1:]
+    return [
+        other
+        for other, cosine, length in zip(others, along, size[1:] * size[0], strict=True)
+        if cosine > RESEMBLING * length
+    ]
 
 
 def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
