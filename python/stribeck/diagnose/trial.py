@@ -135,18 +135,20 @@ def instead_of(
     differs between motoring and generating, say, equals one that does not and a wrong torque
     constant.
     """
-    for other in _like(beyond, simpler, others, before):
-        wider = widened(simpler.fit, other.fit.model.written(other.effect))
-        if len(wider.names) >= beyond.parameters:
-            continue
-        both = _try_more(simpler.fit, other.fit.model.written(other.effect), least, seed)
-        if both is not None and tie_statistic(beyond, both) <= SIMPLEST:
-            return other
-    return None
+    other = _most_like(beyond, simpler, others, before)
+    if other is None:
+        return None
+    effect = other.fit.model.written(other.effect)
+    if len(widened(simpler.fit, effect).names) >= beyond.parameters:
+        return None
+    both = _try_more(simpler.fit, effect, least, seed)
+    return other if both is not None and tie_statistic(beyond, both) <= SIMPLEST else None
 
 
-def _like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> list[Trial]:
-    """Those of `others` whose torque, beside `simpler`, resembles what `beyond` adds to that."""
+def _most_like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> Trial | None:
+    """The one of `others` whose torque, beside `simpler`, is most like what `beyond` adds there."""
+    if not others:
+        return None
     fit = simpler.fit
     rows = fit.rows[:: -(-fit.rows.size // MOST_ROWS)]
     _, tangent = Problem(fit.recording, fit.model, rows, fit.load).linearise(fit.model.values)
@@ -155,12 +157,9 @@ def _like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> li
     torques += [other.fit.prediction - before.prediction for other in others]
     left = rest(basis, np.column_stack([torque[rows] for torque in torques]))
     size = np.sqrt(np.sum(left**2, axis=0))
-    along = np.abs(left.T @ left[:, 0])[1:]
-    return [
-        other
-        for other, cosine, length in zip(others, along, size[1:] * size[0], strict=True)
-        if cosine > RESEMBLING * length
-    ]
+    cosines = np.abs(left.T @ left[:, 0])[1:] / np.maximum(size[1:] * size[0], 1e-300)
+    best = int(np.argmax(cosines))
+    return others[best] if cosines[best] > RESEMBLING else None
 
 
 def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
