@@ -27,6 +27,7 @@ from stribeck.errors import (
     StribeckError,
 )
 from stribeck.fit import Estimate, Fit, evaluate, fit
+from stribeck.fleet import Fleet, fleet
 from stribeck.improve import Addition, Improvement, add, improve
 from stribeck.model import Model, Parameter, catalog, law, model
 from stribeck.model_file import ModelFile, load, read_model_file
@@ -84,6 +85,7 @@ __all__ = [
     "Finding",
     "Fit",
     "FitError",
+    "Fleet",
     "HInfinity",
     "Improvement",
     "Joint",
@@ -109,6 +111,7 @@ __all__ = [
     "effects",
     "evaluate",
     "fit",
+    "fleet",
     "improve",
     "largest_factor",
     "law",

@@ -166,11 +166,21 @@ def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "it is not text"
         raise ModelFileError(f"cannot read the model file {target}: {reason}") from None
+    return parse_model_file(text, target)
+
+
+def parse_model_file(text: str, path: Path) -> ModelFile:
+    """Read the text of a model file; `path` is where it is said to stand.
+
+    Raises
+    ------
+    ModelFileError
+    """
     try:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise ModelFileError(f"{target}: not a TOML file ({error})") from None
-    return read_model(data, target, text)
+        raise ModelFileError(f"{path}: not a TOML file ({error})") from None
+    return read_model(data, path, text)
 
 
 def read_model(data: Mapping[str, Any], path: Path, text: str, *under: str) -> ModelFile:

@@ -61,20 +61,12 @@ def in_processes(
         A process was ended from outside.
     """
     todo = iter(pieces)
-    others = set(multiprocessing.active_children())
-    # Not forked: polars has threads, and a fork copies their locks without the threads.
-    pool = ProcessPoolExecutor(
-        workers,
-        mp_context=multiprocessing.get_context("spawn"),
-        initializer=_begin,
-        initargs=(begin, arguments),
-    )
+    pool = LocalPool(workers, begin, arguments)
     pending: set[Future[Result]] = set()
 
     def hand_out(count: int) -> None:
         for _, piece in zip(range(count), todo, strict=False):
-            with _deaf_to_interrupts():
-                pending.add(pool.submit(do, piece))
+            pending.add(pool.submit(do, piece))
 
     try:
         hand_out(AHEAD * workers)
@@ -91,10 +83,46 @@ def in_processes(
             f"fewer --workers; the same command goes on from what is done so far"
         ) from None
     except KeyboardInterrupt:
-        pool.shutdown(wait=False, cancel_futures=True)
-        for process in set(multiprocessing.active_children()) - others:
-            process.terminate()
+        pool.end()
         raise Stopped from None
+
+
+class LocalPool(ProcessPoolExecutor):
+    """Processes of this machine that do not hear Ctrl-C and can be ended at once.
+
+    Parameters
+    ----------
+    workers
+        How many processes.
+    begin, arguments
+        Each process first calls `begin` with `arguments`.
+    """
+
+    def __init__(
+        self,
+        workers: int,
+        begin: Callable[..., None] | None = None,
+        arguments: tuple[Any, ...] = (),
+    ) -> None:
+        self._others = set(multiprocessing.active_children())
+        # Not forked: polars has threads, and a fork copies their locks without the threads.
+        super().__init__(
+            workers,
+            mp_context=multiprocessing.get_context("spawn"),
+            initializer=_begin,
+            initargs=(begin, arguments),
+        )
+
+    def submit(self, do: Callable[..., Result], /, *args: Any, **kwargs: Any) -> Future[Result]:
+        """Do something in one of the processes, which are started as they are needed."""
+        with _deaf_to_interrupts():
+            return super().submit(do, *args, **kwargs)
+
+    def end(self) -> None:
+        """End the processes at once, whatever they are doing."""
+        self.shutdown(wait=False, cancel_futures=True)
+        for process in set(multiprocessing.active_children()) - self._others:
+            process.terminate()
 
 
 def _begin(begin: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:

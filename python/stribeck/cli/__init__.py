@@ -13,6 +13,7 @@ from stribeck.cli.catalog import effects, inspect, models
 from stribeck.cli.check import check
 from stribeck.cli.compensate import compensate
 from stribeck.cli.demo import demo
+from stribeck.cli.fleet import fleet
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
 from stribeck.cli.methods import arm, points
@@ -58,6 +59,7 @@ cli.add_command(validate)
 cli.add_command(points)
 cli.add_command(arm)
 cli.add_command(study)
+cli.add_command(fleet)
 cli.add_command(benchmark)
 cli.add_command(project)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 import re
 import sys
@@ -11,7 +12,7 @@ from typing import Any
 
 from ..errors import RecordingError, nearest
 
-__all__ = ["Sidecar", "find_sidecar", "read_sidecar"]
+__all__ = ["Sidecar", "find_sidecar", "read_sidecar", "sidecar_hash"]
 
 _NUMBERS = (
     "gear_ratio", "torque_constant", "km", "kb", "kt", "screw_pitch",
@@ -42,6 +43,12 @@ def find_sidecar(path: str | Path) -> Path | None:
     """Return the sidecar beside a recording (``FILE.EXT.sidecar.toml``), if there is one."""
     beside = Path(f"{path}.sidecar.toml")
     return beside if beside.is_file() else None
+
+
+def sidecar_hash(path: str | Path, named: str | Path | None = None) -> str | None:
+    """SHA-256 of the sidecar of a recording, `named` or beside it; None where it has none."""
+    beside = Path(named) if named is not None else find_sidecar(path)
+    return None if beside is None else hashlib.sha256(beside.read_bytes()).hexdigest()
 
 
 def _parse(text: str) -> dict[str, Any]:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,7 +12,7 @@ from stribeck.errors import FitError, SpecError
 from stribeck.identify.scaling import model_for
 from stribeck.model import Model, parse_spec
 from stribeck.recording import Recording, read, scan
-from stribeck.recording.sidecar import find_sidecar
+from stribeck.recording.sidecar import sidecar_hash
 
 #: The 25 laws that the review compares, in the order of its tables 1, 2 and 3.
 REVIEW = (
@@ -161,7 +159,7 @@ def make_plan(
     return Plan(
         path=path,
         reading=dict(reading),
-        data={"sha256": sha256, "sidecar_sha256": _sidecar_hash(path, reading.get("sidecar"))},
+        data={"sha256": sha256, "sidecar_sha256": sidecar_hash(path, reading.get("sidecar"))},
         joints=joints,
         laws=tuple(laws),
         starts=starts,
@@ -196,8 +194,3 @@ def _in_turn(joint: str | None, counts: Mapping[str, int]) -> Iterator[Job]:
         for law, count in counts.items():
             if start < count:
                 yield Job(joint, law, start)
-
-
-def _sidecar_hash(path: str, named: str | Path | None) -> str | None:
-    beside = Path(named) if named is not None else find_sidecar(path)
-    return None if beside is None else hashlib.sha256(beside.read_bytes()).hexdigest()

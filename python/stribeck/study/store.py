@@ -21,10 +21,10 @@ import stribeck
 from stribeck.errors import StribeckError
 from stribeck.model_file import write_whole
 from stribeck.report.files import write_bytes_whole
+from stribeck.run_folder import claim, unwritable
 from stribeck.study.plan import Job, Plan
 from stribeck.study.trial import Trial
 
-MANIFEST = "manifest.json"
 FITS = "fits.csv"
 FIELDS = (
     "joint", "law", "start", "rmse", "rmse_held_out", "converged", "outcome", "evaluations",
@@ -60,41 +60,13 @@ class Store:
 
     def __init__(self, folder: Path, plan: Plan) -> None:
         self.folder = folder
-        self.trials: dict[Job, Trial] = {}
-        manifest = _manifest(plan)
+        claim(folder, _manifest(plan), IDENTITY, "study")
         try:
-            folder.mkdir(parents=True, exist_ok=True)
-            if (folder / MANIFEST).exists():
-                self._check(manifest)
-                self.trials = _read_fits(folder / FITS, set(plan.jobs))
-            elif any(folder.iterdir()):
-                raise StribeckError(
-                    f"{folder} is not empty and holds no study: give another --output"
-                )
-            else:
-                write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
+            self.trials = _read_fits(folder / FITS, set(plan.jobs))
             self._rewrite()
             self._log = (folder / FITS).open("a", encoding="utf-8", newline="")
         except OSError as error:
-            raise StribeckError(
-                f"cannot write {folder}: {error.strerror or error}; give --output a folder that "
-                f"may be written to"
-            ) from None
-
-    def _check(self, manifest: dict[str, Any]) -> None:
-        path = self.folder / MANIFEST
-        try:
-            found = json.loads(path.read_text(encoding="utf-8"))
-        except ValueError:
-            raise StribeckError(
-                f"{path} is damaged: remove the folder, or give another --output"
-            ) from None
-        for key, difference in IDENTITY.items():
-            if not isinstance(found, dict) or found.get(key) != manifest[key]:
-                raise StribeckError(
-                    f"{self.folder} holds a study {difference}{_differs(found, manifest, key)}: "
-                    f"give another --output, or the same arguments to go on with it"
-                )
+            raise unwritable(folder, error) from None
 
     def add(self, trial: Trial) -> None:
         """Keep a fit; it is on disk when this returns."""
@@ -158,13 +130,6 @@ def _manifest(plan: Plan) -> dict[str, Any]:
     }
     # As it reads back: tuples are lists in JSON.
     return dict(json.loads(json.dumps(made, default=str)))
-
-
-def _differs(found: Any, manifest: dict[str, Any], key: str) -> str:
-    """``(3 there, 5 here)`` for numbers and versions; other things are too long to say."""
-    theirs = found.get(key) if isinstance(found, dict) else None
-    ours = manifest[key]
-    return f" ({theirs} there, {ours} here)" if isinstance(ours, int | str) else ""
 
 
 def _lines(trials: Iterable[Trial]) -> str:

@@ -1,0 +1,180 @@
+"""What `stribeck fleet` prints: what was done, which joints changed, which stand out."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from stribeck.report.numbers import (
+    DASH,
+    MINUS,
+    confidence_words,
+    listed,
+    percent,
+    plain,
+    thousands,
+    with_error,
+)
+from stribeck.report.text import paragraph, table, unit_text
+
+if TYPE_CHECKING:
+    from stribeck.fleet.changes import Change, Changes, JointChange
+    from stribeck.fleet.effects import Effects, JointEffect
+    from stribeck.fleet.result import Failure, Fleet
+
+#: Rows of a table before it says how many more there are.
+MOST_ROWS = 20
+PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
+
+
+def fleet_text(fleet: Fleet) -> str:
+    """The whole answer."""
+    parts = [
+        heading(fleet),
+        "Which joints have changed\n\n" + _changes(fleet.changes),
+        "Which have an effect that the others lack\n\n" + _effects(fleet.effects),
+        _failures(fleet.failures),
+        f"Every joint and day is in {fleet.to_dict()['output']}",
+    ]
+    return "\n\n".join(part for part in parts if part)
+
+
+def heading(fleet: Fleet) -> str:
+    """What was done, in a sentence."""
+    count = fleet.counts()
+    failed = f", {counted(count['failed'], 'task')} failed" if count["failed"] else ""
+    return (
+        f"{fleet.work.label} on {counted(count['robots'], 'robot')}, "
+        f"{counted(count['joints'], 'joint')}, {counted(count['days'], 'day')}: "
+        f"{counted(count['done'], 'task')} done ({thousands(count['new'])} now){failed}"
+    )
+
+
+def counted(count: int, what: str) -> str:
+    """``1 joint``, ``1 200 joints``."""
+    return f"{thousands(count)} {what}{'' if count == 1 else 's'}"
+
+
+def joint_name(robot: str | None, joint: str | None) -> str:
+    """Robot and joint as people say it."""
+    return " ".join(name for name in (robot, joint) if name) or "unnamed"
+
+
+def _changes(changes: Changes) -> str:
+    lines = [paragraph(changes_sentence(changes))]
+    if changes.changed:
+        lines += ["", table(change_rows(changes.changed[:MOST_ROWS]), right=(2, 3, 4))]
+        lines += _more(len(changes.changed), "joints")
+    shifts = shift_sentences(changes.joints)
+    if shifts:
+        lines += ["", *(paragraph(sentence, hang=2) for sentence in shifts[:MOST_ROWS])]
+    return "\n".join(lines)
+
+
+def _more(count: int, what: str) -> list[str]:
+    return [f"  and {thousands(count - MOST_ROWS)} more {what}"] if count > MOST_ROWS else []
+
+
+def changes_sentence(changes: Changes) -> str:
+    """What was compared, and how many changed."""
+    if changes.why is not None:
+        return f"Cannot be said: {changes.why}."
+    asked = changes.question
+    apart = ""
+    if changes.not_compared:
+        apart = f" {counted(changes.not_compared, 'joint')} had no day in one of the periods."
+    return (
+        f"{counted(len(changes.changed), 'joint')} of {thousands(len(changes.joints))} changed by "
+        f"at least {percent(asked.least_change)}: {changes.since} to {changes.newest} against all "
+        f"days before (at most {percent(asked.false_discovery_rate)} of those listed by chance)."
+        f"{apart}"
+    )
+
+
+def change_rows(joints: Sequence[JointChange]) -> list[list[str]]:
+    """A heading and a row a joint."""
+    rows = [["joint", "what", "before", "after", "change", "days"]]
+    for each in joints:
+        change = each.largest
+        rows.append(
+            [
+                joint_name(each.robot, each.joint), change.quantity.replace("_", " "),
+                plain(change.before), _after(change), relative_text(change.relative),
+                f"{each.days_before} {DASH} {each.days_after}",
+            ]
+        )  # fmt: skip
+    return rows
+
+
+def _after(change: Change) -> str:
+    value, error = with_error(change.after, change.stderr)
+    return f"{value} {PLUS_MINUS} {error} {unit_text(change.unit)}".strip()
+
+
+def relative_text(share: float) -> str:
+    """A relative change with its sign."""
+    if not math.isfinite(share):
+        return "from zero"
+    return f"{'+' if share >= 0.0 else MINUS}{percent(abs(share))}"
+
+
+def shift_sentences(joints: Sequence[JointChange]) -> list[str]:
+    """Effects that came or went."""
+    return [
+        f"{joint_name(each.robot, each.joint)}: {shift.effect} found on {shift.before} of "
+        f"{each.days_before} days before, {shift.after} of {each.days_after} since"
+        for each in joints
+        for shift in each.effects
+    ]
+
+
+def _effects(effects: Effects) -> str:
+    if effects.why is not None:
+        return paragraph(f"Cannot be said: {effects.why}.")
+    lines = []
+    if effects.odd:
+        lines += [table(odd_rows(effects.odd[:MOST_ROWS]), right=(2, 3))]
+        lines += _more(len(effects.odd), "findings")
+    else:
+        lines += [paragraph("None: no effect was found at a few joints only.")]
+    lines += ["", "  Share of the joints that have an effect:", "", _share_table(effects)]
+    return "\n".join(lines)
+
+
+def odd_rows(odd: Sequence[JointEffect]) -> list[list[str]]:
+    """A heading and a row for each joint and effect that its peers lack."""
+    rows = [["joint", "effect", "days", "peers with it", "how sure", "cannot be told from"]]
+    for each in odd:
+        rows.append(
+            [
+                joint_name(each.robot, each.joint), each.effect,
+                f"{each.days_found} of {each.days}", f"{each.peers_with} of {each.peers}",
+                confidence_words(each.confidence), listed(each.tied) or DASH,
+            ]
+        )  # fmt: skip
+    return rows
+
+
+def _share_table(effects: Effects) -> str:
+    names = list(dict.fromkeys(share.effect for share in effects.shares))
+    by_joint: dict[str | None, list[str]] = {}
+    for share in effects.shares:
+        by_joint.setdefault(share.joint, []).append(f"{share.having} of {share.joints}")
+    rows = [[name or "unnamed", *cells] for name, cells in by_joint.items()]
+    return table([["joint", *names], *rows], right=range(1, len(names) + 1))
+
+
+def _failures(failures: Sequence[Failure]) -> str:
+    """What gave no answer, and why."""
+    if not failures:
+        return ""
+    lines = [f"Without an answer ({counted(len(failures), 'task')}), skipped:", ""]
+    for failure in failures[:MOST_ROWS]:
+        where = Path(failure.file).name
+        said = failure.reason.replace(failure.file, where)
+        joint = "" if failure.joint is None else f", joint {failure.joint}"
+        prefix = "" if said.startswith(where) and not joint else f"{where}{joint}: "
+        lines.append(paragraph(f"{prefix}{said}", hang=2))
+    return "\n".join([*lines, *_more(len(failures), "tasks")])
