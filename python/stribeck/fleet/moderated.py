@@ -21,6 +21,10 @@ Array = NDArray[np.float64]
 
 #: Joints with a scatter of their own, from which a common one is learnt.
 FEWEST_JOINTS = 3
+#: Joints whose changes show a common scatter, where there is one day each; most are unchanged.
+FEWEST_CHANGES = 5
+#: Median of the absolute value of a standard normal variable.
+MEDIAN_NORMAL = 0.6745
 
 
 @dataclass(frozen=True)
@@ -73,10 +77,14 @@ def difference(before: Array, after: Array, error_before: Array, error_after: Ar
 
 
 def common_scatter(differences: Sequence[Difference]) -> Scatter:
-    """Learn the scatter that joints have in common; freedom 0 where they are too few."""
+    """Learn the scatter that joints have in common; freedom 0 where they are too few.
+
+    With one day in each period the days of a joint say nothing of it. Then the changes themselves
+    do, of which most are taken to be none (Efron 2004, the empirical null).
+    """
     known = [d for d in differences if d.freedom > 0 and d.ratio > 0.0]
     if len(known) < FEWEST_JOINTS:
-        return Scatter()
+        return _scatter_of_changes(differences)
     half = np.array([0.5 * d.freedom for d in known])
     logs = np.log([d.ratio for d in known]) - digamma(half) + np.log(half)
     mean = float(logs.mean())
@@ -86,6 +94,13 @@ def common_scatter(differences: Sequence[Difference]) -> Scatter:
     freedom = 2.0 * _inverse_trigamma(excess)
     ratio = math.exp(mean + float(digamma(0.5 * freedom)) - math.log(0.5 * freedom))
     return Scatter(ratio, freedom)
+
+
+def _scatter_of_changes(differences: Sequence[Difference]) -> Scatter:
+    if len(differences) < FEWEST_CHANGES or any(d.freedom for d in differences):
+        return Scatter()
+    middle = float(np.median([abs(d.change) / d.stderr for d in differences]))
+    return Scatter((middle / MEDIAN_NORMAL) ** 2, len(differences) - 1.0)
 
 
 def moderated(found: Difference, common: Scatter) -> tuple[float, float]:

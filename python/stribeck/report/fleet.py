@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stribeck.report.numbers import (
     DASH,
     MINUS,
-    confidence_words,
+    confidence_text,
     listed,
     percent,
     plain,
@@ -131,39 +130,52 @@ def shift_sentences(joints: Sequence[JointChange]) -> list[str]:
 
 
 def _effects(effects: Effects) -> str:
-    if effects.why is not None:
-        return paragraph(f"Cannot be said: {effects.why}.")
-    lines = []
+    lines = [paragraph(effects_sentence(effects))]
     if effects.odd:
-        lines += [table(odd_rows(effects.odd[:MOST_ROWS]), right=(2, 3))]
+        lines += ["", table(odd_rows(effects.odd[:MOST_ROWS]), right=(2, 3))]
         lines += _more(len(effects.odd), "findings")
-    else:
-        lines += [paragraph("None: no effect was found at a few joints only.")]
-    lines += ["", "  Share of the joints that have an effect:", "", _share_table(effects)]
+    shares = share_rows(effects)
+    if shares:
+        right = range(1, len(shares[0]))
+        lines += ["", "  How many of the joints have an effect:", "", table(shares, right)]
     return "\n".join(lines)
+
+
+def effects_sentence(effects: Effects) -> str:
+    """How many effects stand out."""
+    if effects.why is not None:
+        return f"Cannot be said: {effects.why}."
+    if not effects.odd:
+        return "None: no effect was found at a few joints only."
+    joints = len({(each.robot, each.joint) for each in effects.odd})
+    return (
+        f"{counted(joints, 'joint')}, found on most of {'its' if joints == 1 else 'their'} days, "
+        f"against the same joint of other robots."
+    )
 
 
 def odd_rows(odd: Sequence[JointEffect]) -> list[list[str]]:
     """A heading and a row for each joint and effect that its peers lack."""
-    rows = [["joint", "effect", "days", "peers with it", "how sure", "cannot be told from"]]
+    rows = [["joint", "effect", "days", "peers with it", "confidence", "cannot be told from"]]
     for each in odd:
         rows.append(
             [
                 joint_name(each.robot, each.joint), each.effect,
                 f"{each.days_found} of {each.days}", f"{each.peers_with} of {each.peers}",
-                confidence_words(each.confidence), listed(each.tied) or DASH,
+                confidence_text(each.confidence), listed(each.tied) or DASH,
             ]
         )  # fmt: skip
     return rows
 
 
-def _share_table(effects: Effects) -> str:
+def share_rows(effects: Effects) -> list[list[str]]:
+    """A heading and a row for each name of a joint: how many of them have each effect."""
     names = list(dict.fromkeys(share.effect for share in effects.shares))
     by_joint: dict[str | None, list[str]] = {}
     for share in effects.shares:
         by_joint.setdefault(share.joint, []).append(f"{share.having} of {share.joints}")
     rows = [[name or "unnamed", *cells] for name, cells in by_joint.items()]
-    return table([["joint", *names], *rows], right=range(1, len(names) + 1))
+    return [["joint", *names], *rows] if names else []
 
 
 def _failures(failures: Sequence[Failure]) -> str:
@@ -171,10 +183,16 @@ def _failures(failures: Sequence[Failure]) -> str:
     if not failures:
         return ""
     lines = [f"Without an answer ({counted(len(failures), 'task')}), skipped:", ""]
-    for failure in failures[:MOST_ROWS]:
-        where = Path(failure.file).name
-        said = failure.reason.replace(failure.file, where)
-        joint = "" if failure.joint is None else f", joint {failure.joint}"
-        prefix = "" if said.startswith(where) and not joint else f"{where}{joint}: "
-        lines.append(paragraph(f"{prefix}{said}", hang=2))
+    lines += [paragraph(said, hang=2) for said in failure_sentences(failures[:MOST_ROWS])]
     return "\n".join([*lines, *_more(len(failures), "tasks")])
+
+
+def failure_sentences(failures: Sequence[Failure]) -> list[str]:
+    """A line for each file, joint and reason; the file once in it."""
+    return [
+        failure.reason
+        if failure.reason.startswith(failure.file) and failure.joint is None
+        else f"{failure.file}{'' if failure.joint is None else f', joint {failure.joint}'}: "
+        f"{failure.reason.removeprefix(failure.file).removeprefix(': ')}"
+        for failure in failures
+    ]

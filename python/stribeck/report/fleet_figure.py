@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -25,6 +25,10 @@ MOST_NAMED, MOST_IN_A_CELL = 12, 2
 def fleet_figure(fleet: Fleet) -> Figure:
     """Change of the mean friction of every joint, and the effects of the joints of each name."""
     names = {share.joint for share in fleet.effects.shares}
+    if not names:
+        figure = new_figure(6.5, 4.0)
+        _draw_changes(figure.subplots(), fleet.changes)
+        return figure
     figure = new_figure(11.0, max(4.0, 1.6 + 0.55 * len(names)))
     left, right = figure.subplots(1, 2, width_ratios=(1.0, 1.15))
     _draw_changes(left, fleet.changes)
@@ -38,7 +42,11 @@ def _draw_changes(axes: Axes, changes: Changes) -> None:
     title(axes, "Change of mean friction, every joint")
     drawn = [(j, c) for j in changes.joints if (c := j.friction) is not None and c.before]
     if not drawn:
-        _say(axes, changes_sentence(changes))
+        axes.set_axis_off()
+        axes.text(
+            0.5, 0.5, changes_sentence(changes), ha="center", va="center", wrap=True, fontsize=10,
+            color=MEASURED, transform=axes.transAxes,
+        )  # fmt: skip
         return
     drawn.sort(key=lambda pair: pair[1].relative)
     shares = np.array([100.0 * change.relative for _, change in drawn])
@@ -72,10 +80,6 @@ def _draw_effects(axes: Axes, effects: Effects) -> None:
     title(axes, "Share of the joints that have an effect")
     rows = list(dict.fromkeys(share.joint for share in effects.shares))
     columns = list(dict.fromkeys(share.effect for share in effects.shares))
-    if not columns:
-        style(axes)
-        _say(axes, effects.why or "no effect was found")
-        return
     shares = np.zeros((len(rows), len(columns)))
     for share in effects.shares:
         shares[rows.index(share.joint), columns.index(share.effect)] = share.having / share.joints
@@ -105,12 +109,3 @@ def _cell(share: float, odd: list[JointEffect]) -> str:
     named = ", ".join(robots[:MOST_IN_A_CELL])
     more = f" +{len(robots) - MOST_IN_A_CELL}" if len(robots) > MOST_IN_A_CELL else ""
     return f"{percent(share)}\n{named}{more}" if named else percent(share)
-
-
-def _say(axes: Axes, sentence: str) -> Any:
-    """A sentence where there is nothing to draw."""
-    axes.set_axis_off()
-    return axes.text(
-        0.5, 0.5, sentence, ha="center", va="center", wrap=True, fontsize=10, color=MEASURED,
-        transform=axes.transAxes,
-    )  # fmt: skip

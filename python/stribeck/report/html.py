@@ -118,13 +118,13 @@ def _finding(finding: Finding) -> dict[str, Any]:
         "confidence": confidence_words(finding.confidence),
         "physically": physically(finding.effect, finding.fit.model),
         "where": finding.where[:1].upper() + finding.where[1:] + ".",
-        "picture": _picture(finding_figure(finding, headed=False)),
+        "picture": picture_text(finding_figure(finding, headed=False)),
         "share": percent(share) if share is not None else None,
         "ties": indistinguishable_sentence(finding) if finding.indistinguishable_from else "",
     }
 
 
-def _picture(figure: Figure) -> str:
+def picture_text(figure: Figure) -> str:
     """A figure as text that a page can hold."""
     return base64.b64encode(png_bytes(figure)).decode("ascii")
 
@@ -145,7 +145,7 @@ def improvement_page(improvement: Improvement) -> str:
         [step.finding for step in improvement.steps],
         improvement.untestable,
         summary=summary_sentence(improvement),
-        picture=_picture(improvement_figure(improvement)),
+        picture=picture_text(improvement_figure(improvement)),
         steps=_steps(improvement),
         floor=None if floor.value is None else plain(floor.value),
         floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
@@ -188,22 +188,23 @@ def _page(
     **said: Any,
 ) -> str:
     """A page with what all of them hold: the findings, the model, what the data cannot show."""
+    r = fitted.recording
+    return render(
+        template,
+        name=file_name(r),
+        findings=[_finding(finding) for finding in findings],
+        unit=fitted.model.torque_unit,
+        spec=fitted.model.spec,
+        parameters=parameter_rows(fitted.estimates.values()),
+        untestable=untestable_rows(untestable),
+        facts=_facts(r),
+        notes=list(dict.fromkeys([*r.notes, *fitted.notes])),
+        **said,
+    )
+
+
+def render(template: str, **said: Any) -> str:
+    """A page from a template of this folder."""
     from stribeck import __version__
 
-    r = fitted.recording
-    return (
-        _environment()
-        .get_template(template)
-        .render(
-            name=file_name(r),
-            findings=[_finding(finding) for finding in findings],
-            unit=fitted.model.torque_unit,
-            spec=fitted.model.spec,
-            parameters=parameter_rows(fitted.estimates.values()),
-            untestable=untestable_rows(untestable),
-            facts=_facts(r),
-            notes=list(dict.fromkeys([*r.notes, *fitted.notes])),
-            version=__version__,
-            **said,
-        )
-    )
+    return _environment().get_template(template).render(version=__version__, **said)

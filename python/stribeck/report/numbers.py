@@ -83,8 +83,18 @@ def confidence_words(confidence: float) -> str:
         0.05: "possible",
     }
     words = next((said for least, said in levels.items() if confidence >= least), "hardly")
-    number = "> 0.99" if confidence > 0.99 else f"{confidence:.2f}"
-    return f"{words} (confidence {number})"
+    return f"{words} (confidence {confidence_text(confidence)})"
+
+
+def confidence_text(confidence: float) -> str:
+    """A confidence (0..1) with two digits, and no false 1.
+
+    Examples
+    --------
+    >>> confidence_text(0.998), confidence_text(0.5)
+    ('> 0.99', '0.50')
+    """
+    return "> 0.99" if confidence > 0.99 else f"{confidence:.2f}"
 
 
 def change_text(before: float, after: float) -> str:
