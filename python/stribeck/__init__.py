@@ -35,6 +35,7 @@ from stribeck.passivity import Certificate, check
 from stribeck.project import Project
 from stribeck.recording import Recording, read
 from stribeck.simulate import Joint, Simulation, simulate
+from stribeck.streaming import Stream, StreamedFit, stream
 
 __version__ = "0.1.0"
 
@@ -100,6 +101,8 @@ __all__ = [
     "RecordingError",
     "Simulation",
     "SpecError",
+    "Stream",
+    "StreamedFit",
     "StribeckError",
     "Tracking",
     "add",
@@ -123,5 +126,6 @@ __all__ = [
     "read",
     "read_model_file",
     "simulate",
+    "stream",
     "teach",
 ]

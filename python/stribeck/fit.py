@@ -236,7 +236,7 @@ def _made_passive(free: Fit, solution: _Solution, effort: Effort) -> Fit:
     lower, upper = solution.lower, solution.upper
 
     def renewed(problem: Problem, values: Array) -> Problem:
-        if not _needs_own_load(free.model):
+        if not needs_own_load(free.model):
             return problem
         load = own_load(free.model.with_values(values), recording)
         return Problem(recording, free.model, rows, load)
@@ -298,7 +298,7 @@ def _own_gravity(model: Model, recording: Recording) -> Array | None:
     return cosine + model.value("gravity_sin") * np.sin(recording.position)
 
 
-def _needs_own_load(model: Model) -> bool:
+def needs_own_load(model: Model) -> bool:
     return bool(model.rigid_body) and "load_torque" in model.core.needs
 
 
@@ -311,7 +311,7 @@ def _with_own_load(
     effort: Effort,
 ) -> tuple[Model, Array | None]:
     """A first load torque from a fit of friction that does not depend on it."""
-    if not _needs_own_load(made):
+    if not needs_own_load(made):
         return made, None
     plain = made if np.all(np.isfinite(made.values)) else _without_load(made)
     if not np.all(np.isfinite(plain.values)):
@@ -356,7 +356,7 @@ def _identify(
     found, used, evaluations = multi_start(
         problem, lower, upper, start, varied, starts, seed, effort
     )
-    if load is not None and _needs_own_load(made):
+    if load is not None and needs_own_load(made):
         for _ in range(8):
             renewed = own_load(made.with_values(found.values), recording)
             assert renewed is not None

@@ -33,6 +33,7 @@ from stribeck.cli.formulas import (
     written_fit,
 )
 from stribeck.cli.methods import Method, method_options
+from stribeck.cli.streaming import Streaming, stream_options
 from stribeck.compare import compare as compare_fits
 from stribeck.diagnose import diagnose as diagnose_fit
 from stribeck.errors import SpecError
@@ -63,16 +64,26 @@ from stribeck.improve import improve as improve_from
 @output_option
 @method_options
 @starts_option
+@stream_options
 @recording_options
 @seed_option
 @json_option
 def fit(
     data: str, spec: str | None, written: Written, errors: Errors, passive: bool,
-    output: str | None, method: Method, starts: int, reading: dict[str, Any], seed: int,
-    as_json: bool,
+    output: str | None, method: Method, starts: int, streaming: Streaming,
+    reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
-    """Identify a model's parameters on DATA."""
+    """Identify a model's parameters on DATA.
+
+    A folder of Parquet files, or a pattern, is one recording, of which all rows are fitted to but
+    only some are in memory (--stream for a single file).
+    """
     check_output(output)
+    if streaming.wanted(data):
+        streaming.refuse(method=method.name != "rms", passive=passive, errors=errors != "robust")
+        model = written.choices.applied(written.model(spec))
+        streaming.fit(data, model, reading, output, starts=starts, seed=seed, as_json=as_json)
+        return
     if passive and method.name != "rms":
         raise SpecError(f"--passive goes with --method rms, not {method.name}: leave one out")
     recording = read_recording(data, reading)

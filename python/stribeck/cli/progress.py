@@ -78,6 +78,61 @@ class Progress:
             self._bar = None
 
 
+class RowProgress:
+    """Rows done of a pass over a data set, how many a second, and the time left, on stderr."""
+
+    def __init__(self) -> None:
+        self._pass = self._done = 0
+        self._bar: Any = None
+        self._began = self._said = time.monotonic()
+
+    def __enter__(self) -> RowProgress:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._close()
+
+    def show_pass(self, done: int, total: int, number: int) -> None:
+        """Told after each window: rows done and in all, of which pass."""
+        if number != self._pass:
+            self._close()
+            self._pass, self._done, self._began = number, 0, time.monotonic()
+        step, self._done = done - self._done, done
+        if not sys.stderr.isatty():
+            self._say_now_and_then(done, total)
+            return
+        if self._bar is None:
+            self._bar = click.progressbar(
+                length=total, label=f"pass {number}", file=sys.stderr, show_pos=True,
+                item_show_func=lambda item: None if item is None else f"{self._rate():.2g} rows/s",
+            )  # fmt: skip
+            self._bar.__enter__()
+        self._bar.update(step, done)
+
+    def _rate(self) -> float:
+        return self._done / max(time.monotonic() - self._began, 1e-9)
+
+    def _say_now_and_then(self, done: int, total: int) -> None:
+        now = time.monotonic()
+        if now - self._said < SECONDS_BETWEEN_LINES or done == total:
+            return
+        self._said = now
+        rate = self._rate()
+        left = _clock((total - done) / rate)
+        say(f"note: pass {self._pass}: {done} of {total} rows, {rate:.2g} a second, {left} left")
+
+    def _close(self) -> None:
+        """Leave the line."""
+        if self._bar is not None:
+            self._bar.__exit__(None, None, None)
+            self._bar = None
+
+
 def _clock(seconds: float) -> str:
     """A duration as people say it.
 

@@ -18,6 +18,7 @@ from stribeck.identify.covariance import (
     seen,
 )
 from stribeck.identify.problem import Problem
+from stribeck.model import Model
 
 Array = NDArray[np.float64]
 
@@ -77,21 +78,45 @@ def estimates(
 ) -> dict[str, Estimate]:
     """The parameters at the solution `values` [p] between bounds, by name."""
     residual, jacobian = problem.linearise(values)
+    batch = None
+    if errors == "robust":
+        batch = batches(residual.size, correlation_length(residual))
+    return estimates_by_rows(problem.model, values, lower, upper, jacobian, residual, batch)
+
+
+def estimates_by_rows(
+    model: Model,
+    values: Array,
+    lower: Array,
+    upper: Array,
+    jacobian: Array,
+    residual: Array,
+    batch: NDArray[np.uint32] | None,
+) -> dict[str, Estimate]:
+    """The parameters, from the problem linearised at the solution.
+
+    Parameters
+    ----------
+    jacobian, residual : arrays [n, p] and [n]
+        Rows, or the factors of each batch in their place: sums over a batch are the same.
+    batch : int array [n]
+        Contiguous batches whose sums of scores tell the errors; None: each row errs for itself.
+    """
+    errors: Errors = "independent" if batch is None else "robust"
     held = lower == upper
     at_bound = ~held & _reached(values, lower, upper)
     shown = seen(jacobian, ~held, APART[errors])
     free = shown & ~at_bound
-    if errors == "independent":
+    if batch is None:
         freedom = residual.size - int(free.sum())
         covariance = independent(jacobian, residual, free)
     else:
-        batch = batches(residual.size, correlation_length(residual))
         freedom = max(int(batch.max()), 1)
         covariance = sandwich(jacobian, residual, batch, free)
     quantile = float(stdtrit(freedom, 0.975))
-    names = problem.model.names
+    names = model.names
     made = {}
-    for k, p in enumerate(problem.model.parameters):
+    for k, p in enumerate(model.parameters):
         error = float(np.sqrt(covariance[k, k])) if free[k] else None
         value = float(values[k])
         made[p.name] = Estimate(

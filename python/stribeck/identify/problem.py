@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from stribeck import _core
 from stribeck.errors import FitError
+from stribeck.identify.triangle import Triangle
 from stribeck.model import Model
 from stribeck.recording import Recording
 
@@ -55,6 +56,11 @@ class Problem:
     def target(self) -> Array:
         """The measured torque on `rows`, exactly as recorded."""
         return self.recording.torque[self.rows]
+
+    @property
+    def torque_norm(self) -> float:
+        """Norm of the measured torque on `rows`."""
+        return float(np.sqrt(np.sum(self.target**2)))
 
     @cached_property
     def _all_channels(self) -> dict[str, Any]:
@@ -235,6 +241,22 @@ class Problem:
             )
             torque, jacobian = torque[self.rows - start], jacobian[self.rows - start]
         return self.target - self.known[self.rows] - torque, jacobian
+
+    def triangle(self, values: Array, wanted: NDArray[np.intp], slope: Array) -> Triangle | None:
+        """Factors at `values`, columns of the parameters `wanted` times `slope`, arrays [k].
+
+        None where the model is not finite, or means nothing.
+        """
+        try:
+            residual, jacobian = self.linearise(values, wanted)
+        except _core.ModelError:
+            # A law of the catalog refuses values at which it means nothing.
+            return None
+        columns = jacobian * slope
+        if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(columns))):
+            return None
+        made = Triangle.of(columns, residual)
+        return made if np.isfinite(made.square) and np.all(np.isfinite(made.factor)) else None
 
     def thinned(self, most: int) -> Problem:
         """The same problem on at most `most` rows, evenly chosen."""

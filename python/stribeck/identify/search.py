@@ -103,7 +103,7 @@ def multi_start(
         tried, evaluations = _between_bounds(reduced, start, moved, starts, rng, effort)
     else:
         tried, evaluations = _without_bounds(reduced, start, moved, starts, rng, effort)
-    noise = rounding(problem.target)
+    noise = rounding(problem)
     finished = []
     for search in _distinct(tried, noise)[: effort.finished]:
         done, count = minimise(problem, search.values, lower, upper, tolerance=effort.tolerance)

@@ -9,14 +9,14 @@ before and after, is therefore the error that the linear parameters leave. Dampi
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck import _core
-from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import Search
 from stribeck.identify.triangle import Triangle
+from stribeck.model import Model
 
 Array = NDArray[np.float64]
 
@@ -32,6 +32,28 @@ MOST_DAMPING = 1e20
 #: A linear step that lowers the sum of squares by more than this share bends the columns of the
 #: nonlinear parameters: they are computed anew.
 BENT = 1e-3
+
+
+class LeastSquares(Protocol):
+    """A model against measured torque: rows in memory, or a data set that is read in passes."""
+
+    @property
+    def model(self) -> Model:
+        """The model whose parameters are sought."""
+
+    @property
+    def torque_norm(self) -> float:
+        """Norm of the measured torque; asked for after the first `triangle`."""
+
+    def triangle(self, values: Array, wanted: NDArray[np.intp], slope: Array) -> Triangle | None:
+        """The problem linearised at `values`; None where the model is not finite there.
+
+        Parameters
+        ----------
+        values : array [p]
+        wanted, slope : arrays [k]
+            The parameters to differentiate by, and by what their columns are multiplied.
+        """
 
 
 @dataclass(frozen=True)
@@ -56,7 +78,7 @@ class _Separable:
     """
 
     def __init__(
-        self, problem: Problem, lower: Array, upper: Array, logarithmic: NDArray[np.bool_]
+        self, problem: LeastSquares, lower: Array, upper: Array, logarithmic: NDArray[np.bool_]
     ) -> None:
         self.problem, self.lower, self.upper = problem, lower, upper
         linear = np.array([p.linear for p in problem.model.parameters], dtype=bool)
@@ -82,20 +104,10 @@ class _Separable:
         if not np.all(np.isfinite(values)):
             return None
         self.evaluations += 1
-        try:
-            with np.errstate(all="ignore"):
-                residual, jacobian = self.problem.linearise(values, self.order)
-        except _core.ModelError:
-            # A law of the catalog refuses values at which it means nothing.
-            return None
         slope = np.where(self.logarithmic, values[self.order], 1.0)
         with np.errstate(all="ignore"):
-            columns = jacobian * slope
-            if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(columns))):
-                return None
-            triangle = Triangle.of(columns, residual)
-            finite = np.isfinite(triangle.square) and np.all(np.isfinite(triangle.factor))
-        return _Point(values, triangle) if finite else None
+            triangle = self.problem.triangle(values, self.order, slope)
+        return None if triangle is None else _Point(values, triangle)
 
     def _with_linear_solved(self, point: _Point) -> tuple[_Point, float]:
         """Move the linear parameters to their best; the torque is linear in them, so R stays."""
@@ -138,7 +150,7 @@ class _Separable:
 
 
 def minimise(
-    problem: Problem,
+    problem: LeastSquares,
     values: Array,
     lower: Array,
     upper: Array,
@@ -175,9 +187,9 @@ def minimise(
         return _descend(search, start, tolerance, most, damping), search.evaluations
 
 
-def rounding(torque: Array) -> float:
-    """Norm of the rounding of a torque [n]: what is left where a model fits exactly."""
-    return float(np.finfo(float).eps * np.sqrt(np.sum(torque**2)))
+def rounding(problem: LeastSquares) -> float:
+    """Norm of the rounding of the torque: what is left where a model fits exactly."""
+    return float(np.finfo(float).eps) * problem.torque_norm
 
 
 def _descend(
@@ -188,7 +200,7 @@ def _descend(
     if point is None:
         return Search(start, np.inf, False, "the model is not finite at the start")
     # Below this a fall cannot be told from the rounding of the torque itself.
-    noise = 4.0 * rounding(search.problem.target)
+    noise = 4.0 * rounding(search.problem)
     scale = np.zeros(search.order.size)
     growth = 2.0
     outcome = "stopped at the largest number of steps"

@@ -24,7 +24,10 @@ from .rows import (
 )
 from .table import Prepared, channel_values, labels
 
-__all__ = ["build", "make_column", "require"]
+__all__ = [
+    "BANDS", "Channels", "build", "make_column", "measured_torque", "require", "rigid_body_load",
+    "settle_units", "wanted_channels",
+]  # fmt: skip
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -65,7 +68,7 @@ def require(prepared: Prepared) -> None:
         )
 
 
-class _Channels:
+class Channels:
     """The channels of one joint while they are being checked and completed."""
 
     def __init__(self, prepared: Prepared, rows: Ints) -> None:
@@ -97,7 +100,8 @@ class _Channels:
         self.values = {name: values[mask] for name, values in self.values.items()}
 
 
-def _wanted(prepared: Prepared) -> list[str]:
+def wanted_channels(prepared: Prepared) -> list[str]:
+    """Channels of the table that a recording is made of."""
     have = prepared.choices
     motion = ("time", "position", "velocity", "acceleration", "temperature")
     wanted: list[str] = [c for c in motion if c in have]
@@ -128,8 +132,8 @@ def build(
     require(prepared)
     options = prepared.options
     path = prepared.source.path
-    data = _Channels(prepared, rows)
-    for channel in _wanted(prepared):
+    data = Channels(prepared, rows)
+    for channel in wanted_channels(prepared):
         data.load(channel)
     for channel in ("position", "velocity", "acceleration", "temperature", "load_torque"):
         needed = channel == "velocity" and "position" not in data.values
@@ -152,7 +156,7 @@ def build(
         data.values = {name: values[order] for name, values in data.values.items()}
         run = run[order]
     _check_time(data, run)
-    kind, torque_unit, position_unit = _kinds(data)
+    kind, torque_unit, position_unit = settle_units(data)
     velocity_unit, acceleration_unit = f"{position_unit}/s", f"{position_unit}/s2"
     units = {
         "time": "s", "position": position_unit, "velocity": velocity_unit,
@@ -202,7 +206,7 @@ def _with_rows(recording: Recording, rows: str) -> Recording:
     )
 
 
-def _runs(data: _Channels) -> tuple[tuple[str, ...], Ints]:
+def _runs(data: Channels) -> tuple[tuple[str, ...], Ints]:
     if data.prepared.options.average == "row":
         return tuple(map(str, range(1, len(data.rows) + 1))), np.arange(len(data.rows))
     choice = data.prepared.choices.get("run")
@@ -220,7 +224,7 @@ def _runs(data: _Channels) -> tuple[tuple[str, ...], Ints]:
     return tuple(number), codes
 
 
-def _drop_missing(data: _Channels, run: Ints) -> None:
+def _drop_missing(data: Channels, run: Ints) -> None:
     """Drop rows with an empty, NaN or infinite cell; refuse when they are more than a few."""
     bad = np.zeros(len(data.rows), dtype=bool)
     worst, most = "", 0
@@ -255,7 +259,7 @@ def _drop_missing(data: _Channels, run: Ints) -> None:
     data.keep(~bad)
 
 
-def _check_time(data: _Channels, run: Ints) -> None:
+def _check_time(data: Channels, run: Ints) -> None:
     n = len(data.rows)
     if n < 2:
         raise RecordingError(
@@ -293,7 +297,7 @@ def _check_time(data: _Channels, run: Ints) -> None:
     raise RecordingError(f"{data.path}: {place}, column '{column}': time {what}{inside}: {advice}")
 
 
-def _run_columns(data: _Channels, at: int) -> list[str]:
+def _run_columns(data: Channels, at: int) -> list[str]:
     """Columns of names or whole numbers whose value changes exactly where time starts again."""
     table = data.prepared.table
     pair = table[data.rows[at - 1 : at + 1]]
@@ -306,7 +310,7 @@ def _run_columns(data: _Channels, at: int) -> list[str]:
     ]
 
 
-def _kinds(data: _Channels) -> tuple[str, str, str]:
+def settle_units(data: Channels) -> tuple[str, str, str]:
     """Settle joint kind and units: what was said, what the units say, else revolute.
 
     Returns
@@ -416,8 +420,8 @@ def _kinds(data: _Channels) -> tuple[str, str, str]:
     return kind, unit, "m" if kind == "prismatic" else "rad"
 
 
-def _load(
-    data: _Channels, position: Floats | None, acceleration: Floats, unit: str, *, smooth: bool
+def rigid_body_load(
+    data: Channels, position: Floats | None, acceleration: Floats, unit: str, *, smooth: bool
 ) -> Floats | None:
     """Compute the load torque from rigid-body terms, None when none were given."""
     terms = data.prepared.options.terms
@@ -451,7 +455,7 @@ def _maybe(values: Floats | None) -> Any:
     return None if values is None else _frozen(values)
 
 
-def _torque(data: _Channels) -> tuple[Floats, Floats | None]:
+def measured_torque(data: Channels) -> tuple[Floats, Floats | None]:
     """Return the measured torque and the recorded load; zeros where friction alone is known."""
     if "friction_torque" in data.values:
         friction = data.values["friction_torque"]
@@ -470,7 +474,7 @@ def _torque(data: _Channels) -> tuple[Floats, Floats | None]:
 
 
 def _sampled(
-    data: _Channels,
+    data: Channels,
     joint: str | None,
     kind: str,
     torque_unit: str,
@@ -519,13 +523,15 @@ def _sampled(
     else:
         acceleration_smooth = smoother.smooth(acceleration)
     position_smooth = None if position is None else smoother.smooth(position)
-    torque, load = _torque(data)
+    torque, load = measured_torque(data)
     load_smooth = None if load is None else smoother.smooth(load)
     load_unit = torque_unit if data.prepared.options.drive is None else natural_unit(kind)
     if load is None:
-        load = _load(data, position, acceleration, load_unit, smooth=False)
+        load = rigid_body_load(data, position, acceleration, load_unit, smooth=False)
         if load is not None:
-            load_smooth = _load(data, position_smooth, acceleration_smooth, load_unit, smooth=True)
+            load_smooth = rigid_body_load(
+                data, position_smooth, acceleration_smooth, load_unit, smooth=True
+            )
     top = float(np.abs(velocity).max())
     threshold = max(SIGMAS * sigma, 1e-6 * top)
     moving = np.abs(velocity) > threshold
@@ -568,7 +574,7 @@ def _derived_note(name: str, source: str, cutoff: float | None) -> str:
 
 
 def _averaged(
-    data: _Channels,
+    data: Channels,
     joint: str | None,
     kind: str,
     torque_unit: str,
@@ -610,9 +616,9 @@ def _averaged(
         if data.prepared.options.average == "row"
         else f"one row per run: the median of each channel over {n} runs, acceleration zero"
     )
-    torque, load = _torque(data)
+    torque, load = measured_torque(data)
     if load is None:
-        load = _load(data, position, still, torque_unit, smooth=False)
+        load = rigid_body_load(data, position, still, torque_unit, smooth=False)
     if load is None and position is None:
         # Neither inertia nor gravity could be told from steady points without a position.
         load = still

@@ -60,7 +60,8 @@ class Recording:
     ``*_smooth`` arrays are zero-phase low-passed at `cutoff_hz` on the same rows. `dt` [s] is the
     step to the previous sample, 0 where a segment (run, or stretch between gaps) starts. `moving`
     marks the scored rows, `block` the held-out blocks, `counted` the rows of which the held-out
-    error counts (None: all).
+    error counts (None: all). `elapsed_before` [s] has gone by before the first row, where that is
+    not the first of a longer recording.
     """
 
     path: str
@@ -101,6 +102,7 @@ class Recording:
     drive: str | None = None
     enabled: Bools | None = None
     counted: Bools | None = None
+    elapsed_before: float = 0.0
 
     def __len__(self) -> int:
         return len(self.time)
@@ -170,7 +172,9 @@ class Recording:
     def elapsed(self) -> Floats:
         """Time since the first row, s, [n]; a run that sets its clock back goes on from before."""
         step = np.diff(self.time, prepend=self.time[:1])
-        return np.cumsum(np.where(step >= 0.0, step, self.scales()["sample_period"]))
+        if np.any(step < 0.0):
+            step = np.where(step >= 0.0, step, self.scales()["sample_period"])
+        return self.elapsed_before + np.cumsum(step)
 
     @cached_property
     def load_torque_curvature(self) -> Floats | None:

@@ -17,7 +17,9 @@ from .options import Options
 from .readers import Source, read_table
 from .units import SI
 
-__all__ = ["Prepared", "channel_values", "joint_rows", "joints_of", "labels", "prepare"]
+__all__ = [
+    "Prepared", "channel_values", "joint_rows", "joints_of", "labels", "prepare", "prepared_table",
+]  # fmt: skip
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -68,9 +70,12 @@ def _inferred_unit(formula: Formula) -> str | None:
 
 
 def apply_formulas(
-    source: Source, options: Options
+    source: Source, options: Options, *, all_may_go: bool = False
 ) -> tuple[pl.DataFrame, Ints, tuple[str, ...], dict[str, str], list[str]]:
-    """Add the derived columns and remove the rows that `where` leaves out."""
+    """Add the derived columns and remove the rows that `where` leaves out.
+
+    Unless `all_may_go`, some row has to be left.
+    """
     path = source.path
     table = source.table
     units = dict(options.units)
@@ -99,7 +104,7 @@ def apply_formulas(
         mask = _run(path, f"--where {options.where}", table.select, keep)["keep"].to_numpy()
         if mask.shape[0] != table.height:
             mask = np.full(table.height, bool(mask[0]))
-        if not mask.any():
+        if not (mask.any() or all_may_go):
             raise RecordingError(
                 f"{path}: --where {options.where}: leaves no rows of {table.height}"
             )
@@ -110,7 +115,11 @@ def apply_formulas(
 
 def prepare(path: str, options: Options) -> Prepared:
     """Read a file and apply formulas, filter and column choices."""
-    source = read_table(path)
+    return prepared_table(read_table(path), options)
+
+
+def prepared_table(source: Source, options: Options) -> Prepared:
+    """Apply formulas, filter and column choices to a table."""
     table, row, derived, units, notes = apply_formulas(source, options)
     choices, more = choose_columns(
         source.path,
@@ -257,12 +266,14 @@ def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) 
 
 
 def channel_values(prepared: Prepared, channel: str, rows: Ints) -> tuple[Floats, str, str]:
-    """Return a channel of some rows in SI, its SI unit (or '' when none was named) and "
-    "dimension."""
+    """Return a channel of some rows, ascending, in SI, its SI unit (or '' when none was named) and
+    dimension.
+    """
     choice = prepared.choices[channel]
-    values = column_numbers(
-        prepared.source, prepared.table[rows], prepared.row[rows], choice.source
-    )
+    table, row = prepared.table.select(choice.source), prepared.row
+    if rows.size < table.height:
+        table, row = table[rows], row[rows]
+    values = column_numbers(prepared.source, table, row, choice.source)
     if choice.unit is None:
         return values, "", ""
     unit = choice.unit

@@ -1,0 +1,72 @@
+"""Position, velocity and acceleration of a window."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.recording.assemble import Channels
+from stribeck.recording.derive import Smoother
+
+__all__ = ["Motion"]
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The channels of a recording's motion, arrays [n]; see `stribeck.recording.Recording`."""
+
+    position: Array | None
+    position_smooth: Array | None
+    velocity: Array
+    velocity_smooth: Array
+    acceleration: Array
+    acceleration_smooth: Array
+
+    @classmethod
+    def recorded(cls, data: Channels) -> Motion:
+        """As recorded, where nothing reads what is smooth or derived.
+
+        An acceleration that the files do not have is no number: nothing can read it by mistake.
+        """
+        position, velocity = data.values.get("position"), data.values["velocity"]
+        missing = np.broadcast_to(np.nan, velocity.shape)
+        acceleration = data.values.get("acceleration", missing)
+        return cls(position, position, velocity, velocity, acceleration, acceleration)
+
+    @classmethod
+    def filtered(cls, data: Channels, smoother: Smoother, band: float | None) -> Motion:
+        """As recorded, or derived as in a recording in memory; smooth beside it.
+
+        Parameters
+        ----------
+        smoother
+            With the cut-off found on the sample.
+        band
+            Cut-off of an acceleration that is derived, Hz.
+        """
+        values = data.values
+        position = values.get("position")
+        if "velocity" in values:
+            source, derivative = values["velocity"], 1
+            velocity, velocity_smooth = source, smoother.smooth(source)
+        else:
+            source, derivative = values["position"], 2
+            velocity = velocity_smooth = smoother.smooth(source, 1)
+        if "acceleration" in values:
+            acceleration = values["acceleration"]
+            acceleration_smooth = smoother.smooth(acceleration)
+        else:
+            acceleration = replace(smoother, cutoff=band).smooth(source, derivative)
+            acceleration_smooth = acceleration
+        return cls(
+            position=position,
+            position_smooth=None if position is None else smoother.smooth(position),
+            velocity=velocity,
+            velocity_smooth=velocity_smooth,
+            acceleration=acceleration,
+            acceleration_smooth=acceleration_smooth,
+        )

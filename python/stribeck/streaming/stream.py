@@ -1,0 +1,123 @@
+"""`stream`: a data set that is larger than memory."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from stribeck.fit import fit as fit_in_memory
+from stribeck.model import Model
+from stribeck.recording.options import gather
+from stribeck.streaming.dataset import DataSet
+from stribeck.streaming.fit import streamed_fit
+from stribeck.streaming.passes import Told
+from stribeck.streaming.result import StreamedFit
+from stribeck.streaming.sample import SAMPLE_ROWS, Sample, take
+from stribeck.streaming.windows import WINDOW_ROWS
+
+__all__ = ["Stream", "stream"]
+
+#: Options of `stribeck.read`, and what they are where nothing is said.
+_UNSAID: dict[str, Any] = {
+    "sidecar": None, "joint": None, "joint_kind": None, "gear_ratio": None,
+    "torque_constant": None, "inertia": None, "km": None, "kb": None, "kt": None, "unit": (),
+    "map": (), "derive": (), "where": None, "average": None, "drive": None, "hold_out": None,
+    "rows": None,
+}  # fmt: skip
+
+
+def _silent(done: int, total: int, number: int) -> None:
+    """Tell nobody."""
+
+
+@dataclass(frozen=True)
+class Stream:
+    """One joint's measurements in Parquet files, of which only a sample is in memory.
+
+    Attributes
+    ----------
+    data
+        The files.
+    sample
+        Contiguous stretches of them.
+    window_rows
+        Rows that are in memory at a time beside the sample.
+    """
+
+    data: DataSet
+    sample: Sample
+    window_rows: int = WINDOW_ROWS
+
+    def fit(
+        self,
+        spec: str | Model,
+        *,
+        starts: int = 20,
+        seed: int = 0,
+        start: Mapping[str, float] | None = None,
+        bounds: Mapping[str, tuple[float, float]] | None = None,
+        fix: Mapping[str, float] | None = None,
+        told: Told = _silent,
+    ) -> StreamedFit:
+        """Identify `spec` on all rows by bounded least squares; see `stribeck.fit`.
+
+        Parameters
+        ----------
+        told
+            Told after each window: rows done, rows in all, number of the pass.
+        """
+        first = fit_in_memory(
+            spec, self.sample.recording, starts=starts, seed=seed, start=start, bounds=bounds,
+            fix=fix,
+        )  # fmt: skip
+        return streamed_fit(self.data, self.sample, first, told=told, window_rows=self.window_rows)
+
+    def __repr__(self) -> str:
+        files = len(self.data.files)
+        return (
+            f"<Stream {self.data.path}: {self.data.rows} rows in {files} "
+            f"file{'s' if files > 1 else ''}, {self.sample.recording.rows} of them in memory>"
+        )
+
+
+def stream(
+    path: str | Path,
+    *,
+    sample_rows: int = SAMPLE_ROWS,
+    window_rows: int = WINDOW_ROWS,
+    seed: int = 0,
+    **reading: Any,
+) -> Stream:
+    """Open a data set that is read in passes, a window at a time.
+
+    Parameters
+    ----------
+    path
+        A Parquet file, a folder of them (in the order of their names), or a pattern.
+    sample_rows
+        Rows in memory: forty contiguous stretches, one in each equal share. They tell the noise of
+        the velocity, bounds and starts, and they are what a diagnosis looks at.
+    window_rows
+        Rows that are read at a time. Memory follows it; results do, by rounding alone, for models
+        without a memory on columns as recorded.
+    seed
+        Of the places of the stretches.
+    **reading
+        As in `stribeck.read`, but for `average`, `drive`, `hold_out` and `standstill`.
+
+    Raises
+    ------
+    RecordingError
+        One sentence that says what is wrong, where, and what to do.
+
+    Examples
+    --------
+    ::
+
+        fitted = sb.stream("logs/", map=["velocity=dq_3"]).fit("coulomb+load")
+    """
+    options = gather(path, **{**_UNSAID, **reading})
+    data = DataSet.open(path)
+    return Stream(data, take(data, options, sample_rows, seed), window_rows)
