@@ -30,6 +30,7 @@ from stribeck.formula_law import is_formula
 from stribeck.model import Model, parse_spec
 from stribeck.model_file import ModelFile, read_model_file
 from stribeck.parallel import Stopped
+from stribeck.recording.sidecar import read_sidecar
 
 #: A task under way for so many times the median is handed out a second time.
 STRAGGLER = 5.0
@@ -111,12 +112,13 @@ def fleet(
     if starts < 1 or seed < 0:
         raise SpecError(f"{starts} starts, seed {seed}: give at least 1 start and a seed from 0 on")
     if reading.get("sidecar") is not None:
+        read_sidecar(reading["sidecar"])
         reading["sidecar"] = str(Path(reading["sidecar"]).absolute())
     work = Work(
         model=_model_text(model), base=_model_text(base), starts=starts, seed=seed,
         reading=reading, name=name, day_column=day, version=stribeck.__version__,
     )  # fmt: skip
-    paths = _expand(files)
+    naming, paths = Naming(name), _expand(files)
     store = Store(Path(output), work, retry_failed=retry_failed)
     notes: list[str] = []
     made = 0
@@ -131,11 +133,11 @@ def fleet(
         note(sentence)
 
     try:
-        named = _named(paths, Naming(name), keep)
+        named = _named(paths, naming, keep)
         known = store.known(named)
         todo = [file for file in named if file.path not in known]
         if todo:
-            crew = _crew(executor, workers, scheduler)
+            crew = _crew(executor, workers, scheduler, remark)
             _work(todo, work, store, keep, crew, straggler, progress, remark)
     finally:
         store.close()
@@ -192,11 +194,16 @@ def _work(
         crew.close(at_once=not finished)
 
 
-def _crew(executor: Executor | None, workers: int | None, scheduler: str | None) -> Crew:
+def _crew(
+    executor: Executor | None,
+    workers: int | None,
+    scheduler: str | None,
+    note: Callable[[str], None],
+) -> Crew:
     if executor is not None and scheduler is not None:
         raise SpecError("an executor and a scheduler are given: leave one out")
     if scheduler is not None:
-        return Dask(scheduler)
+        return Dask(scheduler, note)
     return Processes(workers) if executor is None else Given(executor, workers)
 
 

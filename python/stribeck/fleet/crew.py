@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, Protocol
@@ -183,7 +183,7 @@ class Dask:
     #: Dask has tried on several workers before it says so.
     kills_per_loss = 2
 
-    def __init__(self, address: str, *, seconds: float = 10.0) -> None:
+    def __init__(self, address: str, note: Callable[[str], None], *, seconds: float = 10.0) -> None:
         try:
             import distributed
         except ImportError:
@@ -201,6 +201,8 @@ class Dask:
             ) from None
         self._executor: Executor = self._client.get_executor(pure=False)
         self._threads, self._counted = 1, -float("inf")
+        if not self._client.nthreads():
+            note(f"no worker has joined {address} yet; start one with `dask worker {address}`")
 
     def executor(self) -> Executor:
         return self._executor

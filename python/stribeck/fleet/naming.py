@@ -13,6 +13,8 @@ from stribeck.errors import RecordingError, SpecError, nearest
 #: What a pattern can name.
 FIELDS = ("robot", "day", "joint")
 _DATE = re.compile(r"(?<!\d)(\d{4})[-_.]?(\d{2})[-_.]?(\d{2})(?!\d)")
+#: Fields that are written in one way only.
+_WRITTEN = {"day": r"\d{4}[-_.]?\d{2}[-_.]?\d{2}"}
 _PIECE = re.compile(r"\{(\w*)\}|(\*)|([^{}*]+)|(.)", re.DOTALL)
 
 
@@ -67,7 +69,7 @@ class Naming:
                 raise SpecError(f"--name {self.pattern}: {{{field}}} is there twice")
             if field:
                 named.add(field)
-                written += f"(?P<{field}>[^/]+?)"
+                written += f"(?P<{field}>{_WRITTEN.get(field, '[^/]+?')})"
             else:
                 written += "[^/]*?" if star else re.escape(plain)
         return re.compile(rf"(?:^|/){written}$")
@@ -90,9 +92,7 @@ class Naming:
         said = found.groupdict()
         day = None if said.get("day") is None else as_date(said["day"])
         if said.get("day") is not None and day is None:
-            raise RecordingError(
-                f"{path}: its day {said['day']!r} is no date; write it as 2026-03-09 or 20260309"
-            )
+            raise RecordingError(f"{path}: its day {said['day']} is none of the calendar")
         return Name(said.get("robot"), day, said.get("joint"))
 
 

@@ -15,6 +15,7 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, 
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from stribeck.errors import StribeckError
 from stribeck.fleet.crew import Crew
 
 Piece = TypeVar("Piece")
@@ -68,6 +69,15 @@ def run(
         The executor is of no more use; or a worker cannot do the work at all.
     """
     _Run(do, pieces, crew, finished, given_up, straggler, note).to_the_end()
+
+
+def _cannot(error: Exception) -> StribeckError:
+    """What a worker says that got as far as the work, and not into it."""
+    said = " ".join(f"{type(error).__name__}: {error}".split())
+    return StribeckError(
+        f"a worker cannot do the work ({said}): every worker needs the same stribeck as this "
+        f"machine, and what it depends on"
+    )
 
 
 class _Run(Generic[Piece, Result]):
@@ -132,9 +142,11 @@ class _Run(Generic[Piece, Result]):
             result = future.result()
         except CancelledError:
             raise self._crew.lost() from None
+        except StribeckError:
+            raise
         except Exception as error:
             if not self._crew.is_loss(error):
-                raise
+                raise _cannot(error) from error
             return job
         self._seconds.append(time.monotonic() - began)
         self._close(job)

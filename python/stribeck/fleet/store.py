@@ -21,7 +21,7 @@ from stribeck.errors import StribeckError
 from stribeck.fleet.task import Answer, File, Task, Work
 from stribeck.recording.sidecar import sidecar_hash
 from stribeck.report.files import write_bytes_whole
-from stribeck.run_folder import claim, unwritable
+from stribeck.run_folder import MANIFEST, claim, unwritable
 
 RESULTS = "results"
 #: Seconds after which what has come is written; what a power cut costs at most.
@@ -77,7 +77,7 @@ class Store:
     Attributes
     ----------
     frame : polars.DataFrame
-        Every row on disk, by file and joint.
+        Every row, by file and joint: those found, and once it is closed those added.
 
     Raises
     ------
@@ -96,6 +96,7 @@ class Store:
         self._sidecar = work.reading.get("sidecar")
         self._parts = sorted(self._results.glob("part-*.parquet"))
         self._new: list[dict[str, Any]] = []
+        self._added: list[pl.DataFrame] = []
         self._written = time.monotonic()
         self.frame = _latest(_read(path) for path in self._parts)
         self._kept = self.frame.filter(pl.col("status") == DONE) if retry_failed else self.frame
@@ -122,15 +123,30 @@ class Store:
             self._write_part()
 
     def close(self) -> None:
-        """Write what is left, and put all parts together into one, in order."""
+        """Write what is left, and put all parts together into one, in order.
+
+        A folder without a single answer is none: the next run may ask something else of it.
+        """
         self._write_part()
-        if len(self._parts) < 2:
-            return
+        self.frame = _latest([self.frame, *self._added])
+        if not (self.frame["status"] == DONE).any():
+            self._discard()
+        elif len(self._parts) > 1:
+            self._put_together()
+
+    def _put_together(self) -> None:
         before = list(self._parts)
         self._write(self.frame)
         for path in before:
             path.unlink(missing_ok=True)
             self._parts.remove(path)
+
+    def _discard(self) -> None:
+        for path in (*self._parts, self.folder / MANIFEST):
+            path.unlink(missing_ok=True)
+        for folder in (self._results, self.folder):
+            if not any(folder.iterdir()):
+                folder.rmdir()
 
     def _write_part(self) -> None:
         self._written = time.monotonic()
@@ -139,7 +155,7 @@ class Store:
         part = pl.DataFrame(self._new, schema=SCHEMA)
         self._write(part)
         self._new.clear()
-        self.frame = _latest([self.frame, part])
+        self._added.append(part)
 
     def _write(self, part: pl.DataFrame) -> None:
         number = 1 + (int(self._parts[-1].stem.rpartition("-")[2]) if self._parts else 0)
