@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import socket
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
@@ -193,11 +194,12 @@ class Dask:
         self._loss = distributed.KilledWorker
         self._address = address
         try:
+            _knock(address, seconds)
             self._client = distributed.Client(address, timeout=seconds, set_as_default=False)
-        except (OSError, ValueError, TypeError) as error:
+        except (OSError, ValueError) as error:
             raise StribeckError(
                 f"no Dask scheduler answers at {address} ({_first_line(error)}): start one with "
-                f"`dask scheduler`, and workers with `dask worker {address}`"
+                f"`dask scheduler`, which says its address"
             ) from None
         self._executor: Executor = self._client.get_executor(pure=False)
         self._threads, self._counted = 1, -float("inf")
@@ -227,6 +229,22 @@ class Dask:
     def close(self, *, at_once: bool) -> None:
         self._executor.shutdown(wait=False)
         self._client.close(timeout=2)
+
+
+def _knock(address: str, seconds: float) -> None:
+    """Whether somebody listens: a client that could not connect would linger until the end.
+
+    Raises
+    ------
+    OSError, ValueError
+        Nobody does, or the address is none.
+    """
+    protocol, _, place = address.rpartition("://")
+    if protocol in ("", "tcp", "tls"):
+        host, _, port = place.rpartition(":")
+        if not (host and port.isdecimal()):
+            raise ValueError("an address is like tcp://10.0.0.7:8786")
+        socket.create_connection((host.strip("[]"), int(port)), seconds).close()
 
 
 def _first_line(error: BaseException) -> str:

@@ -1,0 +1,34 @@
+"""A fleet of six robots over ten days, and what `stribeck fleet` says of it: the README's example.
+
+One joint wears by 20 % in the last four days, another one has a Stribeck curve that its peers lack;
+friction of all joints scatters by 2 % from day to day. Needs some minutes:
+
+    python tests/studies/fleet.py           # prints the answer, writes docs/fleet.png
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+import stribeck as sb
+from stribeck.fleet import Question
+from stribeck.report.files import save_figure
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests/python"), str(ROOT / "tests/python/fleet")]
+
+
+def main() -> None:
+    from fleet_logs import write_logs
+
+    with tempfile.TemporaryDirectory() as folder:
+        logs = write_logs(Path(folder) / "logs", robots=6, days=10, rows=1500)
+        found = sb.fleet(logs, Path(folder) / "fleet", "improve", question=Question(window=4))
+        print(found)
+        save_figure(found.plot(), ROOT / "docs" / "fleet.png")
+
+
+if __name__ == "__main__":
+    main()
