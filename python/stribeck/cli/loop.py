@@ -33,7 +33,8 @@ from stribeck.cli.formulas import (
     written_fit,
 )
 from stribeck.cli.methods import Method, method_options
-from stribeck.cli.streaming import Streaming, stream_options
+from stribeck.cli.progress import RowProgress
+from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.compare import compare as compare_fits
 from stribeck.diagnose import diagnose as diagnose_fit
 from stribeck.errors import SpecError
@@ -43,6 +44,7 @@ from stribeck.identify.estimates import Errors
 from stribeck.improve import Addition
 from stribeck.improve import add as add_to
 from stribeck.improve import improve as improve_from
+from stribeck.streaming import StreamedDiagnosis, StreamedImprovement
 
 
 @click.command()
@@ -82,7 +84,12 @@ def fit(
     if streaming.wanted(data):
         streaming.refuse(method=method.name != "rms", passive=passive, errors=errors != "robust")
         model = written.choices.applied(written.model(spec))
-        streaming.fit(data, model, reading, output, starts=starts, seed=seed, as_json=as_json)
+        opened = streaming.open(data, reading, seed)
+        with RowProgress() as bar:
+            streamed = opened.fit(model, starts=starts, seed=seed, told=bar.show_pass)
+        if output is not None:
+            save_streamed(streamed, output)
+        show(streamed, as_json)
         return
     if passive and method.name != "rms":
         raise SpecError(f"--passive goes with --method rms, not {method.name}: leave one out")
@@ -149,29 +156,46 @@ def compare(
 @candidate_option
 @least_fall_option
 @starts_option
+@stream_options
 @recording_options
 @seed_option
 @json_option
 def diagnose(
     data: str, model: str | None, written: Written, report: str | None, figures: str | None,
-    candidates: tuple[str, ...], least_fall: float, starts: int, reading: dict[str, Any],
-    seed: int, as_json: bool,
+    candidates: tuple[str, ...], least_fall: float, starts: int, streaming: Streaming,
+    reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
-    """Find which physical effect MODEL (or the law of --law) is missing on DATA."""
+    """Find which physical effect MODEL (or the law of --law) is missing on DATA.
+
+    Of a folder of Parquet files, or with --stream, causes are looked for on stretches of it.
+    """
     for path in (report, figures):
         check_output(path)
     check_candidates(candidates)
-    recording = read_recording(data, reading)
-    fitted = written_fit(model, written, recording, starts=starts, seed=seed)
-    diagnosis = diagnose_fit(
-        fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed
-    )
+    streamed: StreamedDiagnosis | None = None
+    if streaming.wanted(data):
+        made = written.choices.applied(written.model(model))
+        opened = streaming.open(data, reading, seed)
+        with RowProgress() as bar:
+            streamed = opened.diagnose(
+                made, starts=starts, seed=seed, least_fall=least_fall, candidates=candidates,
+                told=bar.show_pass,
+            )  # fmt: skip
+        diagnosis = streamed.found
+    else:
+        recording = read_recording(data, reading)
+        fitted = written_fit(model, written, recording, starts=starts, seed=seed)
+        diagnosis = diagnose_fit(
+            fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed
+        )
     save_findings(diagnosis.findings, figures)
     if report is not None:
         from stribeck.report.html import diagnosis_page
 
         save_page(diagnosis_page(diagnosis), report)
-    if as_json:
+    if streamed is not None:
+        show(streamed, as_json)
+    elif as_json:
         echo_json(diagnosis.to_dict())
     else:
         click.echo(repr(diagnosis))
@@ -224,16 +248,20 @@ def add(
 @candidate_option
 @click.option("--reject", multiple=True, metavar="EFFECT", help="Never add this effect.")
 @starts_option
+@stream_options
 @recording_options
 @seed_option
 @json_option
 def improve(
     data: str, base: str | None, written: Written, output: str | None, report: str | None,
     picture: str | None, figures: str | None, least_fall: float, max_steps: int,
-    candidates: tuple[str, ...], reject: tuple[str, ...], starts: int,
+    candidates: tuple[str, ...], reject: tuple[str, ...], starts: int, streaming: Streaming,
     reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
-    """Diagnose and add effects to a base model until what is left is noise."""
+    """Diagnose and add effects to a base model until what is left is noise.
+
+    Of a folder of Parquet files, or with --stream, causes are looked for on stretches of it.
+    """
     from stribeck.model import check_effect
 
     for path in (output, report, picture, figures):
@@ -241,16 +269,26 @@ def improve(
     check_candidates(candidates)
     for effect in reject:
         check_effect(effect)
-    recording = read_recording(data, reading)
     if base is None and not written.laws:
         base = "coulomb"
     start = written.choices.applied(written.model(base))
-    improvement = improve_from(
-        start, recording, starts=starts, seed=seed, least_fall=least_fall,
-        most_steps=max_steps, rejected=reject, candidates=candidates, progress=say,
-    )  # fmt: skip
+    options: dict[str, Any] = {
+        "starts": starts, "seed": seed, "least_fall": least_fall, "most_steps": max_steps,
+        "rejected": reject, "candidates": candidates, "progress": say,
+    }  # fmt: skip
+    streamed: StreamedImprovement | None = None
+    if streaming.wanted(data):
+        opened = streaming.open(data, reading, seed)
+        with RowProgress() as bar:
+            streamed = opened.improve(start, told=bar.show_pass, **options)
+        improvement = streamed.found
+    else:
+        improvement = improve_from(start, read_recording(data, reading), **options)
     if output is not None:
-        save_fit(improvement.final, output)
+        if streamed is not None:
+            save_streamed(streamed.final, output)
+        else:
+            save_fit(improvement.final, output)
     if picture is not None:
         from stribeck.report.files import save_figure
 
@@ -261,7 +299,9 @@ def improve(
         from stribeck.report.html import improvement_page
 
         save_page(improvement_page(improvement), report)
-    if as_json:
+    if streamed is not None:
+        show(streamed, as_json)
+    elif as_json:
         echo_json(improvement.to_dict())
     else:
         click.echo(repr(improvement))

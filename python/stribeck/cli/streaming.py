@@ -1,4 +1,4 @@
-"""`stribeck fit` of data sets that are larger than memory."""
+"""Options of the commands that take data larger than memory."""
 
 from __future__ import annotations
 
@@ -10,10 +10,15 @@ from typing import Any, TypeVar
 import click
 
 from stribeck.cli.common import echo_json, say
-from stribeck.cli.progress import RowProgress
 from stribeck.errors import SpecError
-from stribeck.model import Model
-from stribeck.streaming import is_data_set, stream
+from stribeck.streaming import (
+    Stream,
+    StreamedDiagnosis,
+    StreamedFit,
+    StreamedImprovement,
+    is_data_set,
+    stream,
+)
 from stribeck.streaming.sample import SAMPLE_ROWS
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -39,23 +44,26 @@ class Streaming:
                     "--stream"
                 )
 
-    def fit(
-        self, data: str, model: Model, reading: dict[str, Any], output: str | None, *,
-        starts: int, seed: int, as_json: bool,
-    ) -> None:  # fmt: skip
-        """Identify `model` on all rows, print the result and write its model file."""
+    def open(self, data: str, reading: dict[str, Any], seed: int) -> Stream:
+        """Open `data`; what is noted of it goes to stderr."""
         opened = stream(data, sample_rows=self.sample_rows, seed=seed, **reading)
         for note in opened.sample.recording.notes:
             say(f"note: {note}")
-        with RowProgress() as bar:
-            fitted = opened.fit(model, starts=starts, seed=seed, told=bar.show_pass)
-        if output is not None:
-            fitted.model_file().write(output)
-            say(f"wrote {output}")
-        if as_json:
-            echo_json(fitted.to_dict())
-        else:
-            click.echo(repr(fitted))
+        return opened
+
+
+def save_streamed(fitted: StreamedFit, path: str) -> None:
+    """Write a model file with its standard errors and provenance."""
+    fitted.model_file().write(path)
+    say(f"wrote {path}")
+
+
+def show(result: StreamedFit | StreamedDiagnosis | StreamedImprovement, as_json: bool) -> None:
+    """Print a result."""
+    if as_json:
+        echo_json(result.to_dict())
+    else:
+        click.echo(repr(result))
 
 
 def stream_options(command: F) -> F:

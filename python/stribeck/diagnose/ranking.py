@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 import numpy as np
 
 from stribeck.diagnose.floor import NoiseFloor
@@ -100,7 +102,15 @@ def _serves(
     return not adds_to(trial, best, tried, least, seed)
 
 
-def share_of_unexplained(before: Fit, after: Fit, floor: NoiseFloor) -> float | None:
+class HeldOut(Protocol):
+    """Whatever has a held-out error."""
+
+    @property
+    def rmse_held_out(self) -> float | None:
+        """Over the scored rows, in the unit of torque."""
+
+
+def share_of_unexplained(before: HeldOut, after: HeldOut, floor: NoiseFloor) -> float | None:
     """(before^2 - after^2) / (before^2 - floor^2), clipped to 0..1."""
     if floor.value is None or before.rmse_held_out is None or after.rmse_held_out is None:
         return None

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from stribeck.diagnose import LEAST_FALL
+from stribeck.diagnose import diagnose as diagnose_in_memory
+from stribeck.fit import Fit
 from stribeck.fit import fit as fit_in_memory
+from stribeck.improve import improve as improve_in_memory
 from stribeck.model import Model
 from stribeck.recording.options import gather
 from stribeck.streaming.dataset import DataSet
+from stribeck.streaming.diagnosis import StreamedDiagnosis
 from stribeck.streaming.fit import streamed_fit
+from stribeck.streaming.improvement import StreamedImprovement
 from stribeck.streaming.passes import Told
 from stribeck.streaming.result import StreamedFit
 from stribeck.streaming.sample import SAMPLE_ROWS, Sample, take
@@ -73,6 +79,57 @@ class Stream:
             fix=fix,
         )  # fmt: skip
         return streamed_fit(self.data, self.sample, first, told=told, window_rows=self.window_rows)
+
+    def diagnose(
+        self,
+        spec: str | Model,
+        *,
+        starts: int = 20,
+        seed: int = 0,
+        least_fall: float = LEAST_FALL,
+        candidates: Collection[str] = (),
+        told: Told = _silent,
+    ) -> StreamedDiagnosis:
+        """Find which effect `spec` lacks; see `stribeck.diagnose`.
+
+        Causes are looked for on the sample; the errors without and with them are of all rows.
+        """
+        sample = self.sample.recording
+        first = fit_in_memory(spec, sample, starts=starts, seed=seed)
+        found = diagnose_in_memory(
+            first, sample, least_fall=least_fall, candidates=candidates, seed=seed
+        )
+        return StreamedDiagnosis(
+            found,
+            self._on_all_rows(first, told),
+            tuple(self._on_all_rows(finding.fit, told) for finding in found.findings),
+        )
+
+    def improve(
+        self,
+        base: str | Model,
+        *,
+        starts: int = 20,
+        seed: int = 0,
+        told: Told = _silent,
+        **options: Any,
+    ) -> StreamedImprovement:
+        """Diagnose and add until what is left is noise; see `stribeck.improve`.
+
+        Causes are looked for on the sample; each step's model is then identified on all rows.
+
+        Parameters
+        ----------
+        **options
+            `least_fall`, `most_steps`, `rejected`, `candidates` and `progress` of
+            `stribeck.improve`.
+        """
+        found = improve_in_memory(base, self.sample.recording, starts=starts, seed=seed, **options)
+        way = [found.base, *(step.after for step in found.steps)]
+        return StreamedImprovement(found, tuple(self._on_all_rows(fit, told) for fit in way))
+
+    def _on_all_rows(self, start: Fit, told: Told) -> StreamedFit:
+        return streamed_fit(self.data, self.sample, start, told=told, window_rows=self.window_rows)
 
     def __repr__(self) -> str:
         files = len(self.data.files)

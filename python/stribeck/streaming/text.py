@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from stribeck.report import text as in_memory
 from stribeck.report.numbers import plain, thousands
-from stribeck.report.text import PASSIVITY, notes_text, paragraph, parameters_text
+from stribeck.report.text import PASSIVITY, bars, notes_text, paragraph, parameters_text
 
 if TYPE_CHECKING:
+    from stribeck.streaming.diagnosis import StreamedDiagnosis
+    from stribeck.streaming.improvement import StreamedImprovement
     from stribeck.streaming.result import StreamedFit
 
 
@@ -37,3 +40,43 @@ def fit_text(fit: StreamedFit) -> str:
         notes_text(fit.start.recording.notes, fit.notes),
     ]
     return "\n\n".join(part for part in parts if part)
+
+
+def improvement_text(improvement: StreamedImprovement) -> str:
+    """The way on the stretches in memory, then its errors on all rows."""
+    found, final = improvement.found, improvement.final
+    labels = [found.base.model.spec, *(f"+ {step.finding.effect}" for step in found.steps)]
+    errors = [fit.rmse_held_out for fit in improvement.fits]
+    return "\n\n".join(
+        [
+            looked_at(final),
+            in_memory.improvement_text(found),
+            paragraph("On all rows, the held-out error after each step:", 0),
+            bars(labels, errors, found.noise_floor.value, final.model.torque_unit),
+            fit_text(final),
+        ]
+    )
+
+
+def diagnosis_text(diagnosis: StreamedDiagnosis) -> str:
+    """The diagnosis of the stretches in memory, then the errors on all rows."""
+    found, fit = diagnosis.found, diagnosis.fit
+    labels = [found.fit.model.spec, *(f"+ {finding.effect}" for finding in found.findings)]
+    errors = [fit.rmse_held_out, *(after.rmse_held_out for after in diagnosis.with_finding)]
+    return "\n\n".join(
+        [
+            looked_at(fit),
+            in_memory.diagnosis_text(found),
+            paragraph("On all rows, the held-out error without and with each finding:", 0),
+            bars(labels, errors, found.noise_floor.value, fit.model.torque_unit),
+        ]
+    )
+
+
+def looked_at(fit: StreamedFit) -> str:
+    """How much of the data the search for causes has seen."""
+    sample = fit.start.recording
+    return paragraph(
+        f"Causes were looked for on {thousands(sample.rows)} rows, contiguous stretches spread "
+        f"over all {thousands(fit.rows)}; errors and parameters on all rows follow at the end.", 0
+    )  # fmt: skip
