@@ -120,7 +120,7 @@ def fleet(
     )  # fmt: skip
     naming, paths = Naming(name), _expand(files)
     store = Store(Path(output), work, retry_failed=retry_failed)
-    notes: list[str] = []
+    incidents: list[str] = []
     made = 0
 
     def keep(row: dict[str, Any]) -> None:
@@ -129,7 +129,7 @@ def fleet(
         store.add(row)
 
     def remark(sentence: str) -> None:
-        notes.append(sentence)
+        incidents.append(sentence)
         note(sentence)
 
     try:
@@ -145,7 +145,7 @@ def fleet(
     question = question or Question()
     return Fleet(
         store.folder, work, store.frame, made, find_changes(store.frame, question),
-        find_effects(store.frame) if work.model == IMPROVE else Effects.not_asked(), notes,
+        find_effects(store.frame) if work.model == IMPROVE else Effects.not_asked(), incidents,
     )  # fmt: skip
 
 

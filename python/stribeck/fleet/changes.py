@@ -305,15 +305,28 @@ def _compare_friction(before: Sequence[DayModel], after: Sequence[DayModel]) -> 
 def _weighted_friction(
     days: Sequence[DayModel], speeds: Array, conditions: Mapping[str, float], weights: Array
 ) -> tuple[Array, Array]:
-    """Combinations [days, m] of the friction at the common speeds by `weights` [m, n], and their
-    standard errors [days, m]."""
-    torques, errors = [], []
-    for day in days:
-        torque, covariance = day.friction_at(speeds, conditions)
-        torques.append(weights @ torque)
+    """Combinations of the friction at the common speeds, and their standard errors.
+
+    Parameters
+    ----------
+    weights : array [m, n]
+        Of each of the n speeds in each of the m combinations.
+
+    Returns
+    -------
+    values, errors : arrays [days, m]
+        NaN on a day whose model has no friction there.
+    """
+    values, errors = np.full((2, len(days), len(weights)), np.nan)
+    for k, day in enumerate(days):
+        try:
+            torque, covariance = day.friction_at(speeds, conditions)
+        except ValueError:
+            continue
+        values[k] = weights @ torque
         variance = np.einsum("ij,jk,ik->i", weights, covariance, weights)
-        errors.append(np.sqrt(np.maximum(variance, 0.0)))
-    return np.array(torques), np.array(errors)
+        errors[k] = np.sqrt(np.maximum(variance, 0.0))
+    return values, errors
 
 
 def _compare_parameters(

@@ -49,7 +49,13 @@ class DayModel:
         velocity : array [n]
             rad/s or m/s, none of them zero.
         conditions
-            Load, temperature and other channels by name, held.
+            Load, temperature and other channels by name, held; of the motor torque the size, as
+            the motor drives the joint.
+
+        Raises
+        ------
+        ValueError
+            The model needs a channel that is not among them, or has no value there.
         """
         friction, _ = friction_part(self.model)
         held = {name: x for name, x in conditions.items() if name in friction.core.needs}
@@ -70,8 +76,12 @@ class DayModel:
 
 
 def _sliding(friction: Model, velocity: Array, conditions: Mapping[str, float]) -> Array:
-    parts = friction.split(velocity, **conditions)
-    return np.asarray(np.sign(velocity) * parts["dry"] + parts["rate"] + parts["additive"])
+    along = np.sign(velocity)
+    channels = {name: np.full_like(velocity, x) for name, x in conditions.items()}
+    if "motor_torque" in channels:
+        channels["motor_torque"] *= along
+    parts = friction.split(velocity, **channels)
+    return np.asarray(along * parts["dry"] + parts["rate"] + parts["additive"])
 
 
 def common_speeds(models: Sequence[Model]) -> Array:
@@ -94,14 +104,22 @@ def common_speeds(models: Sequence[Model]) -> Array:
 
 
 def common_conditions(models: Sequence[Model]) -> dict[str, float]:
-    """Where load, temperature and position stand for the comparison: the middle of what was seen.
+    """Where load, temperature and other channels stand for the comparison.
 
-    The load stands at zero where every day has been there.
+    The middle of what was seen on most days; a load at zero where it has been there, and the motor
+    torque at half of its largest.
     """
     middles: dict[str, list[float]] = {}
     for model in models:
         for name, (low, high) in model.box.items():
-            inside = name.endswith("torque") and low <= 0.0 <= high
-            middles.setdefault(name, []).append(0.0 if inside else 0.5 * (low + high))
-    middles.pop("velocity", None)
+            if name != "velocity":
+                middles.setdefault(name, []).append(_usual(name, low, high))
     return {name: float(np.median(values)) for name, values in middles.items()}
+
+
+def _usual(name: str, low: float, high: float) -> float:
+    if name == "motor_torque":
+        return 0.5 * max(abs(low), abs(high))
+    if name in ("load_torque", "external_torque") and low <= 0.0 <= high:
+        return 0.0
+    return 0.5 * (low + high)

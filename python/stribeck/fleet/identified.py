@@ -57,6 +57,8 @@ class Identified:
         None where it cannot be estimated.
     covariance
         Of the parameters, p x p row by row; 0 where a parameter has no standard error.
+    notes
+        How the recording was understood.
     """
 
     model: str
@@ -71,6 +73,7 @@ class Identified:
     converged: bool
     parameters: tuple[Value, ...]
     covariance: tuple[float, ...]
+    notes: tuple[str, ...]
 
 
 def identify(
@@ -115,6 +118,7 @@ def _identified(fitted: Fit, found: tuple[Found, ...], floor: float | None) -> I
             Value(e.name, e.symbol, e.unit, e.value, e.stderr) for e in fitted.estimates.values()
         ),
         covariance=tuple(float(x) for x in _covariance(fitted).ravel()),
+        notes=tuple(dict.fromkeys([*fitted.recording.notes, *fitted.notes])),
     )
 
 

@@ -38,7 +38,7 @@ class Fleet:
         The data set, one row a joint and file (`stribeck.fleet.store.SCHEMA`).
     new
         Rows made by this run; the others were there before.
-    notes
+    incidents
         What went wrong with workers on the way.
     """
 
@@ -48,7 +48,7 @@ class Fleet:
     new: int
     changes: Changes
     effects: Effects
-    notes: Sequence[str] = ()
+    incidents: Sequence[str] = ()
 
     @property
     def done(self) -> pl.DataFrame:
@@ -74,6 +74,12 @@ class Fleet:
             "new": self.new,
         }
 
+    def reading_notes(self) -> tuple[str, ...]:
+        """How most of the recordings were understood."""
+        done = self.done
+        notes = done["notes"].explode().drop_nulls().value_counts(sort=True)
+        return tuple(text for text, count in notes.iter_rows() if 2 * count > done.height)
+
     def to_dict(self) -> dict[str, Any]:
         """JSON of `stribeck fleet`."""
         return {
@@ -83,7 +89,8 @@ class Fleet:
             "failures": [failure.to_dict() for failure in self.failures],
             "changes": self.changes.to_dict(),
             "effects": self.effects.to_dict(),
-            "notes": list(self.notes),
+            "incidents": list(self.incidents),
+            "notes": list(self.reading_notes()),
         }
 
     def to_frame(self) -> pl.DataFrame:

@@ -53,7 +53,8 @@ SCHEMA: dict[str, Any] = {
             }
         )
     ),
-    "covariance": pl.List(pl.Float64), "model_file": pl.String, "seconds": pl.Float64,
+    "covariance": pl.List(pl.Float64), "model_file": pl.String, "notes": pl.List(pl.String),
+    "seconds": pl.Float64,
     "size": pl.Int64, "modified": pl.Int64, "sha256": pl.String, "sidecar_sha256": pl.String,
     "joints_in_file": pl.Int64,
 }  # fmt: skip

@@ -34,6 +34,7 @@ def fleet_text(fleet: Fleet) -> str:
         heading(fleet),
         "Which joints have changed\n\n" + _changes(fleet.changes),
         "Which have an effect that the others lack\n\n" + _effects(fleet.effects),
+        "\n".join(paragraph(f"Note: {note}.", 0, 2) for note in fleet.reading_notes()),
         _failures(fleet.failures),
         f"Every joint and day is in {fleet.to_dict()['output']}",
     ]

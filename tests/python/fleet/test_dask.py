@@ -15,32 +15,44 @@ from pathlib import Path
 import pytest
 import stribeck as sb
 from fleet_logs import answers, command
+from fleet_pieces import square_unless_three
+from stribeck.fleet.crew import Dask
+from stribeck.fleet.schedule import run
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.slow
 
 LAW = "bittencourt_a"
+#: Workers find the pieces of `fleet_pieces`, and two lost workers are enough to blame a piece.
+ENVIRONMENT = {
+    **os.environ,
+    "PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")]),
+    "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
+}
 
 
 class Cluster:
-    """`dask scheduler` and two `dask worker`, one thread each."""
+    """`dask scheduler` and two `dask worker`, one thread each.
 
-    def __init__(self, folder: Path) -> None:
+    With `nanny` a worker that ends is started again; without it stays away.
+    """
+
+    def __init__(self, folder: Path, *, nanny: bool = False) -> None:
+        folder.mkdir()
         self._folder = folder
         self._processes: list[subprocess.Popen[bytes]] = []
         self._start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
         self.address = self._wait_for(r"Scheduler at:\s*(tcp://\S+)")
-        # Without the nanny that would start it again: what is killed stays away.
-        self.workers = [
-            self._start("worker", self.address, "--nthreads", "1", "--no-nanny", "--no-dashboard")
-            for _ in range(2)
-        ]
+        words = ("worker", self.address, "--nthreads", "1", "--no-dashboard")
+        watched = "--nanny" if nanny else "--no-nanny"
+        self.workers = [self._start(*words, watched) for _ in range(2)]
 
     def _start(self, *words: str) -> subprocess.Popen[bytes]:
         with (self._folder / f"{len(self._processes)}.log").open("wb") as log:
             process = subprocess.Popen(
-                [sys.executable, "-m", "dask", *words], stdout=log, stderr=log, cwd=self._folder
-            )
+                [sys.executable, "-m", "dask", *words], stdout=log, stderr=log, cwd=self._folder,
+                env=ENVIRONMENT, start_new_session=True,
+            )  # fmt: skip
         self._processes.append(process)
         return process
 
@@ -54,19 +66,35 @@ class Cluster:
         raise AssertionError((self._folder / "0.log").read_text())
 
     def close(self) -> None:
+        """End them all; a nanny's worker is in its group."""
         for process in reversed(self._processes):
             process.terminate()
-        for process in self._processes:
-            process.wait(timeout=30)
+            try:
+                process.wait(timeout=10)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait(timeout=10)
 
 
 @pytest.fixture
 def cluster(tmp_path: Path) -> Iterator[Cluster]:
-    folder = tmp_path / "cluster"
-    folder.mkdir()
-    made = Cluster(folder)
+    made = Cluster(tmp_path / "cluster")
     yield made
     made.close()
+
+
+def test_a_piece_that_ends_its_workers_is_given_up_alone(tmp_path: Path) -> None:
+    cluster = Cluster(tmp_path / "cluster", nanny=True)
+    done: list[int] = []
+    given_up: list[int] = []
+    crew = Dask(cluster.address, note=lambda sentence: None)
+    try:
+        run(square_unless_three, range(8), crew, done.append, given_up.append)
+    finally:
+        crew.close(at_once=True)
+        cluster.close()
+    assert sorted(done) == [n * n for n in range(8) if n != 3]
+    assert given_up == [3]
 
 
 def test_a_killed_worker_costs_no_answer(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 
@@ -15,6 +16,9 @@ from stribeck.fleet.changes import Question, find_changes
 from stribeck.fleet.effects import find_effects
 from stribeck.fleet.friction_at import DayModel, common_conditions, common_speeds
 from stribeck.fleet.store import DONE, SCHEMA
+from stribeck.generate.motion import Joint
+from stribeck.generate.plausible import plausible_values
+from stribeck.model import effect_ids, law_ids
 
 
 def test_a_row_is_what_fit_says(fitted: sb.Fleet, logs: list[Path]) -> None:
@@ -93,6 +97,26 @@ def test_speeds_and_conditions_are_those_that_days_have_in_common() -> None:
     assert common_conditions(days) == {"temperature": 25.0, "load_torque": 0.0}
 
 
+BOX = {
+    "velocity": (-2.0, 2.0), "position": (-1.0, 1.0), "acceleration": (-3.0, 5.0),
+    "temperature": (25.0, 40.0), "load_torque": (-9.0, 9.0), "motor_torque": (-15.0, 15.0),
+    "external_torque": (-9.0, 9.0),
+}  # fmt: skip
+JOINT = Joint("revolute", 1.0, 2.0, 3.0, 1.0, 0.3, 6.0)
+
+
+@pytest.mark.parametrize("spec", [*law_ids(), *(f"coulomb+stribeck+{e}" for e in effect_ids()[1:])])
+def test_the_friction_of_every_model_can_be_compared(spec: str) -> None:
+    m = sb.model(spec)
+    values = plausible_values(m, JOINT, np.random.default_rng(0))
+    m = replace(m.with_values([values[name] for name in m.names]), box=BOX)
+    speeds = common_speeds([m])
+    covariance = np.diag((0.01 * m.values) ** 2)
+    torque, spread = DayModel(m, covariance).friction_at(speeds, common_conditions([m]))
+    assert np.all(torque * speeds > 0.0)
+    assert np.all(np.diag(spread) > 0.0) and np.all(np.sqrt(np.diag(spread)) < abs(torque))
+
+
 def found_rows(
     found: dict[tuple[str, str], list[list[tuple[str, float, list[str]]]]],
 ) -> pl.DataFrame:
@@ -140,6 +164,9 @@ def test_json_text_picture_and_page(fitted: sb.Fleet) -> None:
     assert json.loads(json.dumps(said)) == said
     assert (said["robots"], said["joints"], said["days"], said["done"]) == (3, 6, 8, 48)
     text, page = repr(fitted), fleet_page(fitted)
+    assert said["notes"] and all(
+        f"Note: {note}" in " ".join(text.split()) for note in said["notes"]
+    )
     assert "1 joint of 6 changed" in text and "r2 elbow" in text
     assert all(len(line) <= 98 for line in text.splitlines())
     assert "r2 elbow" in page and "data:image/png;base64," in page and "http" not in page

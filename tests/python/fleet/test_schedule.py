@@ -5,25 +5,17 @@ from __future__ import annotations
 import os
 import signal
 import threading
-import time
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from fleet_pieces import square_unless_three
 from stribeck.errors import StribeckError
 from stribeck.fleet.crew import Given, Processes
 from stribeck.fleet.schedule import run
 
 
 def square(number: int) -> int:
-    return number * number
-
-
-def square_unless_three(number: int) -> int:
-    """3 ends its process, as a defect in a compiled library would."""
-    if number == 3:
-        os.kill(os.getpid(), signal.SIGKILL)
-    time.sleep(0.02)
     return number * number
 
 
