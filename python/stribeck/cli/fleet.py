@@ -48,7 +48,11 @@ from stribeck.fleet.identified import IMPROVE
 )  # fmt: skip
 @click.option(
     "--window", type=click.IntRange(min=1), default=7, show_default=True, metavar="DAYS",
-    help="How many of the newest days are compared with those before.",
+    help="How many of the newest days are looked at for changes.",
+)  # fmt: skip
+@click.option(
+    "--history", type=click.IntRange(min=1), default=28, show_default=True, metavar="DAYS",
+    help="How many days before them they are compared with.",
 )  # fmt: skip
 @click.option(
     "--false-discovery", type=click.FloatRange(0.0, 1.0, min_open=True), default=0.05,
@@ -80,9 +84,9 @@ from stribeck.fleet.identified import IMPROVE
 @json_option
 def fleet(
     files: tuple[str, ...], model: str | None, base: str, output: str, name: str | None,
-    day: str | None, since: datetime | None, window: int, false_discovery: float,
-    least_change: float, scheduler: str | None, workers: int | None, straggler: float,
-    retry_failed: bool, picture: str | None, report: str | None, starts: int,
+    day: str | None, since: datetime | None, window: int, history: int,
+    false_discovery: float, least_change: float, scheduler: str | None, workers: int | None,
+    straggler: float, retry_failed: bool, picture: str | None, report: str | None, starts: int,
     reading: dict[str, Any], seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Identify every joint of FILES: which have changed, which have an effect the others lack.
@@ -101,7 +105,7 @@ def fleet(
         try:
             result = run_fleet(
                 files, output, model or IMPROVE, base=base, name=name, day=day, starts=starts,
-                seed=seed, question=Question(first, window, false_discovery, least_change),
+                seed=seed, question=Question(first, window, history, false_discovery, least_change),
                 workers=workers, scheduler=scheduler, straggler=straggler,
                 retry_failed=retry_failed, progress=bar.show,
                 note=lambda text: say(f"note: {text}"), **reading,

@@ -9,7 +9,7 @@ from typing import Any
 
 import polars as pl
 
-from stribeck.fleet.store import DONE
+from stribeck.fleet.store import DONE, as_name
 
 #: An effect is a joint's own when no more than this share of its peers have it.
 FEW = 0.25
@@ -144,7 +144,7 @@ def find_effects(rows: pl.DataFrame) -> Effects:
     """
     done = rows.filter(pl.col("status") == DONE)
     groups = done.group_by("robot", "joint", maintain_order=True)
-    joints = [_joint(str_or_none(r), str_or_none(j), days) for (r, j), days in groups]
+    joints = [_joint(as_name(r), as_name(j), days) for (r, j), days in groups]
     having = [
         _against_peers(joint, effect, joints)
         for joint in joints
@@ -154,11 +154,6 @@ def find_effects(rows: pl.DataFrame) -> Effects:
     having.sort(key=_rarest_first)
     why = None if having else "no effect was found missing from the base model at any joint"
     return Effects(tuple(having), _shares(joints), why)
-
-
-def str_or_none(name: object) -> str | None:
-    """A name out of a table."""
-    return None if name is None else str(name)
 
 
 def _joint(robot: str | None, joint: str | None, days: pl.DataFrame) -> _Joint:

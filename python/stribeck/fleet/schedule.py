@@ -31,11 +31,20 @@ LEAST_AGE, POLL = 1.0, 0.5
 
 @dataclass(eq=False)
 class _Job(Generic[Piece]):
-    """A piece on its way: how often it is under way, and how many workers ended with it."""
+    """A piece on its way.
+
+    Attributes
+    ----------
+    kills
+        How many workers ended while it was under way.
+    copies, submitted
+        How often it is under way now, and how often it has been handed out.
+    """
 
     piece: Piece
     kills: int = 0
     copies: int = 0
+    submitted: int = 0
     over: bool = False
 
 
@@ -129,6 +138,7 @@ class _Run(Generic[Piece, Result]):
             self._refused = True
             return False
         job.copies += 1
+        job.submitted += 1
         self._under_way[future] = job, time.monotonic()
         return True
 
@@ -183,7 +193,10 @@ class _Run(Generic[Piece, Result]):
             self._note(f"a worker was ended: {again} task{'s' * (again > 1)} under way done again")
 
     def _hurry(self) -> None:
-        """Once nothing waits, hand out again what takes many times as long as the others."""
+        """Once nothing waits, hand out again what takes many times as long as the others.
+
+        Each time after twice as long: it may be large, and not stuck.
+        """
         free = self._crew.width() - len(self._under_way)
         idle = not (self._waiting or self._suspects)
         if self._straggler is None or not idle or len(self._seconds) < FEWEST_DONE:
@@ -191,7 +204,9 @@ class _Run(Generic[Piece, Result]):
         limit = max(self._straggler * statistics.median(self._seconds), LEAST_AGE)
         now = time.monotonic()
         newest = {job: began for job, began in self._under_way.values()}
-        slow = [job for job, began in newest.items() if now - began > limit]
+        slow = [
+            job for job, began in newest.items() if now - began > limit * 2 ** (job.submitted - 1)
+        ]  # fmt: skip
         for job in slow[: max(free, 0)]:
             self._note(f"a task has taken more than {limit:.0f} s: it is handed out once more")
             self._submit(job)

@@ -207,6 +207,11 @@ def row_of_file(file: File, reason: str) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def as_name(cell: object) -> str | None:
+    """A robot or joint out of the data set."""
+    return None if cell is None else str(cell)
+
+
 def _of_task(task: Task) -> dict[str, Any]:
     return {name: value for name, value in asdict(task).items() if name in SCHEMA}
 

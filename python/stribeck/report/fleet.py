@@ -87,9 +87,9 @@ def changes_sentence(changes: Changes) -> str:
         apart = f" {counted(changes.not_compared, 'joint')} had no day in one of the periods."
     return (
         f"{counted(len(changes.changed), 'joint')} of {thousands(len(changes.joints))} changed by "
-        f"at least {percent(asked.least_change)}: {changes.since} to {changes.newest} against all "
-        f"days before (at most {percent(asked.false_discovery_rate)} of those listed by chance)."
-        f"{apart}"
+        f"at least {percent(asked.least_change)}: {changes.since} to {changes.newest} against the "
+        f"{asked.history} days before (at most {percent(asked.false_discovery_rate)} of those "
+        f"listed by chance).{apart}"
     )
 
 

@@ -71,7 +71,7 @@ def _draw_changes(axes: Axes, changes: Changes) -> None:
     axes.axvline(0.0, color=MEASURED, linewidth=0.8)
     axes.margins(y=0.12)
     axes.set_yticks([])
-    axes.set_xlabel(f"since {changes.since}, against all days before [%], 95 % intervals")
+    axes.set_xlabel(f"since {changes.since}, against the days before [%], 95 % intervals")
     axes.legend(loc="lower right", frameon=False, fontsize=8.5)
 
 

@@ -61,10 +61,15 @@ def test_the_first_new_day_can_be_said(fitted: sb.Fleet) -> None:
     assert {j.days_after for j in changes.joints} == {1}
 
 
+def test_days_long_ago_do_not_count(fitted: sb.Fleet) -> None:
+    changes = find_changes(fitted.rows, Question(window=2, history=3))
+    assert {(j.days_before, j.days_after) for j in changes.joints} == {(3, 2)}
+
+
 @pytest.mark.parametrize(
     ("rows", "sentence"),
     [
-        (pl.col("day") < date(2026, 3, 2), "no joint has days both before"),
+        (pl.col("day") < date(2026, 3, 2), "no joint has days both"),
         (pl.lit(False), "no file has a date"),
     ],
 )
