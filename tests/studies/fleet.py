@@ -3,7 +3,9 @@
 One joint wears by 20 % in the last four days, another one has a Stribeck curve that its peers lack;
 friction of all joints scatters by 2 % from day to day. Needs some minutes:
 
-    python tests/studies/fleet.py           # prints the answer, writes docs/fleet.png
+    python tests/studies/fleet.py [FOLDER]  # prints the answer, writes docs/fleet.png
+
+Logs and results are kept in FOLDER, if one is given, and a second run goes on from there.
 """
 
 from __future__ import annotations
@@ -21,13 +23,24 @@ sys.path[:0] = [str(ROOT / "tests/python"), str(ROOT / "tests/python/fleet")]
 
 
 def main() -> None:
+    if len(sys.argv) > 1:
+        answer(Path(sys.argv[1]))
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        answer(Path(folder))
+
+
+def answer(folder: Path) -> None:
     from fleet_logs import write_logs
 
-    with tempfile.TemporaryDirectory() as folder:
-        logs = write_logs(Path(folder) / "logs", robots=6, days=10, rows=1500)
-        found = sb.fleet(logs, Path(folder) / "fleet", "improve", question=Question(window=4))
-        print(found)
-        save_figure(found.plot(), ROOT / "docs" / "fleet.png")
+    if not (folder / "logs").exists():
+        write_logs(folder / "logs", robots=6, days=10, rows=1500)
+    found = sb.fleet(
+        [folder / "logs" / "*" / "*.parquet"], folder / "fleet", "improve",
+        question=Question(window=4),
+    )  # fmt: skip
+    print(found)
+    save_figure(found.plot(), ROOT / "docs" / "fleet.png")
 
 
 if __name__ == "__main__":

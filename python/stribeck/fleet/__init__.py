@@ -176,7 +176,6 @@ def _work(
             progress(done, len(tasks))
 
     options: dict[str, Any] = {"straggler": straggler, "note": note}
-    finished = False
     try:
         run(
             partial(look, work=work), files, crew, looked,
@@ -187,11 +186,10 @@ def _work(
             partial(answer, work=work), list(tasks), crew, lambda made: answered(row_of(made)),
             lambda task: answered(row_of_loss(task, POISONED)), **options,
         )  # fmt: skip
-        finished = True
     except KeyboardInterrupt:
         raise Stopped from None
     finally:
-        crew.close(at_once=not finished)
+        crew.close()
 
 
 def _crew(

@@ -55,8 +55,8 @@ class Crew(Protocol):
     def lost(self) -> StribeckError:
         """The error of an executor that dropped what it was given."""
 
-    def close(self, *, at_once: bool) -> None:
-        """No more work; `at_once`: drop what is under way."""
+    def close(self) -> None:
+        """No more work; what is still under way is dropped."""
 
 
 class Processes:
@@ -101,8 +101,8 @@ class Processes:
     def lost(self) -> StribeckError:
         return StribeckError(f"the processes were stopped; {GOES_ON}")
 
-    def close(self, *, at_once: bool) -> None:
-        # Not waited for either way: a copy of a slow task may be under way still.
+    def close(self) -> None:
+        # Not waited for: a copy of a slow task may be under way still.
         self._pool.end()
 
 
@@ -164,7 +164,7 @@ class Given:
     def lost(self) -> StribeckError:
         return StribeckError(f"the executor dropped what it was given; {GOES_ON}")
 
-    def close(self, *, at_once: bool) -> None:
+    def close(self) -> None:
         pass
 
 
@@ -226,7 +226,7 @@ class Dask:
     def lost(self) -> StribeckError:
         return StribeckError(f"the connection to {self._address} was lost; {GOES_ON}")
 
-    def close(self, *, at_once: bool) -> None:
+    def close(self) -> None:
         self._executor.shutdown(wait=False)
         self._client.close(timeout=2)
 

@@ -82,7 +82,8 @@ def run(
 
 def _cannot(error: Exception) -> StribeckError:
     """What a worker says that got as far as the work, and not into it."""
-    said = " ".join(f"{type(error).__name__}: {error}".split())
+    cause = error.__cause__ or error
+    said = " ".join(f"{type(cause).__name__}: {cause}".split())
     return StribeckError(
         f"a worker cannot do the work ({said}): every worker needs the same stribeck as this "
         f"machine, and what it depends on"

@@ -65,7 +65,7 @@ def joint_name(robot: str | None, joint: str | None) -> str:
 def _changes(changes: Changes) -> str:
     lines = [paragraph(changes_sentence(changes))]
     if changes.changed:
-        lines += ["", table(change_rows(changes.changed[:MOST_ROWS]), right=(2, 3, 4))]
+        lines += ["", table(change_rows(changes.changed[:MOST_ROWS]), right=(1, 3, 4))]
         lines += _more(len(changes.changed), "joints")
     shifts = shift_sentences(changes.joints)
     if shifts:
@@ -95,14 +95,15 @@ def changes_sentence(changes: Changes) -> str:
 
 def change_rows(joints: Sequence[JointChange]) -> list[list[str]]:
     """A heading and a row a joint."""
-    rows = [["joint", "what", "before", "after", "change", "days"]]
+    rows = [["joint", "mean friction", "surest of what changed", "before", "after", "days"]]
     for each in joints:
-        change = each.largest
+        change, friction = each.largest, each.friction
         rows.append(
             [
-                joint_name(each.robot, each.joint), change.quantity.replace("_", " "),
-                plain(change.before), _after(change), relative_text(change.relative),
-                f"{each.days_before} {DASH} {each.days_after}",
+                joint_name(each.robot, each.joint),
+                DASH if friction is None else relative_text(friction.relative),
+                change.quantity.replace("_", " "), plain(change.before), _after(change),
+                f"{each.days_before} + {each.days_after}",
             ]
         )  # fmt: skip
     return rows

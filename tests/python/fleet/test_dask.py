@@ -26,7 +26,7 @@ LAW = "bittencourt_a"
 #: Workers find the pieces of `fleet_pieces`, and two lost workers are enough to blame a piece.
 ENVIRONMENT = {
     **os.environ,
-    "PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")]),
+    "PYTHONPATH": os.pathsep.join(map(str, (Path(__file__).parent, Path(sb.__file__).parents[1]))),
     "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
 }
 
@@ -91,7 +91,7 @@ def test_a_piece_that_ends_its_workers_is_given_up_alone(tmp_path: Path) -> None
     try:
         run(square_unless_three, range(8), crew, done.append, given_up.append)
     finally:
-        crew.close(at_once=True)
+        crew.close()
         cluster.close()
     assert sorted(done) == [n * n for n in range(8) if n != 3]
     assert given_up == [3]

@@ -36,7 +36,7 @@ def raise_import_error(number: int) -> int:
 def two_processes():
     crew = Processes(2)
     yield crew
-    crew.close(at_once=True)
+    crew.close()
 
 
 def test_a_piece_that_ends_its_workers_is_given_up_alone(two_processes: Processes) -> None:
