@@ -4,7 +4,7 @@
 //!
 //! | module | what lives there |
 //! |---|---|
-//! | `math` | the one door to `exp`, `pow`, `tanh` ...: same bits everywhere |
+//! | [`math`] | the one door to `exp`, `pow`, `tanh` ...: same bits everywhere |
 //! | [`scalar`] | [`Real`](scalar::Real): `f32`, `f64`, [`Dual`](scalar::Dual) for gradients |
 //! | [`sample`] | what a law sees at one instant; the torque it gives, taken apart |
 //! | [`table`], [`constants`] | names, symbols, units, bounds |
@@ -49,7 +49,7 @@ pub mod error;
 pub mod formula;
 pub mod joint;
 pub mod law;
-mod math;
+pub mod math;
 #[cfg(feature = "std")]
 pub mod passivity;
 #[cfg(feature = "python")]

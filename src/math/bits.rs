@@ -1,0 +1,162 @@
+//! The bits of a float: signs, powers of two, whole numbers.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A float whose bits can be worked with.
+///
+/// Nothing here but operations that every vector unit has: no conversion between whole numbers and
+/// floats, no arithmetic shift. A whole number is added to `1.5 * 2^52` instead (to `1.5 * 2^23` in
+/// single precision) and then stands in the lowest bits.
+pub trait Bits:
+    Copy
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// A whole number in the lowest bits; those above it mean nothing.
+    type Whole: Copy;
+
+    const INFINITY: Self;
+    const NAN: Self;
+
+    /// A constant.
+    fn of(x: f32) -> Self;
+    /// Whether it is no number.
+    fn is_nan(self) -> bool;
+    /// `|x|`.
+    fn abs(self) -> Self;
+    /// `|x|` with the sign of another number.
+    fn copysign(self, sign: Self) -> Self;
+    /// `x` without the lower half of its digits: the product of two such numbers is exact.
+    fn short(self) -> Self;
+    /// The nearest whole number, as a float and as bits, of a number below `2^51` (`2^22`).
+    fn nearest(self) -> (Self, Self::Whole);
+    /// `2^(n-1)`, for a result in the normal range.
+    fn half_power_of_two(n: Self::Whole) -> Self;
+    /// `2^n x`, rounded once: `n` may be somewhat less or more than any exponent of the format.
+    fn times_power_of_two(self, n: Self::Whole) -> Self;
+    /// Whether the bit of weight one is set.
+    fn is_odd(n: Self::Whole) -> bool;
+    /// `-x` where the bit of weight two is set in `n + add`.
+    fn negated_by_second_bit(self, n: Self::Whole, add: u8) -> Self;
+    /// `k` and `m` of `x = 2^k m` with `m` between `sqrt(1/2)` and `sqrt(2)`, for finite `x > 0`;
+    /// some finite numbers for any other `x`.
+    fn exponent_and_significand(self) -> (Self, Self);
+    /// Whether a number is whole, and whether it is odd; not for NaN.
+    fn whole_and_odd(self) -> (bool, bool);
+}
+
+macro_rules! bits {
+    ($float:ident, $whole:ident) => {
+        const _: () = {
+            /// Digits after the leading one.
+            const STORED: u32 = <$float>::MANTISSA_DIGITS - 1;
+            /// The exponent field of 1.
+            const BIAS: $whole = (<$float>::MAX_EXP - 1) as $whole;
+            const ONE: $whole = BIAS << STORED;
+            /// From here on every number is whole.
+            const WHOLE: $float = ((1 as $whole) << STORED) as $float;
+
+            impl Bits for $float {
+                type Whole = $whole;
+
+                const INFINITY: Self = <$float>::INFINITY;
+                const NAN: Self = <$float>::NAN;
+
+                #[inline(always)]
+                fn of(x: f32) -> Self {
+                    Self::from(x)
+                }
+
+                #[inline(always)]
+                fn is_nan(self) -> bool {
+                    <$float>::is_nan(self)
+                }
+
+                #[inline(always)]
+                fn abs(self) -> Self {
+                    <$float>::abs(self)
+                }
+
+                #[inline(always)]
+                fn copysign(self, sign: Self) -> Self {
+                    <$float>::copysign(self, sign)
+                }
+
+                #[inline(always)]
+                fn short(self) -> Self {
+                    const LOWER_HALF: $whole = (1 << <$float>::MANTISSA_DIGITS.div_ceil(2)) - 1;
+                    Self::from_bits(self.to_bits() & !LOWER_HALF)
+                }
+
+                #[inline(always)]
+                fn nearest(self) -> (Self, $whole) {
+                    const ROUNDER: $float = 1.5 * WHOLE;
+                    let rounded = self + ROUNDER;
+                    (rounded - ROUNDER, rounded.to_bits())
+                }
+
+                #[inline(always)]
+                fn half_power_of_two(n: $whole) -> Self {
+                    Self::from_bits(n.wrapping_add(BIAS - 1) << STORED)
+                }
+
+                #[inline(always)]
+                fn times_power_of_two(self, n: $whole) -> Self {
+                    // Two factors reach beyond the normal range. Twice the bias is enough for both
+                    // and makes their sum positive, so that a logical shift halves it.
+                    let both = n.wrapping_add(2 * BIAS);
+                    let first = both >> 1;
+                    let second = both.wrapping_sub(first);
+                    self * Self::from_bits(first << STORED) * Self::from_bits(second << STORED)
+                }
+
+                #[inline(always)]
+                fn is_odd(n: $whole) -> bool {
+                    n & 1 != 0
+                }
+
+                #[inline(always)]
+                fn negated_by_second_bit(self, n: $whole, add: u8) -> Self {
+                    let bit = n.wrapping_add($whole::from(add)) & 2;
+                    Self::from_bits(self.to_bits() ^ (bit << ($whole::BITS - 2)))
+                }
+
+                #[inline(always)]
+                fn exponent_and_significand(self) -> (Self, Self) {
+                    const ROOT_HALF: $whole =
+                        (core::f64::consts::FRAC_1_SQRT_2 as $float).to_bits();
+                    const LIFT: $float = WHOLE * WHOLE;
+                    let (x, lifted) = if self < Self::MIN_POSITIVE {
+                        (self * LIFT, WHOLE + (BIAS + 2 * STORED as $whole) as $float)
+                    } else {
+                        (self, WHOLE + BIAS as $float)
+                    };
+                    // Moved so that the binary exponent changes at the root and not at 1.
+                    let moved = x.to_bits().wrapping_add(ONE - ROOT_HALF);
+                    let exponent = Self::from_bits((moved >> STORED) | WHOLE.to_bits());
+                    let significand = (moved & ((1 << STORED) - 1)) + ROOT_HALF;
+                    (exponent - lifted, Self::from_bits(significand))
+                }
+
+                #[inline(always)]
+                fn whole_and_odd(self) -> (bool, bool) {
+                    let size = self.abs();
+                    let shifted = size + WHOLE;
+                    let (whole, units) = if size < WHOLE {
+                        (shifted - WHOLE == size, shifted.to_bits())
+                    } else {
+                        (true, size.to_bits())
+                    };
+                    (whole, whole && size < 2.0 * WHOLE && units & 1 != 0)
+                }
+            }
+        };
+    };
+}
+
+bits!(f64, u64);
+bits!(f32, u32);

@@ -1,0 +1,47 @@
+//! `e^x` and `e^x - 1`.
+//!
+//! `x = n ln 2 + r` with `|r| <= ln(2) / 2`, and `e^r = 1 + r + r^2 Q(r)`. As `ln 2` has two parts,
+//! so has `r`: the larger is exact, and the smaller is added to the square's term, which is small.
+
+use super::format::{Format, within};
+
+/// `e^x`.
+#[inline(always)]
+pub fn exp<F: Format>(x: F) -> F {
+    let (lowest, highest) = F::EXP_RANGE;
+    let x = within(x, lowest, highest);
+    let (n, bits) = (x * F::LOG2_E).nearest();
+    let (large, small) = (x - n * F::LN_2[0], n * F::LN_2[1]);
+    let r = large - small;
+    (F::of(1.0) + (large + F::exp_beyond(-small, r))).times_power_of_two(bits)
+}
+
+/// `e^x - 1`.
+#[inline(always)]
+pub fn expm1<F: Format>(x: F) -> F {
+    let (high, low) = half_expm1(x);
+    let value = F::of(2.0) * (high + low);
+    // Keeps the sign of zero and the last digit of a subnormal number.
+    if x.abs() < F::EXPM1_LINEAR { x } else { value }
+}
+
+/// `(e^x - 1) / 2` as the sum of a number and what rounding has taken from it; the half, because
+/// `2^n` itself may be too large.
+///
+/// In `(2^n - 1) + 2^n r + 2^n (e^r - 1 - r)` the first two may cancel, the last is always small, and
+/// where `n` is 0 it is alone with `x`.
+#[inline(always)]
+pub fn half_expm1<F: Format>(x: F) -> (F, F) {
+    let (lowest, highest) = F::EXPM1_RANGE;
+    let x = within(x, lowest, highest);
+    let (n, bits) = (x * F::LOG2_E).nearest();
+    let (large, small) = (x - n * F::LN_2[0], n * F::LN_2[1]);
+    let beyond = F::expm1_beyond(-small, large - small);
+    let scale = F::half_power_of_two(bits);
+
+    let constant = scale - F::of(0.5);
+    let linear = scale * large;
+    let sum = constant + linear;
+    let lost = linear - (sum - constant);
+    (sum, lost + scale * beyond)
+}

@@ -1,0 +1,62 @@
+//! Logarithms.
+//!
+//! `x = 2^k m`, and with `s = (m - 1) / (m + 1)` is `ln m = 2 artanh s`, an odd series in `s`.
+
+use super::format::Format;
+
+/// Natural logarithm.
+///
+/// With `f = m - 1` is `2 s = f - s f`, so `ln m = f - (f^2/2 - s (f^2/2 + R))`: its largest term
+/// is exact (K. C. Ng, fdlibm).
+#[inline(always)]
+pub fn ln<F: Format>(x: F) -> F {
+    let (k, m) = x.exponent_and_significand();
+    let f = m - F::of(1.0);
+    let s = f / (m + F::of(1.0));
+    let half_square = F::of(0.5) * f * f;
+    let small = s * F::log_beyond(half_square, s * s) + k * F::LN_2[1];
+    let value = k * F::LN_2[0] - ((half_square - small) - f);
+
+    let value = if x == F::of(0.0) { -F::INFINITY } else { value };
+    let value = if x < F::of(0.0) { F::NAN } else { value };
+    if x < F::INFINITY { value } else { x }
+}
+
+/// The binary logarithm of a finite positive number as the sum of a short number and a small one:
+/// half as many digits again as one number has.
+///
+/// `ln m = 2/3 s (3 + z + z^2 L)` with `z = s^2`. Every factor is split so that the product of the
+/// short parts is exact (as in fdlibm's `pow`). The short parts come from the rough values, and what
+/// these lack joins the small ones: so the two chains do not wait for each other.
+#[inline(always)]
+pub fn log2_pair<F: Format>(x: F) -> (F, F) {
+    let (one, three) = (F::of(1.0), F::of(3.0));
+    let (k, m) = x.exponent_and_significand();
+
+    let numerator = m - one;
+    let denominator = m + one;
+    let reciprocal = one / denominator;
+    let s = numerator * reciprocal;
+    let s_high = s.short();
+    let denominator_high = denominator.short();
+    let denominator_low = m - (denominator_high - one);
+    let residual = (numerator - s_high * denominator_high) - s_high * denominator_low;
+    let s_low = residual * reciprocal;
+
+    let z = s * s;
+    let square = z * z;
+    let tail = square * F::log_tail(z) + s_low * (s_high + s);
+    let rough_tail = square * (F::of(3.0 / 5.0) + F::of(3.0 / 7.0) * z);
+    let series_high = (three + (z + rough_tail)).short();
+    let series_low = ((three - series_high) + s_high * s_high) + tail;
+
+    let product = s_high * series_high;
+    let product_high = product.short();
+    let product_low = (product - product_high) + (s_low * series_high + s * series_low);
+
+    let [scale_high, scale_low] = F::LOG2_SCALE;
+    let log_high = scale_high * product_high;
+    let log_low = scale_low * product_high + (scale_high + scale_low) * product_low;
+    let high = (k + log_high).short();
+    (high, ((k - high) + log_high) + log_low)
+}

@@ -1,0 +1,75 @@
+//! The one door to transcendental functions.
+//!
+//! They are written in `+ - * /`, comparisons and whole-number operations on bits, in one order, so
+//! that a wheel, a test, a microcontroller and every vector unit compute the same bits. `clippy.toml`
+//! bans every other way; a fused multiply-add is used nowhere, and single precision never computes
+//! in double.
+//!
+//! No function but [`sin_cos`](f64::sin_cos), [`sin`](f64::sin), [`cos`](f64::cos) and
+//! [`phi`](f64::phi) of order 3 and more has a branch: a loop over a slice becomes packed code. For
+//! sines in such a loop take [`sin_cos_fast`](f64::sin_cos_fast) and mend what
+//! [`needs_care`](f64::needs_care) with `sin_cos`: the bits are the same.
+//!
+//! | file | what is there |
+//! |---|---|
+//! | `exponential`, `phi`, `logarithm`, `power`, `hyperbolic`, `arctangent`, `trigonometric` | the functions, once for both formats |
+//! | `double`, `single`, `format` | constants and minimax polynomials of a format |
+//! | `bits` | powers of two, whole numbers and signs |
+//! | `polynomial` | Estrin's scheme |
+//!
+//! Errors are below 1 unit in the last place for `exp`, `ln`, `sin` and `cos`, 1.3 for `expm1`,
+//! `tanh` and `atan`, 1.7 for `phi_1`, 1.9 for `powf` and 4 for `phi_2`, over the whole range
+//! (`tests/math.rs`).
+
+mod arctangent;
+mod bits;
+mod double;
+mod exponential;
+mod format;
+mod hyperbolic;
+mod logarithm;
+mod phi;
+mod polynomial;
+mod power;
+mod single;
+mod trigonometric;
+
+macro_rules! elementary {
+    ($float:ident: $sqrt:ident, $cbrt:ident, $sincos:ident) => {
+        /// Elementary functions on one primitive type.
+        pub mod $float {
+            use super::{arctangent, exponential, hyperbolic, logarithm, phi, power, trigonometric};
+
+            elementary!(@ "`e^x`.", exp(x: $float) -> $float, exponential::exp(x));
+            elementary!(@ "`e^x - 1`.", expm1(x: $float) -> $float, exponential::expm1(x));
+            elementary!(@ "`phi_k(x) = sum_j x^j / (j + k)!`, the weights of an exponential step.",
+                phi(order: u8, x: $float) -> $float, phi::phi(order, x));
+            elementary!(@ "Natural logarithm.", ln(x: $float) -> $float, logarithm::ln(x));
+            elementary!(@ "`x` to the power `p`; of a negative `x` only whole ones.",
+                powf(x: $float, p: $float) -> $float, power::powf(x, p));
+            elementary!(@ "Hyperbolic tangent.", tanh(x: $float) -> $float, hyperbolic::tanh(x));
+            elementary!(@ "Arc tangent.", atan(x: $float) -> $float, arctangent::atan(x));
+            elementary!(@ "Square root.", sqrt(x: $float) -> $float, libm::$sqrt(x));
+            elementary!(@ "Real, odd cube root.", cbrt(x: $float) -> $float, libm::$cbrt(x));
+            elementary!(@ "Sine.", sin(x: $float) -> $float, sin_cos(x).0);
+            elementary!(@ "Cosine.", cos(x: $float) -> $float, sin_cos(x).1);
+            elementary!(@ "Sine and cosine.", sin_cos(x: $float) -> ($float, $float),
+                if needs_care(x) { libm::$sincos(x) } else { sin_cos_fast(x) });
+            elementary!(@ "Sine and cosine without a branch, where `x` does not [need care](needs_care).",
+                sin_cos_fast(x: $float) -> ($float, $float), trigonometric::sin_cos_fast(x));
+            elementary!(@ "Whether `x` is too large for [`sin_cos_fast`].",
+                needs_care(x: $float) -> bool, trigonometric::needs_care(x));
+        }
+    };
+    (@ $doc:literal, $name:ident($($x:ident: $from:ty),+) -> $to:ty, $value:expr) => {
+        #[doc = $doc]
+        #[inline(always)]
+        #[must_use]
+        pub fn $name($($x: $from),+) -> $to {
+            $value
+        }
+    };
+}
+
+elementary!(f64: sqrt, cbrt, sincos);
+elementary!(f32: sqrtf, cbrtf, sincosf);

@@ -1,0 +1,27 @@
+//! Polynomials by Estrin's scheme.
+
+/// `c0 + c1 x + c2 x^2 + ...`: neighbours are joined to a polynomial in `x^2`, and so on. Of `n`
+/// coefficients only about `log2 n` wait for one another, of Horner's scheme all. With brackets
+/// around `c0` there is no `c1`: `c0 + c2 x^2 + c3 x^3 + ...`.
+macro_rules! estrin {
+    ($x:ident; [$first:expr], $($coefficient:expr),+ $(,)?) => {
+        estrin!(@pairs $x [$first] $($coefficient),+)
+    };
+    ($x:ident; $($coefficient:expr),+ $(,)?) => {
+        estrin!(@pairs $x [] $($coefficient),+)
+    };
+    (@pairs $x:ident [] $last:expr) => { $last };
+    (@pairs $x:ident [$($joined:expr),*] $even:expr, $odd:expr $(, $rest:expr)*) => {
+        estrin!(@pairs $x [$($joined,)* $even + $odd * $x] $($rest),*)
+    };
+    (@pairs $x:ident [$only:expr]) => { $only };
+    (@pairs $x:ident [$($joined:expr),+] $last:expr) => {
+        estrin!(@pairs $x [$($joined,)+ $last])
+    };
+    (@pairs $x:ident [$($joined:expr),+]) => {{
+        let square = $x * $x;
+        estrin!(@pairs square [] $($joined),+)
+    }};
+}
+
+pub(super) use estrin;

@@ -1,0 +1,138 @@
+//! Single precision.
+//!
+//! The polynomials are those of `tests/elementary/coefficients.py`.
+
+// All the digits that identify a number; a rounded ln 2 is meant as such.
+#![allow(clippy::approx_constant, clippy::excessive_precision)]
+
+use super::format::Format;
+use super::polynomial::estrin;
+
+impl Format for f32 {
+    const EXP_RANGE: (Self, Self) = (-105.0, 89.0);
+    const EXPM1_RANGE: (Self, Self) = (-20.0, 89.0);
+    const EXP2_RANGE: Self = 200.0;
+    const EXPM1_LINEAR: Self = 1e-8;
+    const TANH_ONE: Self = 10.0;
+    const LARGE_EXPONENT: Self = 1e10;
+    const LARGEST_PHASE: Self = 3000.0;
+
+    const LOG2_E: Self = 1.442695;
+    const LN_2: [Self; 2] = [0.69314575, 1.4286068e-06];
+    const LOG2_SCALE: [Self; 2] = [0.96191406, -0.000117368574];
+    const FRAC_2_PI: Self = 0.63661975;
+    const PI_HALF: [Self; 4] = [1.5708008, -4.454516e-06, 6.0765615e-11, 5.390303e-15];
+    const PI_HALF_PAIR: [Self; 2] = [1.5707964, -4.371139e-08];
+
+    const PHI_PAIRS: usize = 4;
+
+    fn inverse_factorial(n: usize) -> Self {
+        INVERSE_FACTORIALS.get(n).copied().unwrap_or(0.0)
+    }
+
+    #[inline(always)]
+    fn exp_beyond(first: Self, r: Self) -> Self {
+        estrin!(
+            r;
+            [first],
+            0.5,
+            0.16666518,
+            0.041666206,
+            0.00836889,
+            0.0013950492,
+        )
+    }
+
+    #[inline(always)]
+    fn expm1_beyond(first: Self, r: Self) -> Self {
+        estrin!(
+            r;
+            [first],
+            0.5,
+            0.16666667,
+            0.041666467,
+            0.008333286,
+            0.0013933652,
+            0.00019907588,
+        )
+    }
+
+    #[inline(always)]
+    fn exp2_series(f: Self) -> Self {
+        estrin!(
+            f;
+            0.6931472,
+            0.2402265,
+            0.05550328,
+            0.009618004,
+            0.0013400282,
+            0.00015476315,
+        )
+    }
+
+    #[inline(always)]
+    fn log_beyond(first: Self, z: Self) -> Self {
+        estrin!(
+            z;
+            first,
+            0.66666776,
+            0.39977533,
+            0.29871997,
+        )
+    }
+
+    #[inline(always)]
+    fn log_tail(z: Self) -> Self {
+        estrin!(
+            z;
+            0.6000023,
+            0.42820686,
+            0.3512823,
+        )
+    }
+
+    #[inline(always)]
+    fn atan_series(z: Self) -> Self {
+        estrin!(
+            z;
+            -0.33333316,
+            0.19998488,
+            -0.14243828,
+            0.10595831,
+            -0.060830005,
+        )
+    }
+
+    #[inline(always)]
+    fn sin_series(z: Self) -> Self {
+        estrin!(
+            z;
+            -0.16666655,
+            0.008332178,
+            -0.00019517235,
+        )
+    }
+
+    #[inline(always)]
+    fn cos_beyond(first: Self, z: Self) -> Self {
+        estrin!(
+            z;
+            [first],
+            0.041666646,
+            -0.0013887367,
+            2.443838e-05,
+        )
+    }
+}
+
+const INVERSE_FACTORIALS: [f32; 20] = {
+    let mut inverse: [f32; 20] = [1.0; 20];
+    let mut factorial = 1.0;
+    let mut n = 1;
+    while n < inverse.len() {
+        factorial *= n as f32;
+        inverse[n] = 1.0 / factorial;
+        n += 1;
+    }
+    inverse
+};

@@ -1,0 +1,58 @@
+//! Sine and cosine.
+//!
+//! `x = n pi/2 + r` with `|r| <= pi/4`; `n` says which of the two series, with which sign.
+
+use super::format::Format;
+
+/// Whether a phase is too large for [`sin_cos_fast`].
+#[inline(always)]
+pub fn needs_care<F: Format>(x: F) -> bool {
+    x.abs() > F::LARGEST_PHASE
+}
+
+/// Sine and cosine of a phase that [does not need care](needs_care), without a branch.
+#[inline(always)]
+pub fn sin_cos_fast<F: Format>(x: F) -> (F, F) {
+    let (n, bits) = (x * F::FRAC_2_PI).nearest();
+    let [first, second, third, fourth] = F::PI_HALF;
+    // Next to a multiple of pi/2 one part after the other cancels.
+    let (sum, lost) = difference(x - n * first, n * second);
+    let (r, lost_again) = difference(sum, n * third);
+    let low = (lost + lost_again) - n * fourth;
+
+    let (sin, cos) = (sine(r, low), cosine(r, low));
+    // -0 stays what it is
+    let sin = if x == F::of(0.0) { x } else { sin };
+    let swapped = F::is_odd(bits);
+    (
+        if swapped { cos } else { sin }.negated_by_second_bit(bits, 0),
+        if swapped { sin } else { cos }.negated_by_second_bit(bits, 1),
+    )
+}
+
+/// `a - b`, and what rounding has taken from it.
+#[inline(always)]
+fn difference<F: Format>(a: F, b: F) -> (F, F) {
+    let rounded = a - b;
+    let part = rounded - a;
+    (rounded, (a - (rounded - part)) - (b + part))
+}
+
+/// Sine of `r + low`.
+#[inline(always)]
+fn sine<F: Format>(r: F, low: F) -> F {
+    let z = r * r;
+    let cube = z * r;
+    r + (cube * F::sin_series(z) + low * (F::of(1.0) - F::of(0.5) * z))
+}
+
+/// Cosine of `r + low`.
+#[inline(always)]
+fn cosine<F: Format>(r: F, low: F) -> F {
+    let one = F::of(1.0);
+    let z = r * r;
+    let half = F::of(0.5) * z;
+    let rough = one - half;
+    let lost = (one - rough) - half;
+    rough + F::cos_beyond(lost - r * low, z)
+}
