@@ -112,6 +112,8 @@ macro_rules! format {
                 check(own::phi(2, 0.0), 0.5, "phi_2 0");
                 check(own::phi(2, smallest), 0.5, "phi_2 of the smallest");
                 check(own::phi(1, -inf), 0.0, "phi_1 -inf");
+                check(own::phi(1, inf), inf, "phi_1 inf");
+                check(own::phi(2, inf), inf, "phi_2 inf");
                 check(own::ln(0.0), -inf, "ln 0");
                 check(own::ln(-0.0), -inf, "ln -0");
                 check(own::ln(1.0), 0.0, "ln 1");
@@ -192,19 +194,19 @@ macro_rules! format {
             fn arguments() -> Vec<$float> {
                 let step = $whole::MAX / 40_009;
                 let every_size = (0..40_009).map(|i| $float::from_bits(step * i));
-        every_size.chain((0..9001).map(|i| i as $float / 300.0 - 15.0)).collect()
-    }
+                every_size.chain((0..9001).map(|i| i as $float / 300.0 - 15.0)).collect()
+            }
 
-    const LOOPS: [(&str, fn($float) -> $float, fn(&mut [$float])); 9] = [
+            const LOOPS: [(&str, fn($float) -> $float, fn(&mut [$float])); 9] = [
         loops!(exp: own::exp),
         loops!(expm1: own::expm1),
         loops!(ln: own::ln),
         loops!(tanh: own::tanh),
         loops!(atan: own::atan),
-                loops!(power: |x| own::powf(x, 1.37)),
-                loops!(phi_2: |x| own::phi(2, x)),
-                loops!(sine: |x| own::sin_cos_fast(x).0),
-                loops!(cosine: |x| own::sin_cos_fast(x).1),
+        loops!(power: |x| own::powf(x, 1.37)),
+        loops!(phi_2: |x| own::phi(2, x)),
+        loops!(sine: |x| own::sin_cos_fast(x).0),
+        loops!(cosine: |x| own::sin_cos_fast(x).1),
             ];
 
             #[test]

@@ -45,6 +45,12 @@ pub trait Bits:
     /// `k` and `m` of `x = 2^k m` with `m` between `sqrt(1/2)` and `sqrt(2)`, for finite `x > 0`;
     /// some finite numbers for any other `x`.
     fn exponent_and_significand(self) -> (Self, Self);
+    /// `m` and `e` of `|x| = m 2^e` with a whole `m`, for a finite number in the normal range.
+    fn whole_and_exponent(self) -> (u64, i32);
+    /// `fraction / 2^digits` as the sum of a number and a small one.
+    fn pair_of_fraction(fraction: i128, digits: u32) -> (Self, Self);
+    /// A small whole number.
+    fn whole(n: u8) -> Self::Whole;
     /// Whether a number is whole, and whether it is odd; not for NaN.
     fn whole_and_odd(self) -> (bool, bool);
 }
@@ -140,6 +146,23 @@ macro_rules! bits {
                     let exponent = Self::from_bits((moved >> STORED) | WHOLE.to_bits());
                     let significand = (moved & ((1 << STORED) - 1)) + ROOT_HALF;
                     (exponent - lifted, Self::from_bits(significand))
+                }
+
+                fn whole_and_exponent(self) -> (u64, i32) {
+                    let field = self.abs().to_bits() >> STORED;
+                    let digits = (self.to_bits() & ((1 << STORED) - 1)) | (1 << STORED);
+                    (digits.into(), field as i32 - (BIAS + STORED as $whole) as i32)
+                }
+
+                fn pair_of_fraction(fraction: i128, digits: u32) -> (Self, Self) {
+                    let unit = Self::from_bits((BIAS - digits as $whole) << STORED);
+                    let high = fraction as Self;
+                    (high * unit, (fraction - high as i128) as Self * unit)
+                }
+
+                #[inline(always)]
+                fn whole(n: u8) -> $whole {
+                    n.into()
                 }
 
                 #[inline(always)]

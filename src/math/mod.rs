@@ -14,6 +14,7 @@
 //! |---|---|
 //! | `exponential`, `phi`, `logarithm`, `power`, `hyperbolic`, `arctangent`, `trigonometric` | the functions, once for both formats |
 //! | `double`, `single`, `format` | constants and minimax polynomials of a format |
+//! | `phase` | quarter turns in a large phase |
 //! | `bits` | powers of two, whole numbers and signs |
 //! | `polynomial` | Estrin's scheme |
 //!
@@ -28,6 +29,7 @@ mod exponential;
 mod format;
 mod hyperbolic;
 mod logarithm;
+mod phase;
 mod phi;
 mod polynomial;
 mod power;
@@ -35,7 +37,7 @@ mod single;
 mod trigonometric;
 
 macro_rules! elementary {
-    ($float:ident: $sqrt:ident, $cbrt:ident, $sincos:ident) => {
+    ($float:ident: $sqrt:ident, $cbrt:ident) => {
         /// Elementary functions on one primitive type.
         pub mod $float {
             use super::{arctangent, exponential, hyperbolic, logarithm, phi, power, trigonometric};
@@ -54,7 +56,7 @@ macro_rules! elementary {
             elementary!(@ "Sine.", sin(x: $float) -> $float, sin_cos(x).0);
             elementary!(@ "Cosine.", cos(x: $float) -> $float, sin_cos(x).1);
             elementary!(@ "Sine and cosine.", sin_cos(x: $float) -> ($float, $float),
-                if needs_care(x) { libm::$sincos(x) } else { sin_cos_fast(x) });
+                trigonometric::sin_cos(x));
             elementary!(@ "Sine and cosine without a branch, where `x` does not [need care](needs_care).",
                 sin_cos_fast(x: $float) -> ($float, $float), trigonometric::sin_cos_fast(x));
             elementary!(@ "Whether `x` is too large for [`sin_cos_fast`].",
@@ -71,5 +73,5 @@ macro_rules! elementary {
     };
 }
 
-elementary!(f64: sqrt, cbrt, sincos);
-elementary!(f32: sqrtf, cbrtf, sincosf);
+elementary!(f64: sqrt, cbrt);
+elementary!(f32: sqrtf, cbrtf);

@@ -3,7 +3,7 @@
 use super::exponential::{exp, expm1, half_expm1};
 use super::format::Format;
 
-/// `phi_k(x)`, with `phi_0 = e^x` and `phi_(k+1) = (phi_k - 1/k!) / x`.
+/// `phi_k(x)`, with `phi_0 = e^x` and `phi_(k+1) = (phi_k - 1/k!) / x`; infinite where `e^x` is.
 #[inline(always)]
 pub fn phi<F: Format>(order: u8, x: F) -> F {
     match order {
@@ -20,6 +20,7 @@ pub fn phi<F: Format>(order: u8, x: F) -> F {
 #[inline(always)]
 fn phi_1<F: Format>(x: F) -> F {
     let value = expm1(x) / x;
+    let value = if x == F::INFINITY { x } else { value };
     if x == F::of(0.0) { F::of(1.0) } else { value }
 }
 
@@ -29,6 +30,7 @@ fn phi_2<F: Format>(x: F) -> F {
     let (high, low) = half_expm1(x);
     let beyond = (F::of(2.0) * high - x) + F::of(2.0) * low;
     let value = beyond / x / x;
+    let value = if x == F::INFINITY { x } else { value };
     if x.abs() < F::EXPM1_LINEAR { F::of(0.5) } else { value }
 }
 

@@ -3,6 +3,13 @@
 //! `x = n pi/2 + r` with `|r| <= pi/4`; `n` says which of the two series, with which sign.
 
 use super::format::Format;
+use super::phase;
+
+/// Sine and cosine.
+#[inline(always)]
+pub fn sin_cos<F: Format>(x: F) -> (F, F) {
+    if needs_care(x) { sin_cos_with_care(x) } else { sin_cos_fast(x) }
+}
 
 /// Whether a phase is too large for [`sin_cos_fast`].
 #[inline(always)]
@@ -19,14 +26,30 @@ pub fn sin_cos_fast<F: Format>(x: F) -> (F, F) {
     let (sum, lost) = difference(x - n * first, n * second);
     let (r, lost_again) = difference(sum, n * third);
     let low = (lost + lost_again) - n * fourth;
-
-    let (sin, cos) = (sine(r, low), cosine(r, low));
+    let (sin, cos) = of_quadrant(bits, r, low);
     // -0 stays what it is
-    let sin = if x == F::of(0.0) { x } else { sin };
-    let swapped = F::is_odd(bits);
+    (if x == F::of(0.0) { x } else { sin }, cos)
+}
+
+/// Sine and cosine of a large phase.
+#[cold]
+fn sin_cos_with_care<F: Format>(x: F) -> (F, F) {
+    if x.abs() == F::INFINITY {
+        return (F::NAN, F::NAN);
+    }
+    let (n, r, low) = phase::reduce(x);
+    let (sin, cos) = of_quadrant(n, r, low);
+    (if x < F::of(0.0) { -sin } else { sin }, cos)
+}
+
+/// Sine and cosine of `n pi/2 + r + low`.
+#[inline(always)]
+fn of_quadrant<F: Format>(n: F::Whole, r: F, low: F) -> (F, F) {
+    let (sin, cos) = (sine(r, low), cosine(r, low));
+    let swapped = F::is_odd(n);
     (
-        if swapped { cos } else { sin }.negated_by_second_bit(bits, 0),
-        if swapped { sin } else { cos }.negated_by_second_bit(bits, 1),
+        if swapped { cos } else { sin }.negated_by_second_bit(n, 0),
+        if swapped { sin } else { cos }.negated_by_second_bit(n, 1),
     )
 }
 

@@ -107,7 +107,7 @@ def powers(kind: Format, random: np.random.Generator) -> Iterator[tuple[float, f
     )
     bases = [spread(random, 0.5, 2), spread(random, 0.99, 1.01)]
     bases.append(abs(sizes(random, lowest, 1 / lowest)))
-    for base in np.concatenate(bases):
+    for base in np.concatenate(bases * 4):
         x = kind.rounded(float(base))
         yield x, kind.rounded(random.uniform(smallest, largest) / float(mp.log(x)))
 
