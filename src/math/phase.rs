@@ -3,7 +3,6 @@
 //! A phase is a whole number times a power of two, `m 2^e`. Of `2^e 2/pi` only a window of 192 bits
 //! can count: those above it make whole turns of every `m`, those below it are too small to be seen.
 
-use super::bits::Bits;
 use super::format::Format;
 
 /// 64 zeros, then the binary digits of 2/pi.
