@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import socket
 import time
@@ -172,7 +173,8 @@ class Dask:
     """A Dask cluster, by the address of its scheduler (``tcp://10.0.0.7:8786``).
 
     Dask moves what a lost worker did to another one, and says of a piece that has ended several
-    workers that it is killing them.
+    workers that it is killing them. Its log of this process is silenced: what goes wrong is said
+    in a sentence, not by tracebacks.
 
     Raises
     ------
@@ -191,6 +193,7 @@ class Dask:
             raise StribeckError(
                 "--scheduler needs Dask, which is not installed: pip install stribeck[fleet]"
             ) from None
+        _silence("distributed")
         self._loss = distributed.KilledWorker
         self._address = address
         try:
@@ -245,6 +248,13 @@ def _knock(address: str, seconds: float) -> None:
         if not (host and port.isdecimal()):
             raise ValueError("an address is like tcp://10.0.0.7:8786")
         socket.create_connection((host.strip("[]"), int(port)), seconds).close()
+
+
+def _silence(package: str) -> None:
+    """Let a package log nothing but what ends it; some of its loggers have levels of their own."""
+    for name in [package, *logging.root.manager.loggerDict]:
+        if name.partition(".")[0] == package:
+            logging.getLogger(name).setLevel(logging.CRITICAL)
 
 
 def _first_line(error: BaseException) -> str:

@@ -42,6 +42,7 @@ class Cluster:
         self._folder = folder
         self._processes: list[subprocess.Popen[bytes]] = []
         self._start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+        self.scheduler = self._processes[0]
         self.address = self._wait_for(r"Scheduler at:\s*(tcp://\S+)")
         words = ("worker", self.address, "--nthreads", "1", "--no-dashboard")
         watched = "--nanny" if nanny else "--no-nanny"
@@ -127,3 +128,22 @@ def test_the_command_works_on_the_cluster(
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
     assert answers(tmp_path / "fleet").height == 4
+
+
+def test_a_scheduler_that_is_lost_ends_the_run_in_one_line(
+    cluster: Cluster, logs: list[Path], tmp_path: Path
+) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "stribeck", "fleet", *map(str, logs), "--model", LAW, "--scheduler",
+         cluster.address, "-o", str(tmp_path / "fleet")],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    deadline = time.monotonic() + 120.0
+    while not any((tmp_path / "fleet").glob("results/*.parquet")):
+        assert process.poll() is None and time.monotonic() < deadline
+        time.sleep(0.1)
+    cluster.scheduler.kill()
+    out, error = process.communicate(timeout=120)
+    assert process.returncode == 2 and out == "" and "Traceback" not in error
+    assert f"the connection to {cluster.address} was lost" in error.splitlines()[-1]
+    assert answers(tmp_path / "fleet").height > 0
