@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.fft import next_fast_len
 
 from stribeck.identify.triangle import UNSEEN, Triangle
 
@@ -26,8 +27,10 @@ def correlation_length(residual: Array) -> float:
         return 1.0
     length = 1.0
     limit = min(size // 4, 20000)
-    spectrum = np.fft.rfft(x, 2 * size)
-    correlation = np.fft.irfft(np.abs(spectrum) ** 2)[: limit + 1] / power
+    # Zeros enough that no lag up to the limit wraps around, to a length that the transform likes.
+    padded = next_fast_len(size + limit, real=True)
+    spectrum = np.fft.rfft(x, padded)
+    correlation = np.fft.irfft(np.abs(spectrum) ** 2, padded)[: limit + 1] / power
     for lag in range(1, limit + 1):
         length += 2.0 * correlation[lag]
         if lag >= 5.0 * max(length, 1.0):

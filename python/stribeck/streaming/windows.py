@@ -139,31 +139,27 @@ class Windows:
         return -(-self.data.rows // self.size)
 
     def __iter__(self) -> Iterator[Window]:
-        """Windows in order; the next one is read while the last one is worked on."""
+        """Windows in order; the next one is made ready while the last one is worked on."""
         anchor = Anchor()
         with ThreadPoolExecutor(1) as reader:
-            coming = reader.submit(self._frame, 0)
+            coming = reader.submit(self._window, 0, anchor)
             for start in range(0, self.data.rows, self.size):
-                frame = coming.result()
+                window = coming.result()
+                anchor = anchor if window is None else Anchor.of(window)
                 if start + self.size < self.data.rows:
-                    coming = reader.submit(self._frame, start + self.size)
-                window = self._window(frame, start, anchor)
+                    coming = reader.submit(self._window, start + self.size, anchor)
                 if window is not None:
-                    anchor = Anchor.of(window)
                     yield window
-
-    def _frame(self, start: int) -> pl.DataFrame:
-        begin, end = self._reach(start)
-        return self.data.frame(begin, end, self._columns)
 
     def _reach(self, start: int) -> tuple[int, int]:
         """Rows of the window that begins at `start`, with its margins."""
         stop = min(start + self.size, self.data.rows)
         return max(start - self.margin.before, 0), min(stop + self.margin.after, self.data.rows)
 
-    def _window(self, frame: pl.DataFrame, start: int, anchor: Anchor) -> Window | None:
+    def _window(self, start: int, anchor: Anchor) -> Window | None:
         """The window that begins at `start`; None where no row of it is left."""
-        data = self._channels(frame, self._reach(start)[0])
+        begin, end = self._reach(start)
+        data = self._channels(self.data.frame(begin, end, self._columns), begin)
         finite = np.ones(data.rows.size, dtype=bool)
         for values in data.values.values():
             finite &= np.isfinite(values)
