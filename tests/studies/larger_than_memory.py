@@ -20,7 +20,6 @@ from typing import Any
 import numpy as np
 import polars as pl
 from stribeck.generate import generate
-from stribeck.report.numbers import with_error
 
 #: Rows of one file, of the recording that is repeated, and of a row group.
 FILE_ROWS, PIECE_ROWS, GROUP_ROWS = 10_000_000, 1_000_000, 262_144
@@ -80,15 +79,13 @@ def measured(folder: Path, model: str) -> dict[str, Any]:
 
 def row(rows: int, answer: dict[str, Any]) -> str:
     """A row of the README's table."""
-    data, found = answer["data"], answer["parameters"]
+    data = answer["data"]
     cells = [
         f"{rows:.0e}".replace("e+0", "e"),
         f"{answer['seconds']:.3g} s",
         f"{data['rows_per_second'] / 1e6:.2g} million",
         f"{answer['largest_resident_megabytes']:.0f} MB",
     ]
-    for name in ("viscous_friction", "coulomb_friction"):
-        cells.append(" ± ".join(with_error(found[name]["value"], found[name]["stderr"])))
     return f"| {' | '.join(cells)} |"
 
 
@@ -99,8 +96,8 @@ def main() -> None:
     parser.add_argument("--rows", default="1e6,1e7,1e8,1e9")
     parser.add_argument("--model", default="coulomb")
     given = parser.parse_args()
-    print("| samples | time | samples/s | largest memory | viscous friction | Coulomb friction |")
-    print("|---|---|---|---|---|---|")
+    print("| samples | time | samples/s | largest memory |")
+    print("|---|---|---|---|")
     for rows in (round(float(text)) for text in given.rows.split(",")):
         folder = given.folder / f"{rows:.0e}"
         write(folder, rows)

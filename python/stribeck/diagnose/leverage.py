@@ -60,19 +60,29 @@ def held_out(base: Array, torque: Array, space: Array, block: NDArray[np.intp]) 
     if square <= 0:
         return FITTED
     wide = np.column_stack([base, orthonormal(rest(base, space))])
+    plain = base.shape[1]
     gained = cost = 0.0
     for b in np.unique(block):
         rows = block == b
-        weight, vectors = _weights(base[rows])
-        along = vectors.T @ (base[rows].T @ left[rows])
-        seen = left[rows] + base[rows] @ (vectors @ (along / (1.0 - weight)))
+        own, unseen = wide[rows], left[rows]
+        gram = own.T @ own
+        # The plain model's basis stands first in the wider one's.
+        weight, vectors = _weights(gram[:plain, :plain])
+        along = vectors.T @ (own[:, :plain].T @ unseen)
+        seen = unseen + own[:, :plain] @ (vectors @ (along / (1.0 - weight)))
         gained += float(seen @ seen)
-        wider, _ = _weights(wide[rows])
+        wider, _ = _weights(gram)
         cost += float(np.sum(wider / (1.0 - wider)) - np.sum(weight / (1.0 - weight)))
     return HeldOut(max(gained / square, 1.0), max(cost, 0.0))
 
 
-def _weights(basis: Array) -> tuple[Array, Array]:
-    """Weight of a block in each direction of a fit [r], and the directions [r, r]."""
-    weights, vectors = np.linalg.eigh(basis.T @ basis)
+def _weights(gram: Array) -> tuple[Array, Array]:
+    """Weight of a block in each direction of a fit [r], and the directions [r, r].
+
+    Parameters
+    ----------
+    gram : array [r, r]
+        Products of the basis of the fit over the rows of the block.
+    """
+    weights, vectors = np.linalg.eigh(gram)
     return np.clip(weights, 0.0, HEAVIEST), vectors

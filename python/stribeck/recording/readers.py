@@ -61,7 +61,10 @@ def read_table(path: str | Path) -> Source:
     name = str(path)
     try:
         if path.is_dir():
-            raise RecordingError(f"{name}: is a directory, give one recording file")
+            raise RecordingError(
+                f"{name}: is a directory, give one recording file (fit, diagnose and improve take "
+                "folders of Parquet files too)"
+            )
         data = path.read_bytes()
     except FileNotFoundError:
         raise RecordingError(f"{name}: no such file{_beside(path)}") from None

@@ -43,7 +43,13 @@ LENGTHS = 4.0
 
 
 def streamed_fit(
-    data: DataSet, sample: Sample, start: Fit, *, told: Told, window_rows: int = WINDOW_ROWS
+    data: DataSet,
+    sample: Sample,
+    start: Fit,
+    *,
+    told: Told,
+    window_rows: int = WINDOW_ROWS,
+    tolerance: float | None = None,
 ) -> StreamedFit:
     """Identify the model of `start` on all rows.
 
@@ -56,6 +62,9 @@ def streamed_fit(
         To `sample`, which is of `data`.
     told
         Told after each window: rows done, rows in all, and which pass it is.
+    tolerance
+        The search ends when its next step foresees a smaller relative fall of the squared error;
+        default: one that moves no parameter by more than a hundredth of its standard error.
 
     Raises
     ------
@@ -70,7 +79,9 @@ def streamed_fit(
     edges = group_edges(sample.edges, _groups(start, sample, length))
     windows = Windows(data, sample, model, window_rows)
     problem = StreamedProblem(windows, model, edges, told)
-    found = _searched(problem, model.values, bounds, SETTLED * length / int(sample.edges[-1]))
+    if tolerance is None:
+        tolerance = SETTLED * length / int(sample.edges[-1])
+    found = _searched(problem, model.values, bounds, tolerance)
     groups = _at(problem, found.values)
     parts = _in_order(groups, found.values)
     block = np.searchsorted(sample.edges, edges[groups.number], side="right") - 1

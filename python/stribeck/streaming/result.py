@@ -71,7 +71,10 @@ class StreamedFit:
             return None
 
     def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of `stribeck fit`, and what was read of the data."""
+        """The contract's JSON of `stribeck fit`, and what was read of the data.
+
+        The relative residual, which needs a filter over all rows, is of the stretches in memory.
+        """
         sample = self.start.recording
         return {
             "model": self.model.spec,

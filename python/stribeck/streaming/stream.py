@@ -9,7 +9,7 @@ from typing import Any
 
 from stribeck.diagnose import LEAST_FALL
 from stribeck.diagnose import diagnose as diagnose_in_memory
-from stribeck.fit import Fit
+from stribeck.fit import QUICK, Fit
 from stribeck.fit import fit as fit_in_memory
 from stribeck.improve import improve as improve_in_memory
 from stribeck.model import Model
@@ -102,7 +102,7 @@ class Stream:
         return StreamedDiagnosis(
             found,
             self._on_all_rows(first, told),
-            tuple(self._on_all_rows(finding.fit, told) for finding in found.findings),
+            tuple(self._on_all_rows(f.fit, told, QUICK.tolerance) for f in found.findings),
         )
 
     def improve(
@@ -125,11 +125,16 @@ class Stream:
             `stribeck.improve`.
         """
         found = improve_in_memory(base, self.sample.recording, starts=starts, seed=seed, **options)
-        way = [found.base, *(step.after for step in found.steps)]
-        return StreamedImprovement(found, tuple(self._on_all_rows(fit, told) for fit in way))
+        *way, last = [found.base, *(step.after for step in found.steps)]
+        # Of the models on the way only the errors are wanted.
+        fits = [self._on_all_rows(fit, told, QUICK.tolerance) for fit in way]
+        return StreamedImprovement(found, (*fits, self._on_all_rows(last, told)))
 
-    def _on_all_rows(self, start: Fit, told: Told) -> StreamedFit:
-        return streamed_fit(self.data, self.sample, start, told=told, window_rows=self.window_rows)
+    def _on_all_rows(self, start: Fit, told: Told, tolerance: float | None = None) -> StreamedFit:
+        return streamed_fit(
+            self.data, self.sample, start, told=told, window_rows=self.window_rows,
+            tolerance=tolerance,
+        )  # fmt: skip
 
     def __repr__(self) -> str:
         files = len(self.data.files)
