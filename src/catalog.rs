@@ -5,7 +5,7 @@ use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
 use crate::effect::{self, FrictionEffect};
 use crate::law::{self, FrictionLaw};
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{EffectInfo, LawInfo, Parameters, Presence};
 
 macro_rules! laws {
@@ -78,7 +78,10 @@ macro_rules! laws {
                 &self,
                 sample: &Sample<S::Plain>,
                 constants: &Constants<S::Plain>,
-            ) -> Option<Deflection<S>> {
+            ) -> Option<Deflection<S>>
+            where
+                S: Scalar,
+            {
                 match self {
                     $(Self::$law(law) => law.deflection(sample, constants),)+
                     Self::$own(law) => law.deflection(sample, constants),
@@ -94,7 +97,10 @@ macro_rules! laws {
                 split: &Split<S>,
                 interval: &Interval<S::Plain>,
                 constants: &Constants<S::Plain>,
-            ) -> Step<S> {
+            ) -> Step<S>
+            where
+                S: Scalar,
+            {
                 match self {
                     $(Self::$law(law) => law.step(state, dry, split, interval, constants),)+
                     Self::$own(law) => law.step(state, dry, split, interval, constants),
@@ -183,7 +189,10 @@ macro_rules! effects {
                 state: &mut State<S>,
                 interval: &Interval<S::Plain>,
                 constants: &Constants<S::Plain>,
-            ) {
+            )
+            where
+                S: Scalar,
+            {
                 $(if let Some(effect) = &self.$id {
                     effect.apply_over(split, state, interval, constants);
                 })+

@@ -8,7 +8,7 @@ use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
 use crate::error::ModelError;
 use crate::formula::{Formula, OwnTerms};
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{Channel, ParameterInfo, Pole, Presence, Role};
 
 /// Which law, which terms by formula, which effects, which constants. Displays as
@@ -202,8 +202,12 @@ impl Spec {
             return Err(ModelError::Count { expected, given: values.len() });
         }
         for (parameter, value) in self.parameters().zip(values) {
-            if !parameter.admits(value.value()) {
-                let value = value.value();
+            let mut refused = None;
+            value.every(|value| {
+                refused = (!parameter.admits(value)).then_some(value);
+                refused.is_none()
+            });
+            if let Some(value) = refused {
                 return Err(ModelError::Value { parameter: parameter.name, value });
             }
         }
@@ -320,7 +324,10 @@ impl<S: Real> Composed<S> {
     /// one.
     #[inline]
     #[must_use]
-    pub fn deflection(&self, sample: &Sample<S::Plain>) -> Option<Deflection<S>> {
+    pub fn deflection(&self, sample: &Sample<S::Plain>) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         match &self.bristle {
             Some(bristle) => {
                 Some(Deflection::of_bristle(bristle.stiffness, bristle.damping, sample.velocity))
@@ -331,7 +338,10 @@ impl<S: Real> Composed<S> {
 
     /// As [`split`](Self::split), at the end of an interval; steps the states of effects.
     #[inline]
-    fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S> {
+    fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S>
+    where
+        S: Scalar,
+    {
         let mut split = self.law.split(&interval.sample, &self.constants);
         if let Some(own) = &self.own {
             own.add_to(&mut split, &interval.sample);
@@ -350,7 +360,10 @@ impl<S: Real> Composed<S> {
 
     /// The state that a sample held for long leaves behind; at rest one without tension.
     #[must_use]
-    pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
+    pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S>
+    where
+        S: Scalar,
+    {
         let mut state = State::default();
         let dt = S::Plain::from_f64(LONG);
         self.over(&mut state, &Interval { sample: *sample, mean_velocity: None, dt, mean: false });
@@ -359,14 +372,20 @@ impl<S: Real> Composed<S> {
 
     /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.
     #[inline]
-    pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
+    pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S>
+    where
+        S: Scalar,
+    {
         self.over(state, &Interval { sample: *sample, mean_velocity: None, dt, mean: true })
     }
 
     /// As [`step`](Self::step), over an interval. The torque at its end is as it is measured; the
     /// mean, which does the work, as it acts.
     #[inline]
-    pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
+    pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S>
+    where
+        S: Scalar,
+    {
         let split = if self.has_state {
             self.split_over(state, interval)
         } else {

@@ -102,6 +102,11 @@ impl<S: Real> Constants<S> {
     #[must_use]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub fn element_count(&self) -> usize {
-        self.elements.value() as usize
+        let mut count = 0;
+        self.elements.every(|elements| {
+            count = elements as usize;
+            true
+        });
+        count
     }
 }

@@ -1,6 +1,6 @@
 //! What a law sees at one instant, and what it makes of it.
 
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::table::Channel;
 
 /// One instant. Rotary joints: rad, N m; prismatic joints: m, N.
@@ -65,32 +65,31 @@ impl<S: Real> Sample<S> {
         }
     }
 
-    /// The quadrant of velocity and load torque; at rest or without load there is none.
+    /// What holds in the quadrant of velocity and load torque, out of one for each (see
+    /// [`Quadrants`]); at rest and without load, zero.
     #[inline]
     #[must_use]
-    pub fn quadrant(&self) -> Option<Quadrant> {
-        let (v, tl) = (self.velocity.value(), self.load_torque.value());
-        match (v > 0.0, tl > 0.0) {
-            _ if v == 0.0 || tl == 0.0 => None,
-            (true, true) => Some(Quadrant::First),
-            (false, true) => Some(Quadrant::Second),
-            (false, false) => Some(Quadrant::Third),
-            (true, false) => Some(Quadrant::Fourth),
-        }
+    pub fn in_quadrant<T: Real<Plain = S, Mask = S::Mask>>(&self, of: &Quadrants<T>) -> T {
+        let (v, tl) = (self.velocity, self.load_torque);
+        let (forward, loaded) = (v.is_positive(), tl.is_positive());
+        let moving_forward = T::choose(loaded, of.first, of.fourth);
+        let moving_backward = T::choose(loaded, of.second, of.third);
+        let none = v.at_zero().or(tl.at_zero());
+        T::choose(none, T::zero(), T::choose(forward, moving_forward, moving_backward))
     }
 }
 
-/// Which way a joint moves and which way it is loaded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quadrant {
+/// One number for each way that a joint can move and be loaded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quadrants<T> {
     /// Forward against the load: motoring.
-    First,
+    pub first: T,
     /// Backward with a positive load: generating.
-    Second,
+    pub second: T,
     /// Backward against the load: motoring.
-    Third,
+    pub third: T,
     /// Forward with a negative load: generating.
-    Fourth,
+    pub fourth: T,
 }
 
 /// A friction torque taken apart: dry friction times the direction of motion, a rate-dependent
@@ -194,13 +193,10 @@ impl<S: Real> StribeckCurve<S> {
     #[inline]
     #[must_use]
     pub fn displaced(&self, value: S) -> Self {
-        let argument = if self.value.value() > LOWEST {
-            self.argument - (value / self.value).ln()
-        } else if value.value() > LOWEST {
-            -value.ln()
-        } else {
-            self.argument
-        };
+        let lowest = S::Plain::from_f64(LOWEST);
+        let moved = self.argument - (value / self.value).ln();
+        let anew = S::choose(value.is_above(lowest), -value.ln(), self.argument);
+        let argument = S::choose(self.value.is_above(lowest), moved, anew);
         Self { value, argument, exponent: self.exponent }
     }
 
@@ -208,13 +204,16 @@ impl<S: Real> StribeckCurve<S> {
     #[inline]
     #[must_use]
     pub fn widened(&self, factor: S) -> Self {
-        let argument = self.argument.value();
-        if argument == 0.0 || !argument.is_finite() {
-            return *self;
-        }
         // The inverse first: a power that underflows is 0, one that overflows leaves inf/inf.
         let narrowed = factor.abs().divide(S::Plain::one()).powf(self.exponent);
-        Self::of(self.argument * narrowed, self.exponent)
+        let argument = self.argument;
+        let fixed = argument.at_zero().or(argument.is_finite().not());
+        let moved = Self::of(argument * narrowed, self.exponent);
+        Self {
+            value: S::choose(fixed, self.value, moved.value),
+            argument: S::choose(fixed, argument, moved.argument),
+            exponent: self.exponent,
+        }
     }
 }
 
@@ -226,10 +225,7 @@ pub fn stribeck_curve<S: Real>(
     stribeck_velocity: S,
     exponent: S,
 ) -> StribeckCurve<S> {
-    let argument = if velocity.value() == 0.0 {
-        S::zero()
-    } else {
-        stribeck_velocity.divide(velocity).abs().powf(exponent)
-    };
+    let ratio = stribeck_velocity.divide(velocity).abs();
+    let argument = S::choose(velocity.at_zero(), S::zero(), ratio.powf(exponent));
     StribeckCurve::of(argument, exponent)
 }

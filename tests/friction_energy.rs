@@ -7,7 +7,7 @@
 use stribeck::composed::Spec;
 use stribeck::dynamics::{Bristle, BristleState, State};
 use stribeck::sample::{Sample, Split};
-use stribeck::scalar::Real;
+use stribeck::scalar::{Real, Scalar};
 
 const MANY: u32 = 10_000_000;
 const SOME: u32 = 1_000_000;
@@ -58,7 +58,7 @@ impl Hold {
     }
 
     /// Rounded to the numbers that the step computes in.
-    fn rounded<P: Real>(&self) -> Self {
+    fn rounded<P: Scalar>(&self) -> Self {
         let round = |x: f64| P::from_f64(x).value();
         Self {
             dry: round(self.dry),
@@ -83,7 +83,7 @@ impl Hold {
 
 /// The largest imbalance of one step, relative to the largest of the absolute work, the energy stored
 /// before and after, and `D |v| dt`; and the least that was dissipated, relative likewise.
-fn over_random_steps<P: Real<Plain = P>>(seed: u64, steps: u32, damping: f64) -> (f64, f64) {
+fn over_random_steps<P: Scalar<Plain = P> + PartialOrd>(seed: u64, steps: u32, damping: f64) -> (f64, f64) {
     let mut random = Random(seed);
     let (mut largest, mut least) = (0.0_f64, 0.0_f64);
     let mut state = BristleState { z: P::zero() };

@@ -6,11 +6,11 @@ use stribeck::composed::Spec;
 use stribeck::dynamics::State;
 use stribeck::joint::{self, Joint, Posture, Push};
 use stribeck::sample::Sample;
-use stribeck::scalar::Real;
+use stribeck::scalar::Scalar;
 
 /// A joint that swings in gravity, pushed back and forth: per step, kinetic energy, potential energy
 /// and what friction takes against the work of the motor, relative to the largest of them.
-fn largest_imbalance<P: Real<Plain = P>>(spec: &Spec, dt: f64, steps: u32) -> f64 {
+fn largest_imbalance<P: Scalar<Plain = P> + PartialOrd>(spec: &Spec, dt: f64, steps: u32) -> f64 {
     let values: Vec<P> = common::values(spec).into_iter().map(P::from_f64).collect();
     let friction = spec.with(&values).unwrap();
     let joint = Joint::revolute(P::from_f64(0.7), P::from_f64(3.0), P::from_f64(-2.0));

@@ -5,7 +5,7 @@ mod common;
 use stribeck::composed::Spec;
 use stribeck::dynamics::State;
 use stribeck::joint::{self, ElasticJoint, ElasticPosture, Joint, Posture, Push, Transmission};
-use stribeck::scalar::Real;
+use stribeck::scalar::Scalar;
 
 /// Numbers that look random (xorshift64*).
 struct Random(u64);
@@ -30,7 +30,7 @@ impl Random {
     }
 }
 
-fn stays_finite<P: Real<Plain = P>>(spec: &Spec, random: &mut Random, steps: u32) {
+fn stays_finite<P: Scalar<Plain = P> + PartialOrd>(spec: &Spec, random: &mut Random, steps: u32) {
     let number = P::from_f64;
     let values: Vec<P> = common::values(spec).into_iter().map(number).collect();
     let friction = spec.with(&values).unwrap();

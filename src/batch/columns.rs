@@ -7,7 +7,7 @@ use crate::catalog::EffectId;
 use crate::composed::Spec;
 use crate::dynamics::{Memory, State};
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::Channel;
 
 /// Channels of a recording, one value a row; only the velocity is always needed.
@@ -177,7 +177,7 @@ impl<'a> Columns<'a> {
     }
 
     /// The state at the start of every segment; columns that were checked.
-    pub(super) fn start<S: Real>(&self, memory: Memory) -> State<S> {
+    pub(super) fn start<S: Scalar>(&self, memory: Memory) -> State<S> {
         let mut given = self.state.iter().map(|&x| S::from_f64(x));
         match memory {
             Memory::None => State::default(),

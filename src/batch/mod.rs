@@ -17,7 +17,7 @@ use std::vec::Vec;
 
 use crate::composed::{Composed, Spec};
 use crate::dynamics::Interval;
-use crate::scalar::{Dual, Real};
+use crate::scalar::{Dual, Real, Scalar};
 use balance::Balance;
 use columns::Rows;
 
@@ -45,7 +45,7 @@ pub fn torque_single(
     torque_as::<f32>(spec, values, columns)
 }
 
-fn torque_as<S: Real<Plain = S>>(
+fn torque_as<S: Scalar<Plain = S>>(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,
@@ -167,7 +167,7 @@ pub fn split(
 }
 
 /// Runs a model over rows; the state starts afresh with every segment.
-fn evaluate<S: Real>(
+fn evaluate<S: Scalar>(
     model: &Composed<S>,
     rows: &Rows,
     channels: Channels<'_>,

@@ -6,7 +6,7 @@
 
 use super::{Interval, SATURATED, Step, following};
 use crate::sample::Split;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// A bristle that settles faster than this (s) has settled in any step.
 const SHORTEST: f64 = 1e-12;
@@ -27,13 +27,13 @@ pub struct BristleState<S> {
     pub z: S,
 }
 
-impl<S: Real> Default for BristleState<S> {
+impl<S: Scalar> Default for BristleState<S> {
     fn default() -> Self {
         Self { z: S::zero() }
     }
 }
 
-impl<S: Real> Bristle<S> {
+impl<S: Scalar> Bristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -169,7 +169,7 @@ impl<S: Real> Bristle<S> {
 }
 
 /// What stays the same over a step.
-struct Held<S: Real> {
+struct Held<S: Scalar> {
     dry: S,
     velocity: S::Plain,
     dt: S::Plain,
@@ -182,7 +182,7 @@ enum Path<S> {
     Transient { y: S, phi: S, slip: S },
 }
 
-impl<S: Real> Path<S> {
+impl<S: Scalar> Path<S> {
     /// How far the deflection has followed where it tends to.
     #[inline]
     fn following(&self) -> S {

@@ -8,7 +8,7 @@
 
 use super::{BristleState, Interval, Step, following, logarithm_ratio};
 use crate::sample::Split;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// Above this `k` dry friction has vanished beside what the travel would have built up.
 const VANISHED: f64 = 1e30;
@@ -28,7 +28,7 @@ pub struct DahlBristle<S> {
     pub exponent: S,
 }
 
-impl<S: Real> DahlBristle<S> {
+impl<S: Scalar> DahlBristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -125,7 +125,7 @@ struct Fall<S> {
     following: S,
 }
 
-impl<S: Real> Fall<S> {
+impl<S: Scalar> Fall<S> {
     /// Sliding begins within the step.
     #[inline]
     fn at_once(mean: S) -> Self {

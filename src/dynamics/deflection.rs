@@ -1,6 +1,6 @@
 //! What a law with one deflection consists of, for proofs about all of its motions.
 
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// `tf = f + drag slope sgn v + V + additive`, `df/dt = s0 v slope`, with the slope a function of
 /// `x = f sgn(v)/D`: one where the bristle is elastic, zero where it slides.
@@ -14,7 +14,7 @@ pub struct Deflection<S> {
     pub approach: Approach<S>,
 }
 
-impl<S: Real> Deflection<S> {
+impl<S: Scalar> Deflection<S> {
     /// Of a bristle with stiffness `s0` and damping `s1` at velocity `v`.
     #[must_use]
     pub fn of_bristle(stiffness: S, damping: S, velocity: S::Plain) -> Self {
@@ -36,7 +36,7 @@ pub enum Approach<S> {
     Smoothed(S),
 }
 
-impl<S: Real> Approach<S> {
+impl<S: Scalar> Approach<S> {
     /// `dz/dt` over `v` at `x`; it does not grow with `x`.
     pub fn slope(&self, x: S) -> S {
         let one = S::Plain::one();

@@ -9,7 +9,7 @@
 
 use super::{BristleState, Interval, Step, following};
 use crate::sample::Split;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// Runge-Kutta steps of fourth order in the transition, and over a travel below [`SHORT`].
 const STEPS: (u8, u8) = (16, 4);
@@ -44,7 +44,7 @@ pub struct ElastoplasticBristle<S> {
     pub breakaway: S,
 }
 
-impl<S: Real> ElastoplasticBristle<S> {
+impl<S: Scalar> ElastoplasticBristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -142,7 +142,7 @@ impl<S: Real> ElastoplasticBristle<S> {
 
 /// `dz/dt` over `v` at `x = s0 z sgn v/D`.
 #[inline]
-pub(super) fn slope_at<S: Real>(x: S, breakaway: S) -> S {
+pub(super) fn slope_at<S: Scalar>(x: S, breakaway: S) -> S {
     let one = S::Plain::one();
     if x.value() < breakaway.value() {
         return S::one();
@@ -163,7 +163,7 @@ struct Glide<S> {
 
 /// The rate at which `ln p` falls along the travel: `sin^2(pi p/2)/((1 - b) p) + cos^2(pi p/2)`.
 #[inline]
-fn descent<S: Real>(p: S, breadth: S) -> S {
+fn descent<S: Scalar>(p: S, breadth: S) -> S {
     if p.value() < 1e-150 {
         return S::one();
     }
@@ -173,7 +173,7 @@ fn descent<S: Real>(p: S, breadth: S) -> S {
 
 /// How far `ln p` falls over a travel from `p`, and the area under `1 - x` if it is wanted.
 #[inline]
-fn transition<S: Real>(p: S, breadth: S, travel: S, area: bool) -> (S, S) {
+fn transition<S: Scalar>(p: S, breadth: S, travel: S, area: bool) -> (S, S) {
     let (half, sixth) = (S::Plain::from_f64(0.5), S::Plain::from_f64(1.0 / 6.0));
     let steps = if travel.value() > SHORT * breadth.value() { STEPS.0 } else { STEPS.1 };
     let step = travel.scale(S::Plain::from_f64(1.0 / f64::from(steps)));
@@ -192,7 +192,7 @@ fn transition<S: Real>(p: S, breadth: S, travel: S, area: bool) -> (S, S) {
 
 /// `(1 - b) int dp/h` from `end` to `start`, in the square root of `p`, in which it is smooth.
 #[inline]
-fn area_between<S: Real>(start: S, end: S, breadth: S) -> S {
+fn area_between<S: Scalar>(start: S, end: S, breadth: S) -> S {
     let (half, two) = (S::Plain::from_f64(0.5), S::Plain::from_f64(2.0));
     let (high, low) = (start.sqrt(), end.sqrt());
     let (centre, reach) = ((high + low).scale(half), (high - low).scale(half));

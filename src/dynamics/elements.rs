@@ -1,6 +1,6 @@
 //! Elements in parallel, each with a force of its own.
 
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Most elements of a law.
 pub const MOST_ELEMENTS: usize = 16;
@@ -14,7 +14,7 @@ pub struct Elements<S> {
     pub sliding: [i8; MOST_ELEMENTS],
 }
 
-impl<S: Real> Default for Elements<S> {
+impl<S: Scalar> Default for Elements<S> {
     fn default() -> Self {
         Self { force: [S::zero(); MOST_ELEMENTS], sliding: [0; MOST_ELEMENTS] }
     }

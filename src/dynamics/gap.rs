@@ -7,11 +7,11 @@
 //! in a step: `P (1 - e^-h)/dt` on average over the step.
 
 use super::Interval;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// A gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap<S: Real> {
+pub struct Gap<S: Scalar> {
     /// `b` (X): way in which it closes to 1/e.
     pub width: S,
     /// `n`: 1 where it closes with the way of the motor, 0 where it takes the same time at any
@@ -34,7 +34,7 @@ pub struct Flanks<S> {
     momentum: S,
 }
 
-impl<S: Real> Gap<S> {
+impl<S: Scalar> Gap<S> {
     /// What a gap takes from the load torque over `interval` (T).
     #[inline]
     pub fn over(&self, state: &mut Option<Flanks<S>>, interval: &Interval<S::Plain>) -> S {

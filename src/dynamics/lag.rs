@@ -6,7 +6,7 @@
 //! so a lag never makes friction negative.
 
 use super::{Interval, SATURATED};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// A first-order lag.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Lagging<S> {
     steady: S,
 }
 
-impl<S: Real> Lag<S> {
+impl<S: Scalar> Lag<S> {
     /// Steps over `interval`, at whose end the steady value is `steady`; without a state there it
     /// begins. A mean velocity means that the motion changes within the step, and the steady value
     /// with it: evenly.

@@ -8,7 +8,7 @@
 
 use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step, following, logarithm_ratio};
 use crate::sample::Split;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// An element so near its limit, relative to it, has reached it.
 const ROUNDING: f64 = 1e-12;
@@ -29,7 +29,7 @@ pub struct LeuvenBristle<'a, S> {
     pub damping: S,
 }
 
-impl<S: Real> LeuvenBristle<'_, S> {
+impl<S: Scalar> LeuvenBristle<'_, S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -190,7 +190,7 @@ struct Piece<S> {
     stiffness: S,
 }
 
-impl<S: Real> Piece<S> {
+impl<S: Scalar> Piece<S> {
     /// The travel after which `z` has moved by `room`, if it ever does: together the elements carry
     /// `D` at least, so that the last one never comes to its limit, whatever the rounding.
     #[inline]
@@ -215,7 +215,7 @@ impl<S: Real> Piece<S> {
 
 /// `dz/dt` over `v`, for a force along the velocity; 0 where dry friction has vanished.
 #[inline]
-fn slope<S: Real>(force: S, dry: S) -> S {
+fn slope<S: Scalar>(force: S, dry: S) -> S {
     if force.value().abs() >= VANISHED * dry.value() {
         return S::zero();
     }

@@ -7,7 +7,7 @@
 
 use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step};
 use crate::sample::Split;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// Parameters of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct MaxwellSlip<'a, S> {
     pub attraction: S,
 }
 
-impl<S: Real> MaxwellSlip<'_, S> {
+impl<S: Scalar> MaxwellSlip<'_, S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -70,7 +70,7 @@ impl<S: Real> MaxwellSlip<'_, S> {
 }
 
 /// What all elements have in common over a step.
-struct Slide<S: Real> {
+struct Slide<S: Scalar> {
     direction: S::Plain,
     travel: S::Plain,
     /// Force in sliding over the friction of an element, at the start of the step and at its end: it
@@ -97,7 +97,7 @@ struct Weights<S> {
     covered: S,
 }
 
-impl<S: Real> Settling<S> {
+impl<S: Scalar> Settling<S> {
     /// The weights over a share of the step.
     #[inline]
     fn over(&self, share: S) -> Weights<S> {
@@ -132,7 +132,7 @@ struct Element<S> {
     stiffness: S,
 }
 
-impl<S: Real> Element<S> {
+impl<S: Scalar> Element<S> {
     /// Moves one element and returns its mean force over the step.
     #[inline]
     fn advance(&self, force: &mut S, sliding: &mut i8, slide: &Slide<S>) -> S {
@@ -180,7 +180,7 @@ impl<S: Real> Element<S> {
 /// Force at the end and mean force of an element that starts at `start` and tends to a limit that
 /// moves from one place to another.
 #[inline]
-fn approach<S: Real>(start: S, (from, to): (S, S), weights: &Weights<S>) -> (S, S) {
+fn approach<S: Scalar>(start: S, (from, to): (S, S), weights: &Weights<S>) -> (S, S) {
     let (gap, rise) = (from - start, to - from);
     let after = start + gap * weights.covered + rise * (-weights.first).shift(S::Plain::one());
     let half = S::Plain::from_f64(0.5);

@@ -27,7 +27,7 @@ pub use maxwell_slip::MaxwellSlip;
 pub use relaxation::Relaxation;
 
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
 const SATURATED: f64 = 700.0;
@@ -46,7 +46,7 @@ pub struct Interval<P> {
     pub mean: bool,
 }
 
-impl<P: Real> Interval<P> {
+impl<P: Scalar> Interval<P> {
     /// The velocity that carries the state (X/s).
     #[inline]
     #[must_use]
@@ -72,7 +72,7 @@ pub struct Step<S> {
     pub mean_torque: S,
 }
 
-impl<S: Real> Step<S> {
+impl<S: Scalar> Step<S> {
     /// A torque that does not change over the step.
     #[inline]
     #[must_use]
@@ -122,7 +122,7 @@ pub struct State<S> {
     dry: Option<S>,
 }
 
-impl<S: Real> State<S> {
+impl<S: Scalar> State<S> {
     /// The state that a deflection `z` (X) at the start means; 0 is a joint without tension.
     #[inline]
     #[must_use]
@@ -155,7 +155,7 @@ impl<S: Real> State<S> {
     }
 }
 
-impl<S: Real> Default for State<S> {
+impl<S: Scalar> Default for State<S> {
     fn default() -> Self {
         Self::deflected(S::zero())
     }
@@ -168,14 +168,14 @@ impl<S: Real> Default for State<S> {
 /// to the held place comes, of the way from there to the end, this share further: `y^2/6` where it is
 /// slow, all where it is stiff. So a step-mean velocity gives second order whatever the stiffness.
 #[inline]
-pub(crate) fn following<S: Real>(y: S, phi: S) -> S {
+pub(crate) fn following<S: Scalar>(y: S, phi: S) -> S {
     let two = S::Plain::from_f64(2.0);
     (y.shift(-two) * phi).shift(two)
 }
 
 /// `ln(1 + c)/c`, by the series of the inverse hyperbolic tangent where `c` is small.
 #[inline]
-fn logarithm_ratio<S: Real>(c: S) -> S {
+fn logarithm_ratio<S: Scalar>(c: S) -> S {
     let one = S::Plain::one();
     if c.value().abs() > 0.2 {
         return c.shift(one).ln() / c;

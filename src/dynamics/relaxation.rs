@@ -1,7 +1,7 @@
 //! A state that relaxes linearly along the travel, stepped exactly.
 
 use super::{SATURATED, following};
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Above this ratio of pull to hold a state is at its target wherever it is.
 const LOOSE: f64 = 1e30;
@@ -29,7 +29,7 @@ pub struct Relaxed<S> {
     pub decay: S,
 }
 
-impl<S: Real> Relaxation<S> {
+impl<S: Scalar> Relaxation<S> {
     /// The state after a travel `>= 0`, from `z`.
     #[inline]
     #[must_use]
@@ -59,7 +59,7 @@ impl<S: Real> Relaxation<S> {
     }
 }
 
-impl<S: Real> Relaxed<S> {
+impl<S: Scalar> Relaxed<S> {
     /// How far the state has followed a target that moved from the one that was held to the one at
     /// the end.
     #[inline]

@@ -39,13 +39,11 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
         constants: &Constants<S::Plain>,
     ) {
         let (v, reference) = (sample.velocity, constants.reference_velocity);
-        if v.value() == 0.0 {
-            return;
-        }
         let levelling = S::one() + S::from_plain(v.abs()) / self.nonlinear_viscous_saturation;
         let speed = S::from_plain((v / reference).abs()) / levelling;
         let curve = speed.powf(self.nonlinear_viscous_exponent);
         let friction = self.nonlinear_viscous_coefficient * curve;
+        let friction = S::choose(v.at_zero(), S::zero(), friction);
         split.rate.add_scaled(&friction, reference * v.sign());
     }
 }

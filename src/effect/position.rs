@@ -62,7 +62,7 @@ impl<S: Real> FrictionEffect<S> for Position<S> {
         let stroke = (sample.position - constants.position_start) / constants.position_length;
         let half_turn = S::Plain::from_f64(core::f64::consts::PI) * stroke;
         let mut basis = [S::Plain::zero(); 8];
-        if constants.position_periodic.value() == 0.0 {
+        if constants.position_periodic.is_zero() {
             // cos((j + 1) th) = 2 cos th cos(j th) - cos((j - 1) th)
             let cos = half_turn.cos();
             let (mut before, mut now) = (S::Plain::one(), cos);

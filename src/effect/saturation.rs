@@ -42,14 +42,9 @@ impl<S: Real> FrictionEffect<S> for Saturation<S> {
     ) -> S {
         let total = friction.shift(sample.load_torque);
         let ratio = total.abs().scale(S::Plain::one() / constants.reference_torque);
-        if ratio.value() == 0.0 {
-            return friction;
-        }
-        let ratio = if ratio.value() < LARGEST_RATIO {
-            ratio
-        } else {
-            S::from_plain(S::Plain::from_f64(LARGEST_RATIO))
-        };
-        friction + self.saturation * ratio.powf(self.saturation_exponent) * total
+        let largest = S::Plain::from_f64(LARGEST_RATIO);
+        let bounded = S::choose(ratio.is_below(largest), ratio, S::from_plain(largest));
+        let excess = self.saturation * bounded.powf(self.saturation_exponent) * total;
+        friction + S::choose(ratio.at_zero(), S::zero(), excess)
     }
 }

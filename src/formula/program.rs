@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use super::vocabulary::Function;
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::table::Channel;
 
 /// The most operations of a formula.
@@ -66,9 +66,9 @@ pub struct Program {
 
 /// A part of a program whose value is put in place of computing it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Replacement<'a> {
+pub(super) struct Replacement<'a, P> {
     pub(super) part: &'a Range<usize>,
-    pub(super) by: f64,
+    pub(super) by: P,
 }
 
 impl Program {
@@ -169,7 +169,7 @@ impl Program {
     pub(super) fn evaluate<S: Real>(
         &self,
         part: &Range<usize>,
-        replacement: Option<Replacement<'_>>,
+        replacement: Option<Replacement<'_, S::Plain>>,
         parameters: &[S; MAX_PARAMETERS],
         sample: &Sample<S::Plain>,
     ) -> S {
@@ -179,7 +179,7 @@ impl Program {
             if let Some(replacement) = &replacement
                 && next == replacement.part.start
             {
-                stack.push(Value::Known(S::Plain::from_f64(replacement.by)));
+                stack.push(Value::Known(replacement.by));
                 next = replacement.part.end;
                 continue;
             }
@@ -250,14 +250,6 @@ impl<S: Real> Value<S> {
             Self::Full(x) => x,
         }
     }
-
-    #[inline(always)]
-    fn number(self) -> f64 {
-        match self {
-            Self::Known(x) => x.value(),
-            Self::Full(x) => x.value(),
-        }
-    }
 }
 
 /// Values that wait for their operator. The parser has seen to it that there is room.
@@ -312,15 +304,20 @@ fn combine<S: Real>(operation: Operation, x: Value<S>, y: Value<S>) -> Value<S> 
         (Operation::Call(Function::Power), Known(x), Known(y)) => Known(x.powf(y)),
         (Operation::Call(Function::Power), Known(x), Full(y)) => Full(y.exponent_of(x)),
         (Operation::Call(Function::Power), x, y) => Full(x.full().powf(y.full())),
-        // NaN on either side must not vanish.
-        (Operation::Call(Function::Minimum), x, y) => {
-            if x.number() <= y.number() || x.number().is_nan() { x } else { y }
-        }
-        (Operation::Call(Function::Maximum), x, y) => {
-            if x.number() >= y.number() || x.number().is_nan() { x } else { y }
-        }
+        (Operation::Call(Function::Minimum), Known(x), Known(y)) => Known(minimum(x, y)),
+        (Operation::Call(Function::Minimum), x, y) => Full(minimum(x.full(), y.full())),
+        (Operation::Call(Function::Maximum), Known(x), Known(y)) => Known(-minimum(-x, -y)),
+        (Operation::Call(Function::Maximum), x, y) => Full(-minimum(-x.full(), -y.full())),
         (_, x, _) => x,
     }
+}
+
+/// The smaller one, the first of equals; NaN on either side must not vanish.
+#[inline]
+fn minimum<R: Real>(x: R, y: R) -> R {
+    let is_number = |x: R| x.equals(x.plain());
+    let second = is_number(x).and(x.is_above(y.plain()).or(is_number(y).not()));
+    R::choose(second, y, x)
 }
 
 #[inline]

@@ -264,7 +264,7 @@ impl Formula {
 
     /// Whether a part of the program is zero at rest: at made-up parameters and channels, which
     /// no formula has reason to cancel.
-    fn vanishes(&self, part: &Range<usize>, replacement: Option<Replacement<'_>>) -> bool {
+    fn vanishes(&self, part: &Range<usize>, replacement: Option<Replacement<'_, f64>>) -> bool {
         let parameters = core::array::from_fn(|i| 0.7312 + 0.1937 * f64::from(i as u8));
         let rest = |sign: f64| Sample {
             velocity: 0.0,
@@ -357,7 +357,7 @@ impl<S: Real> OwnTerms<S> {
     #[inline]
     pub fn add_to(&self, split: &mut Split<S>, sample: &Sample<S::Plain>) {
         for term in self.formula.terms() {
-            let value = |by: Option<f64>| {
+            let value = |by: Option<S::Plain>| {
                 let direction = &term.direction();
                 let replacement = by.map(|by| Replacement { part: direction, by });
                 let program = &self.formula.program;
@@ -365,7 +365,7 @@ impl<S: Real> OwnTerms<S> {
                 if term.negative { -value } else { value }
             };
             match term.kind {
-                TermKind::Dry => split.coulomb += value(Some(1.0)),
+                TermKind::Dry => split.coulomb += value(Some(S::Plain::one())),
                 TermKind::Smoothed => {
                     split.smoothed_torque += value(None);
                     split.smoothed_amplitude += value(Some(self.limit(term, sample)));
@@ -377,13 +377,14 @@ impl<S: Real> OwnTerms<S> {
     }
 
     /// What the smoothed sign tends to as the speed grows forwards.
-    fn limit(&self, term: &Term, sample: &Sample<S::Plain>) -> f64 {
+    fn limit(&self, term: &Term, sample: &Sample<S::Plain>) -> S::Plain {
         let direction = term.direction();
         let last = direction.end.saturating_sub(1);
         let forwards = Sample { velocity: S::Plain::one(), ..*sample };
         let inside = direction.start..last;
         let argument = self.formula.program.evaluate(&inside, None, &self.parameters, &forwards);
         let limit = self.formula.smoothed_limit(last).unwrap_or_default();
-        if argument.value() < 0.0 { -limit } else { limit }
+        let limit = S::Plain::from_f64(limit);
+        S::Plain::choose(argument.is_negative(), -limit, limit)
     }
 }

@@ -11,7 +11,7 @@ use super::root::Equation;
 use crate::composed::Composed;
 use crate::dynamics::{Memory, State};
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Both joints may come to rest and break loose in a step: what is left after so many pieces is
 /// spent as the last one was.
@@ -54,7 +54,7 @@ pub struct ArmPush<P> {
     pub time: P,
 }
 
-impl<P: Real<Plain = P>> PlanarArm<P> {
+impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
     /// `h` and its mean slope have the form of gravity's potential and torque.
     fn coupling(&self) -> Gravity<P> {
         Gravity { constant: P::zero(), cos: -self.moment_y, sin: -self.moment_x }
@@ -139,7 +139,7 @@ enum Way<P> {
 }
 
 /// An arm on its way through a step.
-struct ArmCourse<'a, P: Real> {
+struct ArmCourse<'a, P: Scalar + PartialOrd> {
     arm: &'a PlanarArm<P>,
     friction: [&'a Composed<P>; 2],
     states: &'a mut [State<P>; 2],
@@ -148,7 +148,7 @@ struct ArmCourse<'a, P: Real> {
     elapsed: P,
 }
 
-impl<P: Real<Plain = P>> ArmCourse<'_, P> {
+impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
     fn way(&self, joint: usize) -> Way<P> {
         let velocity = self.posture.velocity[joint];
         if !matches!(self.friction[joint].memory(), Memory::None) {

@@ -1,6 +1,6 @@
 use super::gravity::Gravity;
 use super::rigid::Joint;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// A prismatic joint that a motor moves by a ball screw (Gantry, eq 3).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct BallScrew<P> {
     pub gravity: P,
 }
 
-impl<P: Real> BallScrew<P> {
+impl<P: Scalar + PartialOrd> BallScrew<P> {
     /// Angle a travel, `2 pi/p` (rad/m): force at the joint per torque of the motor, too.
     #[must_use]
     pub fn ratio(&self) -> P {

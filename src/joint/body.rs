@@ -1,5 +1,5 @@
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// What acts on a joint over a step, besides what it is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub struct Push<P> {
     pub time: P,
 }
 
-impl<P: Real> Push<P> {
+impl<P: Scalar + PartialOrd> Push<P> {
     /// A motor torque, and nothing else.
     #[must_use]
     pub fn by_motor(motor: P) -> Self {
@@ -36,7 +36,7 @@ impl<P: Real> Push<P> {
 
 /// A mechanism over one step, seen from its one coordinate with friction. It can be asked what a
 /// piece of the step would be like, and told to go through it.
-pub trait Body<P: Real> {
+pub trait Body<P: Scalar + PartialOrd> {
     /// Velocity of the coordinate (X/s).
     fn velocity(&self) -> P;
 

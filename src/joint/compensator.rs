@@ -3,17 +3,17 @@
 use crate::composed::Composed;
 use crate::dynamics::State;
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Cancels a share of friction by a model of it, whose state is its own and not the joint's.
 #[derive(Clone, Copy, Debug)]
-pub struct Compensator<'a, P: Real> {
+pub struct Compensator<'a, P: Scalar + PartialOrd> {
     model: &'a Composed<P>,
     factor: P,
     state: State<P>,
 }
 
-impl<'a, P: Real<Plain = P>> Compensator<'a, P> {
+impl<'a, P: Scalar<Plain = P> + PartialOrd> Compensator<'a, P> {
     /// A joint without tension, of which this share of the friction is cancelled.
     #[must_use]
     pub fn new(model: &'a Composed<P>, factor: P) -> Self {

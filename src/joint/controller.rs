@@ -1,5 +1,5 @@
 use super::trajectory::Reference;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// A sampled PID controller of position, its torque held until the next sample:
 /// `kp e + ki int e dt + kd (b vd - v)`, limited.
@@ -24,13 +24,13 @@ pub struct Effort<P> {
     pub integral: P,
 }
 
-impl<P: Real> Default for Effort<P> {
+impl<P: Scalar + PartialOrd> Default for Effort<P> {
     fn default() -> Self {
         Self { integral: P::zero() }
     }
 }
 
-impl<P: Real> Controller<P> {
+impl<P: Scalar + PartialOrd> Controller<P> {
     /// The torque over the next `dt` (s), `feedforward` (T) included. The integral stands still
     /// while the limit is reached, unless it leads away from it.
     pub fn torque(
@@ -53,7 +53,7 @@ impl<P: Real> Controller<P> {
     }
 }
 
-fn limited<P: Real>(torque: P, limit: P) -> P {
+fn limited<P: Scalar + PartialOrd>(torque: P, limit: P) -> P {
     if torque > limit {
         limit
     } else if torque < -limit {

@@ -10,7 +10,7 @@ use super::root::Equation;
 use crate::composed::Composed;
 use crate::dynamics::{Interval, Memory, State};
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Pieces of a step: stop, go, stop again; what is left after that is spent at rest.
 const MOST_PIECES: usize = 3;
@@ -36,7 +36,7 @@ pub struct Taken<P> {
     pub friction_work: P,
 }
 
-impl<P: Real> Taken<P> {
+impl<P: Scalar + PartialOrd> Taken<P> {
     pub(super) fn nothing() -> Self {
         let zero = P::zero();
         Self {
@@ -61,7 +61,7 @@ impl<P: Real> Taken<P> {
 
 /// Moves `body` over `dt` (s) with friction `model`, whose `state` goes along; with `dt <= 0` nothing
 /// moves.
-pub fn step<P: Real<Plain = P>>(
+pub fn step<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &mut State<P>,
     body: &mut impl Body<P>,
@@ -80,7 +80,7 @@ pub fn step<P: Real<Plain = P>>(
 }
 
 /// A step on its way.
-struct Course<'a, P: Real, B> {
+struct Course<'a, P: Scalar + PartialOrd, B> {
     model: &'a Composed<P>,
     state: &'a mut State<P>,
     body: &'a mut B,
@@ -98,7 +98,7 @@ enum Piece<P> {
     Stops(P),
 }
 
-impl<P: Real<Plain = P>, B: Body<P>> Course<'_, P, B> {
+impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
     /// Mean friction torque over a piece, from the present state.
     fn friction(&self, sample: &Sample<P>, h: P) -> P {
         let mut state = *self.state;
@@ -236,12 +236,12 @@ impl<P: Real<Plain = P>, B: Body<P>> Course<'_, P, B> {
 }
 
 /// Friction that goes with a sample (T).
-pub(super) fn required<P: Real>(sample: &Sample<P>) -> P {
+pub(super) fn required<P: Scalar + PartialOrd>(sample: &Sample<P>) -> P {
     sample.motor_torque - sample.load_torque
 }
 
 /// Mean friction torque as a sample is held for `h`; the state goes along.
-pub(super) fn friction_over<P: Real<Plain = P>>(
+pub(super) fn friction_over<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &mut State<P>,
     sample: &Sample<P>,

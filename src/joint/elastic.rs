@@ -9,7 +9,7 @@ use super::body::{Body, Push};
 use super::rigid::{Joint, Moving, Posture};
 use super::root::Equation;
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// A spring and a damper with play.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Transmission<P> {
     pub backlash: P,
 }
 
-impl<P: Real> Transmission<P> {
+impl<P: Scalar + PartialOrd> Transmission<P> {
     /// What the spring feels of a twist.
     fn stretch(&self, twist: P) -> P {
         let side = self.backlash * P::from_f64(0.5);
@@ -82,7 +82,7 @@ pub struct ElasticPosture<P> {
     pub twist: P,
 }
 
-impl<P: Real> ElasticPosture<P> {
+impl<P: Scalar + PartialOrd> ElasticPosture<P> {
     /// Both inertias at the same place and speed.
     #[must_use]
     pub fn together(posture: Posture<P>) -> Self {
@@ -90,7 +90,7 @@ impl<P: Real> ElasticPosture<P> {
     }
 }
 
-impl<P: Real> ElasticJoint<P> {
+impl<P: Scalar + PartialOrd> ElasticJoint<P> {
     /// Kinetic and potential energy, that of the springs included (J).
     #[must_use]
     pub fn energy(&self, posture: &ElasticPosture<P>, support: P) -> P {
@@ -122,7 +122,7 @@ pub struct MovingApart<'a, P> {
     twist: P,
 }
 
-impl<P: Real> MovingApart<'_, P> {
+impl<P: Scalar + PartialOrd> MovingApart<'_, P> {
     /// Where both have come to.
     #[must_use]
     pub fn posture(&self) -> ElasticPosture<P> {
@@ -146,7 +146,7 @@ impl<P: Real> MovingApart<'_, P> {
     }
 }
 
-impl<P: Real> Body<P> for MovingApart<'_, P> {
+impl<P: Scalar + PartialOrd> Body<P> for MovingApart<'_, P> {
     fn velocity(&self) -> P {
         self.motor.velocity
     }

@@ -1,4 +1,4 @@
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Gravity at a joint, `constant + cos * cos q + sin * sin q` (T): the first of a prismatic joint, the
 /// others of a revolute one.
@@ -12,7 +12,7 @@ pub struct Gravity<P> {
     pub sin: P,
 }
 
-impl<P: Real> Gravity<P> {
+impl<P: Scalar + PartialOrd> Gravity<P> {
     /// None.
     #[must_use]
     pub fn none() -> Self {
@@ -40,6 +40,6 @@ impl<P: Real> Gravity<P> {
 }
 
 /// `sin(x)/x`.
-fn cardinal_sine<P: Real>(x: P) -> P {
+fn cardinal_sine<P: Scalar + PartialOrd>(x: P) -> P {
     if x.is_zero() { P::one() } else { x.sin() / x }
 }

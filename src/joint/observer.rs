@@ -1,6 +1,6 @@
 //! The torque that nobody has accounted for, from velocities alone.
 
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Observes the torque that acts against a known inertia besides what is known to act: `D' = w (tau
 /// - J a - D)`, from velocities alone and exact for torques that are held over a step.
@@ -12,7 +12,7 @@ pub struct Observer<P> {
     pub estimate: P,
 }
 
-impl<P: Real<Plain = P>> Observer<P> {
+impl<P: Scalar<Plain = P> + PartialOrd> Observer<P> {
     /// Of an inertia (T s2/X), by a first-order filter of this bandwidth (1/s).
     #[must_use]
     pub fn new(inertia: P, bandwidth: P) -> Self {

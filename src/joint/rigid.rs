@@ -1,7 +1,7 @@
 use super::body::{Body, Push};
 use super::gravity::Gravity;
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// A joint of one inertia, revolute or prismatic, that a spring and a damper may tie to a moving
 /// support.
@@ -26,7 +26,7 @@ pub struct Posture<P> {
     pub velocity: P,
 }
 
-impl<P: Real> Joint<P> {
+impl<P: Scalar + PartialOrd> Joint<P> {
     /// An inertia that nothing but friction, motor and environment act on.
     #[must_use]
     pub fn free(inertia: P) -> Self {
@@ -67,7 +67,7 @@ pub struct Moving<'a, P> {
     elapsed: P,
 }
 
-impl<P: Real> Moving<'_, P> {
+impl<P: Scalar + PartialOrd> Moving<'_, P> {
     /// What spring and damper exert on average over a piece (T).
     fn tie(&self, velocity: P, h: P) -> P {
         let middle = self.elapsed + h * P::from_f64(0.5);
@@ -78,7 +78,7 @@ impl<P: Real> Moving<'_, P> {
     }
 }
 
-impl<P: Real> Body<P> for Moving<'_, P> {
+impl<P: Scalar + PartialOrd> Body<P> for Moving<'_, P> {
     fn velocity(&self) -> P {
         self.posture.velocity
     }

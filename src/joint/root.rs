@@ -1,7 +1,7 @@
 //! The scalar equation of a step, by Chandrupatla's method: inverse quadratic interpolation where it
 //! is sure to gain, else bisection (Advances in Engineering Software 28, 1997).
 
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Evaluations while the root is being enclosed; the distance doubles each time.
 const MOST_WIDENED: usize = 80;
@@ -11,7 +11,7 @@ const MOST_NARROWED: usize = 120;
 const SLACK: f64 = 4.0;
 
 /// Unit in the last place of 1.
-fn rounding<P: Real>() -> P {
+fn rounding<P: Scalar + PartialOrd>() -> P {
     let double = P::from_f64(1.0 + f64::EPSILON) > P::one();
     P::from_f64(if double { f64::EPSILON } else { f64::from(f32::EPSILON) })
 }
@@ -26,7 +26,7 @@ pub(super) struct Equation<P> {
     pub size: P,
 }
 
-impl<P: Real> Equation<P> {
+impl<P: Scalar + PartialOrd> Equation<P> {
     /// What counts as zero; beyond all numbers nothing does.
     fn settled(&self) -> P {
         let settled = self.size * rounding::<P>() * P::from_f64(SLACK);
@@ -59,7 +59,7 @@ impl<P: Real> Equation<P> {
 }
 
 /// Closes an enclosure of a root.
-fn narrow<P: Real>(
+fn narrow<P: Scalar + PartialOrd>(
     mut function: impl FnMut(P) -> P,
     [first, second]: [(P, P); 2],
     settled: P,
@@ -102,7 +102,7 @@ fn narrow<P: Real>(
 
 /// Share of the way from `a` to `b` at which the inverse quadratic through three points is zero, if
 /// that lies where it is sure to gain.
-fn interpolated<P: Real>(a: (P, P), b: (P, P), c: (P, P)) -> Option<P> {
+fn interpolated<P: Scalar + PartialOrd>(a: (P, P), b: (P, P), c: (P, P)) -> Option<P> {
     let one = P::one();
     let xi = (a.0 - b.0) / (c.0 - b.0);
     let phi = (a.1 - b.1) / (c.1 - b.1);

@@ -1,6 +1,6 @@
 //! What a joint shall do: strokes there and back, and Fourier series.
 
-use crate::scalar::Real;
+use crate::scalar::Scalar;
 
 /// Most harmonics of a Fourier series.
 pub const HARMONICS: usize = 8;
@@ -16,7 +16,7 @@ pub struct Reference<P> {
     pub acceleration: P,
 }
 
-impl<P: Real> Reference<P> {
+impl<P: Scalar + PartialOrd> Reference<P> {
     fn resting(position: P) -> Self {
         Self { position, velocity: P::zero(), acceleration: P::zero() }
     }
@@ -31,7 +31,7 @@ pub enum Trajectory<P> {
     Fourier(Fourier<P>),
 }
 
-impl<P: Real> Trajectory<P> {
+impl<P: Scalar + PartialOrd> Trajectory<P> {
     /// What is desired at `time` (s).
     #[must_use]
     pub fn at(&self, time: P) -> Reference<P> {
@@ -72,7 +72,7 @@ pub enum Profile<P> {
     },
 }
 
-impl<P: Real> Profile<P> {
+impl<P: Scalar + PartialOrd> Profile<P> {
     /// How long a move over `distance > 0` takes (s), and how long it speeds up.
     fn times(&self, distance: P) -> (P, P) {
         match *self {
@@ -103,7 +103,7 @@ impl<P: Real> Profile<P> {
     }
 }
 
-fn quintic<P: Real>(distance: P, duration: P, x: P) -> Reference<P> {
+fn quintic<P: Scalar + PartialOrd>(distance: P, duration: P, x: P) -> Reference<P> {
     let number = P::from_f64;
     let left = P::one() - x;
     let speed = distance / duration;
@@ -114,7 +114,13 @@ fn quintic<P: Real>(distance: P, duration: P, x: P) -> Reference<P> {
     }
 }
 
-fn trapezoid<P: Real>(distance: P, duration: P, acceleration: P, ramp: P, time: P) -> Reference<P> {
+fn trapezoid<P: Scalar + PartialOrd>(
+    distance: P,
+    duration: P,
+    acceleration: P,
+    ramp: P,
+    time: P,
+) -> Reference<P> {
     let half = P::from_f64(0.5);
     let (left, top) = (duration - time, acceleration * ramp);
     if time < ramp {
@@ -133,7 +139,7 @@ fn trapezoid<P: Real>(distance: P, duration: P, acceleration: P, ramp: P, time: 
     }
 }
 
-impl<P: Real> Stroke<P> {
+impl<P: Scalar + PartialOrd> Stroke<P> {
     /// How long a move takes, the rest before it included (s).
     #[must_use]
     pub fn duration(&self) -> P {
@@ -159,7 +165,7 @@ impl<P: Real> Stroke<P> {
 
 /// How often the whole fits into `x >= 0`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)]
-fn whole<P: Real>(x: P) -> f64 {
+fn whole<P: Scalar + PartialOrd>(x: P) -> f64 {
     x.value() as i64 as f64
 }
 
@@ -176,7 +182,7 @@ pub struct Fourier<P> {
     pub cosine: [P; HARMONICS],
 }
 
-impl<P: Real> Fourier<P> {
+impl<P: Scalar + PartialOrd> Fourier<P> {
     fn at(&self, time: P) -> Reference<P> {
         let mut sum = Reference::resting(self.centre);
         let mut frequency = P::zero();

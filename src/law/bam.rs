@@ -290,16 +290,12 @@ impl<S: Real> BamM6<S> {
     #[inline]
     fn quadratic(&self, sample: &Sample<S::Plain>) -> S {
         let (external, motor) = (sample.external_torque, sample.motor_torque);
-        if external.sign() * motor.sign() >= S::Plain::zero() {
-            return S::zero();
-        }
-        if external.abs() < motor.abs() {
-            self.external_quadratic.scale(external * external)
-        } else if external.abs() > motor.abs() {
-            self.motor_quadratic.scale(motor * motor)
-        } else {
-            S::zero()
-        }
+        let by_external = self.external_quadratic.scale(external * external);
+        let by_motor = self.motor_quadratic.scale(motor * motor);
+        let excess = external.abs() - motor.abs();
+        let smaller = S::choose(excess.is_positive(), by_motor, S::zero());
+        let smaller = S::choose(excess.is_negative(), by_external, smaller);
+        S::choose((external.sign() * motor.sign()).is_negative(), smaller, S::zero())
     }
 }
 

@@ -33,11 +33,9 @@ impl<S: Real> FrictionLaw<S> for Clochiatti<S> {
     fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
         let flow = v.sign() * sample.motor_torque.sign();
-        let amplitude = if flow.value() < 0.0 {
-            self.coulomb_friction_generating
-        } else {
-            self.coulomb_friction_motoring
-        };
+        let (generating, motoring) =
+            (self.coulomb_friction_generating, self.coulomb_friction_motoring);
+        let amplitude = S::choose(flow.is_negative(), generating, motoring);
         // Without motor torque there is no flow of power and, by the formula, no dry friction.
         let sign = (v / constants.smoothing_velocity).tanh() * flow.abs();
         Split {

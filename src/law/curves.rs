@@ -6,16 +6,10 @@ use crate::scalar::Real;
 /// `|v|^p sgn v`, 0 at rest even where `p <= 0`.
 #[inline]
 pub fn signed_power<S: Real>(velocity: S::Plain, exponent: S) -> S {
-    if velocity.value() == 0.0 {
-        return S::zero();
-    }
     let power = exponent.exponent_of(velocity.abs());
-    if power.value().is_finite() {
-        power.scale(velocity.sign())
-    } else {
-        // Beyond all numbers; finite, so that a coefficient of 0 still gives 0.
-        S::from_f64(1e30).scale(velocity.sign())
-    }
+    // Beyond all numbers; finite, so that a coefficient of 0 still gives 0.
+    let power = S::choose(power.is_finite(), power, S::from_f64(1e30)).scale(velocity.sign());
+    S::choose(velocity.at_zero(), S::zero(), power)
 }
 
 /// `sqrt(|v|) sgn v`.
@@ -33,10 +27,10 @@ pub fn arctangent_sign<S: Real>(velocity: S::Plain, steepness: S) -> S {
 /// `1/(1 + exp(-x))`, without overflow on either side.
 #[inline]
 pub fn logistic<S: Real>(x: S) -> S {
-    let below = x.value() < 0.0;
-    let rest = (if below { x } else { -x }).exp();
+    let below = x.is_negative();
+    let rest = S::choose(below, x, -x).exp();
     let whole = rest.shift(S::Plain::one());
-    if below { rest / whole } else { S::one() / whole }
+    S::choose(below, rest / whole, S::one() / whole)
 }
 
 /// `1 - exp(-x)`, without cancellation at small `x`.
@@ -48,8 +42,7 @@ pub fn saturation<S: Real>(x: S) -> S {
 /// The Stribeck curve `exp(-(v/vs)^2)`: 1 at rest, whatever the Stribeck velocity.
 #[inline]
 pub fn gaussian_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S) -> StribeckCurve<S> {
-    let ratio =
-        if velocity.value() == 0.0 { S::zero() } else { stribeck_velocity.divide(velocity) };
+    let ratio = S::choose(velocity.at_zero(), S::zero(), stribeck_velocity.divide(velocity));
     // Of a number between bounds the square is only known to be positive by its size.
     let ratio = ratio.abs();
     StribeckCurve::of(ratio * ratio, S::from_f64(2.0))

@@ -2,7 +2,7 @@ use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::dynamics::{Approach, DahlBristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
@@ -36,7 +36,10 @@ impl<S: Real> FrictionLaw<S> for Dahl<S> {
     }
 
     #[inline]
-    fn deflection(&self, _: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Option<Deflection<S>> {
+    fn deflection(&self, _: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         Some(Deflection {
             stiffness: self.bristle_stiffness,
             drag: S::zero(),
@@ -52,7 +55,10 @@ impl<S: Real> FrictionLaw<S> for Dahl<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         let bristle =
             DahlBristle { stiffness: self.bristle_stiffness, exponent: self.dahl_exponent };
         bristle.over(&mut state.bristle, dry, split, interval)

@@ -3,7 +3,7 @@ use super::curves::gaussian_curve;
 use crate::constants::Constants;
 use crate::dynamics::{Approach, Deflection, ElastoplasticBristle, Interval, State, Step};
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
@@ -58,7 +58,10 @@ impl<S: Real> FrictionLaw<S> for Elastoplastic<S> {
         &self,
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>> {
+    ) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         Some(Deflection {
             stiffness: self.bristle_stiffness,
             drag: self.bristle_damping.scale(sample.velocity.abs()),
@@ -74,7 +77,10 @@ impl<S: Real> FrictionLaw<S> for Elastoplastic<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         let bristle = ElastoplasticBristle {
             stiffness: self.bristle_stiffness,
             damping: self.bristle_damping,

@@ -37,11 +37,8 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
         let ratio = self.stribeck_velocity.divide(v);
-        let viscous = if v.value() > 0.0 {
-            self.viscous_friction_forward
-        } else {
-            self.viscous_friction_backward
-        };
+        let (forward, backward) = (self.viscous_friction_forward, self.viscous_friction_backward);
+        let viscous = S::choose(v.is_positive(), forward, backward);
         Split {
             coulomb: self.coulomb_friction,
             height: self.static_friction - self.coulomb_friction,

@@ -83,7 +83,7 @@ impl<S: Real> FrictionLaw<S> for GazB<S> {
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
         let x = self.sigmoid_steepness.scale(v.abs());
-        let direction = if v.value() > 0.0 { S::Plain::one() } else { -S::Plain::one() };
+        let direction = S::Plain::choose(v.is_positive(), S::Plain::one(), -S::Plain::one());
         let w = (self.sigmoid_steepness * self.velocity_offset).scale(direction);
         let amplitude = self.sigmoid_height * logistic(-w);
         Split {

@@ -3,7 +3,7 @@ use super::curves::arctangent_sign;
 use crate::constants::Constants;
 use crate::dynamics::{Approach, Deflection, Interval, Relaxation, State, Step};
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -62,7 +62,7 @@ impl<S: Real> IndriB<S> {
         let ratio = scaled.abs() / speed;
         // Beyond this ratio the square overflows in single precision and the term is nothing.
         let most = S::Plain::from_f64(1e15);
-        let ratio = if ratio.value() < most.value() { ratio } else { most };
+        let ratio = S::Plain::choose(ratio.is_below(most.plain()), ratio, most);
         let fall = self.acceleration_weight.scale(ratio * ratio).shift(S::Plain::one()).sqrt();
         self.damping_torque / fall + self.bristle_damping.scale(speed)
     }
@@ -102,7 +102,10 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
         &self,
         sample: &Sample<S::Plain>,
         constants: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>> {
+    ) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         Some(Deflection {
             stiffness: self.bristle_stiffness,
             drag: self.damping(sample.velocity.abs(), sample.acceleration, constants),
@@ -118,7 +121,10 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         let (velocity, travel) = (interval.velocity(), interval.travel());
         let own = interval.sample.velocity;
         let damping = |v: S::Plain| self.damping(v.abs(), interval.sample.acceleration, constants);

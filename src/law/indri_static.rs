@@ -58,7 +58,7 @@ impl<S: Real> FrictionLaw<S> for IndriStatic<S> {
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
-        let set = if v.value() > 0.0 { self.forward() } else { self.backward() };
+        let set = self.set(v.is_positive());
         Split {
             coulomb: set.coulomb + set.rise * saturation(set.rise_velocity.divide(v.abs())),
             height: set.height,
@@ -82,28 +82,16 @@ struct Set<S> {
 
 impl<S: Real> IndriStatic<S> {
     #[inline]
-    fn forward(&self) -> Set<S> {
+    fn set(&self, forward: S::Mask) -> Set<S> {
+        let of = |plus, minus| S::choose(forward, plus, minus);
         Set {
-            coulomb: self.coulomb_friction_forward,
-            height: self.stribeck_height_forward,
-            rise: self.coulomb_rise_forward,
-            viscous: self.viscous_friction_forward,
-            quadratic: self.quadratic_friction_forward,
-            stribeck_velocity: self.stribeck_velocity_forward,
-            rise_velocity: self.rise_velocity_forward,
-        }
-    }
-
-    #[inline]
-    fn backward(&self) -> Set<S> {
-        Set {
-            coulomb: self.coulomb_friction_backward,
-            height: self.stribeck_height_backward,
-            rise: self.coulomb_rise_backward,
-            viscous: self.viscous_friction_backward,
-            quadratic: self.quadratic_friction_backward,
-            stribeck_velocity: self.stribeck_velocity_backward,
-            rise_velocity: self.rise_velocity_backward,
+            coulomb: of(self.coulomb_friction_forward, self.coulomb_friction_backward),
+            height: of(self.stribeck_height_forward, self.stribeck_height_backward),
+            rise: of(self.coulomb_rise_forward, self.coulomb_rise_backward),
+            viscous: of(self.viscous_friction_forward, self.viscous_friction_backward),
+            quadratic: of(self.quadratic_friction_forward, self.quadratic_friction_backward),
+            stribeck_velocity: of(self.stribeck_velocity_forward, self.stribeck_velocity_backward),
+            rise_velocity: of(self.rise_velocity_forward, self.rise_velocity_backward),
         }
     }
 }

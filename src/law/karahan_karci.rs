@@ -2,7 +2,7 @@ use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -87,34 +87,40 @@ impl<S: Real> KarahanKarci<S> {
     /// Coulomb, static and viscous friction and Stribeck velocity of the sample's condition.
     #[inline]
     fn set(&self, sample: &Sample<S::Plain>) -> [S; 4] {
-        let forward = sample.velocity.value() > 0.0;
-        let acceleration = sample.acceleration.value();
-        let accelerating = if forward { acceleration >= 0.0 } else { acceleration <= 0.0 };
-        match (forward, accelerating) {
-            (true, true) => [
+        let forward = sample.velocity.is_positive();
+        let a = sample.acceleration;
+        let accelerating =
+            forward.and(a.is_negative().not()).or(forward.not().and(a.is_positive().not()));
+        let of = |pp, pm, mm, mp| {
+            let forwards = S::choose(accelerating, pp, pm);
+            let backwards = S::choose(accelerating, mm, mp);
+            S::choose(forward, forwards, backwards)
+        };
+        [
+            of(
                 self.coulomb_friction_forward_accelerating,
-                self.static_friction_forward_accelerating,
-                self.viscous_friction_forward_accelerating,
-                self.stribeck_velocity_forward_accelerating,
-            ],
-            (true, false) => [
                 self.coulomb_friction_forward_decelerating,
-                self.static_friction_forward_decelerating,
-                self.viscous_friction_forward_decelerating,
-                self.stribeck_velocity_forward_decelerating,
-            ],
-            (false, true) => [
                 self.coulomb_friction_backward_accelerating,
-                self.static_friction_backward_accelerating,
-                self.viscous_friction_backward_accelerating,
-                self.stribeck_velocity_backward_accelerating,
-            ],
-            (false, false) => [
                 self.coulomb_friction_backward_decelerating,
+            ),
+            of(
+                self.static_friction_forward_accelerating,
+                self.static_friction_forward_decelerating,
+                self.static_friction_backward_accelerating,
                 self.static_friction_backward_decelerating,
+            ),
+            of(
+                self.viscous_friction_forward_accelerating,
+                self.viscous_friction_forward_decelerating,
+                self.viscous_friction_backward_accelerating,
                 self.viscous_friction_backward_decelerating,
+            ),
+            of(
+                self.stribeck_velocity_forward_accelerating,
+                self.stribeck_velocity_forward_decelerating,
+                self.stribeck_velocity_backward_accelerating,
                 self.stribeck_velocity_backward_decelerating,
-            ],
-        }
+            ),
+        ]
     }
 }

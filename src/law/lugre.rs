@@ -2,7 +2,7 @@ use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split, stribeck_curve};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
@@ -54,7 +54,10 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
         &self,
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>> {
+    ) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         let (s0, s1) = (self.bristle_stiffness, self.bristle_damping);
         Some(Deflection::of_bristle(s0, s1, sample.velocity))
     }
@@ -67,7 +70,10 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         let bristle = Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping };
         bristle.over(&mut state.bristle, dry, split, interval)
     }

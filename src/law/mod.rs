@@ -79,7 +79,7 @@ pub use zhou::Zhou;
 use crate::constants::Constants;
 use crate::dynamics::{Deflection, Interval, Memory, State, Step};
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{LawInfo, Parameters};
 
 /// What a file in this folder provides.
@@ -99,7 +99,10 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
         &self,
         _sample: &Sample<S::Plain>,
         _constants: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>> {
+    ) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         None
     }
 
@@ -117,7 +120,10 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _constants: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         Step::same(split.torque(interval.sample.velocity.sign()))
     }
 }

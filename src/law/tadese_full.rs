@@ -2,8 +2,8 @@ use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
-use crate::sample::{Quadrant, Sample, Split};
-use crate::scalar::Real;
+use crate::sample::{Quadrants, Sample, Split};
+use crate::scalar::{Real, Scalar};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -96,21 +96,12 @@ impl<S: Real> TadeseFull<S> {
     /// `s2(T) (1 - exp(-|v/s3(T)|))` along the direction of motion.
     #[inline]
     fn viscous(&self, velocity: S::Plain, temperature: S::Plain) -> S {
-        let (level, level_slope, speed, speed_slope) = if velocity.value() > 0.0 {
-            (
-                self.viscous_level_forward,
-                self.viscous_level_slope_forward,
-                self.viscous_speed_forward,
-                self.viscous_speed_slope_forward,
-            )
-        } else {
-            (
-                self.viscous_level_backward,
-                self.viscous_level_slope_backward,
-                self.viscous_speed_backward,
-                self.viscous_speed_slope_backward,
-            )
-        };
+        let forward = velocity.is_positive();
+        let of = |plus, minus| S::choose(forward, plus, minus);
+        let level = of(self.viscous_level_forward, self.viscous_level_backward);
+        let level_slope = of(self.viscous_level_slope_forward, self.viscous_level_slope_backward);
+        let speed = of(self.viscous_speed_forward, self.viscous_speed_backward);
+        let speed_slope = of(self.viscous_speed_slope_forward, self.viscous_speed_slope_backward);
         let level = level + level_slope.scale(temperature);
         let speed = speed + speed_slope.scale(temperature);
         (level * saturation(speed.divide(velocity).abs())).scale(velocity.sign())
@@ -119,37 +110,36 @@ impl<S: Real> TadeseFull<S> {
     /// `g1 (1 - exp(-|g2 v|)) + g3 + (l1 + l2 v) tl` of the quadrant.
     #[inline]
     fn load(&self, sample: &Sample<S::Plain>) -> S {
-        let Some(quadrant) = sample.quadrant() else { return S::zero() };
-        let (rise, rise_rate, jump, friction, viscous) = match quadrant {
-            Quadrant::First => (
-                self.load_rise_forward_motoring,
-                self.load_rise_rate_forward_motoring,
-                self.load_jump_forward_motoring,
-                self.load_friction_forward_motoring,
-                self.load_viscous_forward_motoring,
-            ),
-            Quadrant::Second => (
-                self.load_rise_backward_generating,
-                self.load_rise_rate_backward_generating,
-                self.load_jump_backward_generating,
-                self.load_friction_backward_generating,
-                self.load_viscous_backward_generating,
-            ),
-            Quadrant::Third => (
-                self.load_rise_backward_motoring,
-                self.load_rise_rate_backward_motoring,
-                self.load_jump_backward_motoring,
-                self.load_friction_backward_motoring,
-                self.load_viscous_backward_motoring,
-            ),
-            Quadrant::Fourth => (
-                self.load_rise_forward_generating,
-                self.load_rise_rate_forward_generating,
-                self.load_jump_forward_generating,
-                self.load_friction_forward_generating,
-                self.load_viscous_forward_generating,
-            ),
-        };
+        let rise = sample.in_quadrant(&Quadrants {
+            first: self.load_rise_forward_motoring,
+            second: self.load_rise_backward_generating,
+            third: self.load_rise_backward_motoring,
+            fourth: self.load_rise_forward_generating,
+        });
+        let rise_rate = sample.in_quadrant(&Quadrants {
+            first: self.load_rise_rate_forward_motoring,
+            second: self.load_rise_rate_backward_generating,
+            third: self.load_rise_rate_backward_motoring,
+            fourth: self.load_rise_rate_forward_generating,
+        });
+        let jump = sample.in_quadrant(&Quadrants {
+            first: self.load_jump_forward_motoring,
+            second: self.load_jump_backward_generating,
+            third: self.load_jump_backward_motoring,
+            fourth: self.load_jump_forward_generating,
+        });
+        let friction = sample.in_quadrant(&Quadrants {
+            first: self.load_friction_forward_motoring,
+            second: self.load_friction_backward_generating,
+            third: self.load_friction_backward_motoring,
+            fourth: self.load_friction_forward_generating,
+        });
+        let viscous = sample.in_quadrant(&Quadrants {
+            first: self.load_viscous_forward_motoring,
+            second: self.load_viscous_backward_generating,
+            third: self.load_viscous_backward_motoring,
+            fourth: self.load_viscous_forward_generating,
+        });
         let per_load = friction + viscous.scale(sample.velocity);
         let rise = rise * saturation(rise_rate.scale(sample.velocity).abs());
         rise + jump + per_load.scale(sample.load_torque)
@@ -184,14 +174,13 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
-        if v.value() == 0.0 {
-            return Split { coulomb: self.coulomb_friction_forward, ..Split::zero() };
-        }
-        let forward = v.value() > 0.0;
-        let coulomb =
-            if forward { self.coulomb_friction_forward } else { self.coulomb_friction_backward };
+        let coulomb = S::choose(
+            v.is_negative(),
+            self.coulomb_friction_backward,
+            self.coulomb_friction_forward,
+        );
         let rate = self.viscous(v, sample.temperature) + self.load(sample);
-        Split { coulomb, rate, ..Split::zero() }
+        Split { coulomb, rate: S::choose(v.at_zero(), S::zero(), rate), ..Split::zero() }
     }
 
     #[inline]
@@ -199,7 +188,10 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
         &self,
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>> {
+    ) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         let (s0, v) = (self.bristle_stiffness, sample.velocity);
         Some(Deflection::of_bristle(s0, self.damping(v), v))
     }
@@ -212,7 +204,10 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         let damping = self.damping(interval.sample.velocity);
         let bristle = Bristle { stiffness: self.bristle_stiffness, damping };
         bristle.over(&mut state.bristle, dry, split, interval)

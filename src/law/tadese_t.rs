@@ -3,7 +3,7 @@ use super::curves::{gaussian_curve, saturation};
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
 use crate::sample::{Sample, Split};
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -38,15 +38,13 @@ impl<S: Real> TadeseT<S> {
     /// The viscous part, which jumps at rest where its exponent is negative.
     #[inline]
     fn viscous(&self, velocity: S::Plain, temperature: S::Plain) -> S {
-        if velocity.value() == 0.0 {
-            return S::zero();
-        }
         let at = |base: S, slope: S| base + slope.scale(temperature);
         let level = at(self.viscous_level, self.viscous_level_slope);
         let rise = at(self.viscous_rise, self.viscous_rise_slope);
         let exponent = at(self.viscous_exponent, self.viscous_exponent_slope);
         let reach = rise.scale(velocity).abs().powf(exponent);
-        (level * saturation(reach)).scale(velocity.sign())
+        let torque = (level * saturation(reach)).scale(velocity.sign());
+        S::choose(velocity.at_zero(), S::zero(), torque)
     }
 }
 
@@ -87,7 +85,10 @@ impl<S: Real> FrictionLaw<S> for TadeseT<S> {
         &self,
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>> {
+    ) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         let (s0, s1) = (self.bristle_stiffness, self.bristle_damping);
         Some(Deflection::of_bristle(s0, s1, sample.velocity))
     }
@@ -100,7 +101,10 @@ impl<S: Real> FrictionLaw<S> for TadeseT<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         let bristle = Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping };
         bristle.over(&mut state.bristle, dry, split, interval)
     }

@@ -2,8 +2,8 @@ use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
-use crate::sample::{Quadrant, Sample, Split};
-use crate::scalar::Real;
+use crate::sample::{Quadrants, Sample, Split};
+use crate::scalar::{Real, Scalar};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -39,13 +39,12 @@ impl<S: Real> Xiao<S> {
     /// `l_i |tl| sgn v` of the quadrant.
     #[inline]
     fn load(&self, sample: &Sample<S::Plain>) -> S {
-        let per_load = match sample.quadrant() {
-            Some(Quadrant::First) => self.load_friction_forward_motoring,
-            Some(Quadrant::Second) => self.load_friction_backward_generating,
-            Some(Quadrant::Third) => self.load_friction_backward_motoring,
-            Some(Quadrant::Fourth) => self.load_friction_forward_generating,
-            None => return S::zero(),
-        };
+        let per_load = sample.in_quadrant(&Quadrants {
+            first: self.load_friction_forward_motoring,
+            second: self.load_friction_backward_generating,
+            third: self.load_friction_backward_motoring,
+            fourth: self.load_friction_forward_generating,
+        });
         per_load.scale(sample.load_torque.abs() * sample.velocity.sign())
     }
 }
@@ -80,7 +79,10 @@ impl<S: Real> FrictionLaw<S> for Xiao<S> {
         &self,
         sample: &Sample<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>> {
+    ) -> Option<Deflection<S>>
+    where
+        S: Scalar,
+    {
         let (s0, s1) = (self.bristle_stiffness, self.bristle_damping);
         Some(Deflection::of_bristle(s0, s1, sample.velocity))
     }
@@ -93,7 +95,10 @@ impl<S: Real> FrictionLaw<S> for Xiao<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S> {
+    ) -> Step<S>
+    where
+        S: Scalar,
+    {
         let bristle = Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping };
         bristle.over(&mut state.bristle, dry, split, interval)
     }

@@ -224,6 +224,7 @@ impl PartialOrd for Enclosure {
 
 impl Real for Enclosure {
     type Plain = Self;
+    type Mask = bool;
 
     fn from_f64(x: f64) -> Self {
         Self::point(x)
@@ -233,11 +234,35 @@ impl Real for Enclosure {
         x
     }
 
-    /// A finite number within, which is 0 only where nothing else is.
-    fn value(self) -> f64 {
+    fn plain(self) -> Self {
+        self
+    }
+
+    /// Of a finite number within, which is 0 only where nothing else is.
+    fn every(self, mut test: impl FnMut(f64) -> bool) -> bool {
         let (lower, upper) = (self.lower.max(-f64::MAX), self.upper.min(f64::MAX));
         let middle = 0.5 * lower + 0.5 * upper;
-        if middle == 0.0 { upper } else { middle }
+        test(if middle == 0.0 { upper } else { middle })
+    }
+
+    fn is_below(self, bound: Self) -> bool {
+        self.value() < bound.value()
+    }
+
+    fn is_above(self, bound: Self) -> bool {
+        self.value() > bound.value()
+    }
+
+    fn equals(self, other: Self) -> bool {
+        self.value() == other.value()
+    }
+
+    fn is_finite(self) -> bool {
+        true
+    }
+
+    fn choose(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
     }
 
     fn is_zero(&self) -> bool {

@@ -4,7 +4,7 @@ use super::enclosure::Enclosure;
 use crate::composed::Composed;
 use crate::dynamics::Approach;
 use crate::sample::Sample;
-use crate::scalar::Real;
+use crate::scalar::{Real, Scalar};
 
 /// How far the slope of an approach may be wrong: the sum of a few operations at a point.
 const SLOPE_SLACK: f64 = 1e-14;
@@ -22,7 +22,7 @@ pub struct Bristled<S> {
     approach: Approach<S>,
 }
 
-impl<S: Real> Bristled<S> {
+impl<S: Scalar> Bristled<S> {
     /// `None` where the model's state is not a single deflection.
     pub fn of(model: &Composed<S>, sample: &Sample<S::Plain>) -> Option<Self> {
         let deflection = model.deflection(sample)?;
@@ -118,7 +118,7 @@ pub struct Leg<S> {
     pub drag: S,
 }
 
-impl<S: Real> Leg<S> {
+impl<S: Scalar> Leg<S> {
     /// Power over `|dz/dt|` (T); `None` where the deflection does not go this way.
     pub fn work(self) -> Option<S> {
         (self.pace.value() > 0.0).then(|| self.load / self.pace + self.drag)
@@ -126,7 +126,7 @@ impl<S: Real> Leg<S> {
 }
 
 /// Friction in steady sliding, along the motion (T).
-pub fn sliding<S: Real>(model: &Composed<S>, sample: &Sample<S::Plain>) -> S {
+pub fn sliding<S: Scalar>(model: &Composed<S>, sample: &Sample<S::Plain>) -> S {
     let direction = sample.velocity.sign();
     match Bristled::of(model, sample) {
         Some(bristled) if model.has_state() => bristled.strength() + bristled.resistance,

@@ -9,7 +9,7 @@ use super::friction::{Bristled, Leg, sliding};
 use super::region::Point;
 use crate::composed::{Composed, Spec};
 use crate::error::ModelError;
-use crate::scalar::{Dual, Real};
+use crate::scalar::{Dual, Real, Scalar};
 
 /// Derivatives that are carried along in one evaluation.
 const AT_ONCE: usize = 8;
@@ -55,7 +55,7 @@ impl Requirement {
     }
 
     /// By how much it is met.
-    pub fn margin<S: Real<Plain = f64>>(&self, model: &Composed<S>) -> S {
+    pub fn margin<S: Scalar<Plain = f64>>(&self, model: &Composed<S>) -> S {
         match self {
             Self::Strength(point) => model.split(point).dry(),
             Self::Sliding(point) => sliding(model, point),
@@ -105,7 +105,7 @@ impl Requirement {
 }
 
 /// The bristle at a point on its way up or down; it stands where it would go the other way.
-fn leg<S: Real<Plain = f64>>(
+fn leg<S: Scalar<Plain = f64>>(
     model: &Composed<S>,
     point: &Point,
     force: f64,

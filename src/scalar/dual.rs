@@ -1,7 +1,7 @@
 use core::cmp::Ordering;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
-use super::Real;
+use super::{Mask, Real};
 
 /// A number with its derivatives along `N` directions (forward mode).
 ///
@@ -36,12 +36,19 @@ impl<T: Real, const N: usize> Dual<T, N> {
     /// A function's value and slope at `self`. An infinite slope leaves constants constant.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
-        let derivative = if slope.value().is_finite() {
-            self.map(|d| slope * d)
-        } else {
-            self.map(|d| if d.value() == 0.0 { T::zero() } else { slope * d })
-        };
+        let bounded = slope.is_finite();
+        if bounded.all() {
+            return Self { value, derivative: self.map(|d| slope * d) };
+        }
+        let derivative =
+            self.map(|d| T::choose(bounded.not().and(d.at_zero()), T::zero(), slope * d));
         Self { value, derivative }
+    }
+
+    /// With derivatives of 0 where the mask holds.
+    #[inline(always)]
+    fn level_where(self, mask: T::Mask) -> Self {
+        Self { value: self.value, derivative: self.map(|d| T::choose(mask, T::zero(), d)) }
     }
 
     /// Whether nothing it depends on is a variable.
@@ -63,14 +70,14 @@ impl<T: Real, const N: usize> Dual<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> PartialEq for Dual<T, N> {
+impl<T: PartialEq, const N: usize> PartialEq for Dual<T, N> {
     #[inline(always)]
     fn eq(&self, other: &Self) -> bool {
         self.value == other.value
     }
 }
 
-impl<T: Real, const N: usize> PartialOrd for Dual<T, N> {
+impl<T: PartialOrd, const N: usize> PartialOrd for Dual<T, N> {
     #[inline(always)]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         self.value.partial_cmp(&other.value)
@@ -142,8 +149,9 @@ impl<T: Real, const N: usize> MulAssign for Dual<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Real for Dual<T, N> {
+impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for Dual<T, N> {
     type Plain = T;
+    type Mask = T::Mask;
 
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
@@ -156,13 +164,46 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     }
 
     #[inline(always)]
-    fn value(self) -> f64 {
-        self.value.value()
+    fn plain(self) -> T {
+        self.value
+    }
+
+    #[inline(always)]
+    fn every(self, test: impl FnMut(f64) -> bool) -> bool {
+        self.value.every(test)
     }
 
     #[inline(always)]
     fn is_zero(&self) -> bool {
         self.value.is_zero() && self.is_constant()
+    }
+
+    #[inline(always)]
+    fn is_below(self, bound: T) -> T::Mask {
+        self.value.is_below(bound.plain())
+    }
+
+    #[inline(always)]
+    fn is_above(self, bound: T) -> T::Mask {
+        self.value.is_above(bound.plain())
+    }
+
+    #[inline(always)]
+    fn equals(self, other: T) -> T::Mask {
+        self.value.equals(other.plain())
+    }
+
+    #[inline(always)]
+    fn is_finite(self) -> T::Mask {
+        self.value.is_finite()
+    }
+
+    #[inline(always)]
+    fn choose(mask: T::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            value: T::choose(mask, yes.value, no.value),
+            derivative: yes.zip(&no, |a, b| T::choose(mask, a, b)),
+        }
     }
 
     #[inline(always)]
@@ -205,11 +246,10 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     #[inline(always)]
     fn exponent_of(self, base: T) -> Self {
         let value = base.powf(self.value);
-        if base.value() == 0.0 || self.is_constant() {
-            Self::constant(value)
-        } else {
-            self.chain(value, value * base.ln())
+        if self.is_constant() {
+            return Self::constant(value);
         }
+        self.chain(value, value * base.ln()).level_where(base.at_zero())
     }
 
     #[inline(always)]
@@ -227,18 +267,19 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
         let value = self.value.exp();
         // e^(-x) outruns every power of x: 0 is the limit even where the exponent's own
         // derivative has overflowed, and 0 * inf must not become NaN.
-        if value.value() == 0.0 { Self::constant(value) } else { self.chain(value, value) }
+        self.chain(value, value).level_where(value.at_zero())
     }
 
     #[inline(always)]
     fn expm1(self) -> Self {
         let value = self.value.expm1();
         // Far below zero value + 1 cancels.
-        if value.value() > -0.5 {
+        let near = value.is_above(T::Plain::from_f64(-0.5));
+        if near.all() {
             return self.chain(value, value + T::one());
         }
-        let slope = self.value.exp();
-        if slope.value() == 0.0 { Self::constant(value) } else { self.chain(value, slope) }
+        let slope = T::choose(near, value + T::one(), self.value.exp());
+        self.chain(value, slope).level_where(slope.at_zero())
     }
 
     #[inline(always)]
@@ -260,20 +301,15 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     #[inline(always)]
     fn powf(self, p: Self) -> Self {
         let value = self.value.powf(p.value);
-        if self.value.value() == 0.0 {
-            let slope = if p.value.value() == 1.0 { T::one() } else { T::zero() };
-            return self.chain(value, slope);
-        }
-        let by_base = p.value * (value / self.value);
+        let at_zero = self.value.at_zero();
+        let unit = T::choose(p.value.equals(T::Plain::one()), T::one(), T::zero());
+        let by_base = T::choose(at_zero, unit, p.value * (value / self.value));
+        let along = self.chain(value, by_base);
         if p.is_constant() {
-            return self.chain(value, by_base);
+            return along;
         }
-        let by_exponent = value * self.value.ln();
-        if by_base.value().is_finite() && by_exponent.value().is_finite() {
-            let derivative = self.zip(&p, |a, b| by_base * a + by_exponent * b);
-            return Self { value, derivative };
-        }
-        self.chain(value, by_base) + p.chain(T::zero(), by_exponent)
+        let by_exponent = T::choose(at_zero, T::zero(), value * self.value.ln());
+        along + p.chain(T::zero(), by_exponent)
     }
 
     #[inline(always)]
@@ -307,13 +343,15 @@ impl<T: Real, const N: usize> Real for Dual<T, N> {
     #[inline(always)]
     fn tanh(self) -> Self {
         let value = self.value.tanh();
-        if value.value().abs() < 0.5 {
+        let near = value.abs().is_below(T::Plain::from_f64(0.5));
+        if near.all() {
             return self.chain(value, T::one() - value * value);
         }
         // Far from zero 1 - tanh^2 cancels: there 4 e/(1 + e)^2 with e = exp(-2 |x|).
         let e = (T::from_f64(-2.0) * self.value.abs()).exp();
         let whole = T::one() + e;
-        self.chain(value, T::from_f64(4.0) * e / (whole * whole))
+        let far = T::from_f64(4.0) * e / (whole * whole);
+        self.chain(value, T::choose(near, T::one() - value * value, far))
     }
 
     #[inline(always)]

@@ -1,17 +1,25 @@
-//! The numbers a law is written in: `f32`, `f64`, and [`Dual`] where a gradient is wanted.
+//! The numbers a law is written in: `f32`, `f64`, [`Dual`] where a gradient is wanted, and [`Lanes`]
+//! where several samples are evaluated side by side.
 
 mod dual;
+mod lanes;
+mod mask;
 
 pub use dual::Dual;
+pub use lanes::{LaneMask, Lanes};
+pub use mask::Mask;
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
-/// A real number. Comparison is by value alone.
+/// A real number, or several side by side. Comparison is by value alone.
+///
+/// What is written in `Real` runs on all kinds of numbers with the same bits, so it does not branch
+/// on one: it computes both ways and [chooses](Self::choose). What has to branch asks for a
+/// [`Scalar`].
 pub trait Real:
     Copy
     + Debug
-    + PartialOrd
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -21,16 +29,30 @@ pub trait Real:
     + MulAssign
 {
     /// What is never differentiated by: samples, constants, time.
-    type Plain: Real;
+    type Plain: Real<Plain: Real<Mask = Self::Mask>, Mask = Self::Mask>;
+    /// The answer to a comparison: one for each number.
+    type Mask: Mask;
 
     /// A constant.
     fn from_f64(x: f64) -> Self;
     /// A constant.
     fn from_plain(x: Self::Plain) -> Self;
     /// The plain number, without what is carried along.
-    fn value(self) -> f64;
+    fn plain(self) -> Self::Plain;
+    /// Whether each number passes a test.
+    fn every(self, test: impl FnMut(f64) -> bool) -> bool;
     /// Whether it is 0 and so is all that is carried along.
     fn is_zero(&self) -> bool;
+    /// `x < bound`.
+    fn is_below(self, bound: Self::Plain) -> Self::Mask;
+    /// `x > bound`.
+    fn is_above(self, bound: Self::Plain) -> Self::Mask;
+    /// `x = other`.
+    fn equals(self, other: Self::Plain) -> Self::Mask;
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> Self::Mask;
+    /// `yes` where the mask holds, `no` elsewhere; what is not chosen leaves no trace.
+    fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// `a x`.
     fn scale(self, factor: Self::Plain) -> Self;
     /// `x + a`.
@@ -85,12 +107,50 @@ pub trait Real:
     fn one() -> Self {
         Self::from_f64(1.0)
     }
+
+    /// The plain number, of a single one.
+    #[inline]
+    fn value(self) -> f64
+    where
+        Self: Real<Mask = bool>,
+    {
+        let mut value = f64::NAN;
+        self.every(|x| {
+            value = x;
+            true
+        });
+        value
+    }
+
+    /// `x > 0`.
+    #[inline]
+    fn is_positive(self) -> Self::Mask {
+        self.is_above(Self::Plain::zero())
+    }
+
+    /// `x < 0`.
+    #[inline]
+    fn is_negative(self) -> Self::Mask {
+        self.is_below(Self::Plain::zero())
+    }
+
+    /// `x = 0`, whatever is carried along.
+    #[inline]
+    fn at_zero(self) -> Self::Mask {
+        self.equals(Self::Plain::zero())
+    }
 }
+
+/// A single real number, on which code may branch: what a state is stepped in.
+pub trait Scalar: Real<Mask = bool> {}
+
+impl<S: Real<Mask = bool>> Scalar for S {}
 
 macro_rules! primitive {
     ($float:ident: $($name:ident),+) => {
         impl Real for $float {
             type Plain = Self;
+            type Mask = bool;
 
             #[inline]
             #[allow(clippy::cast_possible_truncation)]
@@ -104,13 +164,43 @@ macro_rules! primitive {
             }
 
             #[inline]
-            fn value(self) -> f64 {
-                f64::from(self)
+            fn plain(self) -> Self {
+                self
+            }
+
+            #[inline]
+            fn every(self, mut test: impl FnMut(f64) -> bool) -> bool {
+                test(f64::from(self))
             }
 
             #[inline]
             fn is_zero(&self) -> bool {
                 *self == 0.0
+            }
+
+            #[inline]
+            fn is_below(self, bound: Self) -> bool {
+                self < bound
+            }
+
+            #[inline]
+            fn is_above(self, bound: Self) -> bool {
+                self > bound
+            }
+
+            #[inline]
+            fn equals(self, other: Self) -> bool {
+                self == other
+            }
+
+            #[inline]
+            fn is_finite(self) -> bool {
+                <$float>::is_finite(self)
+            }
+
+            #[inline]
+            fn choose(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
             }
 
             #[inline]
