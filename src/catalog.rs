@@ -72,6 +72,15 @@ macro_rules! laws {
                 }
             }
 
+            /// The bristle that its state is at this sample, where it is one.
+            #[inline(always)]
+            pub fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+                match self {
+                    $(Self::$law(law) => law.bristle(sample),)+
+                    Self::$own(law) => law.bristle(sample),
+                }
+            }
+
             /// The deflection that its state consists of, where it is a single one.
             #[inline]
             pub fn deflection(

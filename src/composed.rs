@@ -320,6 +320,13 @@ impl<S: Real> Composed<S> {
         altered
     }
 
+    /// The bristle that stands between dry friction and the torque, where it is one.
+    #[inline(always)]
+    #[must_use]
+    pub fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+        self.bristle.or_else(|| self.law.bristle(sample))
+    }
+
     /// The deflection that stands between dry friction and the torque, where its state is a single
     /// one.
     #[inline]
@@ -329,9 +336,7 @@ impl<S: Real> Composed<S> {
         S: Scalar,
     {
         match &self.bristle {
-            Some(bristle) => {
-                Some(Deflection::of_bristle(bristle.stiffness, bristle.damping, sample.velocity))
-            }
+            Some(bristle) => Some(bristle.deflection(sample.velocity)),
             None => self.law.deflection(sample, &self.constants),
         }
     }
@@ -395,7 +400,7 @@ impl<S: Real> Composed<S> {
             Step::same(split.torque(interval.sample.velocity.sign()))
         } else {
             let dry = state.dry_over(split.dry(), interval);
-            match &self.bristle {
+            match self.bristle(&interval.sample) {
                 Some(bristle) => bristle.over(&mut state.bristle, dry, &split, interval),
                 None => self.law.step(state, dry, &split, interval, &self.constants),
             }

@@ -83,7 +83,11 @@ impl Hold {
 
 /// The largest imbalance of one step, relative to the largest of the absolute work, the energy stored
 /// before and after, and `D |v| dt`; and the least that was dissipated, relative likewise.
-fn over_random_steps<P: Scalar<Plain = P> + PartialOrd>(seed: u64, steps: u32, damping: f64) -> (f64, f64) {
+fn over_random_steps<P: Scalar<Plain = P> + PartialOrd>(
+    seed: u64,
+    steps: u32,
+    damping: f64,
+) -> (f64, f64) {
     let mut random = Random(seed);
     let (mut largest, mut least) = (0.0_f64, 0.0_f64);
     let mut state = BristleState { z: P::zero() };

@@ -1,12 +1,13 @@
 //! A bristle around any split law, stepped exactly for a velocity held over the step.
 //!
 //! `dz/dt = v - s0 |v|/D z`, `tf = s0 z + s1 dz/dt + V + additive` (Canudas de Wit et al. 1995,
-//! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution is
-//! `z+ = e^-x z + v dt phi_1(-x)`: stable and free of overshoot for every stiffness and step.
+//! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution goes the share
+//! `1 - e^-x` of the way to `sgn(v) D/s0`: stable and free of overshoot for every stiffness and
+//! step. Share and target do not depend on `z`, so they are found for many rows side by side.
 
-use super::{Interval, SATURATED, Step, following};
-use crate::sample::Split;
-use crate::scalar::{Real, Scalar};
+use super::{Approach, Deflection, Interval, SATURATED, Step, following};
+use crate::sample::{Sample, Split};
+use crate::scalar::{Mask, Real, Scalar};
 
 /// A bristle that settles faster than this (s) has settled in any step.
 const SHORTEST: f64 = 1e-12;
@@ -33,7 +34,69 @@ impl<S: Scalar> Default for BristleState<S> {
     }
 }
 
+impl<S: Real> Bristle<S> {
+    /// What a held velocity does to the deflection over `dt` (s); with `dt <= 0` nothing.
+    ///
+    /// At rest the deflection is kept. A magnitude `D <= 0` has no bristle; the limit
+    /// `z = sgn(v) D/s0` is used, so that a fit passing through it sees a finite slope.
+    #[inline(always)]
+    pub fn course(&self, dry: S, velocity: S::Plain, dt: S::Plain) -> Course<S> {
+        let (zero, one) = (S::zero(), S::one());
+        let lasts = dt.is_positive();
+        let dt = S::Plain::choose(lasts, dt, S::Plain::zero());
+        let speed = velocity.abs();
+        let rest = velocity.at_zero();
+        let pull = self.stiffness.scale(speed);
+        let settled = self.settles(pull, dry, dt);
+        let still = rest.or(settled);
+        let pace = S::choose(still, zero, pull / dry);
+        let decay = pace.scale(-dt);
+        let left = decay.expm1();
+        let share = S::choose(settled.and(lasts).and(rest.not()), one, -left);
+        let target = (dry / self.stiffness).scale(velocity.sign());
+        Course { target, share, pace, decay, left, rest, settled }
+    }
+
+    /// Where a pull is so strong that the bristle settles in any step of this length (s).
+    #[inline(always)]
+    fn settles(&self, pull: S, dry: S, dt: S::Plain) -> S::Mask {
+        let shortest = S::Plain::from_f64(SHORTEST);
+        let lasting = S::Plain::choose(dt.is_above(shortest.plain()), dt, shortest);
+        let bound = dry.plain() * S::Plain::from_f64(SATURATED);
+        (pull.plain() * lasting).is_below(bound.plain()).not()
+    }
+
+    /// How far the deflection moves where the dry magnitude changes from the one that was held to
+    /// `end`, at the end of a step with the mean velocity `velocity` (X).
+    #[inline(always)]
+    pub fn shift(&self, course: &Course<S>, dry: S, end: S, velocity: S::Plain) -> S {
+        ((end - dry) / self.stiffness).scale(velocity.sign()) * course.following()
+    }
+
+    /// Torque at the deflection `z` that slips at `rate` (X/s).
+    #[inline(always)]
+    pub fn torque(&self, z: S, rate: S, split: &Split<S>) -> S {
+        self.stiffness * z + self.damping * rate + split.rate + split.additive
+    }
+
+    /// `dz/dt` at `z`; 0 of a bristle that has settled at once.
+    #[inline(always)]
+    pub fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
+        let pull = self.stiffness.scale(velocity.abs());
+        let settled = self.settles(pull, dry, S::Plain::zero());
+        S::choose(settled, S::zero(), (-(pull / dry * z)).shift(velocity))
+    }
+}
+
 impl<S: Scalar> Bristle<S> {
+    /// What it is at `velocity`, for proofs.
+    #[inline]
+    #[must_use]
+    pub fn deflection(&self, velocity: S::Plain) -> Deflection<S> {
+        let drag = self.damping.scale(velocity.abs());
+        Deflection { stiffness: self.stiffness, drag, approach: Approach::Linear }
+    }
+
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -44,28 +107,27 @@ impl<S: Scalar> Bristle<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
-        let held = Held { dry, velocity: interval.velocity(), dt: interval.dt };
+        let velocity = interval.velocity();
+        let course = self.course(dry, velocity, interval.dt);
         let before = state.z;
-        let path = self.advance(state, &held);
-        let torque = if interval.mean_velocity.is_some() {
+        state.z = course.end(before);
+        let rate = if interval.mean_velocity.is_some() {
             let end = split.dry();
-            let moved = (end - dry) / self.stiffness;
-            state.z += moved.scale(held.velocity.sign()) * path.following();
-            let rate = self.rate(state.z, end, interval.sample.velocity);
-            self.stiffness * state.z + self.damping * rate + split.rate + split.additive
+            state.z += self.shift(&course, dry, end, velocity);
+            self.rate(state.z, end, interval.sample.velocity)
         } else {
-            self.torque(state, split, &path)
+            course.end_rate(before)
         };
+        let torque = self.torque(state.z, rate, split);
         if !interval.mean {
             return Step::same(torque);
         }
-        Step { torque, mean_torque: self.mean_torque(before, state, split, &held, &path) }
+        let travel = self.stiffness.scale(interval.travel());
+        let mean_torque = self.mean_torque(before, &course, dry / travel, split, interval.dt);
+        Step { torque, mean_torque }
     }
 
     /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
-    ///
-    /// At rest the deflection is kept. A magnitude `D <= 0` has no bristle; the limit
-    /// `z = sgn(v) D/s0` is used, so that a fit passing through it sees a finite slope.
     #[inline]
     pub fn step(
         &self,
@@ -74,122 +136,81 @@ impl<S: Scalar> Bristle<S> {
         velocity: S::Plain,
         dt: S::Plain,
     ) -> Step<S> {
-        let held = Held { dry: split.dry(), velocity, dt };
-        let before = state.z;
-        let path = self.advance(state, &held);
-        let torque = self.torque(state, split, &path);
-        Step { torque, mean_torque: self.mean_torque(before, state, split, &held, &path) }
+        let sample = Sample::at(velocity);
+        let interval = Interval { sample, mean_velocity: None, dt, mean: true };
+        self.over(state, split.dry(), split, &interval)
     }
 
-    #[inline]
-    fn advance(&self, state: &mut BristleState<S>, held: &Held<S>) -> Path<S> {
-        let Held { dry, velocity, dt } = *held;
-        let speed = velocity.abs();
-        if speed.value() == 0.0 {
-            return Path::Rest;
-        }
-        let dt = if dt.value() > 0.0 { dt } else { S::Plain::zero() };
-        let pull = self.stiffness.scale(speed);
-        if pull.value() * dt.value().max(SHORTEST) >= SATURATED * dry.value() {
-            if dt.value() > 0.0 {
-                state.z = self.settled(held);
-            }
-            return Path::Saturated { travel: pull.scale(dt) };
-        }
-        // dz/dt decays exponentially, so it is carried forward rather than differenced.
-        let pace = pull / dry;
-        let y = pace.scale(-dt);
-        let phi = y.phi(1);
-        let slip = (-(pace * state.z)).shift(velocity);
-        state.z.add_scaled(&(phi * slip), dt);
-        Path::Transient { y, phi, slip }
-    }
-
-    /// Where the deflection tends to.
-    #[inline]
-    fn settled(&self, held: &Held<S>) -> S {
-        (held.dry / self.stiffness).scale(held.velocity.sign())
-    }
-
-    /// Torque at the end of the step, with the velocity that was held.
-    #[inline]
-    fn torque(&self, state: &BristleState<S>, split: &Split<S>, path: &Path<S>) -> S {
-        let elastic = self.stiffness * state.z;
-        match path {
-            Path::Rest | Path::Saturated { .. } => elastic + split.rate + split.additive,
-            Path::Transient { y, phi, slip } => {
-                let decay = (*y * *phi).shift(S::Plain::one());
-                elastic + self.damping * (decay * *slip) + split.rate + split.additive
-            }
-        }
-    }
-
-    /// `dz/dt` at `z`; 0 of a bristle that has settled at once.
-    #[inline]
-    fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
-        let pull = self.stiffness.scale(velocity.abs());
-        if pull.value() * SHORTEST >= SATURATED * dry.value() {
-            return S::zero();
-        }
-        (-(pull / dry * z)).shift(velocity)
-    }
-
+    /// Torque averaged over the step; `reach` is `1/x`.
     #[inline]
     fn mean_torque(
         &self,
         before: S,
-        state: &BristleState<S>,
+        course: &Course<S>,
+        reach: S,
         split: &Split<S>,
-        held: &Held<S>,
-        path: &Path<S>,
+        dt: S::Plain,
     ) -> S {
-        let dt = held.dt;
-        let steady = split.rate + split.additive;
-        match path {
-            Path::Rest => self.stiffness * state.z + steady,
-            Path::Saturated { travel } if dt.value() > 0.0 => {
-                // The mean still holds the transient's area, (z - end)/x.
-                let area = (before - state.z) * (held.dry / *travel);
-                let slip = (state.z - before).scale(S::Plain::one() / dt);
-                self.stiffness * (state.z + area) + self.damping * slip + steady
-            }
-            Path::Saturated { .. } => self.stiffness * state.z + steady,
-            Path::Transient { y, phi, slip } => {
-                // Counted from where the deflection is for most of the step, nothing cancels.
-                let mean = if y.value() < -1.0 {
-                    let settled = self.settled(held);
-                    settled + (before - settled) * *phi
-                } else {
-                    before + (y.phi(2) * *slip).scale(dt)
-                };
-                self.stiffness * mean + self.damping * (*phi * *slip) + steady
-            }
+        if course.rest || !dt.is_positive() {
+            return self.torque(course.end(before), S::zero(), split);
         }
+        let way = course.target - before;
+        if course.settled {
+            // The mean still holds the transient's area, way/x.
+            let slip = way.scale(S::Plain::one() / dt);
+            return self.torque(course.target - way * reach, slip, split);
+        }
+        // Counted from where the deflection is for most of the step, nothing cancels.
+        let phi = course.phi();
+        let mean = if course.decay.value() < -1.0 {
+            course.target - way * phi
+        } else {
+            before - course.decay * course.decay.phi(2) * way
+        };
+        self.torque(mean, course.pace * phi * way, split)
     }
 }
 
-/// What stays the same over a step.
-struct Held<S: Scalar> {
-    dry: S,
-    velocity: S::Plain,
-    dt: S::Plain,
+/// How a step goes: by this share of the way to a target.
+#[derive(Clone, Copy, Debug)]
+pub struct Course<S: Real> {
+    /// Where the deflection tends to (X).
+    target: S,
+    /// `1 - e^-x`.
+    share: S,
+    /// `s0 |v|/D` (1/s), 0 of a bristle at rest and of one that has settled at once.
+    pace: S,
+    /// `-x`.
+    decay: S,
+    /// `e^-x - 1`.
+    left: S,
+    rest: S::Mask,
+    settled: S::Mask,
 }
 
-/// How a step went, and what is read from it.
-enum Path<S> {
-    Rest,
-    Saturated { travel: S },
-    Transient { y: S, phi: S, slip: S },
-}
+impl<S: Real> Course<S> {
+    /// The deflection at the end, from `z` (X).
+    #[inline(always)]
+    pub fn end(&self, z: S) -> S {
+        z + self.share * (self.target - z)
+    }
 
-impl<S: Scalar> Path<S> {
+    /// `dz/dt` at the end, from `z` at the start (X/s).
+    #[inline(always)]
+    pub fn end_rate(&self, z: S) -> S {
+        self.pace * self.left.shift(S::Plain::one()) * (self.target - z)
+    }
+
+    /// `phi_1(-x)`.
+    #[inline(always)]
+    fn phi(&self) -> S {
+        S::choose(self.decay.at_zero(), S::one(), self.left / self.decay)
+    }
+
     /// How far the deflection has followed where it tends to.
-    #[inline]
+    #[inline(always)]
     fn following(&self) -> S {
-        match self {
-            Self::Rest => S::zero(),
-            Self::Saturated { .. } => S::one(),
-            Self::Transient { y, phi, .. } => following(*y, *phi),
-        }
+        let moving = S::choose(self.settled, S::one(), following(self.decay, self.phi()));
+        S::choose(self.rest, S::zero(), moving)
     }
 }

@@ -14,15 +14,6 @@ pub struct Deflection<S> {
     pub approach: Approach<S>,
 }
 
-impl<S: Scalar> Deflection<S> {
-    /// Of a bristle with stiffness `s0` and damping `s1` at velocity `v`.
-    #[must_use]
-    pub fn of_bristle(stiffness: S, damping: S, velocity: S::Plain) -> Self {
-        let drag = damping.scale(velocity.abs());
-        Self { stiffness, drag, approach: Approach::Linear }
-    }
-}
-
 /// How a deflection approaches sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Approach<S> {

@@ -15,7 +15,7 @@ mod leuven;
 mod maxwell_slip;
 mod relaxation;
 
-pub use bristle::{Bristle, BristleState};
+pub use bristle::{Bristle, BristleState, Course};
 pub use dahl::DahlBristle;
 pub use deflection::{Approach, Deflection};
 pub use elastoplastic::ElastoplasticBristle;
@@ -168,7 +168,7 @@ impl<S: Scalar> Default for State<S> {
 /// to the held place comes, of the way from there to the end, this share further: `y^2/6` where it is
 /// slow, all where it is stiff. So a step-mean velocity gives second order whatever the stiffness.
 #[inline]
-pub(crate) fn following<S: Scalar>(y: S, phi: S) -> S {
+pub(crate) fn following<S: Real>(y: S, phi: S) -> S {
     let two = S::Plain::from_f64(2.0);
     (y.shift(-two) * phi).shift(two)
 }

@@ -1,8 +1,8 @@
 use super::FrictionLaw;
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
+use crate::dynamics::Bristle;
 use crate::sample::{Sample, Split, stribeck_curve};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
@@ -50,31 +50,7 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
     }
 
     #[inline]
-    fn deflection(
-        &self,
-        sample: &Sample<S::Plain>,
-        _: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>>
-    where
-        S: Scalar,
-    {
-        let (s0, s1) = (self.bristle_stiffness, self.bristle_damping);
-        Some(Deflection::of_bristle(s0, s1, sample.velocity))
-    }
-
-    #[inline]
-    fn step(
-        &self,
-        state: &mut State<S>,
-        dry: S,
-        split: &Split<S>,
-        interval: &Interval<S::Plain>,
-        _: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
-        let bristle = Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping };
-        bristle.over(&mut state.bristle, dry, split, interval)
+    fn bristle(&self, _: &Sample<S::Plain>) -> Option<Bristle<S>> {
+        Some(Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping })
     }
 }

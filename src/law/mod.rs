@@ -77,7 +77,7 @@ pub use xiao::Xiao;
 pub use zhou::Zhou;
 
 use crate::constants::Constants;
-use crate::dynamics::{Deflection, Interval, Memory, State, Step};
+use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
 use crate::sample::{Sample, Split};
 use crate::scalar::{Real, Scalar};
 use crate::table::{LawInfo, Parameters};
@@ -93,25 +93,31 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     /// The torque at one instant, taken apart: in steady sliding where the law has a memory.
     fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S>;
 
+    /// The bristle that its state is at this sample, where it is one.
+    #[inline]
+    fn bristle(&self, _sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+        None
+    }
+
     /// The deflection that its state consists of at this sample, where it is a single one.
     #[inline]
     fn deflection(
         &self,
-        _sample: &Sample<S::Plain>,
+        sample: &Sample<S::Plain>,
         _constants: &Constants<S::Plain>,
     ) -> Option<Deflection<S>>
     where
         S: Scalar,
     {
-        None
+        Some(self.bristle(sample)?.deflection(sample.velocity))
     }
 
     /// Steps over an interval over which the dry magnitude `dry` is held. `split` is that of the
     /// sample, with what effects have added; its dry magnitude is another where a mean velocity is
     /// held: the state tends to it towards the end.
     ///
-    /// A law whose `captures` name `presliding` has a memory and steps by itself; in all others
-    /// dry friction acts along the sign of the velocity.
+    /// A law whose `captures` name `presliding` has a memory: it is a bristle or steps by itself; in
+    /// all others dry friction acts along the sign of the velocity.
     #[inline]
     fn step(
         &self,

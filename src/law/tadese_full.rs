@@ -1,9 +1,9 @@
 use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Deflection, Interval, State, Step};
+use crate::dynamics::Bristle;
 use crate::sample::{Quadrants, Sample, Split};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -184,32 +184,7 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
     }
 
     #[inline]
-    fn deflection(
-        &self,
-        sample: &Sample<S::Plain>,
-        _: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>>
-    where
-        S: Scalar,
-    {
-        let (s0, v) = (self.bristle_stiffness, sample.velocity);
-        Some(Deflection::of_bristle(s0, self.damping(v), v))
-    }
-
-    #[inline]
-    fn step(
-        &self,
-        state: &mut State<S>,
-        dry: S,
-        split: &Split<S>,
-        interval: &Interval<S::Plain>,
-        _: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
-        let damping = self.damping(interval.sample.velocity);
-        let bristle = Bristle { stiffness: self.bristle_stiffness, damping };
-        bristle.over(&mut state.bristle, dry, split, interval)
+    fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+        Some(Bristle { stiffness: self.bristle_stiffness, damping: self.damping(sample.velocity) })
     }
 }
