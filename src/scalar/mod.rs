@@ -1,12 +1,9 @@
-//! The numbers a law is written in: `f32`, `f64`, [`Dual`] where a gradient is wanted, and [`Lanes`]
-//! where several samples are evaluated side by side.
+//! The numbers a law is written in: `f32`, `f64`, and [`Dual`] where a gradient is wanted.
 
 mod dual;
-mod lanes;
 mod mask;
 
 pub use dual::Dual;
-pub use lanes::{LaneMask, Lanes};
 pub use mask::Mask;
 
 use core::fmt::Debug;
