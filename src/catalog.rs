@@ -177,6 +177,12 @@ macro_rules! effects {
                 self.present == EffectSet::NONE
             }
 
+            /// Whether one of them has a state of its own.
+            #[must_use]
+            pub fn have_state(&self) -> bool {
+                self.present.iter().any(EffectId::has_state)
+            }
+
             /// Changes the split, each effect in its turn.
             #[inline]
             pub fn apply(

@@ -355,11 +355,25 @@ impl<S: Real> Composed<S> {
         split
     }
 
+    /// Whether what its state does in a step can be found without it, so that several rows can be
+    /// evaluated side by side: there is none, or that of a bristle alone.
+    #[must_use]
+    pub fn runs_side_by_side(&self) -> bool {
+        let is_bristle = || self.bristle(&Sample::at(S::Plain::zero())).is_some();
+        !self.has_state || (!self.effects.have_state() && is_bristle())
+    }
+
     /// The torque in steady sliding, where dry friction acts along `sgn v` (T), as it is measured.
     #[inline]
     #[must_use]
     pub fn static_torque(&self, sample: &Sample<S::Plain>) -> S {
-        let friction = self.split(sample).torque(sample.velocity.sign());
+        self.measured(self.split(sample).torque(sample.velocity.sign()), sample)
+    }
+
+    /// What the torque channel shows of a friction torque (T).
+    #[inline]
+    #[must_use]
+    pub fn measured(&self, friction: S, sample: &Sample<S::Plain>) -> S {
         self.effects.measured(friction, sample, &self.constants)
     }
 

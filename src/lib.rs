@@ -14,6 +14,7 @@
 //! | [`catalog`] | the list of laws and effects |
 //! | [`composed`], [`error`] | a law with its effects |
 //! | [`joint`] | friction coupled to an inertia: joints in motion |
+//! | `graph` (feature `std`) | what a law computes, written down, differentiated and vectorised |
 //! | `batch` (feature `std`) | whole recordings: torque, gradient, delay |
 //! | `passivity` (feature `std`) | proofs over a box of operating points, and counterexamples |
 //! | `python` (feature `python`) | the extension module `stribeck._core` |
@@ -47,6 +48,8 @@ pub mod dynamics;
 pub mod effect;
 pub mod error;
 pub mod formula;
+#[cfg(feature = "std")]
+mod graph;
 pub mod joint;
 pub mod law;
 pub mod math;

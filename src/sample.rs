@@ -46,6 +46,25 @@ impl<S: Copy> Sample<S> {
     }
 }
 
+impl<S> Sample<S> {
+    /// From each channel.
+    #[inline]
+    #[must_use]
+    pub fn of(channel: impl Fn(Channel) -> S) -> Self {
+        Self {
+            velocity: channel(Channel::Velocity),
+            position: channel(Channel::Position),
+            acceleration: channel(Channel::Acceleration),
+            temperature: channel(Channel::Temperature),
+            load_torque: channel(Channel::LoadTorque),
+            load_torque_curvature: channel(Channel::LoadTorqueCurvature),
+            motor_torque: channel(Channel::MotorTorque),
+            external_torque: channel(Channel::ExternalTorque),
+            time: channel(Channel::Time),
+        }
+    }
+}
+
 impl<S: Real> Sample<S> {
     /// A sample where only the velocity matters; everything else is zero.
     #[inline]

@@ -149,9 +149,13 @@ impl Balance {
         }
     }
 
-    /// The first row that no motor torque moves.
-    pub(super) fn locked(&self) -> Option<usize> {
-        self.rows.iter().position(|row| matches!(row.outcome, Outcome::Locked))
+    /// An error if there is a row that no motor torque moves.
+    pub(super) fn refuse_locked(&self) -> Result<(), BatchError> {
+        let locked = |row: &Row| matches!(row.outcome, Outcome::Locked);
+        match self.rows.iter().position(locked) {
+            Some(row) => Err(BatchError::SelfLocking { row }),
+            None => Ok(()),
+        }
     }
 
     /// Turns torques at fixed loads into those of the balance.

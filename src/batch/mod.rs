@@ -2,6 +2,7 @@
 
 mod balance;
 mod columns;
+mod compiled;
 mod delay;
 mod error;
 mod normal;
@@ -15,11 +16,13 @@ pub use triangle::{Triangle, triangle};
 use std::vec;
 use std::vec::Vec;
 
+use crate::catalog::EffectId;
 use crate::composed::{Composed, Spec};
 use crate::dynamics::Interval;
 use crate::scalar::{Dual, Real, Scalar};
 use balance::Balance;
 use columns::Rows;
+use compiled::Compiled;
 
 /// Derivatives that are carried along in one pass over the rows.
 const MOST_AT_ONCE: usize = 16;
@@ -29,7 +32,12 @@ const MOST_AT_ONCE: usize = 16;
 /// # Errors
 /// Columns that are missing, of unequal length or not finite; parameters that cannot be used.
 pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<f64>, BatchError> {
-    torque_as::<f64>(spec, values, columns)
+    let (torque, _) = if spec.with(values)?.runs_side_by_side() {
+        side_by_side(spec, values, columns, &[], Locked::Refused)?
+    } else {
+        one_by_one::<f64>(spec, values, columns, &[], Locked::Refused)?
+    };
+    Ok(torque)
 }
 
 /// As [`torque`], computed in single precision throughout, as a controller without `f64` does. A
@@ -42,37 +50,7 @@ pub fn torque_single(
     values: &[f64],
     columns: &Columns<'_>,
 ) -> Result<Vec<f64>, BatchError> {
-    torque_as::<f32>(spec, values, columns)
-}
-
-fn torque_as<S: Scalar<Plain = S>>(
-    spec: &Spec,
-    values: &[f64],
-    columns: &Columns<'_>,
-) -> Result<Vec<f64>, BatchError> {
-    let numbers: Vec<S> = values.iter().map(|&x| S::from_f64(x)).collect();
-    let model = spec.with(&numbers)?;
-    let rows = columns.rows(spec)?;
-    let run = |channels: Channels<'_>| -> Result<Vec<f64>, BatchError> {
-        let balance = Balance::of(spec, values, columns, &channels)?;
-        let channels = balance.as_ref().map_or(channels, |balance| balance.complete(channels));
-        let mut torque = Vec::with_capacity(rows.count());
-        evaluate(&model, &rows, channels, columns, |t: &S| torque.push(t.value()));
-        if let Some(balance) = &balance {
-            if let Some(row) = balance.locked() {
-                return Err(BatchError::SelfLocking { row });
-            }
-            balance.settle(&mut torque);
-        }
-        Ok(torque)
-    };
-    let mut torque = run(columns.channels)?;
-    if let Some(delay) = &model.effects().delay {
-        let mut series = run(columns.smoothed())?;
-        columns.add_load(&mut series);
-        delay::shift(&rows, delay.delay.value(), &series, 1, &mut torque);
-    }
-    Ok(torque)
+    one_by_one::<f32>(spec, values, columns, &[], Locked::Refused).map(|(torque, _)| torque)
 }
 
 /// The friction torque of every row, and its derivatives by the `wanted` parameters (indices into
@@ -95,9 +73,15 @@ pub fn gradient(
         }
     };
     for (k, &index) in wanted.iter().enumerate() {
+        if index >= values.len() {
+            return Err(BatchError::Wanted { index, parameters: values.len() });
+        }
         if wanted[..k].contains(&index) {
             return Err(BatchError::WantedTwice(index));
         }
+    }
+    if spec.with(values)?.runs_side_by_side() {
+        return side_by_side(spec, values, columns, wanted, Locked::Amplified);
     }
     if wanted.len() <= MOST_AT_ONCE {
         return gradient_at_once(spec, values, columns, wanted);
@@ -121,14 +105,12 @@ fn gradient_at_once(
     columns: &Columns<'_>,
     wanted: &[usize],
 ) -> Result<(Vec<f64>, Vec<f64>), BatchError> {
+    let locked = Locked::Amplified;
     match wanted.len() {
-        0 => gradient_along::<0>(spec, values, columns, wanted),
-        1 => gradient_along::<1>(spec, values, columns, wanted),
-        2 => gradient_along::<2>(spec, values, columns, wanted),
-        3..=4 => gradient_along::<4>(spec, values, columns, wanted),
-        5..=8 => gradient_along::<8>(spec, values, columns, wanted),
-        9..=12 => gradient_along::<12>(spec, values, columns, wanted),
-        _ => gradient_along::<MOST_AT_ONCE>(spec, values, columns, wanted),
+        0 => one_by_one::<f64>(spec, values, columns, wanted, locked),
+        1..=4 => one_by_one::<Dual<f64, 4>>(spec, values, columns, wanted, locked),
+        5..=8 => one_by_one::<Dual<f64, 8>>(spec, values, columns, wanted, locked),
+        _ => one_by_one::<Dual<f64, MOST_AT_ONCE>>(spec, values, columns, wanted, locked),
     }
 }
 
@@ -166,7 +148,89 @@ pub fn split(
     Ok(parts)
 }
 
-/// Runs a model over rows; the state starts afresh with every segment.
+/// What becomes of rows at which no motor torque moves the joint.
+#[derive(Clone, Copy, PartialEq)]
+enum Locked {
+    /// They are an error.
+    Refused,
+    /// A search goes on with an amplified torque.
+    Amplified,
+}
+
+/// Torque, and derivatives row by row.
+type Results = (Vec<f64>, Vec<f64>);
+
+/// All rows of a block at once, operation by operation.
+fn side_by_side(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    wanted: &[usize],
+    locked: Locked,
+) -> Result<Results, BatchError> {
+    measured(spec, values, columns, wanted, locked, |rows, channels| {
+        Compiled::of(spec, wanted, columns).run(values, rows, channels, columns)
+    })
+}
+
+/// A kind of number that rows are run in one after another.
+trait Single: Scalar {
+    /// A parameter, with a derivative of 1 in a direction if one is given.
+    fn parameter(value: f64, direction: Option<usize>) -> Self;
+    /// The derivatives.
+    fn slopes(&self) -> &[f64];
+}
+
+macro_rules! without_derivatives {
+    ($($float:ident),+) => {$(
+        impl Single for $float {
+            fn parameter(value: f64, _: Option<usize>) -> Self {
+                Self::from_f64(value)
+            }
+
+            fn slopes(&self) -> &[f64] {
+                &[]
+            }
+        }
+    )+};
+}
+
+without_derivatives!(f32, f64);
+
+impl<const N: usize> Single for Dual<f64, N> {
+    fn parameter(value: f64, direction: Option<usize>) -> Self {
+        direction.map_or_else(|| Self::constant(value), |index| Self::variable(value, index))
+    }
+
+    fn slopes(&self) -> &[f64] {
+        &self.derivative
+    }
+}
+
+/// One row after the other; the state starts afresh with every segment.
+fn one_by_one<S: Single>(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    wanted: &[usize],
+    locked: Locked,
+) -> Result<Results, BatchError> {
+    let direction = |index: usize| wanted.iter().position(|&own| own == index);
+    let parameters: Vec<S> =
+        values.iter().enumerate().map(|(i, &x)| S::parameter(x, direction(i))).collect();
+    let model = spec.with(&parameters)?;
+    measured(spec, values, columns, wanted, locked, |rows, channels| {
+        let mut torque = Vec::with_capacity(rows.count());
+        let mut slopes = Vec::with_capacity(rows.count() * wanted.len());
+        evaluate(&model, rows, channels, columns, |t: &S| {
+            torque.push(t.value());
+            // Turns -0 into 0: which of them it is depends on what else is wanted.
+            slopes.extend(t.slopes().iter().take(wanted.len()).map(|d| d + 0.0));
+        });
+        (torque, slopes)
+    })
+}
+
 fn evaluate<S: Scalar>(
     model: &Composed<S>,
     rows: &Rows,
@@ -174,12 +238,6 @@ fn evaluate<S: Scalar>(
     columns: &Columns<'_>,
     mut sink: impl FnMut(&S),
 ) {
-    if !model.has_state() {
-        for i in 0..rows.count() {
-            sink(&model.static_torque(&channels.sample(i)));
-        }
-        return;
-    }
     let fresh = columns.start(model.memory());
     let mut state = fresh;
     for (i, &dt) in rows.steps.iter().enumerate() {
@@ -203,56 +261,46 @@ fn evaluate<S: Scalar>(
     }
 }
 
-fn gradient_along<const N: usize>(
+/// What the torque channel shows of what `run` yields: with loads that follow from the balance of
+/// torques, and late by a delay.
+fn measured(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,
     wanted: &[usize],
-) -> Result<(Vec<f64>, Vec<f64>), BatchError> {
-    let mut variables: Vec<_> = values.iter().map(|&x| Dual::<f64, N>::constant(x)).collect();
-    for (direction, &index) in wanted.iter().enumerate() {
-        match variables.get_mut(index) {
-            Some(variable) => *variable = Dual::variable(variable.value, direction),
-            None => return Err(BatchError::Wanted { index, parameters: values.len() }),
-        }
-    }
-    let model = spec.with(&variables)?;
+    locked: Locked,
+    run: impl Fn(&Rows, Channels<'_>) -> Results,
+) -> Result<Results, BatchError> {
     let rows = columns.rows(spec)?;
     let width = wanted.len();
-    let run = |channels: Channels<'_>| -> Result<_, BatchError> {
-        let balance = Balance::of(spec, values, columns, &channels)?;
-        let channels = balance.as_ref().map_or(channels, |balance| balance.complete(channels));
-        let mut torque = Vec::with_capacity(rows.count());
-        let mut jacobian = vec![0.0; rows.count() * width];
-        let mut slopes = jacobian.chunks_exact_mut(width.max(1));
-        evaluate(&model, &rows, channels, columns, |t: &Dual<f64, N>| {
-            torque.push(t.value);
-            for (slope, d) in slopes.next().into_iter().flatten().zip(&t.derivative) {
-                // Turns -0 into 0: which of them it is depends on what else is wanted.
-                *slope = d + 0.0;
-            }
-        });
-        if let Some(balance) = &balance {
-            balance.settle(&mut torque);
-            balance.settle_slopes(spec, &channels, wanted, &mut jacobian);
+    let balanced = |channels: Channels<'_>| -> Result<Results, BatchError> {
+        let Some(balance) = Balance::of(spec, values, columns, &channels)? else {
+            return Ok(run(&rows, channels));
+        };
+        let channels = balance.complete(channels);
+        let (mut torque, mut slopes) = run(&rows, channels);
+        if locked == Locked::Refused {
+            balance.refuse_locked()?;
         }
-        Ok((torque, jacobian))
+        balance.settle(&mut torque);
+        balance.settle_slopes(spec, &channels, wanted, &mut slopes);
+        Ok((torque, slopes))
     };
-    let (mut torque, mut jacobian) = run(columns.channels)?;
-    if let Some(delay) = &model.effects().delay {
-        let (mut shifted, slopes) = run(columns.smoothed())?;
-        columns.add_load(&mut shifted);
-        let tau = delay.delay.value;
-        let by_delay = delay::shift(&rows, tau, &shifted, 1, &mut torque);
-        if width > 0 {
-            delay::shift(&rows, tau, &slopes, width, &mut jacobian);
-        }
-        let own = |&index: &usize| spec.parameters().nth(index).is_some_and(|p| p.name == "delay");
-        if let Some(own) = wanted.iter().position(own) {
-            for (row, slope) in jacobian.chunks_exact_mut(width).zip(by_delay) {
-                row[own] = slope;
-            }
+    let (mut torque, mut slopes) = balanced(columns.channels)?;
+    let place = |name| spec.parameters().position(|parameter| parameter.name == name);
+    let Some(delay) = place("delay").filter(|_| spec.effects().contains(EffectId::Delay)) else {
+        return Ok((torque, slopes));
+    };
+    let (mut shifted, shifted_slopes) = balanced(columns.smoothed())?;
+    columns.add_load(&mut shifted);
+    let by_delay = delay::shift(&rows, values[delay], &shifted, 1, &mut torque);
+    if width > 0 {
+        delay::shift(&rows, values[delay], &shifted_slopes, width, &mut slopes);
+    }
+    if let Some(own) = wanted.iter().position(|&index| index == delay) {
+        for (row, slope) in slopes.chunks_exact_mut(width).zip(by_delay) {
+            row[own] = slope;
         }
     }
-    Ok((torque, jacobian))
+    Ok((torque, slopes))
 }

@@ -175,9 +175,9 @@ impl<S: Scalar> Bristle<S> {
 #[derive(Clone, Copy, Debug)]
 pub struct Course<S: Real> {
     /// Where the deflection tends to (X).
-    target: S,
+    pub target: S,
     /// `1 - e^-x`.
-    share: S,
+    pub share: S,
     /// `s0 |v|/D` (1/s), 0 of a bristle at rest and of one that has settled at once.
     pace: S,
     /// `-x`.

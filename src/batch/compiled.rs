@@ -1,0 +1,162 @@
+//! A model's torque and derivatives as a graph, run over whole columns.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::thread_local;
+use std::vec;
+use std::vec::Vec;
+
+use super::columns::{Channels, Columns, Rows};
+use crate::composed::Spec;
+use crate::graph::{self, Beginning, Given, Operation, Recorded, Recorder, Schedule};
+use crate::sample::Sample;
+use crate::scalar::Real;
+use crate::table::Channel;
+
+/// Columns beside the channels: the mean velocity over each row's step, and its length.
+const MEAN_VELOCITY: usize = Channel::ALL.len();
+const STEP: usize = MEAN_VELOCITY + 1;
+
+/// Models that are kept for the next call: a fit alternates between few.
+const KEPT: usize = 16;
+
+/// The torque of a model and its derivatives by some parameters.
+pub(super) struct Compiled {
+    schedule: Schedule,
+    width: usize,
+}
+
+/// What a model is compiled for.
+#[derive(Clone, PartialEq)]
+struct Purpose {
+    spec: Spec,
+    wanted: Vec<usize>,
+    mean_velocity: bool,
+}
+
+thread_local! {
+    static RECENT: RefCell<Vec<(Purpose, Rc<Compiled>)>> = const { RefCell::new(Vec::new()) };
+}
+
+impl Compiled {
+    /// Compiles a model that [can](crate::composed::Composed::runs_side_by_side) be, or finds it compiled.
+    pub(super) fn of(spec: &Spec, wanted: &[usize], columns: &Columns<'_>) -> Rc<Self> {
+        let mean_velocity = columns.mean_velocity.is_some();
+        let purpose = Purpose { spec: *spec, wanted: wanted.to_vec(), mean_velocity };
+        RECENT
+            .with_borrow_mut(|recent| {
+                if let Some(place) = recent.iter().position(|(own, _)| *own == purpose) {
+                    let found = recent.remove(place);
+                    recent.push(found);
+                } else {
+                    if recent.len() == KEPT {
+                        recent.remove(0);
+                    }
+                    let compiled = Rc::new(Self::anew(&purpose));
+                    recent.push((purpose, compiled));
+                }
+                recent.last().map(|(_, compiled)| Rc::clone(compiled))
+            })
+            .unwrap_or_else(|| Rc::new(Self { schedule: Schedule::of(&[], &[]), width: 0 }))
+    }
+
+    fn anew(purpose: &Purpose) -> Self {
+        let recorder = Recorder::default();
+        let torque = recorder.id(torque(purpose, &recorder));
+        let slopes = graph::derivatives(&recorder, &[torque], &purpose.wanted);
+        let mut outputs = vec![torque];
+        outputs.extend(slopes.iter().flatten().map(|&slope| recorder.id(slope)));
+        let schedule = Schedule::of(&recorder.operations(), &outputs);
+        Self { schedule, width: purpose.wanted.len() }
+    }
+
+    /// Torque and derivatives, row by row.
+    pub(super) fn run(
+        &self,
+        values: &[f64],
+        rows: &Rows,
+        channels: Channels<'_>,
+        columns: &Columns<'_>,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let mut given: Vec<&[f64]> =
+            Channel::ALL.iter().map(|&channel| channels.get(channel).unwrap_or_default()).collect();
+        given.push(columns.mean_velocity.unwrap_or_default());
+        let steps: Vec<f64>;
+        given.push(if rows.steps.iter().all(|dt| dt.is_finite()) {
+            &rows.steps
+        } else {
+            steps = rows.steps.iter().map(|&dt| if dt.is_finite() { dt } else { 0.0 }).collect();
+            &steps
+        });
+        let beginning = |row: usize| match () {
+            () if !rows.starts_at(row) => Beginning::Continued,
+            () if rows.is_settled(row) => Beginning::Settled,
+            () => Beginning::Fresh,
+        };
+        let mut torque = vec![0.0; rows.count()];
+        let mut slopes = vec![0.0; rows.count() * self.width];
+        let given = Given {
+            parameters: values,
+            columns: &given,
+            rows: rows.count(),
+            start: columns.state.first().copied().unwrap_or(0.0),
+            beginning: &beginning,
+        };
+        graph::run(&self.schedule, &given, |first, outputs| {
+            let count = graph::BLOCK.min(torque.len() - first);
+            for i in 0..count {
+                torque[first + i] = outputs[0].at(i);
+            }
+            for (k, slope) in outputs[1..].iter().enumerate() {
+                let own = slopes[first * self.width..].chunks_exact_mut(self.width).take(count);
+                for (i, row) in own.enumerate() {
+                    // Turns -0 into 0: which of them it is depends on what else is wanted.
+                    row[k] = slope.at(i) + 0.0;
+                }
+            }
+        });
+        (torque, slopes)
+    }
+}
+
+/// What the model does in numbers that write it down.
+fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
+    let spec = &purpose.spec;
+    let parameters: Vec<Recorded<'r>> = (0..spec.parameter_count())
+        .map(|index| recorder.number(Operation::Parameter(index)))
+        .collect();
+    let column = |index| recorder.number(Operation::Column(index));
+    let read: Vec<Channel> = spec.channels().collect();
+    let channel = |channel: Channel| {
+        if read.contains(&channel) { column(channel as usize) } else { Recorded::Known(0.0) }
+    };
+    let sample = Sample::of(channel);
+    let Ok(model) = spec.with(&parameters) else { return Recorded::Known(f64::NAN) };
+    match model.bristle(&sample) {
+        Some(bristle) if model.has_state() => {
+            let split = model.split(&sample);
+            let end = split.dry();
+            let mean = purpose.mean_velocity.then(|| column(MEAN_VELOCITY));
+            let velocity = mean.unwrap_or(sample.velocity);
+            let dry = match mean {
+                Some(_) => {
+                    let before = recorder.number(Operation::Previous(recorder.id(end)));
+                    (before + end).scale(Recorded::Known(0.5))
+                }
+                None => end,
+            };
+            let course = bristle.course(dry, velocity, column(STEP));
+            let shift = match mean {
+                Some(_) => bristle.shift(&course, dry, end, velocity),
+                None => Recorded::Known(0.0),
+            };
+            let (before, after) = recorder.relax(course.share, course.target, shift);
+            let rate = match mean {
+                Some(_) => bristle.rate(after, end, sample.velocity),
+                None => course.end_rate(before),
+            };
+            model.measured(bristle.torque(after, rate, &split), &sample)
+        }
+        _ => model.static_torque(&sample),
+    }
+}

@@ -1,0 +1,143 @@
+//! The loops over a block of rows, one an operation.
+
+use super::operation::{Binary, Unary};
+use crate::math::f64 as elementary;
+use crate::scalar::Real;
+
+/// Numbers of a block: one a row, or the same for all.
+#[derive(Clone, Copy, Debug)]
+pub enum Rows<'a> {
+    /// The same.
+    Same(f64),
+    /// One a row.
+    Each(&'a [f64]),
+}
+
+impl Rows<'_> {
+    /// That of one row.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, row: usize) -> f64 {
+        match self {
+            Self::Same(x) => *x,
+            Self::Each(rows) => rows[row],
+        }
+    }
+}
+
+const fn mask(yes: bool) -> f64 {
+    if yes { 1.0 } else { 0.0 }
+}
+
+#[inline(always)]
+fn map(out: &mut [f64], x: Rows<'_>, f: impl Fn(f64) -> f64) {
+    match x {
+        Rows::Same(x) => out.fill(f(x)),
+        Rows::Each(x) => {
+            for (out, &x) in out.iter_mut().zip(x) {
+                *out = f(x);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn zip(out: &mut [f64], x: Rows<'_>, y: Rows<'_>, f: impl Fn(f64, f64) -> f64) {
+    match (x, y) {
+        (Rows::Same(x), y) => map(out, y, |y| f(x, y)),
+        (x, Rows::Same(y)) => map(out, x, |x| f(x, y)),
+        (Rows::Each(x), Rows::Each(y)) => {
+            for ((out, &x), &y) in out.iter_mut().zip(x).zip(y) {
+                *out = f(x, y);
+            }
+        }
+    }
+}
+
+/// An operation on one number of each row.
+#[inline(always)]
+pub fn unary(out: &mut [f64], operation: Unary, x: Rows<'_>) {
+    match operation {
+        Unary::Negate => map(out, x, |x| -x),
+        Unary::Abs => map(out, x, f64::abs),
+        Unary::Sign => map(out, x, |x| Real::sign(x)),
+        Unary::Exp => map(out, x, elementary::exp),
+        Unary::Expm1 => map(out, x, elementary::expm1),
+        Unary::Ln => map(out, x, elementary::ln),
+        Unary::Sqrt => map(out, x, elementary::sqrt),
+        Unary::Cbrt => map(out, x, elementary::cbrt),
+        Unary::Sin => map(out, x, elementary::sin),
+        Unary::Cos => map(out, x, elementary::cos),
+        Unary::Tanh => map(out, x, elementary::tanh),
+        Unary::Atan => map(out, x, elementary::atan),
+        Unary::Phi(order) => map(out, x, |x| elementary::phi(order, x)),
+        Unary::IsFinite => map(out, x, |x| mask(x.is_finite())),
+        Unary::Not => map(out, x, |x| 1.0 - x),
+    }
+}
+
+/// An operation on two numbers of each row.
+#[inline(always)]
+pub fn binary(out: &mut [f64], operation: Binary, x: Rows<'_>, y: Rows<'_>) {
+    match operation {
+        Binary::Add => zip(out, x, y, |x, y| x + y),
+        Binary::Subtract => zip(out, x, y, |x, y| x - y),
+        Binary::Multiply | Binary::And => zip(out, x, y, |x, y| x * y),
+        Binary::Divide => zip(out, x, y, |x, y| x / y),
+        Binary::Power => power(out, x, y),
+        Binary::Below => zip(out, x, y, |x, y| mask(x < y)),
+        Binary::Above => zip(out, x, y, |x, y| mask(x > y)),
+        Binary::Equal => zip(out, x, y, |x, y| mask(x == y)),
+        Binary::Or => zip(out, x, y, |x, y| if x > y { x } else { y }),
+        Binary::Chain => zip(out, x, y, chain),
+    }
+}
+
+/// A power whose exponent all rows share is chosen once.
+#[inline(always)]
+fn power(out: &mut [f64], x: Rows<'_>, p: Rows<'_>) {
+    match p {
+        Rows::Same(p) if p == 2.0 => map(out, x, |x| elementary::powf(x, 2.0)),
+        p => zip(out, x, p, elementary::powf),
+    }
+}
+
+/// A slope times a derivative; nothing where one of them is nothing.
+#[inline(always)]
+fn chain(slope: f64, by: f64) -> f64 {
+    let product = slope * by;
+    if slope == 0.0 || by == 0.0 { 0.0 } else { product }
+}
+
+/// The second where the mask holds, else the third.
+#[inline(always)]
+pub fn choose(out: &mut [f64], mask: Rows<'_>, yes: Rows<'_>, no: Rows<'_>) {
+    match (mask, yes, no) {
+        (Rows::Same(mask), yes, no) => map(out, if mask == 0.0 { no } else { yes }, |x| x),
+        (mask, Rows::Same(yes), no) => {
+            zip(out, mask, no, |mask, no| if mask == 0.0 { no } else { yes });
+        }
+        (mask, yes, Rows::Same(no)) => {
+            zip(out, mask, yes, |mask, yes| if mask == 0.0 { no } else { yes });
+        }
+        (Rows::Each(mask), Rows::Each(yes), Rows::Each(no)) => {
+            for (((out, &mask), &yes), &no) in out.iter_mut().zip(mask).zip(yes).zip(no) {
+                *out = if mask == 0.0 { no } else { yes };
+            }
+        }
+    }
+}
+
+/// The same operation on single numbers.
+pub fn unary_once(operation: Unary, x: f64) -> f64 {
+    let mut out = [0.0];
+    unary(&mut out, operation, Rows::Same(x));
+    out[0]
+}
+
+/// The same operation on single numbers.
+pub fn binary_once(operation: Binary, x: f64, y: f64) -> f64 {
+    let mut out = [0.0];
+    binary(&mut out, operation, Rows::Same(x), Rows::Same(y));
+    out[0]
+}

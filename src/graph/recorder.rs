@@ -1,0 +1,86 @@
+//! Where operations are written down.
+
+use core::cell::RefCell;
+use std::collections::HashMap;
+use std::vec::Vec;
+
+use super::operation::{Binary, Id, Operation, Relaxing, Start, Unary};
+use super::recorded::Recorded;
+
+/// The operations so far; none twice.
+#[derive(Debug, Default)]
+pub struct Recorder {
+    nodes: RefCell<Nodes>,
+}
+
+#[derive(Debug, Default)]
+struct Nodes {
+    operations: Vec<Operation>,
+    known: HashMap<Operation, Id>,
+}
+
+impl Recorder {
+    /// The node of an operation: the one that is there already, or a new one.
+    pub fn node(&self, operation: Operation) -> Id {
+        let nodes = &mut *self.nodes.borrow_mut();
+        *nodes.known.entry(operation).or_insert_with(|| {
+            nodes.operations.push(operation);
+            nodes.operations.len() - 1
+        })
+    }
+
+    /// The same, as a number.
+    pub fn number(&self, operation: Operation) -> Recorded<'_> {
+        Recorded::Node(self, self.node(operation))
+    }
+
+    /// All operations, in an order in which they can be computed.
+    #[must_use]
+    pub fn operations(&self) -> Vec<Operation> {
+        self.nodes.borrow().operations.clone()
+    }
+
+    /// The operation of a node.
+    #[must_use]
+    pub fn operation(&self, id: Id) -> Operation {
+        self.nodes.borrow().operations[id]
+    }
+
+    /// The node of a number.
+    pub fn id(&self, number: Recorded<'_>) -> Id {
+        match number {
+            Recorded::Known(x) => self.node(Operation::Constant(x.to_bits())),
+            Recorded::Node(_, id) => id,
+        }
+    }
+
+    /// A state that relaxes from row to row: before its row and after it.
+    pub fn relax<'r>(
+        &'r self,
+        share: Recorded<'r>,
+        target: Recorded<'r>,
+        shift: Recorded<'r>,
+    ) -> (Recorded<'r>, Recorded<'r>) {
+        let target = self.id(target);
+        let relaxing = Relaxing {
+            share: self.id(share),
+            target,
+            extra: self.id(Recorded::Known(0.0)),
+            shift: self.id(shift),
+            start: Start::Given,
+        };
+        let after = self.node(Operation::Relax(relaxing));
+        let before = self.number(Operation::Before(after, target, Start::Given));
+        (before, Recorded::Node(self, after))
+    }
+
+    /// A unary operation; what is known is computed at once.
+    pub fn unary<'r>(&'r self, operation: Unary, x: Id) -> Recorded<'r> {
+        self.number(Operation::Unary(operation, x))
+    }
+
+    /// A binary operation.
+    pub fn binary<'r>(&'r self, operation: Binary, x: Id, y: Id) -> Recorded<'r> {
+        self.number(Operation::Binary(operation, x, y))
+    }
+}

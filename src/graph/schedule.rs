@@ -1,0 +1,139 @@
+//! Which operations run, in which order, and where their results stand.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::operation::{Id, Operation};
+
+/// Where a number stands while the graph runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The same for all rows.
+    Uniform(usize),
+    /// A column that is given.
+    Column(usize),
+    /// A buffer, one number a row of the block.
+    Buffer(usize),
+}
+
+/// An operation with the places of what it takes and leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct Task {
+    /// What is done.
+    pub operation: Operation,
+    /// Where its operands stand, in their order.
+    pub from: [Place; 4],
+    /// Where the result goes; for one that all rows share, its place among these.
+    pub to: usize,
+    /// Where what it remembers stands, of an operation with a memory.
+    pub memory: usize,
+}
+
+/// The operations behind some outputs.
+#[derive(Clone, Debug)]
+pub struct Schedule {
+    /// What is done once, for all rows.
+    pub once: Vec<Task>,
+    /// What is done for each block of rows.
+    pub each: Vec<Task>,
+    /// Where the outputs stand.
+    pub outputs: Vec<Place>,
+    /// How many numbers all rows share.
+    pub uniforms: usize,
+    /// How many buffers are needed at once.
+    pub buffers: usize,
+    /// How many numbers are remembered from block to block.
+    pub memories: usize,
+}
+
+impl Schedule {
+    /// Of a graph's operations, what the outputs need.
+    #[must_use]
+    pub fn of(operations: &[Operation], outputs: &[Id]) -> Self {
+        let mut needed = vec![false; operations.len()];
+        let mut last_use: Vec<Id> = (0..operations.len()).collect();
+        for &output in outputs {
+            (needed[output], last_use[output]) = (true, Id::MAX);
+        }
+        for id in (0..operations.len()).rev() {
+            if needed[id] {
+                for operand in operations[id].operands() {
+                    needed[operand] = true;
+                    last_use[operand] = last_use[operand].max(id);
+                }
+            }
+        }
+        let mut layout = Layout::default();
+        let mut schedule = Self {
+            once: vec![],
+            each: vec![],
+            outputs: vec![],
+            uniforms: 0,
+            buffers: 0,
+            memories: 0,
+        };
+        let mut places: Vec<Option<Place>> = vec![None; operations.len()];
+        for (id, &operation) in operations.iter().enumerate().filter(|(id, _)| needed[*id]) {
+            let operands = operation.operands();
+            let from: Vec<Place> = operands.iter().filter_map(|&operand| places[operand]).collect();
+            let shared = from.iter().all(|place| matches!(place, Place::Uniform(_)));
+            let place = match operation {
+                Operation::Column(column) => {
+                    places[id] = Some(Place::Column(column));
+                    continue;
+                }
+                operation if shared && !operation.has_memory() => {
+                    schedule.uniforms += 1;
+                    Place::Uniform(schedule.uniforms - 1)
+                }
+                _ => Place::Buffer(layout.take()),
+            };
+            places[id] = Some(place);
+            let mut four = [Place::Uniform(0); 4];
+            four[..from.len()].copy_from_slice(&from);
+            let memory = schedule.memories;
+            schedule.memories += usize::from(operation.has_memory());
+            match place {
+                Place::Uniform(to) => {
+                    schedule.once.push(Task { operation, from: four, to, memory });
+                }
+                Place::Buffer(to) => {
+                    schedule.each.push(Task { operation, from: four, to, memory });
+                    for operand in operands {
+                        match places[operand] {
+                            Some(Place::Buffer(free)) if last_use[operand] == id => {
+                                layout.give_back(free);
+                                last_use[operand] = Id::MAX;
+                            }
+                            _ => {}
+                        }
+                    }
+                }
+                Place::Column(_) => {}
+            }
+        }
+        schedule.outputs = outputs.iter().filter_map(|&output| places[output]).collect();
+        schedule.buffers = layout.count;
+        schedule
+    }
+}
+
+/// Buffers that are free again are used again.
+#[derive(Default)]
+struct Layout {
+    free: Vec<usize>,
+    count: usize,
+}
+
+impl Layout {
+    fn take(&mut self) -> usize {
+        self.free.pop().unwrap_or_else(|| {
+            self.count += 1;
+            self.count - 1
+        })
+    }
+
+    fn give_back(&mut self, buffer: usize) {
+        self.free.push(buffer);
+    }
+}
