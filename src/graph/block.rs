@@ -66,13 +66,24 @@ pub fn unary(out: &mut [f64], operation: Unary, x: Rows<'_>) {
         Unary::Ln => map(out, x, elementary::ln),
         Unary::Sqrt => map(out, x, elementary::sqrt),
         Unary::Cbrt => map(out, x, elementary::cbrt),
-        Unary::Sin => map(out, x, elementary::sin),
-        Unary::Cos => map(out, x, elementary::cos),
+        Unary::Sin => wave(out, x, |(sin, _)| sin),
+        Unary::Cos => wave(out, x, |(_, cos)| cos),
         Unary::Tanh => map(out, x, elementary::tanh),
         Unary::Atan => map(out, x, elementary::atan),
         Unary::Phi(order) => map(out, x, |x| elementary::phi(order, x)),
         Unary::IsFinite => map(out, x, |x| mask(x.is_finite())),
         Unary::Not => map(out, x, |x| 1.0 - x),
+    }
+}
+
+/// Sine or cosine: the few phases that need care are mended.
+#[inline(always)]
+fn wave(out: &mut [f64], x: Rows<'_>, of: impl Fn((f64, f64)) -> f64) {
+    map(out, x, |x| of(elementary::sin_cos_fast(x)));
+    for (row, out) in out.iter_mut().enumerate() {
+        if elementary::needs_care(x.at(row)) {
+            *out = of(elementary::sin_cos(x.at(row)));
+        }
     }
 }
 
