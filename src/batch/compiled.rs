@@ -150,7 +150,8 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
                 Some(_) => bristle.shift(&course, dry, end, velocity),
                 None => Recorded::Known(0.0),
             };
-            let (before, after) = recorder.relax(course.share, course.target, shift);
+            let settled = bristle.target(end, sample.velocity);
+            let (before, after) = recorder.relax(course.share, course.target, shift, settled);
             let rate = match mean {
                 Some(_) => bristle.rate(after, end, sample.velocity),
                 None => course.end_rate(before),

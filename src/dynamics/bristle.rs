@@ -53,8 +53,14 @@ impl<S: Real> Bristle<S> {
         let decay = pace.scale(-dt);
         let left = decay.expm1();
         let share = S::choose(settled.and(lasts).and(rest.not()), one, -left);
-        let target = (dry / self.stiffness).scale(velocity.sign());
+        let target = self.target(dry, velocity);
         Course { target, share, pace, decay, left, rest, settled }
+    }
+
+    /// Where the deflection tends to (X).
+    #[inline(always)]
+    pub fn target(&self, dry: S, velocity: S::Plain) -> S {
+        (dry / self.stiffness).scale(velocity.sign())
     }
 
     /// Where a pull is so strong that the bristle settles in any step of this length (s).

@@ -68,14 +68,14 @@ impl<'r> Rules<'r> {
 
     /// The state's derivative relaxes alike, and is moved by those of share, target and shift.
     fn relax(&self, state: Id, relaxing: Relaxing, k: usize) -> Slope<'r> {
-        let Relaxing { share, target, extra, shift, .. } = relaxing;
-        let [by_share, by_target, by_extra, by_shift] =
-            [share, target, extra, shift].map(|id| self.slopes[id][k]);
+        let Relaxing { share, target, extra, shift, settled, .. } = relaxing;
+        let [by_share, by_target, by_extra, by_shift, by_settled] =
+            [share, target, extra, shift, settled].map(|id| self.slopes[id][k]);
         let moved = by_share.map(|by| {
             by * (self.number(target) - self.before(Recorded::Node(self.recorder, state)))
         });
         let extra = sum(moved, by_extra);
-        if extra.is_none() && by_target.is_none() && by_shift.is_none() {
+        if [extra, by_target, by_shift, by_settled].iter().all(Option::is_none) {
             return None;
         }
         let node = |slope: Slope<'r>| self.recorder.id(slope.unwrap_or(Recorded::Known(0.0)));
@@ -84,6 +84,7 @@ impl<'r> Rules<'r> {
             target: node(by_target),
             extra: node(extra),
             shift: node(by_shift),
+            settled: node(by_settled),
             start: Start::Zero,
         };
         Some(self.recorder.number(Operation::Relax(relaxing)))
@@ -93,8 +94,8 @@ impl<'r> Rules<'r> {
     fn before(&self, state: Recorded<'r>) -> Recorded<'r> {
         let id = self.recorder.id(state);
         match self.recorder.operation(id) {
-            Operation::Relax(Relaxing { target, start, .. }) => {
-                self.recorder.number(Operation::Before(id, target, start))
+            Operation::Relax(Relaxing { settled, start, .. }) => {
+                self.recorder.number(Operation::Before(id, settled, start))
             }
             _ => state,
         }

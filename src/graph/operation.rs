@@ -29,17 +29,19 @@ pub enum Operation {
     Before(Id, Id, Start),
 }
 
-/// `z + (extra + share (target - z)) + shift`.
+/// `(z + extra) + share (target - z) + shift`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Relaxing {
     /// Share of the way that is gone.
     pub share: Id,
-    /// Where it goes; also where a segment starts that has settled.
+    /// Where it goes.
     pub target: Id,
     /// What comes to that.
     pub extra: Id,
     /// What comes at the end.
     pub shift: Id,
+    /// Where a segment starts that has settled.
+    pub settled: Id,
     /// Where other segments start.
     pub start: Start,
 }
@@ -102,8 +104,8 @@ impl Operation {
             Self::Unary(_, x) | Self::Previous(x) => vec![x],
             Self::Binary(_, x, y) | Self::Before(x, y, _) => vec![x, y],
             Self::Choose(x, y, z) => vec![x, y, z],
-            Self::Relax(Relaxing { share, target, extra, shift, .. }) => {
-                vec![share, target, extra, shift]
+            Self::Relax(Relaxing { share, target, extra, shift, settled, .. }) => {
+                vec![share, target, extra, shift, settled]
             }
         }
     }

@@ -60,17 +60,19 @@ impl Recorder {
         share: Recorded<'r>,
         target: Recorded<'r>,
         shift: Recorded<'r>,
+        settled: Recorded<'r>,
     ) -> (Recorded<'r>, Recorded<'r>) {
-        let target = self.id(target);
+        let settled = self.id(settled);
         let relaxing = Relaxing {
             share: self.id(share),
-            target,
+            target: self.id(target),
             extra: self.id(Recorded::Known(0.0)),
             shift: self.id(shift),
+            settled,
             start: Start::Given,
         };
         let after = self.node(Operation::Relax(relaxing));
-        let before = self.number(Operation::Before(after, target, Start::Given));
+        let before = self.number(Operation::Before(after, settled, Start::Given));
         (before, Recorded::Node(self, after))
     }
 

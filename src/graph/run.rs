@@ -142,20 +142,32 @@ struct Moment<'a> {
 impl Moment<'_> {
     #[inline(always)]
     fn carry_out<'b>(self, task: &Task, out: &mut [f64], rows: impl Fn(Place) -> Rows<'b>) {
-        let [a, b, c, d] = task.from;
+        let [a, b, c, d, e] = task.from;
         match task.operation {
             Operation::Unary(operation, _) => unary(out, operation, rows(a)),
             Operation::Binary(operation, _, _) => binary(out, operation, rows(a), rows(b)),
             Operation::Choose(..) => choose(out, rows(a), rows(b), rows(c)),
             Operation::Previous(_) => self.previous(out, rows(a)),
             Operation::Relax(Relaxing { start, .. }) => {
-                self.relax(out, [rows(a), rows(b), rows(c), rows(d)], start);
+                self.relax(out, [rows(a), rows(b), rows(c), rows(d), rows(e)], start);
             }
             Operation::Before(_, _, start) => self.before(out, rows(a), rows(b), start),
             Operation::Constant(_) | Operation::Parameter(_) | Operation::Column(_) => {}
         }
     }
 
+    /// Where the state is before a row that begins so.
+    #[inline(always)]
+    fn from(&self, row: usize, state: f64, settled: f64, start: Start) -> f64 {
+        match self.beginnings[row] {
+            Beginning::Continued => state,
+            Beginning::Settled => settled,
+            Beginning::Fresh if start == Start::Given => self.start,
+            Beginning::Fresh => 0.0,
+        }
+    }
+
+    #[inline(always)]
     fn previous(self, out: &mut [f64], x: Rows<'_>) {
         let Some(memory) = self.memory else { return };
         for (i, out) in out.iter_mut().enumerate() {
@@ -165,39 +177,46 @@ impl Moment<'_> {
         }
     }
 
-    /// Where the state is before a row that begins so.
     #[inline(always)]
-    fn from(&self, row: usize, state: f64, target: Rows<'_>, start: Start) -> f64 {
-        match self.beginnings[row] {
-            Beginning::Continued => state,
-            Beginning::Settled => target.at(row),
-            Beginning::Fresh if start == Start::Given => self.start,
-            Beginning::Fresh => 0.0,
-        }
-    }
-
     fn relax(
         mut self,
         out: &mut [f64],
-        [share, target, extra, shift]: [Rows<'_>; 4],
+        [share, target, extra, shift, settled]: [Rows<'_>; 5],
         start: Start,
     ) {
         let Some(memory) = self.memory.take() else { return };
+        let [share, target, extra, shift] =
+            [share, target, extra, shift].map(|from| spread(from, out.len()));
         let mut z = *memory;
-        for (i, out) in out.iter_mut().enumerate() {
-            let before = self.from(i, z, target, start);
-            let moved = extra.at(i) + share.at(i) * (target.at(i) - before);
-            z = before + moved + shift.at(i);
+        let continued = self.beginnings.iter().all(|&own| own == Beginning::Continued);
+        let rows = share.iter().zip(&target).zip(&extra).zip(&shift).zip(out).enumerate();
+        for (i, ((((share, target), extra), shift), out)) in rows {
+            let before = if continued { z } else { self.from(i, z, settled.at(i), start) };
+            // What does not wait for the way is added meanwhile.
+            z = (before + extra) + share * (target - before) + shift;
             *out = z;
         }
         *memory = z;
     }
 
-    fn before(mut self, out: &mut [f64], state: Rows<'_>, target: Rows<'_>, start: Start) {
+    #[inline(always)]
+    fn before(mut self, out: &mut [f64], state: Rows<'_>, settled: Rows<'_>, start: Start) {
         let Some(memory) = self.memory.take() else { return };
         for (i, out) in out.iter_mut().enumerate() {
-            *out = self.from(i, *memory, target, start);
-            *memory = state.at(i);
+            let state_before = if i == 0 { *memory } else { state.at(i - 1) };
+            *out = self.from(i, state_before, settled.at(i), start);
         }
+        *memory = state.at(out.len() - 1);
     }
+}
+
+/// One number a row, also of what all share.
+#[inline(always)]
+fn spread(from: Rows<'_>, count: usize) -> [f64; BLOCK] {
+    let mut rows = [0.0; BLOCK];
+    match from {
+        Rows::Same(x) => rows[..count].fill(x),
+        Rows::Each(x) => rows[..count].copy_from_slice(x),
+    }
+    rows
 }

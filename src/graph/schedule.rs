@@ -22,7 +22,7 @@ pub struct Task {
     /// What is done.
     pub operation: Operation,
     /// Where its operands stand, in their order.
-    pub from: [Place; 4],
+    pub from: [Place; 5],
     /// Where the result goes; for one that all rows share, its place among these.
     pub to: usize,
     /// Where what it remembers stands, of an operation with a memory.
@@ -89,16 +89,16 @@ impl Schedule {
                 _ => Place::Buffer(layout.take()),
             };
             places[id] = Some(place);
-            let mut four = [Place::Uniform(0); 4];
-            four[..from.len()].copy_from_slice(&from);
+            let mut five = [Place::Uniform(0); 5];
+            five[..from.len()].copy_from_slice(&from);
             let memory = schedule.memories;
             schedule.memories += usize::from(operation.has_memory());
             match place {
                 Place::Uniform(to) => {
-                    schedule.once.push(Task { operation, from: four, to, memory });
+                    schedule.once.push(Task { operation, from: five, to, memory });
                 }
                 Place::Buffer(to) => {
-                    schedule.each.push(Task { operation, from: four, to, memory });
+                    schedule.each.push(Task { operation, from: five, to, memory });
                     for operand in operands {
                         match places[operand] {
                             Some(Place::Buffer(free)) if last_use[operand] == id => {
