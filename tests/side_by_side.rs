@@ -38,7 +38,7 @@ fn every_model_steps_as_it_does_alone() {
                 let settled = steps[i] == f64::INFINITY;
                 if settled {
                     state = model.settled(&sample);
-                } else if !(steps[i] > 0.0) {
+                } else if steps[i].is_nan() || steps[i] == 0.0 {
                     state = State::default();
                 }
                 let dt = if settled || steps[i].is_nan() { 0.0 } else { steps[i] };

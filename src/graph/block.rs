@@ -60,7 +60,7 @@ pub fn unary(out: &mut [f64], operation: Unary, x: Rows<'_>) {
     match operation {
         Unary::Negate => map(out, x, |x| -x),
         Unary::Abs => map(out, x, f64::abs),
-        Unary::Sign => map(out, x, |x| Real::sign(x)),
+        Unary::Sign => map(out, x, Real::sign),
         Unary::Exp => map(out, x, elementary::exp),
         Unary::Expm1 => map(out, x, elementary::expm1),
         Unary::Ln => map(out, x, elementary::ln),
@@ -108,7 +108,7 @@ pub fn binary(out: &mut [f64], operation: Binary, x: Rows<'_>, y: Rows<'_>) {
 #[inline(always)]
 fn power(out: &mut [f64], x: Rows<'_>, p: Rows<'_>) {
     match p {
-        Rows::Same(p) if p == 2.0 => map(out, x, |x| elementary::powf(x, 2.0)),
+        Rows::Same(2.0) => map(out, x, |x| elementary::powf(x, 2.0)),
         p => zip(out, x, p, elementary::powf),
     }
 }

@@ -12,8 +12,8 @@ import pytest
 import stribeck as sb
 from stribeck.energy import electrical_energy
 from stribeck.errors import SpecError, StribeckError
-from stribeck.study import Study, study
 from stribeck.run_folder import MANIFEST
+from stribeck.study import Study, study
 from stribeck.study.store import FITS
 from stribeck.study.text import study_text
 
