@@ -104,11 +104,23 @@ pub fn binary(out: &mut [f64], operation: Binary, x: Rows<'_>, y: Rows<'_>) {
     }
 }
 
-/// A power whose exponent all rows share is chosen once.
+/// An exponent that all rows share is laid out row by row: asked once about its special cases, the
+/// loop would be one of branches.
 #[inline(always)]
 fn power(out: &mut [f64], x: Rows<'_>, p: Rows<'_>) {
     match p {
         Rows::Same(2.0) => map(out, x, |x| elementary::powf(x, 2.0)),
+        Rows::Same(p) => {
+            out.fill(p);
+            match x {
+                Rows::Same(x) => out.fill(elementary::powf(x, p)),
+                Rows::Each(x) => {
+                    for (out, &x) in out.iter_mut().zip(x) {
+                        *out = elementary::powf(x, *out);
+                    }
+                }
+            }
+        }
         p => zip(out, x, p, elementary::powf),
     }
 }
