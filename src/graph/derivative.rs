@@ -1,5 +1,12 @@
-//! Symbolic derivatives, along the rules of [`Dual`](crate::scalar::Dual).
+//! Symbolic derivatives.
+//!
+//! What lies between parameters, states and an output is differentiated backwards: one factor a
+//! node, however many parameters there are (reverse accumulation; Griewank and Walther 2008,
+//! section 3.2). States are differentiated forwards, along the rows. The rules are those of
+//! [`Dual`](crate::scalar::Dual).
 
+use std::collections::HashMap;
+use std::vec;
 use std::vec::Vec;
 
 use super::operation::{Binary, Id, Operation, Relaxing, Start, Unary};
@@ -15,79 +22,211 @@ pub fn derivatives<'r>(
     wanted: &[usize],
 ) -> Vec<Vec<Recorded<'r>>> {
     let operations = recorder.operations();
-    let last = outputs.iter().max().map_or(0, |&last| last + 1);
-    let mut rules = Rules { recorder, slopes: Vec::with_capacity(last) };
-    for (id, &operation) in operations[..last].iter().enumerate() {
-        let slopes = (0..wanted.len()).map(|k| rules.slope(id, operation, wanted, k)).collect();
-        rules.slopes.push(slopes);
+    let mut depends: Vec<bool> = Vec::with_capacity(operations.len());
+    for operation in &operations {
+        depends.push(match *operation {
+            Operation::Parameter(own) => wanted.contains(&own),
+            operation => operation.operands().iter().any(|&operand| depends[operand]),
+        });
     }
+    let mut rules = Rules { recorder, wanted, operations, depends, known: HashMap::new() };
     let zero = Recorded::Known(0.0);
-    let of = |id: &Id| rules.slopes[*id].iter().map(|slope| slope.unwrap_or(zero)).collect();
-    outputs.iter().map(of).collect()
+    let numbers =
+        |slopes: Vec<Slope<'r>>| slopes.into_iter().map(|by| by.unwrap_or(zero)).collect();
+    outputs.iter().map(|&output| numbers(rules.of(output))).collect()
 }
 
 /// A derivative, if there is one.
 type Slope<'r> = Option<Recorded<'r>>;
 
-struct Rules<'r> {
+struct Rules<'r, 'w> {
     recorder: &'r Recorder,
-    slopes: Vec<Vec<Slope<'r>>>,
+    wanted: &'w [usize],
+    operations: Vec<Operation>,
+    /// Which nodes depend on a wanted parameter.
+    depends: Vec<bool>,
+    /// Derivatives that have been found.
+    known: HashMap<Id, Vec<Slope<'r>>>,
 }
 
-impl<'r> Rules<'r> {
-    fn slope(&self, id: Id, operation: Operation, wanted: &[usize], k: usize) -> Slope<'r> {
-        let number = |id| self.number(id);
-        let slope = |id: Id| self.slopes[id][k];
-        match operation {
-            Operation::Constant(_) | Operation::Column(_) => None,
-            Operation::Parameter(own) => (wanted[k] == own).then_some(Recorded::Known(1.0)),
-            Operation::Unary(unary, x) => self.unary(unary, number(id), number(x), slope(x)?),
-            Operation::Binary(Binary::Power, x, p) => {
-                self.power(number(id), [number(x), number(p)], [slope(x), slope(p)])
+impl<'r> Rules<'r, '_> {
+    /// The derivatives of a node by each wanted parameter.
+    fn of(&mut self, id: Id) -> Vec<Slope<'r>> {
+        if let Some(known) = self.known.get(&id) {
+            return known.clone();
+        }
+        let slopes = match self.operations[id] {
+            _ if !self.depends[id] => vec![None; self.wanted.len()],
+            Operation::Parameter(own) => {
+                let is_own = |&wanted: &usize| (wanted == own).then_some(Recorded::Known(1.0));
+                self.wanted.iter().map(is_own).collect()
             }
+            Operation::Previous(x) => {
+                self.of(x).into_iter().map(|by| Some(self.previous(by?))).collect()
+            }
+            Operation::Relax(relaxing) => self.relax(id, relaxing),
+            Operation::Before(state, _, _) => {
+                self.of(state).into_iter().map(|by| Some(self.before(by?))).collect()
+            }
+            _ => self.backwards(id),
+        };
+        self.known.insert(id, slopes.clone());
+        slopes
+    }
+
+    /// From a node back to parameters and states, and from these on by what is known of them.
+    fn backwards(&mut self, root: Id) -> Vec<Slope<'r>> {
+        let mut factors: Vec<Slope<'r>> = vec![None; root + 1];
+        factors[root] = Some(Recorded::Known(1.0));
+        let mut slopes = vec![None; self.wanted.len()];
+        for id in (0..=root).rev() {
+            let Some(factor) = factors[id] else { continue };
+            let operation = self.operations[id];
+            if matches!(operation, Operation::Parameter(_)) || operation.has_memory() {
+                for (sum, by) in slopes.iter_mut().zip(self.of(id)) {
+                    *sum = plus(*sum, by.map(|by| self.times(factor, by)));
+                }
+                continue;
+            }
+            for (operand, own) in self.shares(id, operation, factor) {
+                factors[operand] = plus(factors[operand], Some(own));
+            }
+        }
+        slopes
+    }
+
+    /// What a node's factor makes of those of its operands.
+    fn shares(
+        &self,
+        id: Id,
+        operation: Operation,
+        factor: Recorded<'r>,
+    ) -> Vec<(Id, Recorded<'r>)> {
+        let mut shares = Vec::new();
+        let mut share = |operand: Id, own: &dyn Fn() -> Option<Recorded<'r>>| {
+            if self.depends[operand]
+                && let Some(own) = own()
+            {
+                shares.push((operand, own));
+            }
+        };
+        let value = self.number(id);
+        match operation {
+            Operation::Unary(Unary::Negate, x) => share(x, &|| Some(-factor)),
+            Operation::Unary(unary, x) => share(x, &|| {
+                let slope = slope(unary, value, self.number(x))?;
+                Some(self.times(slope, factor))
+            }),
             Operation::Binary(binary, x, y) => {
-                self.binary(binary, number(id), [number(x), number(y)], [slope(x), slope(y)])
+                let numbers = [self.number(x), self.number(y)];
+                share(x, &|| self.first(binary, value, numbers, factor));
+                share(y, &|| self.second(binary, value, numbers, factor));
             }
             Operation::Choose(mask, x, y) => {
-                let (by_x, by_y) = (slope(x), slope(y));
-                if by_x.is_none() && by_y.is_none() {
-                    return None;
-                }
-                let node = |by: Slope<'r>| self.recorder.id(by.unwrap_or(Recorded::Known(0.0)));
-                let operation = Operation::Choose(mask, node(by_x), node(by_y));
-                Some(self.recorder.number(operation))
+                let zero = Recorded::Known(0.0);
+                share(x, &|| Some(self.choose(mask, factor, zero)));
+                share(y, &|| Some(self.choose(mask, zero, factor)));
             }
-            Operation::Previous(x) => Some(match slope(x)? {
-                Recorded::Known(known) => Recorded::Known(known),
-                Recorded::Node(_, node) => self.recorder.number(Operation::Previous(node)),
-            }),
-            Operation::Relax(relaxing) => self.relax(id, relaxing, k),
-            Operation::Before(state, _, _) => Some(self.before(slope(state)?)),
+            Operation::Constant(_)
+            | Operation::Parameter(_)
+            | Operation::Column(_)
+            | Operation::Previous(_)
+            | Operation::Relax(_)
+            | Operation::Before(..) => {}
+        }
+        shares
+    }
+
+    /// The factor of the first of two operands.
+    fn first(
+        &self,
+        binary: Binary,
+        value: Recorded<'r>,
+        [x, y]: [Recorded<'r>; 2],
+        factor: Recorded<'r>,
+    ) -> Slope<'r> {
+        let (zero, one) = (Recorded::Known(0.0), Recorded::Known(1.0));
+        match binary {
+            Binary::Add | Binary::Subtract => Some(factor),
+            Binary::Multiply => Some(self.times(y, factor)),
+            Binary::Divide => Some(self.times(one / y, factor)),
+            Binary::Power => {
+                let unit = Recorded::choose(y.equals(one), one, zero);
+                let slope = Recorded::choose(x.at_zero(), unit, y * (value / x));
+                Some(self.times(slope, factor))
+            }
+            _ => None,
+        }
+    }
+
+    /// The factor of the second of two operands.
+    fn second(
+        &self,
+        binary: Binary,
+        value: Recorded<'r>,
+        [x, y]: [Recorded<'r>; 2],
+        factor: Recorded<'r>,
+    ) -> Slope<'r> {
+        match binary {
+            Binary::Add => Some(factor),
+            Binary::Subtract => Some(-factor),
+            Binary::Multiply => Some(self.times(x, factor)),
+            Binary::Divide => Some(-self.times(value / y, factor)),
+            Binary::Power => {
+                let slope = Recorded::choose(x.at_zero(), Recorded::Known(0.0), value * x.ln());
+                Some(self.times(slope, factor))
+            }
+            _ => None,
+        }
+    }
+
+    fn choose(&self, mask: Id, yes: Recorded<'r>, no: Recorded<'r>) -> Recorded<'r> {
+        let (yes, no) = (self.recorder.id(yes), self.recorder.id(no));
+        self.recorder.number(Operation::Choose(mask, yes, no))
+    }
+
+    /// A product, which is nothing where one of both is nothing and the other one infinite.
+    fn times(&self, slope: Recorded<'r>, by: Recorded<'r>) -> Recorded<'r> {
+        if slope.is(1.0) {
+            by
+        } else if by.is(1.0) {
+            slope
+        } else {
+            self.recorder.binary(Binary::Chain, self.recorder.id(slope), self.recorder.id(by))
+        }
+    }
+
+    fn previous(&self, by: Recorded<'r>) -> Recorded<'r> {
+        match by {
+            Recorded::Known(known) => Recorded::Known(known),
+            Recorded::Node(_, node) => self.recorder.number(Operation::Previous(node)),
         }
     }
 
     /// The state's derivative relaxes alike, and is moved by those of share, target and shift.
-    fn relax(&self, state: Id, relaxing: Relaxing, k: usize) -> Slope<'r> {
+    fn relax(&mut self, state: Id, relaxing: Relaxing) -> Vec<Slope<'r>> {
         let Relaxing { share, target, extra, shift, settled, .. } = relaxing;
         let [by_share, by_target, by_extra, by_shift, by_settled] =
-            [share, target, extra, shift, settled].map(|id| self.slopes[id][k]);
-        let moved = by_share.map(|by| {
-            by * (self.number(target) - self.before(Recorded::Node(self.recorder, state)))
-        });
-        let extra = sum(moved, by_extra);
-        if [extra, by_target, by_shift, by_settled].iter().all(Option::is_none) {
-            return None;
-        }
+            [share, target, extra, shift, settled].map(|id| self.of(id));
+        let way = self.number(target) - self.before(Recorded::Node(self.recorder, state));
         let node = |slope: Slope<'r>| self.recorder.id(slope.unwrap_or(Recorded::Known(0.0)));
-        let relaxing = Relaxing {
-            share,
-            target: node(by_target),
-            extra: node(extra),
-            shift: node(by_shift),
-            settled: node(by_settled),
-            start: Start::Zero,
+        let slope = |k: usize| {
+            let moved = by_share[k].map(|by| self.times(by, way));
+            let extra = plus(plus(moved, by_extra[k]), by_shift[k]);
+            if extra.is_none() && by_target[k].is_none() && by_settled[k].is_none() {
+                return None;
+            }
+            let relaxing = Relaxing {
+                share,
+                target: node(by_target[k]),
+                extra: node(extra),
+                shift: node(None),
+                settled: node(by_settled[k]),
+                start: Start::Zero,
+            };
+            Some(self.recorder.number(Operation::Relax(relaxing)))
         };
-        Some(self.recorder.number(Operation::Relax(relaxing)))
+        (0..self.wanted.len()).map(slope).collect()
     }
 
     /// The state before the row, or its derivative.
@@ -102,108 +241,46 @@ impl<'r> Rules<'r> {
     }
 
     fn number(&self, id: Id) -> Recorded<'r> {
-        match self.recorder.operation(id) {
+        match self.operations[id] {
             Operation::Constant(bits) => Recorded::Known(f64::from_bits(bits)),
             _ => Recorded::Node(self.recorder, id),
         }
     }
-
-    /// A function's slope times a derivative.
-    fn chain(&self, slope: Recorded<'r>, by: Recorded<'r>) -> Recorded<'r> {
-        if slope.is(1.0) {
-            by
-        } else if by.is(1.0) {
-            slope
-        } else {
-            let (slope, by) = (self.recorder.id(slope), self.recorder.id(by));
-            self.recorder.binary(Binary::Chain, slope, by)
-        }
-    }
-
-    fn unary(
-        &self,
-        unary: Unary,
-        value: Recorded<'r>,
-        x: Recorded<'r>,
-        by: Recorded<'r>,
-    ) -> Slope<'r> {
-        let one = Recorded::Known(1.0);
-        let slope = match unary {
-            Unary::Negate => return Some(-by),
-            Unary::Sign | Unary::IsFinite | Unary::Not => return None,
-            Unary::Abs => x.sign(),
-            Unary::Exp => value,
-            Unary::Expm1 => {
-                let near = value.is_above(Recorded::Known(-0.5));
-                Recorded::choose(near, value + one, x.exp())
-            }
-            Unary::Ln => one / x,
-            Unary::Sqrt => Recorded::Known(0.5) / value,
-            Unary::Cbrt => one / (Recorded::Known(3.0) * value * value),
-            Unary::Sin => x.cos(),
-            Unary::Cos => -x.sin(),
-            Unary::Tanh => {
-                let e = (Recorded::Known(-2.0) * x.abs()).exp();
-                let whole = one + e;
-                let far = Recorded::Known(4.0) * e / (whole * whole);
-                let near = value.abs().is_below(Recorded::Known(0.5));
-                Recorded::choose(near, one - value * value, far)
-            }
-            Unary::Atan => one / (one + x * x),
-            Unary::Phi(order) => value - Recorded::Known(f64::from(order)) * x.phi(order + 1),
-        };
-        Some(self.chain(slope, by))
-    }
-
-    fn binary(
-        &self,
-        binary: Binary,
-        value: Recorded<'r>,
-        [x, y]: [Recorded<'r>; 2],
-        [by_x, by_y]: [Slope<'r>; 2],
-    ) -> Slope<'r> {
-        match binary {
-            Binary::Add => sum(by_x, by_y),
-            Binary::Subtract => sum(by_x, by_y.map(|by| -by)),
-            Binary::Multiply => sum(by_x.map(|by| by * y), by_y.map(|by| x * by)),
-            Binary::Divide => {
-                let inverse = Recorded::Known(1.0) / y;
-                match (by_x, by_y) {
-                    (None, None) => None,
-                    (Some(by), None) => Some(by * inverse),
-                    (None, Some(by)) => Some(by * (-value / y)),
-                    (Some(by_x), Some(by_y)) => Some((by_x - value * by_y) * inverse),
-                }
-            }
-            Binary::Power
-            | Binary::Below
-            | Binary::Above
-            | Binary::Equal
-            | Binary::And
-            | Binary::Or
-            | Binary::Chain => None,
-        }
-    }
-
-    fn power(
-        &self,
-        value: Recorded<'r>,
-        [x, p]: [Recorded<'r>; 2],
-        [by_x, by_p]: [Slope<'r>; 2],
-    ) -> Slope<'r> {
-        let (zero, one) = (Recorded::Known(0.0), Recorded::Known(1.0));
-        let at_zero = x.at_zero();
-        let by_base = by_x.map(|by| {
-            let unit = Recorded::choose(p.equals(one), one, zero);
-            self.chain(Recorded::choose(at_zero, unit, p * (value / x)), by)
-        });
-        let by_exponent =
-            by_p.map(|by| self.chain(Recorded::choose(at_zero, zero, value * x.ln()), by));
-        sum(by_base, by_exponent)
-    }
 }
 
-fn sum<'r>(x: Slope<'r>, y: Slope<'r>) -> Slope<'r> {
+/// The slope of a function at `x`, where it has one.
+fn slope<'r>(unary: Unary, value: Recorded<'r>, x: Recorded<'r>) -> Slope<'r> {
+    let one = Recorded::Known(1.0);
+    Some(match unary {
+        Unary::Negate => -one,
+        Unary::Sign | Unary::IsFinite | Unary::Not => return None,
+        Unary::Abs => x.sign(),
+        Unary::Exp => value,
+        // Far below zero value + 1 cancels.
+        Unary::Expm1 => {
+            let near = value.is_above(Recorded::Known(-0.5));
+            Recorded::choose(near, value + one, x.exp())
+        }
+        Unary::Ln => one / x,
+        Unary::Sqrt => Recorded::Known(0.5) / value,
+        Unary::Cbrt => one / (Recorded::Known(3.0) * value * value),
+        Unary::Sin => x.cos(),
+        Unary::Cos => -x.sin(),
+        // Far from zero 1 - tanh^2 cancels: there 4 e/(1 + e)^2 with e = exp(-2 |x|).
+        Unary::Tanh => {
+            let e = (Recorded::Known(-2.0) * x.abs()).exp();
+            let whole = one + e;
+            let far = Recorded::Known(4.0) * e / (whole * whole);
+            let near = value.abs().is_below(Recorded::Known(0.5));
+            Recorded::choose(near, one - value * value, far)
+        }
+        Unary::Atan => one / (one + x * x),
+        // phi_k' = phi_k - k phi_(k+1)
+        Unary::Phi(order) => value - Recorded::Known(f64::from(order)) * x.phi(order + 1),
+    })
+}
+
+fn plus<'r>(x: Slope<'r>, y: Slope<'r>) -> Slope<'r> {
     match (x, y) {
         (Some(x), Some(y)) => Some(x + y),
         (x, y) => x.or(y),

@@ -1,5 +1,6 @@
 //! Carries out a graph on rows.
 
+use core::array::from_fn;
 use core::mem::take;
 use std::vec;
 use std::vec::Vec;
@@ -12,6 +13,9 @@ use super::schedule::{Place, Schedule, Task};
 
 /// Rows of a block: what all operations leave stays in the first cache.
 pub const BLOCK: usize = 128;
+
+/// Derivatives of a state that run together.
+const MOST_TOGETHER: usize = 4;
 
 /// What a graph is carried out on.
 pub struct Given<'a> {
@@ -76,18 +80,33 @@ impl<F: FnMut(usize, &[Rows<'_>])> Running<'_, F> {
                     *beginning = (self.given.beginning)(first + i);
                 }
             }
-            for task in &schedule.each {
-                let mut out = take(&mut buffers[task.to]);
+            let moment = Moment { beginnings: &beginnings[..count], start: self.given.start };
+            let mut tasks = &schedule.each[..];
+            while let Some(task) = tasks.first() {
+                let together = relaxing_alike(tasks);
+                let (now, later) = tasks.split_at(together);
+                tasks = later;
+                let mut outs: [Vec<f64>; MOST_TOGETHER] = Default::default();
+                for (out, task) in outs.iter_mut().zip(now) {
+                    *out = take(&mut buffers[task.to]);
+                }
                 let rows = |place| match place {
                     Place::Uniform(i) => Rows::Same(uniforms[i]),
                     Place::Column(i) => Rows::Each(&self.given.columns[i][first..first + count]),
                     Place::Buffer(i) => Rows::Each(&buffers[i][..count]),
                 };
-                let memory = memories.get_mut(task.memory);
-                let moment =
-                    Moment { beginnings: &beginnings[..count], start: self.given.start, memory };
-                moment.carry_out(task, &mut out[..count], rows);
-                buffers[task.to] = out;
+                match now.len() {
+                    2 => moment.relax_alike::<2>(now, &mut outs, rows, &mut memories),
+                    3 => moment.relax_alike::<3>(now, &mut outs, rows, &mut memories),
+                    4 => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories),
+                    _ => {
+                        let memory = memories.get_mut(task.memory);
+                        moment.carry_out(task, &mut outs[0][..count], rows, memory);
+                    }
+                }
+                for (out, task) in outs.into_iter().zip(now) {
+                    buffers[task.to] = out;
+                }
             }
             let outputs: Vec<Rows<'_>> = schedule
                 .outputs
@@ -132,27 +151,45 @@ fn once(schedule: &Schedule, parameters: &[f64]) -> Vec<f64> {
     shared
 }
 
+/// How many tasks from the first on are derivatives of one state, as far as they run together.
+fn relaxing_alike(tasks: &[Task]) -> usize {
+    let alike = |task: &&Task| match (tasks[0].operation, task.operation) {
+        (Operation::Relax(first), Operation::Relax(own)) => {
+            first.start == Start::Zero && own.start == Start::Zero && first.share == own.share
+        }
+        _ => false,
+    };
+    tasks.iter().take(MOST_TOGETHER).take_while(alike).count().max(1)
+}
+
 /// What the operations with a memory need to know about a block.
 struct Moment<'a> {
     beginnings: &'a [Beginning],
     start: f64,
-    memory: Option<&'a mut f64>,
 }
 
 impl Moment<'_> {
     #[inline(always)]
-    fn carry_out<'b>(self, task: &Task, out: &mut [f64], rows: impl Fn(Place) -> Rows<'b>) {
+    fn carry_out<'b>(
+        &self,
+        task: &Task,
+        out: &mut [f64],
+        rows: impl Fn(Place) -> Rows<'b>,
+        memory: Option<&mut f64>,
+    ) {
         let [a, b, c, d, e] = task.from;
-        match task.operation {
-            Operation::Unary(operation, _) => unary(out, operation, rows(a)),
-            Operation::Binary(operation, _, _) => binary(out, operation, rows(a), rows(b)),
-            Operation::Choose(..) => choose(out, rows(a), rows(b), rows(c)),
-            Operation::Previous(_) => self.previous(out, rows(a)),
-            Operation::Relax(Relaxing { start, .. }) => {
-                self.relax(out, [rows(a), rows(b), rows(c), rows(d), rows(e)], start);
+        match (task.operation, memory) {
+            (Operation::Unary(operation, _), _) => unary(out, operation, rows(a)),
+            (Operation::Binary(operation, _, _), _) => binary(out, operation, rows(a), rows(b)),
+            (Operation::Choose(..), _) => choose(out, rows(a), rows(b), rows(c)),
+            (Operation::Previous(_), Some(memory)) => self.previous(out, rows(a), memory),
+            (Operation::Relax(Relaxing { start, .. }), Some(memory)) => {
+                self.relax(out, [rows(a), rows(b), rows(c), rows(d), rows(e)], start, memory);
             }
-            Operation::Before(_, _, start) => self.before(out, rows(a), rows(b), start),
-            Operation::Constant(_) | Operation::Parameter(_) | Operation::Column(_) => {}
+            (Operation::Before(_, _, start), Some(memory)) => {
+                self.before(out, rows(a), rows(b), start, memory);
+            }
+            _ => {}
         }
     }
 
@@ -168,8 +205,7 @@ impl Moment<'_> {
     }
 
     #[inline(always)]
-    fn previous(self, out: &mut [f64], x: Rows<'_>) {
-        let Some(memory) = self.memory else { return };
+    fn previous(&self, out: &mut [f64], x: Rows<'_>, memory: &mut f64) {
         for (i, out) in out.iter_mut().enumerate() {
             let own = x.at(i);
             *out = if self.beginnings[i] == Beginning::Continued { *memory } else { own };
@@ -179,29 +215,61 @@ impl Moment<'_> {
 
     #[inline(always)]
     fn relax(
-        mut self,
+        &self,
         out: &mut [f64],
         [share, target, extra, shift, settled]: [Rows<'_>; 5],
         start: Start,
+        memory: &mut f64,
     ) {
-        let Some(memory) = self.memory.take() else { return };
         let [share, target, extra, shift] =
             [share, target, extra, shift].map(|from| spread(from, out.len()));
-        let mut z = *memory;
-        let continued = self.beginnings.iter().all(|&own| own == Beginning::Continued);
-        let rows = share.iter().zip(&target).zip(&extra).zip(&shift).zip(out).enumerate();
-        for (i, ((((share, target), extra), shift), out)) in rows {
-            let before = if continued { z } else { self.from(i, z, settled.at(i), start) };
-            // What does not wait for the way is added meanwhile.
-            z = (before + extra) + share * (target - before) + shift;
-            *out = z;
+        for (i, out) in out.iter_mut().enumerate() {
+            let before = self.from(i, *memory, settled.at(i), start);
+            *memory = (before + extra[i]) + share[i] * (target[i] - before) + shift[i];
+            *out = *memory;
         }
-        *memory = z;
+    }
+
+    /// Derivatives of one state: while one waits for its sum the others go on.
+    #[inline(always)]
+    fn relax_alike<'b, const K: usize>(
+        &self,
+        tasks: &[Task],
+        outs: &mut [Vec<f64>; MOST_TOGETHER],
+        rows: impl Fn(Place) -> Rows<'b>,
+        memories: &mut [f64],
+    ) {
+        let count = self.beginnings.len();
+        let share = spread(rows(tasks[0].from[0]), count);
+        let each = |k: usize| -> [[f64; BLOCK]; K] {
+            from_fn(|own| spread(rows(tasks[own].from[k]), count))
+        };
+        let [target, extra, shift, settled] = [each(1), each(2), each(3), each(4)];
+        let mut states: [f64; K] = from_fn(|own| memories[tasks[own].memory]);
+        for i in 0..count {
+            for k in 0..K {
+                let before = self.from(i, states[k], settled[k][i], Start::Zero);
+                states[k] =
+                    (before + extra[k][i]) + share[i] * (target[k][i] - before) + shift[k][i];
+            }
+            for k in 0..K {
+                outs[k][i] = states[k];
+            }
+        }
+        for (task, state) in tasks.iter().zip(states) {
+            memories[task.memory] = state;
+        }
     }
 
     #[inline(always)]
-    fn before(mut self, out: &mut [f64], state: Rows<'_>, settled: Rows<'_>, start: Start) {
-        let Some(memory) = self.memory.take() else { return };
+    fn before(
+        &self,
+        out: &mut [f64],
+        state: Rows<'_>,
+        settled: Rows<'_>,
+        start: Start,
+        memory: &mut f64,
+    ) {
         for (i, out) in out.iter_mut().enumerate() {
             let state_before = if i == 0 { *memory } else { state.at(i - 1) };
             *out = self.from(i, state_before, settled.at(i), start);
