@@ -12,7 +12,7 @@ use super::operation::{Operation, Relaxing, Start};
 use super::schedule::{Place, Schedule, Task};
 
 /// Rows of a block: what all operations leave stays in the first cache.
-pub const BLOCK: usize = 128;
+pub const BLOCK: usize = 256;
 
 /// Derivatives of a state that run together.
 const MOST_TOGETHER: usize = 4;
@@ -80,43 +80,47 @@ impl<F: FnMut(usize, &[Rows<'_>])> Running<'_, F> {
                     *beginning = (self.given.beginning)(first + i);
                 }
             }
+            macro_rules! reader {
+                ($buffers:expr) => {
+                    |place| match place {
+                        Place::Uniform(i) => Rows::Same(uniforms[i]),
+                        Place::Column(i) => {
+                            Rows::Each(&self.given.columns[i][first..first + count])
+                        }
+                        Place::Buffer(i) => Rows::Each(&$buffers[i][..count]),
+                    }
+                };
+            }
             let moment = Moment { beginnings: &beginnings[..count], start: self.given.start };
             let mut tasks = &schedule.each[..];
             while let Some(task) = tasks.first() {
                 let together = relaxing_alike(tasks);
                 let (now, later) = tasks.split_at(together);
                 tasks = later;
-                let mut outs: [Vec<f64>; MOST_TOGETHER] = Default::default();
-                for (out, task) in outs.iter_mut().zip(now) {
+                let mut out = take(&mut buffers[task.to]);
+                if now.len() == 1 {
+                    let rows = reader!(buffers);
+                    let memory = memories.get_mut(task.memory);
+                    moment.carry_out(task, &mut out[..count], rows, memory);
+                    buffers[task.to] = out;
+                    continue;
+                }
+                let mut outs = [out, vec![], vec![], vec![]];
+                for (out, task) in outs.iter_mut().zip(now).skip(1) {
                     *out = take(&mut buffers[task.to]);
                 }
-                let rows = |place| match place {
-                    Place::Uniform(i) => Rows::Same(uniforms[i]),
-                    Place::Column(i) => Rows::Each(&self.given.columns[i][first..first + count]),
-                    Place::Buffer(i) => Rows::Each(&buffers[i][..count]),
-                };
+                let rows = reader!(buffers);
                 match now.len() {
                     2 => moment.relax_alike::<2>(now, &mut outs, rows, &mut memories),
                     3 => moment.relax_alike::<3>(now, &mut outs, rows, &mut memories),
-                    4 => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories),
-                    _ => {
-                        let memory = memories.get_mut(task.memory);
-                        moment.carry_out(task, &mut outs[0][..count], rows, memory);
-                    }
+                    _ => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories),
                 }
                 for (out, task) in outs.into_iter().zip(now) {
                     buffers[task.to] = out;
                 }
             }
-            let outputs: Vec<Rows<'_>> = schedule
-                .outputs
-                .iter()
-                .map(|&place| match place {
-                    Place::Uniform(i) => Rows::Same(uniforms[i]),
-                    Place::Column(i) => Rows::Each(&self.given.columns[i][first..first + count]),
-                    Place::Buffer(i) => Rows::Each(&buffers[i][..count]),
-                })
-                .collect();
+            let outputs: Vec<Rows<'_>> =
+                schedule.outputs.iter().map(|&place| reader!(buffers)(place)).collect();
             (self.sink)(first, &outputs);
         }
     }
@@ -221,13 +225,18 @@ impl Moment<'_> {
         start: Start,
         memory: &mut f64,
     ) {
-        let [share, target, extra, shift] =
-            [share, target, extra, shift].map(|from| spread(from, out.len()));
-        for (i, out) in out.iter_mut().enumerate() {
-            let before = self.from(i, *memory, settled.at(i), start);
-            *memory = (before + extra[i]) + share[i] * (target[i] - before) + shift[i];
-            *out = *memory;
+        let mut spread = [[0.0; BLOCK]; 4];
+        let [a, b, c, d] = &mut spread;
+        let (share, target) = (as_slice(share, a, out.len()), as_slice(target, b, out.len()));
+        let (extra, shift) = (as_slice(extra, c, out.len()), as_slice(shift, d, out.len()));
+        let mut state = *memory;
+        let rows = share.iter().zip(target).zip(extra).zip(shift).zip(out).enumerate();
+        for (i, ((((share, target), extra), shift), out)) in rows {
+            let before = self.from(i, state, settled.at(i), start);
+            state = (before + extra) + share * (target - before) + shift;
+            *out = state;
         }
+        *memory = state;
     }
 
     /// Derivatives of one state: while one waits for its sum the others go on.
@@ -240,11 +249,12 @@ impl Moment<'_> {
         memories: &mut [f64],
     ) {
         let count = self.beginnings.len();
-        let share = spread(rows(tasks[0].from[0]), count);
-        let each = |k: usize| -> [[f64; BLOCK]; K] {
-            from_fn(|own| spread(rows(tasks[own].from[k]), count))
-        };
-        let [target, extra, shift, settled] = [each(1), each(2), each(3), each(4)];
+        let mut scratch = [[[0.0; BLOCK]; K]; 5];
+        let [a, b, c, d, e] = &mut scratch;
+        let read = |k: usize| -> [Rows<'b>; K] { from_fn(|own| rows(tasks[own].from[k])) };
+        let share = slices(read(0), a, count)[0];
+        let (target, extra) = (slices(read(1), b, count), slices(read(2), c, count));
+        let (shift, settled) = (slices(read(3), d, count), slices(read(4), e, count));
         let mut states: [f64; K] = from_fn(|own| memories[tasks[own].memory]);
         for i in 0..count {
             for k in 0..K {
@@ -280,11 +290,27 @@ impl Moment<'_> {
 
 /// One number a row, also of what all share.
 #[inline(always)]
-fn spread(from: Rows<'_>, count: usize) -> [f64; BLOCK] {
-    let mut rows = [0.0; BLOCK];
+fn as_slice<'a>(from: Rows<'a>, scratch: &'a mut [f64; BLOCK], count: usize) -> &'a [f64] {
     match from {
-        Rows::Same(x) => rows[..count].fill(x),
-        Rows::Each(x) => rows[..count].copy_from_slice(x),
+        Rows::Each(rows) => rows,
+        Rows::Same(x) => {
+            let scratch = &mut scratch[..count];
+            scratch.fill(x);
+            scratch
+        }
     }
-    rows
+}
+
+/// The same of several.
+#[inline(always)]
+fn slices<'a, const K: usize>(
+    from: [Rows<'a>; K],
+    scratch: &'a mut [[f64; BLOCK]; K],
+    count: usize,
+) -> [&'a [f64]; K] {
+    let mut scratch = scratch.iter_mut();
+    from.map(|from| match scratch.next() {
+        Some(scratch) => as_slice(from, scratch, count),
+        None => &[],
+    })
 }
