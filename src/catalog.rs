@@ -106,10 +106,7 @@ macro_rules! laws {
                 split: &Split<S>,
                 interval: &Interval<S::Plain>,
                 constants: &Constants<S::Plain>,
-            ) -> Step<S>
-            where
-                S: Scalar,
-            {
+            ) -> Step<S> {
                 match self {
                     $(Self::$law(law) => law.step(state, dry, split, interval, constants),)+
                     Self::$own(law) => law.step(state, dry, split, interval, constants),
@@ -204,10 +201,7 @@ macro_rules! effects {
                 state: &mut State<S>,
                 interval: &Interval<S::Plain>,
                 constants: &Constants<S::Plain>,
-            )
-            where
-                S: Scalar,
-            {
+            ) {
                 $(if let Some(effect) = &self.$id {
                     effect.apply_over(split, state, interval, constants);
                 })+

@@ -343,10 +343,7 @@ impl<S: Real> Composed<S> {
 
     /// As [`split`](Self::split), at the end of an interval; steps the states of effects.
     #[inline]
-    fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S>
-    where
-        S: Scalar,
-    {
+    fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S> {
         let mut split = self.law.split(&interval.sample, &self.constants);
         if let Some(own) = &self.own {
             own.add_to(&mut split, &interval.sample);
@@ -379,10 +376,7 @@ impl<S: Real> Composed<S> {
 
     /// The state that a sample held for long leaves behind; at rest one without tension.
     #[must_use]
-    pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S>
-    where
-        S: Scalar,
-    {
+    pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
         let mut state = State::default();
         let dt = S::Plain::from_f64(LONG);
         self.over(&mut state, &Interval { sample: *sample, mean_velocity: None, dt, mean: false });
@@ -391,20 +385,14 @@ impl<S: Real> Composed<S> {
 
     /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.
     #[inline]
-    pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S>
-    where
-        S: Scalar,
-    {
+    pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
         self.over(state, &Interval { sample: *sample, mean_velocity: None, dt, mean: true })
     }
 
     /// As [`step`](Self::step), over an interval. The torque at its end is as it is measured; the
     /// mean, which does the work, as it acts.
     #[inline]
-    pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S>
-    where
-        S: Scalar,
-    {
+    pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
         let split = if self.has_state {
             self.split_over(state, interval)
         } else {

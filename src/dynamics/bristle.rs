@@ -28,7 +28,7 @@ pub struct BristleState<S> {
     pub z: S,
 }
 
-impl<S: Scalar> Default for BristleState<S> {
+impl<S: Real> Default for BristleState<S> {
     fn default() -> Self {
         Self { z: S::zero() }
     }
@@ -94,11 +94,14 @@ impl<S: Real> Bristle<S> {
     }
 }
 
-impl<S: Scalar> Bristle<S> {
+impl<S: Real> Bristle<S> {
     /// What it is at `velocity`, for proofs.
     #[inline]
     #[must_use]
-    pub fn deflection(&self, velocity: S::Plain) -> Deflection<S> {
+    pub fn deflection(&self, velocity: S::Plain) -> Deflection<S>
+    where
+        S: Scalar,
+    {
         let drag = self.damping.scale(velocity.abs());
         Deflection { stiffness: self.stiffness, drag, approach: Approach::Linear }
     }
@@ -157,23 +160,24 @@ impl<S: Scalar> Bristle<S> {
         split: &Split<S>,
         dt: S::Plain,
     ) -> S {
-        if course.rest || !dt.is_positive() {
-            return self.torque(course.end(before), S::zero(), split);
-        }
         let way = course.target - before;
-        if course.settled {
+        let stays = || self.torque(course.end(before), S::zero(), split);
+        let settles = || {
             // The mean still holds the transient's area, way/x.
             let slip = way.scale(S::Plain::one() / dt);
-            return self.torque(course.target - way * reach, slip, split);
-        }
-        // Counted from where the deflection is for most of the step, nothing cancels.
-        let phi = course.phi();
-        let mean = if course.decay.value() < -1.0 {
-            course.target - way * phi
-        } else {
-            before - course.decay * course.decay.phi(2) * way
+            self.torque(course.target - way * reach, slip, split)
         };
-        self.torque(mean, course.pace * phi * way, split)
+        let follows = || {
+            // Counted from where the deflection is for most of the step, nothing cancels.
+            let phi = course.phi();
+            let mean = course.decay.is_below(-S::Plain::one()).either(
+                || course.target - way * phi,
+                || before - course.decay * course.decay.phi(2) * way,
+            );
+            self.torque(mean, course.pace * phi * way, split)
+        };
+        let still = course.rest.or(dt.is_positive().not());
+        still.either(stays, || course.settled.either(settles, follows))
     }
 }
 

@@ -8,7 +8,7 @@
 
 use super::{BristleState, Interval, Step, following, logarithm_ratio};
 use crate::sample::Split;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real};
 
 /// Above this `k` dry friction has vanished beside what the travel would have built up.
 const VANISHED: f64 = 1e30;
@@ -28,7 +28,7 @@ pub struct DahlBristle<S> {
     pub exponent: S,
 }
 
-impl<S: Scalar> DahlBristle<S> {
+impl<S: Real> DahlBristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -59,56 +59,65 @@ impl<S: Scalar> DahlBristle<S> {
         dry: S,
         interval: &Interval<S::Plain>,
     ) -> Slid<S> {
-        let travel = interval.travel();
-        if travel.value() == 0.0 {
-            return Slid { mean: state.z, following: S::zero() };
-        }
         let before = state.z;
+        let travel = interval.travel();
         let pull = self.stiffness.scale(travel);
         let target = (dry / self.stiffness).scale(interval.velocity().sign());
-        if pull.value() >= VANISHED * dry.value() {
-            state.z = target;
-            return Slid { mean: target, following: S::one() };
-        }
-        let gap = target - before;
-        let fall = self.fall((gap * self.stiffness / dry).abs(), pull / dry);
-        state.z += gap * fall.covered;
-        Slid { mean: before + gap * fall.mean, following: fall.following }
+        let slides = || {
+            let gap = target - before;
+            let Fall { covered, mean, following } =
+                self.fall((gap * self.stiffness / dry).abs(), pull / dry);
+            [before + gap * covered, before + gap * mean, following]
+        };
+        let vanished = pull.reaches(dry.plain() * S::Plain::from_f64(VANISHED));
+        let [z, mean, following] = travel.at_zero().either(
+            || [before, before, S::zero()],
+            || vanished.either(|| [target, target, S::one()], slides),
+        );
+        state.z = z;
+        Slid { mean, following }
     }
 
     /// How `u > 0` falls over a travel `k`.
     #[inline]
     fn fall(&self, u: S, k: S) -> Fall<S> {
+        let arrived = u.at_zero().or(u.is_finite().not());
+        let still = k.is_below(S::Plain::from_f64(STILL)).or(k.at_zero());
+        let [covered, mean, following] = arrived.either(
+            || at_once(S::one()),
+            || still.either(|| [S::zero(); 3], || self.approach(u, k)),
+        );
+        Fall { covered, mean, following }
+    }
+
+    /// As [`fall`](Self::fall), of what has not arrived and moves: `covered`, `mean` and `following`.
+    #[inline]
+    fn approach(&self, u: S, k: S) -> [S; 3] {
         let one = S::Plain::one();
-        if u.value() == 0.0 || !u.value().is_finite() {
-            return Fall::at_once(S::one());
-        }
-        if k.value() < STILL {
-            let zero = S::zero();
-            return Fall { covered: zero, mean: zero, following: zero };
-        }
         let excess = self.exponent.shift(-one);
         let other = excess.shift(-one);
         // ln(k u^(n-1)): the power itself may be beyond all numbers.
         let pace = excess * u.ln() + k.ln();
         let reach = pace.exp();
         let c = excess * reach;
-        if c.value() <= -1.0 {
-            let area = S::one() / (other * reach);
-            return Fall::at_once(area.shift(one));
-        }
-        let (w, area) = if c.value() > FAR {
+        let far = || {
             let w = (excess.ln() + pace) / excess;
             let bend = other * w;
-            let growth = if bend.value() > 0.0 { bend } else { S::zero() };
-            (w, w * (-bend.abs()).phi(1) * (growth - pace).exp())
-        } else {
+            let growth = S::choose(bend.is_positive(), bend, S::zero());
+            [w, w * (-bend.abs()).phi(1) * (growth - pace).exp()]
+        };
+        let near = || {
             let slope = logarithm_ratio(c);
             let w = reach * slope;
-            (w, slope * (other * w).phi(1))
+            [w, slope * (other * w).phi(1)]
         };
-        let y = -w;
-        Fall { covered: -y.expm1(), mean: (-area).shift(one), following: following(y, y.phi(1)) }
+        let falls = || {
+            let [w, area] = c.is_above(S::Plain::from_f64(FAR)).either(far, near);
+            let y = -w;
+            [-y.expm1(), (-area).shift(one), following(y, y.phi(1))]
+        };
+        let ends = c.is_below(-one).or(c.equals(-one));
+        ends.either(|| at_once((S::one() / (other * reach)).shift(one)), falls)
     }
 }
 
@@ -125,10 +134,8 @@ struct Fall<S> {
     following: S,
 }
 
-impl<S: Scalar> Fall<S> {
-    /// Sliding begins within the step.
-    #[inline]
-    fn at_once(mean: S) -> Self {
-        Self { covered: S::one(), mean, following: S::one() }
-    }
+/// Sliding begins within the step, in which this share is covered on average.
+#[inline]
+fn at_once<S: Real>(mean: S) -> [S; 3] {
+    [S::one(), mean, S::one()]
 }

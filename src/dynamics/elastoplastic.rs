@@ -9,7 +9,7 @@
 
 use super::{BristleState, Interval, Step, following};
 use crate::sample::Split;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real};
 
 /// Runge-Kutta steps of fourth order in the transition, and over a travel below [`SHORT`].
 const STEPS: (u8, u8) = (16, 4);
@@ -44,7 +44,7 @@ pub struct ElastoplasticBristle<S> {
     pub breakaway: S,
 }
 
-impl<S: Scalar> ElastoplasticBristle<S> {
+impl<S: Real> ElastoplasticBristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -68,26 +68,26 @@ impl<S: Scalar> ElastoplasticBristle<S> {
             return Step::same(torque);
         }
         let mut mean_torque = self.stiffness * glide.mean + split.rate + split.additive;
-        if interval.dt.value() > 0.0 {
-            mean_torque += self.damping * (state.z - before).scale(S::Plain::one() / interval.dt);
-        }
+        let slip = || (state.z - before).scale(S::Plain::one() / interval.dt);
+        mean_torque += self.damping * interval.dt.is_positive().either(slip, S::zero);
         Step { torque, mean_torque }
     }
 
     /// `b`; nothing is elastic beyond full sliding.
     #[inline]
     fn breakaway(&self) -> S {
-        if self.breakaway.value() < 1.0 { self.breakaway } else { S::one() }
+        S::choose(self.breakaway.is_below(S::Plain::one()), self.breakaway, S::one())
     }
 
     /// `dz/dt` over `v`.
     #[inline]
     fn slope(&self, z: S, dry: S, velocity: S::Plain) -> S {
-        if self.stiffness.value() >= VANISHED * dry.value() {
-            return S::zero();
-        }
-        let x = (self.stiffness * z / dry).scale(velocity.sign());
-        slope_at(x, self.breakaway())
+        let vanished = self.stiffness.reaches(dry.plain() * S::Plain::from_f64(VANISHED));
+        let slides = || {
+            let x = (self.stiffness * z / dry).scale(velocity.sign());
+            slope_at(x, self.breakaway())
+        };
+        vanished.either(S::zero, slides)
     }
 
     #[inline]
@@ -97,62 +97,64 @@ impl<S: Scalar> ElastoplasticBristle<S> {
         dry: S,
         interval: &Interval<S::Plain>,
     ) -> Glide<S> {
-        let one = S::Plain::one();
-        let half = S::Plain::from_f64(0.5);
+        let before = state.z;
         let travel = interval.travel();
-        if travel.value() == 0.0 {
-            return Glide { mean: state.z, following: S::zero() };
-        }
         let direction = interval.velocity().sign();
         let pull = self.stiffness.scale(travel);
-        if pull.value() >= VANISHED * dry.value() {
-            state.z = (dry / self.stiffness).scale(direction);
-            return Glide { mean: state.z, following: S::one() };
-        }
         let unit = (dry / self.stiffness).scale(direction);
-        let (whole, x) = (pull / dry, state.z / unit);
-        let breakaway = self.breakaway();
-        let room = breakaway - x;
-        if room.value() >= whole.value() {
-            let rise = S::from_plain(travel * direction);
-            let mean = state.z + rise.scale(half);
-            state.z += rise;
-            return Glide { mean, following: S::zero() };
-        }
-        // What is elastic first, then what is left of the travel; areas are under 1 - x.
-        let (mut left, mut way, mut area) = (whole, (-x).shift(one), S::zero());
-        if room.value() > 0.0 {
-            area = room * (way + -room.scale(half));
-            left += -room;
-            way += -room;
-        }
-        let breadth = (-breakaway).shift(one);
-        let (fall, under) = if way.value() <= SLIDING * breadth.value() {
-            let phi = (-left).phi(1);
-            (left, way * left * phi)
-        } else {
-            transition(way / breadth, breadth, left, interval.mean)
+        let slides = || {
+            let (whole, x) = (pull / dry, before / unit);
+            let room = self.breakaway() - x;
+            let rises = || {
+                let rise = S::from_plain(travel * direction);
+                [before + rise, before + rise.scale(S::Plain::from_f64(0.5)), S::zero()]
+            };
+            room.reaches(whole.plain())
+                .either(rises, || self.yields(unit, whole, x, room, interval.mean))
         };
-        area += under;
-        state.z = unit * (-(way * (-fall).exp())).shift(one);
-        let mean = unit * (-(area / whole)).shift(one);
-        Glide { mean, following: following(-fall, (-fall).phi(1)) }
+        let vanished = pull.reaches(dry.plain() * S::Plain::from_f64(VANISHED));
+        let [z, mean, following] = travel.at_zero().either(
+            || [before, before, S::zero()],
+            || vanished.either(|| [unit, unit, S::one()], slides),
+        );
+        state.z = z;
+        Glide { mean, following }
+    }
+
+    /// Deflection at the end, its mean and how far it follows over the travel `whole` from `x`, in
+    /// units of the deflection in full sliding, beyond the elastic `room`.
+    #[inline]
+    fn yields(&self, unit: S, whole: S, x: S, room: S, area: bool) -> [S; 3] {
+        let one = S::Plain::one();
+        let start = (-x).shift(one);
+        // What is elastic first, then what is left of the travel; areas are under 1 - x.
+        let elastic = || {
+            let way = start + -room;
+            [whole + -room, way, room * (start + -room.scale(S::Plain::from_f64(0.5)))]
+        };
+        let [left, way, before] = room.is_positive().either(elastic, || [whole, start, S::zero()]);
+        let breadth = (-self.breakaway()).shift(one);
+        let slides = || [left, way * left * (-left).phi(1)];
+        let bound = breadth.plain() * S::Plain::from_f64(SLIDING);
+        let [fall, under] =
+            way.is_above(bound).either(|| transition(way / breadth, breadth, left, area), slides);
+        let end = unit * (-(way * (-fall).exp())).shift(one);
+        let mean = unit * (-((before + under) / whole)).shift(one);
+        [end, mean, following(-fall, (-fall).phi(1))]
     }
 }
 
 /// `dz/dt` over `v` at `x = s0 z sgn v/D`.
 #[inline]
-pub(super) fn slope_at<S: Scalar>(x: S, breakaway: S) -> S {
+pub(super) fn slope_at<S: Real>(x: S, breakaway: S) -> S {
     let one = S::Plain::one();
-    if x.value() < breakaway.value() {
-        return S::one();
-    }
-    let way = (-x).shift(one);
-    if way.value() <= 0.0 {
-        return way;
-    }
-    let breadth = (-breakaway).shift(one);
-    way * descent(way / breadth, breadth)
+    let slides = || {
+        let way = (-x).shift(one);
+        let breadth = (-breakaway).shift(one);
+        let beyond = way.is_negative().or(way.at_zero());
+        beyond.either(|| way, || way * descent(way / breadth, breadth))
+    };
+    x.is_below(breakaway.plain()).either(S::one, slides)
 }
 
 /// How a step went: the mean deflection, and how far it has followed where it tends to.
@@ -163,19 +165,30 @@ struct Glide<S> {
 
 /// The rate at which `ln p` falls along the travel: `sin^2(pi p/2)/((1 - b) p) + cos^2(pi p/2)`.
 #[inline]
-fn descent<S: Scalar>(p: S, breadth: S) -> S {
-    if p.value() < 1e-150 {
-        return S::one();
-    }
-    let (sin, cos) = p.scale(S::Plain::from_f64(core::f64::consts::FRAC_PI_2)).sin_cos();
-    sin * (sin / (breadth * p)) + cos * cos
+fn descent<S: Real>(p: S, breadth: S) -> S {
+    let falls = || {
+        let (sin, cos) = p.scale(S::Plain::from_f64(core::f64::consts::FRAC_PI_2)).sin_cos();
+        sin * (sin / (breadth * p)) + cos * cos
+    };
+    // In single precision the bound is 0.
+    let arrived = p.is_below(S::Plain::from_f64(1e-150)).or(p.at_zero());
+    arrived.either(S::one, falls)
 }
 
 /// How far `ln p` falls over a travel from `p`, and the area under `1 - x` if it is wanted.
 #[inline]
-fn transition<S: Scalar>(p: S, breadth: S, travel: S, area: bool) -> (S, S) {
+fn transition<S: Real>(p: S, breadth: S, travel: S, area: bool) -> [S; 2] {
+    let long = travel.is_above(breadth.plain() * S::Plain::from_f64(SHORT));
+    let fall =
+        long.either(|| fall(p, breadth, travel, STEPS.0), || fall(p, breadth, travel, STEPS.1));
+    let under = if area { area_between(p, p * (-fall).exp(), breadth) } else { S::zero() };
+    [fall, under]
+}
+
+/// How far `ln p` falls over a travel from `p`, by so many Runge-Kutta steps.
+#[inline]
+fn fall<S: Real>(p: S, breadth: S, travel: S, steps: u8) -> S {
     let (half, sixth) = (S::Plain::from_f64(0.5), S::Plain::from_f64(1.0 / 6.0));
-    let steps = if travel.value() > SHORT * breadth.value() { STEPS.0 } else { STEPS.1 };
     let step = travel.scale(S::Plain::from_f64(1.0 / f64::from(steps)));
     let rate = |fall: S| descent(p * (-fall).exp(), breadth);
     let mut fall = S::zero();
@@ -186,13 +199,12 @@ fn transition<S: Scalar>(p: S, breadth: S, travel: S, area: bool) -> (S, S) {
         let d = rate(fall + step * c);
         fall += (step * (a + b + b + c + c + d)).scale(sixth);
     }
-    let under = if area { area_between(p, p * (-fall).exp(), breadth) } else { S::zero() };
-    (fall, under)
+    fall
 }
 
 /// `(1 - b) int dp/h` from `end` to `start`, in the square root of `p`, in which it is smooth.
 #[inline]
-fn area_between<S: Scalar>(start: S, end: S, breadth: S) -> S {
+fn area_between<S: Real>(start: S, end: S, breadth: S) -> S {
     let (half, two) = (S::Plain::from_f64(0.5), S::Plain::from_f64(2.0));
     let (high, low) = (start.sqrt(), end.sqrt());
     let (centre, reach) = ((high + low).scale(half), (high - low).scale(half));

@@ -7,11 +7,11 @@
 //! in a step: `P (1 - e^-h)/dt` on average over the step.
 
 use super::Interval;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real};
 
 /// A gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap<S: Scalar> {
+pub struct Gap<S: Real> {
     /// `b` (X): way in which it closes to 1/e.
     pub width: S,
     /// `n`: 1 where it closes with the way of the motor, 0 where it takes the same time at any
@@ -24,50 +24,71 @@ pub struct Gap<S: Scalar> {
 }
 
 /// Where the flanks stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flanks<S> {
+#[derive(Clone, Copy, Debug)]
+pub struct Flanks<S: Real> {
+    /// Whether there was a step before.
+    pub(super) begun: S::Mask,
     /// Load torque at the end of the step before (T).
-    load: S,
-    /// `w` (X); none before the load torque first changes its sign: the flanks touch.
-    way: Option<S>,
+    pub(super) load: S,
+    /// Whether the load torque has changed its sign: before that the flanks touch.
+    pub(super) parted: S::Mask,
+    /// `w` (X).
+    pub(super) way: S,
     /// `P` (T s).
-    momentum: S,
+    pub(super) momentum: S,
 }
 
-impl<S: Scalar> Gap<S> {
+impl<S: Real> Default for Flanks<S> {
+    fn default() -> Self {
+        let (no, zero) = (S::Mask::of(false), S::zero());
+        Self { begun: no, load: zero, parted: no, way: zero, momentum: zero }
+    }
+}
+
+impl<S: Real> Gap<S> {
     /// What a gap takes from the load torque over `interval` (T).
     #[inline]
-    pub fn over(&self, state: &mut Option<Flanks<S>>, interval: &Interval<S::Plain>) -> S {
+    pub fn over(&self, state: &mut Flanks<S>, interval: &Interval<S::Plain>) -> S {
+        let before = *state;
         let load = S::from_plain(interval.sample.load_torque);
-        let zero = S::zero();
-        let before = state.unwrap_or(Flanks { load, way: None, momentum: zero });
-        let dt = interval.dt;
-        let (start, end) = if dt.value() <= 0.0 {
-            (before.way, before.way)
-        } else if load.value() * before.load.value() < 0.0 {
-            // Within the step the load torque changes evenly.
-            let after = load / (load - before.load);
-            (Some(zero), Some(self.way(interval) * after))
-        } else {
-            (before.way, before.way.map(|way| way + self.way(interval)))
-        };
+        let earlier = S::choose(before.begun, before.load, load);
+        let lasts = interval.dt.is_positive();
+        let crossed = lasts.and((load * earlier).is_negative());
+        let parted = before.parted.or(crossed);
+        let start = S::choose(crossed, S::zero(), before.way);
+        // Within the step the load torque changes evenly.
+        let crosses = || self.way(interval) * (load / (load - earlier));
+        let goes_on = || before.way + self.way(interval);
+        let end = parted.and(lasts).either(|| crossed.either(crosses, goes_on), || before.way);
+        let [taken, momentum] = parted.either(
+            || self.taken(load, [start / self.width, end / self.width], before.momentum, interval),
+            || [S::zero(), before.momentum],
+        );
         // A load torque of 0 has no sign: what it had before counts.
-        let signed = if load.value() == 0.0 { before.load } else { load };
-        let mut after = Flanks { load: signed, way: end, momentum: before.momentum };
-        let mut taken = zero;
-        if let (Some(start), Some(end)) = (start, end) {
-            let (start, end) = (start / self.width, end / self.width);
-            let left = load * (-(end * end)).exp();
-            taken = -left;
-            if dt.value() > 0.0 {
-                let met = (start * start - end * end).expm1();
-                let made_up = -(before.momentum * met);
-                after.momentum = (left * self.returned).scale(dt) + before.momentum - made_up;
-                taken += made_up.scale(S::Plain::one() / dt);
-            }
-        }
-        *state = Some(after);
+        let signed = S::choose(load.at_zero(), earlier, load);
+        *state = Flanks { begun: S::Mask::of(true), load: signed, parted, way: end, momentum };
         taken
+    }
+
+    /// What is taken from the load torque (T), and the momentum that is lacking afterwards (T s), for
+    /// a way from `start` to `end`, in widths.
+    #[inline]
+    fn taken(
+        &self,
+        load: S,
+        [start, end]: [S; 2],
+        momentum: S,
+        interval: &Interval<S::Plain>,
+    ) -> [S; 2] {
+        let dt = interval.dt;
+        let left = load * (-(end * end)).exp();
+        let closes = || {
+            let met = (start * start - end * end).expm1();
+            let made_up = -(momentum * met);
+            let lacking = (left * self.returned).scale(dt) + momentum - made_up;
+            [-left + made_up.scale(S::Plain::one() / dt), lacking]
+        };
+        dt.is_positive().either(closes, || [-left, momentum])
     }
 
     /// How much further the gap closes in a step (X).

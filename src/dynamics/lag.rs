@@ -6,7 +6,7 @@
 //! so a lag never makes friction negative.
 
 use super::{Interval, SATURATED};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real};
 
 /// A first-order lag.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,34 +16,36 @@ pub struct Lag<S> {
 }
 
 /// Where a quantity that lags stands.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lagging<S> {
+#[derive(Clone, Copy, Debug)]
+pub struct Lagging<S: Real> {
+    /// Whether it has begun: before its first step it stands nowhere.
+    pub(super) begun: S::Mask,
     /// `e`.
-    value: S,
+    pub(super) value: S,
     /// `E`, at the end of the step before.
-    steady: S,
+    pub(super) steady: S,
 }
 
-impl<S: Scalar> Lag<S> {
-    /// Steps over `interval`, at whose end the steady value is `steady`; without a state there it
-    /// begins. A mean velocity means that the motion changes within the step, and the steady value
+impl<S: Real> Default for Lagging<S> {
+    fn default() -> Self {
+        Self { begun: S::Mask::of(false), value: S::zero(), steady: S::zero() }
+    }
+}
+
+impl<S: Real> Lag<S> {
+    /// Steps over `interval`, at whose end the steady value is `steady`; the first step begins
+    /// there. A mean velocity means that the motion changes within the step, and the steady value
     /// with it: evenly.
     #[inline]
-    pub fn over(
-        &self,
-        state: &mut Option<Lagging<S>>,
-        steady: S,
-        interval: &Interval<S::Plain>,
-    ) -> S {
-        let value = match *state {
-            None => steady,
-            Some(before) if interval.dt.value() <= 0.0 => before.value,
-            Some(before) => {
-                let (decay, late) = self.weights(interval);
-                steady + (before.value - before.steady) * decay - (steady - before.steady) * late
-            }
+    pub fn over(&self, state: &mut Lagging<S>, steady: S, interval: &Interval<S::Plain>) -> S {
+        let before = *state;
+        let follows = || {
+            let (decay, late) = self.weights(interval);
+            steady + (before.value - before.steady) * decay - (steady - before.steady) * late
         };
-        *state = Some(Lagging { value, steady });
+        let goes_on = || interval.dt.is_positive().either(follows, || before.value);
+        let value = before.begun.either(goes_on, || steady);
+        *state = Lagging { begun: S::Mask::of(true), value, steady };
         value
     }
 
@@ -52,12 +54,14 @@ impl<S: Scalar> Lag<S> {
     fn weights(&self, interval: &Interval<S::Plain>) -> (S, S) {
         let dt = interval.dt;
         let steps = self.time.scale(S::Plain::one() / dt);
-        let (decay, late) = if self.time.value() * SATURATED <= dt.value() {
-            (S::zero(), steps)
-        } else {
-            let y = self.time.divide(-dt);
-            (y.exp(), -(y.expm1() * steps))
-        };
+        let forgotten = self.time.plain() * S::Plain::from_f64(SATURATED);
+        let [decay, late] = forgotten.is_above(dt.plain()).either(
+            || {
+                let y = self.time.divide(-dt);
+                [y.exp(), -(y.expm1() * steps)]
+            },
+            || [S::zero(), steps],
+        );
         (decay, if interval.mean_velocity.is_some() { late } else { decay })
     }
 }

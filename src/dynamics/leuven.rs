@@ -8,7 +8,7 @@
 
 use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step, following, logarithm_ratio};
 use crate::sample::Split;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Choice, Mask, Real};
 
 /// An element so near its limit, relative to it, has reached it.
 const ROUNDING: f64 = 1e-12;
@@ -29,7 +29,7 @@ pub struct LeuvenBristle<'a, S> {
     pub damping: S,
 }
 
-impl<S: Scalar> LeuvenBristle<'_, S> {
+impl<S: Real> LeuvenBristle<'_, S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -46,24 +46,26 @@ impl<S: Scalar> LeuvenBristle<'_, S> {
         let glide = self.advance(state, limit, dry, direction, travel);
         if interval.mean_velocity.is_some() {
             let change = (end - dry) * glide.following;
-            let toward = if change.value() > 0.0 { direction } else { -direction };
-            if let Some(free) = self.free(state, limit, toward) {
-                let way = change.scale(toward * direction) / free.stiffness;
-                let way = if way.value() < free.room.value() { way } else { free.room };
-                self.shift(state, limit, toward, way);
-            }
+            let toward = S::Plain::choose(change.is_positive(), direction, -direction);
+            let free = self.free(state, limit, toward);
+            let way = change.scale(toward * direction) / free.stiffness;
+            let way = S::choose(way.is_below(free.room.plain()), way, free.room);
+            state.force =
+                free.any.either(|| self.shifted(state, limit, toward, way), || state.force);
         }
         let velocity = interval.sample.velocity;
         let force = self.total(state);
         let rate = slope(force.scale(velocity.sign()), end).scale(velocity);
         let torque = force + self.damping * rate + split.rate + split.additive;
-        if !interval.mean || travel.value() == 0.0 {
+        if !interval.mean {
             return Step::same(torque);
         }
-        let mean = glide.area.scale(S::Plain::one() / travel);
-        let mean_rate = slope(mean, dry).scale(interval.velocity());
-        let mean = mean.scale(direction) + self.damping * mean_rate;
-        Step { torque, mean_torque: mean + split.rate + split.additive }
+        let slides = || {
+            let mean = glide.area.scale(S::Plain::one() / travel);
+            let mean_rate = slope(mean, dry).scale(interval.velocity());
+            mean.scale(direction) + self.damping * mean_rate + split.rate + split.additive
+        };
+        Step { torque, mean_torque: travel.at_zero().either(|| torque, slides) }
     }
 
     #[inline]
@@ -94,91 +96,146 @@ impl<S: Scalar> LeuvenBristle<'_, S> {
         direction: S::Plain,
         travel: S::Plain,
     ) -> Glide<S> {
-        let dry = if dry.value() > 0.0 { dry } else { S::zero() };
-        let mut left = S::from_plain(travel);
-        let mut glide = Glide { area: S::zero(), following: S::zero() };
+        let dry = S::choose(dry.is_positive(), dry, S::zero());
+        let mut glide = Glide {
+            force: state.force,
+            left: S::from_plain(travel),
+            area: S::zero(),
+            following: S::zero(),
+        };
         for _ in 0..=self.count() {
-            let force = self.total(state).scale(direction);
-            let gap = dry - force;
-            let toward = if gap.value() > 0.0 { direction } else { -direction };
-            let free = self.free(state, limit, toward).filter(|_| !gap.is_zero());
-            let Some(free) = free.filter(|_| left.value() > 0.0) else {
-                glide.area += force * left;
-                break;
-            };
-            let piece = Piece { dry, gap, stiffness: free.stiffness };
-            match piece.travel_to(free.room).filter(|reach| reach.value() < left.value()) {
-                Some(reach) => {
-                    self.shift(state, limit, toward, free.room);
-                    self.stop(state, limit, toward);
-                    glide.area += dry * (reach - free.room.scale(toward * direction));
-                    left += -reach;
-                }
-                None => {
-                    let (way, following) = piece.over(left);
-                    self.shift(state, limit, toward, way.scale(toward * direction));
-                    glide.area += dry * (left - way);
-                    glide.following = following;
-                    break;
-                }
-            }
+            let goes_on = glide.left.is_positive();
+            glide = goes_on.either(|| self.piece(&glide, state, limit, dry, direction), || glide);
+            state.force = glide.force;
         }
         glide
     }
 
-    /// The elements that a motion of `z` along `toward` loads, if there are any.
+    /// The next piece of a travel.
     #[inline]
-    fn free(&self, state: &Elements<S>, limit: S, toward: S::Plain) -> Option<Free<S>> {
-        let mut free: Option<Free<S>> = None;
+    fn piece(
+        &self,
+        glide: &Glide<S>,
+        state: &Elements<S>,
+        limit: S,
+        dry: S,
+        direction: S::Plain,
+    ) -> Glide<S> {
+        let left = glide.left;
+        let force = self.total(state).scale(direction);
+        let gap = dry - force;
+        let toward = S::Plain::choose(gap.is_positive(), direction, -direction);
+        let along = toward * direction;
+        let free = self.free(state, limit, toward);
+        let slides = || Glide { left: S::zero(), area: glide.area + force * left, ..*glide };
+        let moves = || {
+            let piece = Piece { dry, gap, stiffness: free.stiffness };
+            let reach = piece.travel_to(free.room);
+            let comes_to_limit = || {
+                let shifted = self.shifted(state, limit, toward, free.room);
+                Glide {
+                    force: self.stopped(shifted, limit, toward),
+                    left: left + -reach,
+                    area: glide.area + dry * (reach - free.room.scale(along)),
+                    following: glide.following,
+                }
+            };
+            let ends = || {
+                let [way, following] = piece.over(left);
+                Glide {
+                    force: self.shifted(state, limit, toward, way.scale(along)),
+                    left: S::zero(),
+                    area: glide.area + dry * (left - way),
+                    following,
+                }
+            };
+            reach.is_below(left.plain()).either(comes_to_limit, ends)
+        };
+        let settled = if gap.is_zero() { S::Mask::of(true) } else { free.any.not() };
+        settled.either(slides, moves)
+    }
+
+    /// The elements that a motion of `z` along `toward` loads.
+    #[inline]
+    fn free(&self, state: &Elements<S>, limit: S, toward: S::Plain) -> Free<S> {
+        let infinite = S::from_f64(f64::INFINITY);
+        let mut free = Free { any: S::Mask::of(false), stiffness: S::zero(), room: infinite };
         for k in 0..self.count() {
             let room = self.friction[k] * limit - state.force[k].scale(toward);
-            if room.value() > 0.0 {
-                let (stiffness, room) = (self.stiffness[k], room / self.stiffness[k]);
-                free = Some(match free {
-                    Some(others) => Free {
-                        stiffness: others.stiffness + stiffness,
-                        room: if room.value() < others.room.value() { room } else { others.room },
-                    },
-                    None => Free { stiffness, room },
-                });
-            }
+            let is_free = room.is_positive();
+            let joins = || {
+                let room = room / self.stiffness[k];
+                let nearest = S::choose(room.is_below(free.room.plain()), room, free.room);
+                [free.stiffness + self.stiffness[k], nearest]
+            };
+            let [stiffness, nearest] = is_free.either(joins, || [free.stiffness, free.room]);
+            free = Free { any: free.any.or(is_free), stiffness, room: nearest };
         }
         free
     }
 
-    /// Moves `z` by `way` along `toward`, no further than the first element's limit.
+    /// Forces after `z` has moved by `way` along `toward`, no further than the first element's limit.
     #[inline]
-    fn shift(&self, state: &mut Elements<S>, limit: S, toward: S::Plain, way: S) {
-        for (k, force) in state.force[..self.count()].iter_mut().enumerate() {
-            let room = self.friction[k] * limit - force.scale(toward);
-            if room.value() > 0.0 {
-                *force += (self.stiffness[k] * way).scale(toward);
-            }
+    fn shifted(
+        &self,
+        state: &Elements<S>,
+        limit: S,
+        toward: S::Plain,
+        way: S,
+    ) -> [S; MOST_ELEMENTS] {
+        let mut forces = state.force;
+        for (k, force) in forces[..self.count()].iter_mut().enumerate() {
+            let before = *force;
+            let room = self.friction[k] * limit - before.scale(toward);
+            let moves = || before + (self.stiffness[k] * way).scale(toward);
+            *force = room.is_positive().either(moves, || before);
         }
+        forces
     }
 
     /// Puts elements that have come to their limit, but for rounding, exactly there.
     #[inline]
-    fn stop(&self, state: &mut Elements<S>, limit: S, toward: S::Plain) {
-        for (k, force) in state.force[..self.count()].iter_mut().enumerate() {
+    fn stopped(
+        &self,
+        mut forces: [S; MOST_ELEMENTS],
+        limit: S,
+        toward: S::Plain,
+    ) -> [S; MOST_ELEMENTS] {
+        for (k, force) in forces[..self.count()].iter_mut().enumerate() {
             let most = self.friction[k] * limit;
             let room = most - force.scale(toward);
-            if room.value().abs() <= ROUNDING * most.value() {
-                *force = most.scale(toward);
-            }
+            let bound = most.plain() * S::Plain::from_f64(ROUNDING);
+            *force = S::choose(room.abs().is_above(bound), *force, most.scale(toward));
         }
+        forces
     }
 }
 
-/// What moves over a travel: the area under the force, and how far the force has followed where it
-/// tends to.
+/// A travel on its way: forces, what is left of it, the area under the force, and how far the force
+/// has followed where it tends to.
+#[derive(Clone, Copy)]
 struct Glide<S> {
+    force: [S; MOST_ELEMENTS],
+    left: S,
     area: S,
     following: S,
 }
 
-/// Elements that are not at their limit: their stiffness together, and how far the first is from it.
-struct Free<S> {
+impl<S: Real> Choice<S::Mask> for Glide<S> {
+    fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            force: Choice::select(mask, yes.force, no.force),
+            left: S::choose(mask, yes.left, no.left),
+            area: S::choose(mask, yes.area, no.area),
+            following: S::choose(mask, yes.following, no.following),
+        }
+    }
+}
+
+/// Elements that are not at their limit: whether there are any, their stiffness together, and how
+/// far the first is from it.
+struct Free<S: Real> {
+    any: S::Mask,
     stiffness: S,
     room: S,
 }
@@ -190,34 +247,37 @@ struct Piece<S> {
     stiffness: S,
 }
 
-impl<S: Scalar> Piece<S> {
-    /// The travel after which `z` has moved by `room`, if it ever does: together the elements carry
-    /// `D` at least, so that the last one never comes to its limit, whatever the rounding.
+impl<S: Real> Piece<S> {
+    /// The travel after which `z` has moved by `room`, infinite if it never does: together the
+    /// elements carry `D` at least, so that the last one never comes to its limit, whatever the
+    /// rounding.
     #[inline]
-    fn travel_to(&self, room: S) -> Option<S> {
+    fn travel_to(&self, room: S) -> S {
         let size = self.gap.abs();
         let share = self.stiffness * room / size;
-        (share.value() < 1.0 - ROUNDING).then(|| room * (self.dry / size) * logarithm_ratio(-share))
+        share.is_below(S::Plain::from_f64(1.0 - ROUNDING)).either(
+            || room * (self.dry / size) * logarithm_ratio(-share),
+            || S::from_f64(f64::INFINITY),
+        )
     }
 
     /// How far `z` moves over a travel, and how far the force has followed where it tends to.
     #[inline]
-    fn over(&self, travel: S) -> (S, S) {
+    fn over(&self, travel: S) -> [S; 2] {
         let pull = self.stiffness * travel;
-        if pull.value() >= SATURATED * self.dry.value() {
-            return (self.gap / self.stiffness, S::one());
-        }
-        let y = -(pull / self.dry);
-        let phi = y.phi(1);
-        (-(self.gap * y * phi) / self.stiffness, following(y, phi))
+        let follows = || {
+            let y = -(pull / self.dry);
+            let phi = y.phi(1);
+            [-(self.gap * y * phi) / self.stiffness, following(y, phi)]
+        };
+        let bound = self.dry.plain() * S::Plain::from_f64(SATURATED);
+        pull.reaches(bound).either(|| [self.gap / self.stiffness, S::one()], follows)
     }
 }
 
 /// `dz/dt` over `v`, for a force along the velocity; 0 where dry friction has vanished.
 #[inline]
-fn slope<S: Scalar>(force: S, dry: S) -> S {
-    if force.value().abs() >= VANISHED * dry.value() {
-        return S::zero();
-    }
-    (-(force / dry)).shift(S::Plain::one())
+fn slope<S: Real>(force: S, dry: S) -> S {
+    let vanished = force.abs().reaches(dry.plain() * S::Plain::from_f64(VANISHED));
+    vanished.either(S::zero, || (-(force / dry)).shift(S::Plain::one()))
 }

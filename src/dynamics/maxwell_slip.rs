@@ -7,7 +7,7 @@
 
 use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step};
 use crate::sample::Split;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real};
 
 /// Parameters of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct MaxwellSlip<'a, S> {
     pub attraction: S,
 }
 
-impl<S: Scalar> MaxwellSlip<'_, S> {
+impl<S: Real> MaxwellSlip<'_, S> {
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
     #[inline]
@@ -56,7 +56,7 @@ impl<S: Scalar> MaxwellSlip<'_, S> {
             total += friction;
         }
         let change = if interval.mean_velocity.is_some() { end - dry } else { S::zero() };
-        let dt = if interval.dt.value() > 0.0 { interval.dt } else { S::Plain::zero() };
+        let dt = S::Plain::choose(interval.dt.is_positive(), interval.dt, S::Plain::zero());
         let settling = Settling { pull: self.attraction.scale(dt), dry, mean: interval.mean };
         Slide {
             direction: interval.velocity().sign(),
@@ -70,7 +70,7 @@ impl<S: Scalar> MaxwellSlip<'_, S> {
 }
 
 /// What all elements have in common over a step.
-struct Slide<S: Scalar> {
+struct Slide<S: Real> {
     direction: S::Plain,
     travel: S::Plain,
     /// Force in sliding over the friction of an element, at the start of the step and at its end: it
@@ -97,34 +97,27 @@ struct Weights<S> {
     covered: S,
 }
 
-impl<S: Scalar> Settling<S> {
+impl<S: Real> Settling<S> {
     /// The weights over a share of the step.
     #[inline]
     fn over(&self, share: S) -> Weights<S> {
         let pull = self.pull * share;
-        if pull.value() == 0.0 {
-            return Weights { first: S::one(), second: S::from_f64(0.5), covered: S::zero() };
-        }
-        if pull.value() < SATURATED * self.dry.value() {
+        let stays = || [S::one(), S::from_f64(0.5), S::zero()];
+        let follows = || {
             let y = -(pull / self.dry);
             let first = y.phi(1);
             let second = if self.mean { y.phi(2) } else { S::zero() };
-            return Weights { first, second, covered: -(y * first) };
-        }
-        let first = if self.dry.value() > 0.0 { self.dry / pull } else { S::zero() };
-        let second = first * (-first).shift(S::Plain::one());
-        Weights { first, second, covered: S::one() }
+            [first, second, -(y * first)]
+        };
+        let arrives = || {
+            let first = self.dry.is_positive().either(|| self.dry / pull, S::zero);
+            [first, first * (-first).shift(S::Plain::one()), S::one()]
+        };
+        let bound = self.dry.plain() * S::Plain::from_f64(SATURATED);
+        let [first, second, covered] =
+            pull.at_zero().either(stays, || pull.is_below(bound).either(follows, arrives));
+        Weights { first, second, covered }
     }
-}
-
-/// What an element does over a step.
-enum Course<S> {
-    /// It sticks throughout, and its force grows by this along the motion.
-    Sticks(S),
-    /// It sticks for this share of the step and begins to slide at this force.
-    BreaksAway { share: S, force: S },
-    /// It slides throughout.
-    Slides,
 }
 
 struct Element<S> {
@@ -132,57 +125,60 @@ struct Element<S> {
     stiffness: S,
 }
 
-impl<S: Scalar> Element<S> {
+impl<S: Real> Element<S> {
     /// Moves one element and returns its mean force over the step.
     #[inline]
-    fn advance(&self, force: &mut S, sliding: &mut i8, slide: &Slide<S>) -> S {
-        if slide.direction.value() == 0.0 {
-            *sliding = 0;
-            return *force;
-        }
-        let along = if slide.direction.value() > 0.0 { 1 } else { -1 };
-        let half = S::Plain::from_f64(0.5);
-        let before = force.scale(slide.direction);
-        let limits = (self.friction * slide.from, self.friction * slide.to);
-        let course =
-            if *sliding == along { Course::Slides } else { self.course(before, limits, slide) };
-        *sliding = if matches!(course, Course::Sticks(_)) { 0 } else { along };
-        let (after, mean) = match course {
-            Course::Sticks(rise) => (before + rise, before + rise.scale(half)),
-            Course::Slides => approach(before, limits, &slide.whole),
-            Course::BreaksAway { share, force } => {
-                let rest = (-share).shift(S::Plain::one());
-                let (after, mean) = approach(force, (force, limits.1), &slide.settling.over(rest));
-                (after, share * (before + force).scale(half) + rest * mean)
-            }
+    fn advance(&self, force: &mut S, sliding: &mut S::Plain, slide: &Slide<S>) -> S {
+        let (direction, held) = (slide.direction, *force);
+        let slides = sliding.equals(direction.plain());
+        let moves = || {
+            let [after, mean, sticks] = self.along(held.scale(direction), slides, slide);
+            [after.scale(direction), mean.scale(direction), sticks]
         };
-        *force = after.scale(slide.direction);
-        mean.scale(slide.direction)
+        let rests = || [held, held, S::one()];
+        let [after, mean, sticks] = direction.at_zero().either(rests, moves);
+        *force = after;
+        *sliding = S::Plain::choose(sticks.at_zero(), direction, S::Plain::zero());
+        mean
     }
 
-    /// What an element that sticks at first does; forces along the motion.
+    /// Force at the end and mean force of an element that starts at `before`, both along the motion,
+    /// and whether it sticks throughout: 1, else 0. One that `slides` does so until the motion
+    /// reverses; another sticks for a share of the step first, or for all of it.
     #[inline]
-    fn course(&self, before: S, (from, to): (S, S), slide: &Slide<S>) -> Course<S> {
-        let room = from - before;
-        let reach = self.stiffness.scale(slide.travel);
-        let gain = reach - (to - from);
-        if room.value() <= 0.0 {
-            Course::Slides
-        } else if room.value() > gain.value() {
-            Course::Sticks(reach)
-        } else {
-            let share = room / gain;
-            Course::BreaksAway { share, force: before + reach * share }
-        }
+    fn along(&self, before: S, slides: S::Mask, slide: &Slide<S>) -> [S; 3] {
+        let half = S::Plain::from_f64(0.5);
+        let (from, to) = (self.friction * slide.from, self.friction * slide.to);
+        let goes_on = || {
+            let [after, mean] = approach(before, (from, to), &slide.whole);
+            [after, mean, S::zero()]
+        };
+        let begins = || {
+            let room = from - before;
+            let reach = self.stiffness.scale(slide.travel);
+            let gain = reach - (to - from);
+            let sticks = || [before + reach, before + reach.scale(half), S::one()];
+            let breaks_away = || {
+                let share = room / gain;
+                let rest = (-share).shift(S::Plain::one());
+                let start = before + reach * share;
+                let weights = slide.settling.over(rest);
+                let [after, mean] = approach(start, (start, to), &weights);
+                [after, share * (before + start).scale(half) + rest * mean, S::zero()]
+            };
+            let at_limit = room.is_negative().or(room.at_zero());
+            at_limit.either(goes_on, || room.is_above(gain.plain()).either(sticks, breaks_away))
+        };
+        slides.either(goes_on, begins)
     }
 }
 
 /// Force at the end and mean force of an element that starts at `start` and tends to a limit that
 /// moves from one place to another.
 #[inline]
-fn approach<S: Scalar>(start: S, (from, to): (S, S), weights: &Weights<S>) -> (S, S) {
+fn approach<S: Real>(start: S, (from, to): (S, S), weights: &Weights<S>) -> [S; 2] {
     let (gap, rise) = (from - start, to - from);
     let after = start + gap * weights.covered + rise * (-weights.first).shift(S::Plain::one());
     let half = S::Plain::from_f64(0.5);
-    (after, from - gap * weights.first + rise * (-weights.second).shift(half))
+    [after, from - gap * weights.first + rise * (-weights.second).shift(half)]
 }

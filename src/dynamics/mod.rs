@@ -27,7 +27,7 @@ pub use maxwell_slip::MaxwellSlip;
 pub use relaxation::Relaxation;
 
 use crate::sample::Sample;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real};
 
 /// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
 const SATURATED: f64 = 700.0;
@@ -46,7 +46,7 @@ pub struct Interval<P> {
     pub mean: bool,
 }
 
-impl<P: Scalar> Interval<P> {
+impl<P: Real> Interval<P> {
     /// The velocity that carries the state (X/s).
     #[inline]
     #[must_use]
@@ -58,7 +58,7 @@ impl<P: Scalar> Interval<P> {
     #[inline]
     #[must_use]
     pub fn travel(&self) -> P {
-        if self.dt.value() > 0.0 { self.velocity().abs() * self.dt } else { P::zero() }
+        P::choose(self.dt.is_positive(), self.velocity().abs() * self.dt, P::zero())
     }
 }
 
@@ -72,7 +72,7 @@ pub struct Step<S> {
     pub mean_torque: S,
 }
 
-impl<S: Scalar> Step<S> {
+impl<S: Real> Step<S> {
     /// A torque that does not change over the step.
     #[inline]
     #[must_use]
@@ -108,21 +108,21 @@ impl Memory {
 }
 
 /// State of any model, kept apart from its parameters: each kind of law uses its own part.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<S> {
+#[derive(Clone, Copy, Debug)]
+pub struct State<S: Real> {
     /// Deflection of a bristle.
     pub bristle: BristleState<S>,
     /// Forces of elements in parallel.
     pub elements: Elements<S>,
     /// Stribeck curve that lags.
-    pub curve: Option<Lagging<S>>,
+    pub curve: Lagging<S>,
     /// Flanks of a gap.
-    pub flanks: Option<Flanks<S>>,
+    pub flanks: Flanks<S>,
     /// Dry magnitude at the end of the step before (T).
     dry: Option<S>,
 }
 
-impl<S: Scalar> State<S> {
+impl<S: Real> State<S> {
     /// The state that a deflection `z` (X) at the start means; 0 is a joint without tension.
     #[inline]
     #[must_use]
@@ -130,8 +130,8 @@ impl<S: Scalar> State<S> {
         Self {
             bristle: BristleState { z },
             elements: Elements::default(),
-            curve: None,
-            flanks: None,
+            curve: Lagging::default(),
+            flanks: Flanks::default(),
             dry: None,
         }
     }
@@ -155,7 +155,7 @@ impl<S: Scalar> State<S> {
     }
 }
 
-impl<S: Scalar> Default for State<S> {
+impl<S: Real> Default for State<S> {
     fn default() -> Self {
         Self::deflected(S::zero())
     }
@@ -175,17 +175,17 @@ pub(crate) fn following<S: Real>(y: S, phi: S) -> S {
 
 /// `ln(1 + c)/c`, by the series of the inverse hyperbolic tangent where `c` is small.
 #[inline]
-fn logarithm_ratio<S: Scalar>(c: S) -> S {
+fn logarithm_ratio<S: Real>(c: S) -> S {
     let one = S::Plain::one();
-    if c.value().abs() > 0.2 {
-        return c.shift(one).ln() / c;
-    }
-    // ln(1 + c) = 2 artanh(s), s = c/(2 + c), s^2 < 0.0124.
-    let inverse = S::one() / c.shift(one + one);
-    let square = c * inverse * c * inverse;
-    let mut sum = S::zero();
-    for k in (0..9_u8).rev() {
-        sum = (sum * square).shift(one / S::Plain::from_f64(f64::from(2 * k + 1)));
-    }
-    (sum * inverse).scale(one + one)
+    let series = || {
+        // ln(1 + c) = 2 artanh(s), s = c/(2 + c), s^2 < 0.0124.
+        let inverse = S::one() / c.shift(one + one);
+        let square = c * inverse * c * inverse;
+        let mut sum = S::zero();
+        for k in (0..9_u8).rev() {
+            sum = (sum * square).shift(one / S::Plain::from_f64(f64::from(2 * k + 1)));
+        }
+        (sum * inverse).scale(one + one)
+    };
+    c.abs().is_above(S::Plain::from_f64(0.2)).either(|| c.shift(one).ln() / c, series)
 }

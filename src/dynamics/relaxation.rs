@@ -1,7 +1,7 @@
 //! A state that relaxes linearly along the travel, stepped exactly.
 
 use super::{SATURATED, following};
-use crate::scalar::Scalar;
+use crate::scalar::{Mask, Real};
 
 /// Above this ratio of pull to hold a state is at its target wherever it is.
 const LOOSE: f64 = 1e30;
@@ -29,37 +29,40 @@ pub struct Relaxed<S> {
     pub decay: S,
 }
 
-impl<S: Scalar> Relaxation<S> {
+impl<S: Real> Relaxation<S> {
     /// The state after a travel `>= 0`, from `z`.
     #[inline]
     #[must_use]
     pub fn over(&self, z: S, travel: S::Plain) -> Relaxed<S> {
         let pull = self.pull.scale(travel);
-        if pull.value() == 0.0 {
-            return Relaxed { end: z, mean: z, decay: S::zero() };
-        }
         let way = self.target - z;
-        if pull.value() >= SATURATED * self.hold.value() {
+        let bound = self.hold.plain() * S::Plain::from_f64(SATURATED);
+        let settles = || {
             let mean = self.target - way * (self.hold / pull);
-            return Relaxed { end: self.target, mean, decay: S::from_f64(-SATURATED) };
-        }
-        let decay = -(pull / self.hold);
-        let way = way * -decay;
-        Relaxed { end: z + way * decay.phi(1), mean: z + way * decay.phi(2), decay }
+            [self.target, mean, S::from_f64(-SATURATED)]
+        };
+        let follows = || {
+            let decay = -(pull / self.hold);
+            let way = way * -decay;
+            [z + way * decay.phi(1), z + way * decay.phi(2), decay]
+        };
+        let [end, mean, decay] = pull
+            .at_zero()
+            .either(|| [z, z, S::zero()], || pull.reaches(bound).either(settles, follows));
+        Relaxed { end, mean, decay }
     }
 
     /// `dz/ds` at `z`.
     #[inline]
     #[must_use]
     pub fn slope(&self, z: S) -> S {
-        if self.pull.value() >= LOOSE * self.hold.value() {
-            return S::zero();
-        }
-        (self.target - z) * (self.pull / self.hold)
+        let bound = self.hold.plain() * S::Plain::from_f64(LOOSE);
+        let loose = self.pull.reaches(bound);
+        loose.either(S::zero, || (self.target - z) * (self.pull / self.hold))
     }
 }
 
-impl<S: Scalar> Relaxed<S> {
+impl<S: Real> Relaxed<S> {
     /// How far the state has followed a target that moved from the one that was held to the one at
     /// the end.
     #[inline]

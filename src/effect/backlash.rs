@@ -2,7 +2,7 @@ use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::dynamics::{Gap, Interval, State};
 use crate::sample::Split;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
 
 parameters! {
@@ -52,9 +52,7 @@ impl<S: Real> FrictionEffect<S> for Backlash<S> {
         state: &mut State<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
-    ) where
-        S: Scalar,
-    {
+    ) {
         let gap = Gap {
             width: self.backlash_gap,
             exponent: self.backlash_exponent,

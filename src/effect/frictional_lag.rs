@@ -2,7 +2,7 @@ use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::dynamics::{Interval, Lag, State};
 use crate::sample::Split;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters, parameters};
 
 parameters! {
@@ -39,9 +39,7 @@ impl<S: Real> FrictionEffect<S> for FrictionalLag<S> {
         state: &mut State<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) where
-        S: Scalar,
-    {
+    ) {
         let lag = Lag { time: self.frictional_lag };
         let value = lag.over(&mut state.curve, split.shape.value, interval);
         split.shape = split.shape.displaced(value);

@@ -50,7 +50,7 @@ pub use temperature_viscous::TemperatureViscous;
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Interval, State};
 use crate::sample::{Sample, Split};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters};
 
 /// What a file in this folder provides.
@@ -81,9 +81,7 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
         _state: &mut State<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
-    ) where
-        S: Scalar,
-    {
+    ) {
         self.apply(split, &interval.sample, constants);
     }
 

@@ -4,7 +4,7 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
 use super::operation::{Binary, Id, Operation, Unary};
 use super::recorder::Recorder;
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Choice, Mask, Real};
 
 /// A number that is known beforehand, or a node of a graph.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +88,10 @@ impl<'r> RecordedMask<'r> {
 }
 
 impl Mask for RecordedMask<'_> {
+    fn of(yes: bool) -> Self {
+        Self::Known(yes)
+    }
+
     fn and(self, other: Self) -> Self {
         self.with(other, Binary::And, |x, y| x & y)
     }
@@ -107,6 +111,15 @@ impl Mask for RecordedMask<'_> {
 
     fn all(self) -> bool {
         matches!(self, Self::Known(true))
+    }
+
+    /// What is known beforehand leaves only one way.
+    fn either<T: Choice<Self>>(self, yes: impl FnOnce() -> T, no: impl FnOnce() -> T) -> T {
+        match self {
+            Self::Known(true) => yes(),
+            Self::Known(false) => no(),
+            Self::Node(..) => T::select(self, yes(), no()),
+        }
     }
 }
 

@@ -2,7 +2,7 @@ use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::dynamics::{Interval, Memory, Relaxation, State, Step};
 use crate::sample::{Sample, Split};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
@@ -49,10 +49,7 @@ impl<S: Real> FrictionLaw<S> for BlimanSorine<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
+    ) -> Step<S> {
         let direction = interval.velocity().sign();
         let fast = self.overshoot_ratio.shift(S::Plain::one());
         let slow = -self.overshoot_ratio;

@@ -55,10 +55,7 @@ impl<S: Real> FrictionLaw<S> for Dahl<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
+    ) -> Step<S> {
         let bristle =
             DahlBristle { stiffness: self.bristle_stiffness, exponent: self.dahl_exponent };
         bristle.over(&mut state.bristle, dry, split, interval)

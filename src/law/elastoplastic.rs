@@ -77,10 +77,7 @@ impl<S: Real> FrictionLaw<S> for Elastoplastic<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
+    ) -> Step<S> {
         let bristle = ElastoplasticBristle {
             stiffness: self.bristle_stiffness,
             damping: self.bristle_damping,

@@ -3,7 +3,7 @@ use super::curves::arctangent_sign;
 use crate::constants::Constants;
 use crate::dynamics::{Approach, Deflection, Interval, Relaxation, State, Step};
 use crate::sample::{Sample, Split};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -121,10 +121,7 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
+    ) -> Step<S> {
         let (velocity, travel) = (interval.velocity(), interval.travel());
         let own = interval.sample.velocity;
         let damping = |v: S::Plain| self.damping(v.abs(), interval.sample.acceleration, constants);
@@ -141,17 +138,13 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
         state.bristle.z = z;
 
         let mut torque = self.bristle_stiffness * z + split.rate + split.additive;
-        if own.value() != 0.0 {
-            torque += damping(own) * reading.slope(z);
-        }
+        torque += own.at_zero().either(S::zero, || damping(own) * reading.slope(z));
         if !interval.mean {
             return Step::same(torque);
         }
         let mut mean_torque = self.bristle_stiffness * relaxed.mean + split.rate + split.additive;
-        if travel.value() > 0.0 {
-            let slope = (z - before).scale(S::Plain::one() / travel);
-            mean_torque += damping(velocity) * slope;
-        }
+        let slides = || damping(velocity) * (z - before).scale(S::Plain::one() / travel);
+        mean_torque += travel.is_positive().either(slides, S::zero);
         Step { torque, mean_torque }
     }
 }

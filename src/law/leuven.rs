@@ -3,7 +3,7 @@ use super::elements::{self, ElementParameters};
 use crate::constants::Constants;
 use crate::dynamics::{Interval, LeuvenBristle, Memory, State, Step};
 use crate::sample::{Sample, Split, stribeck_curve};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::Real;
 use crate::table::{LawInfo, ParameterInfo, Parameters, Presence, parameters};
 
 parameters! {
@@ -76,10 +76,7 @@ impl<S: Real> FrictionLaw<S> for Leuven<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
+    ) -> Step<S> {
         let bristle = LeuvenBristle {
             friction: &self.elements.friction,
             stiffness: &self.elements.stiffness,

@@ -126,10 +126,7 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
         _constants: &Constants<S::Plain>,
-    ) -> Step<S>
-    where
-        S: Scalar,
-    {
+    ) -> Step<S> {
         Step::same(split.torque(interval.sample.velocity.sign()))
     }
 }

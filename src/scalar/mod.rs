@@ -4,7 +4,7 @@ mod dual;
 mod mask;
 
 pub use dual::Dual;
-pub use mask::Mask;
+pub use mask::{Choice, Mask};
 
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
@@ -129,6 +129,12 @@ pub trait Real:
     #[inline]
     fn is_negative(self) -> Self::Mask {
         self.is_below(Self::Plain::zero())
+    }
+
+    /// `x >= bound`.
+    #[inline]
+    fn reaches(self, bound: Self::Plain) -> Self::Mask {
+        self.is_above(bound).or(self.equals(bound))
     }
 
     /// `x = 0`, whatever is carried along.
