@@ -16,6 +16,7 @@
 //! | [`joint`] | friction coupled to an inertia: joints in motion |
 //! | `graph` (feature `std`) | what a law computes, written down, differentiated and vectorised |
 //! | `batch` (feature `std`) | whole recordings: torque, gradient, delay |
+//! | `export` (feature `std`) | a step of a model as a list of operations, for controllers |
 //! | `passivity` (feature `std`) | proofs over a box of operating points, and counterexamples |
 //! | `python` (feature `python`) | the extension module `stribeck._core` |
 //!
@@ -47,6 +48,8 @@ pub mod constants;
 pub mod dynamics;
 pub mod effect;
 pub mod error;
+#[cfg(feature = "std")]
+pub mod export;
 pub mod formula;
 #[cfg(feature = "std")]
 mod graph;

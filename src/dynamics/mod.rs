@@ -13,6 +13,7 @@ mod gap;
 mod lag;
 mod leuven;
 mod maxwell_slip;
+mod part;
 mod relaxation;
 
 pub use bristle::{Bristle, BristleState, Course};
@@ -24,6 +25,7 @@ pub use gap::{Flanks, Gap};
 pub use lag::{Lag, Lagging};
 pub use leuven::LeuvenBristle;
 pub use maxwell_slip::MaxwellSlip;
+pub use part::Part;
 pub use relaxation::Relaxation;
 
 use crate::sample::Sample;

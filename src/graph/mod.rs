@@ -15,8 +15,8 @@ mod run;
 mod schedule;
 
 pub use derivative::derivatives;
-pub use operation::Operation;
-pub use recorded::Recorded;
+pub use operation::{Binary, Id, Operation, Unary};
+pub use recorded::{Format, Recorded};
 pub use recorder::Recorder;
 pub use run::{BLOCK, Beginning, Given, run};
 pub use schedule::Schedule;

@@ -110,6 +110,28 @@ impl Operation {
         }
     }
 
+    /// The same of other nodes and columns.
+    #[must_use]
+    pub fn moved(self, node: impl Fn(Id) -> Id, column: impl Fn(usize) -> usize) -> Self {
+        match self {
+            Self::Constant(_) | Self::Parameter(_) => self,
+            Self::Column(own) => Self::Column(column(own)),
+            Self::Unary(operation, x) => Self::Unary(operation, node(x)),
+            Self::Binary(operation, x, y) => Self::Binary(operation, node(x), node(y)),
+            Self::Choose(x, y, z) => Self::Choose(node(x), node(y), node(z)),
+            Self::Previous(x) => Self::Previous(node(x)),
+            Self::Relax(own) => Self::Relax(Relaxing {
+                share: node(own.share),
+                target: node(own.target),
+                extra: node(own.extra),
+                shift: node(own.shift),
+                settled: node(own.settled),
+                ..own
+            }),
+            Self::Before(x, y, start) => Self::Before(node(x), node(y), start),
+        }
+    }
+
     /// Whether it depends on rows before, whatever it takes.
     #[must_use]
     pub const fn has_memory(self) -> bool {

@@ -4,13 +4,13 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
 use super::operation::{Binary, Id, Operation, Unary};
 use super::recorder::Recorder;
-use crate::scalar::{Choice, Mask, Real};
+use crate::scalar::{Choice, Mask, Real, Scalar};
 
-/// A number that is known beforehand, or a node of a graph.
+/// A number that is known beforehand, or a node of a graph, in the format `F`.
 #[derive(Clone, Copy, Debug)]
-pub enum Recorded<'r> {
-    /// Known: operations on it alone are carried out at once.
-    Known(f64),
+pub enum Recorded<'r, F = f64> {
+    /// Known: operations on it alone are carried out at once, in that format.
+    Known(F),
     /// What a node computes.
     Node(&'r Recorder, Id),
 }
@@ -26,16 +26,21 @@ pub enum RecordedMask<'r> {
 
 use Recorded::{Known, Node};
 
-impl<'r> Recorded<'r> {
+/// A format in which what is known is computed.
+pub trait Format: Scalar<Plain = Self> {}
+
+impl<F: Scalar<Plain = F>> Format for F {}
+
+impl<'r, F: Format> Recorded<'r, F> {
     #[allow(clippy::should_implement_trait)]
-    fn one(self, operation: Unary, compute: impl Fn(f64) -> f64) -> Self {
+    fn one(self, operation: Unary, compute: impl Fn(F) -> F) -> Self {
         match self {
             Known(x) => Known(compute(x)),
             Node(recorder, x) => recorder.unary(operation, x),
         }
     }
 
-    fn two(self, other: Self, operation: Binary, compute: impl Fn(f64, f64) -> f64) -> Self {
+    fn two(self, other: Self, operation: Binary, compute: impl Fn(F, F) -> F) -> Self {
         match (self, other) {
             (Known(x), Known(y)) => Known(compute(x, y)),
             (Node(recorder, _), _) | (_, Node(recorder, _)) => {
@@ -48,10 +53,10 @@ impl<'r> Recorded<'r> {
         self,
         other: Self,
         operation: Binary,
-        compute: impl Fn(&f64, &f64) -> bool,
+        compute: impl Fn(F, F) -> bool,
     ) -> RecordedMask<'r> {
         match (self, other) {
-            (Known(x), Known(y)) => RecordedMask::Known(compute(&x, &y)),
+            (Known(x), Known(y)) => RecordedMask::Known(compute(x, y)),
             (Node(recorder, _), _) | (_, Node(recorder, _)) => {
                 let (x, y) = (recorder.id(self), recorder.id(other));
                 let node = recorder.node(Operation::Binary(operation, x, y));
@@ -63,7 +68,7 @@ impl<'r> Recorded<'r> {
     /// Whether it is known to be this number, sign of zero aside.
     #[must_use]
     pub fn is(self, number: f64) -> bool {
-        matches!(self, Known(x) if x == number)
+        matches!(self, Known(x) if x.value() == number)
     }
 }
 
@@ -81,7 +86,7 @@ impl<'r> RecordedMask<'r> {
 
     fn node(self, recorder: &Recorder) -> Id {
         match self {
-            Self::Known(yes) => recorder.id(Known(f64::from(u8::from(yes)))),
+            Self::Known(yes) => recorder.constant(f64::from(u8::from(yes))),
             Self::Node(_, id) => id,
         }
     }
@@ -125,10 +130,10 @@ impl Mask for RecordedMask<'_> {
 
 macro_rules! operator {
     ($($operator:ident: $method:ident),+) => {$(
-        impl $operator for Recorded<'_> {
+        impl<F: Format> $operator for Recorded<'_, F> {
             type Output = Self;
             fn $method(self, other: Self) -> Self {
-                self.two(other, operator!(@ $operator), f64::$method)
+                self.two(other, operator!(@ $operator), F::$method)
             }
         }
     )+};
@@ -138,7 +143,7 @@ macro_rules! operator {
 
 operator!(Add: add, Sub: sub);
 
-impl Mul for Recorded<'_> {
+impl<F: Format> Mul for Recorded<'_, F> {
     type Output = Self;
 
     /// To multiply by one changes no bits.
@@ -146,34 +151,34 @@ impl Mul for Recorded<'_> {
         match (self.is(1.0), other.is(1.0)) {
             (true, _) => other,
             (_, true) => self,
-            _ => self.two(other, Binary::Multiply, f64::mul),
+            _ => self.two(other, Binary::Multiply, F::mul),
         }
     }
 }
 
-impl Div for Recorded<'_> {
+impl<F: Format> Div for Recorded<'_, F> {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
-        if other.is(1.0) { self } else { self.two(other, Binary::Divide, f64::div) }
+        if other.is(1.0) { self } else { self.two(other, Binary::Divide, F::div) }
     }
 }
 
-impl Neg for Recorded<'_> {
+impl<F: Format> Neg for Recorded<'_, F> {
     type Output = Self;
 
     fn neg(self) -> Self {
-        self.one(Unary::Negate, f64::neg)
+        self.one(Unary::Negate, F::neg)
     }
 }
 
-impl AddAssign for Recorded<'_> {
+impl<F: Format> AddAssign for Recorded<'_, F> {
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl MulAssign for Recorded<'_> {
+impl<F: Format> MulAssign for Recorded<'_, F> {
     fn mul_assign(&mut self, other: Self) {
         *self = *self * other;
     }
@@ -182,12 +187,12 @@ impl MulAssign for Recorded<'_> {
 macro_rules! functions {
     ($($name:ident = $operation:ident),+ $(,)?) => {$(
         fn $name(self) -> Self {
-            self.one(Unary::$operation, <f64 as Real>::$name)
+            self.one(Unary::$operation, F::$name)
         }
     )+};
 }
 
-impl<'r> Real for Recorded<'r> {
+impl<'r, F: Format> Real for Recorded<'r, F> {
     type Plain = Self;
     type Mask = RecordedMask<'r>;
 
@@ -206,7 +211,7 @@ impl<'r> Real for Recorded<'r> {
     );
 
     fn from_f64(x: f64) -> Self {
-        Known(x)
+        Known(F::from_f64(x))
     }
 
     fn from_plain(x: Self) -> Self {
@@ -220,7 +225,7 @@ impl<'r> Real for Recorded<'r> {
     /// A node is not known yet: whoever runs the graph tests it.
     fn every(self, mut test: impl FnMut(f64) -> bool) -> bool {
         match self {
-            Known(x) => test(x),
+            Known(x) => test(x.value()),
             Node(..) => true,
         }
     }
@@ -230,15 +235,15 @@ impl<'r> Real for Recorded<'r> {
     }
 
     fn is_below(self, bound: Self) -> RecordedMask<'r> {
-        self.compare(bound, Binary::Below, f64::lt)
+        self.compare(bound, Binary::Below, F::is_below)
     }
 
     fn is_above(self, bound: Self) -> RecordedMask<'r> {
-        self.compare(bound, Binary::Above, f64::gt)
+        self.compare(bound, Binary::Above, F::is_above)
     }
 
     fn equals(self, other: Self) -> RecordedMask<'r> {
-        self.compare(other, Binary::Equal, f64::eq)
+        self.compare(other, Binary::Equal, F::equals)
     }
 
     fn is_finite(self) -> RecordedMask<'r> {
@@ -292,7 +297,7 @@ impl<'r> Real for Recorded<'r> {
     }
 
     fn powf(self, p: Self) -> Self {
-        self.two(p, Binary::Power, <f64 as Real>::powf)
+        self.two(p, Binary::Power, F::powf)
     }
 
     fn phi(self, order: u8) -> Self {

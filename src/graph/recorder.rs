@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::vec::Vec;
 
 use super::operation::{Binary, Id, Operation, Relaxing, Start, Unary};
-use super::recorded::Recorded;
+use super::recorded::{Format, Recorded};
 
 /// The operations so far; none twice.
 #[derive(Debug, Default)]
@@ -30,7 +30,7 @@ impl Recorder {
     }
 
     /// The same, as a number.
-    pub fn number(&self, operation: Operation) -> Recorded<'_> {
+    pub fn number<F>(&self, operation: Operation) -> Recorded<'_, F> {
         Recorded::Node(self, self.node(operation))
     }
 
@@ -47,11 +47,16 @@ impl Recorder {
     }
 
     /// The node of a number.
-    pub fn id(&self, number: Recorded<'_>) -> Id {
+    pub fn id<F: Format>(&self, number: Recorded<'_, F>) -> Id {
         match number {
-            Recorded::Known(x) => self.node(Operation::Constant(x.to_bits())),
+            Recorded::Known(x) => self.constant(x.value()),
             Recorded::Node(_, id) => id,
         }
+    }
+
+    /// The node of a constant.
+    pub fn constant(&self, x: f64) -> Id {
+        self.node(Operation::Constant(x.to_bits()))
     }
 
     /// A state that relaxes from row to row: before its row and after it.
@@ -66,7 +71,7 @@ impl Recorder {
         let relaxing = Relaxing {
             share: self.id(share),
             target: self.id(target),
-            extra: self.id(Recorded::Known(0.0)),
+            extra: self.constant(0.0),
             shift: self.id(shift),
             settled,
             start: Start::Given,
@@ -77,12 +82,12 @@ impl Recorder {
     }
 
     /// A unary operation; what is known is computed at once.
-    pub fn unary<'r>(&'r self, operation: Unary, x: Id) -> Recorded<'r> {
+    pub fn unary<'r, F>(&'r self, operation: Unary, x: Id) -> Recorded<'r, F> {
         self.number(Operation::Unary(operation, x))
     }
 
     /// A binary operation.
-    pub fn binary<'r>(&'r self, operation: Binary, x: Id, y: Id) -> Recorded<'r> {
+    pub fn binary<'r, F>(&'r self, operation: Binary, x: Id, y: Id) -> Recorded<'r, F> {
         self.number(Operation::Binary(operation, x, y))
     }
 }

@@ -6,7 +6,7 @@
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
 use super::format::Format;
-use super::polynomial::estrin;
+use super::polynomial::{estrin, polynomials};
 
 impl Format for f64 {
     const EXP_RANGE: (Self, Self) = (-746.0, 710.0);
@@ -31,11 +31,8 @@ impl Format for f64 {
         INVERSE_FACTORIALS.get(n).copied().unwrap_or(0.0)
     }
 
-    #[inline(always)]
-    fn exp_beyond(first: Self, r: Self) -> Self {
-        estrin!(
-            r;
-            [first],
+    polynomials! {
+        exp_beyond = EXP_BEYOND(r, [first]):
             0.5000000000000012,
             0.166666666666667,
             0.041666666666515424,
@@ -45,15 +42,9 @@ impl Format for f64 {
             2.4801489943565084e-05,
             2.7557216273628184e-06,
             2.763127985027585e-07,
-            2.511786842023446e-08,
-        )
-    }
+            2.511786842023446e-08;
 
-    #[inline(always)]
-    fn expm1_beyond(first: Self, r: Self) -> Self {
-        estrin!(
-            r;
-            [first],
+        expm1_beyond = EXPM1_BEYOND(r, [first]):
             0.5,
             0.1666666666666667,
             0.041666666666666685,
@@ -64,14 +55,9 @@ impl Format for f64 {
             2.755725539884026e-06,
             2.75572529010907e-07,
             2.510521750304957e-08,
-            2.092159246374393e-09,
-        )
-    }
+            2.092159246374393e-09;
 
-    #[inline(always)]
-    fn exp2_series(f: Self) -> Self {
-        estrin!(
-            f;
+        exp2_series = EXP2_SERIES(f):
             0.6931471805599453,
             0.24022650695910133,
             0.05550410866482174,
@@ -82,29 +68,18 @@ impl Format for f64 {
             1.321543479660229e-06,
             1.0178046429437528e-07,
             7.073863882821923e-09,
-            4.4573912782735057e-10,
-        )
-    }
+            4.4573912782735057e-10;
 
-    #[inline(always)]
-    fn log_beyond(first: Self, z: Self) -> Self {
-        estrin!(
-            z;
-            first,
+        log_beyond = LOG_BEYOND(z, first):
             0.6666666666666734,
             0.39999999999413965,
             0.2857142874256129,
             0.22222198553916228,
             0.18183565399028034,
             0.15314021353175536,
-            0.14796258652536134,
-        )
-    }
+            0.14796258652536134;
 
-    #[inline(always)]
-    fn log_tail(z: Self) -> Self {
-        estrin!(
-            z;
+        log_tail = LOG_TAIL(z):
             0.5999999999999996,
             0.42857142857167685,
             0.33333333326300674,
@@ -112,14 +87,9 @@ impl Format for f64 {
             0.23076835272559837,
             0.2000447743879413,
             0.17512201067986602,
-            0.17983742864421887,
-        )
-    }
+            0.17983742864421887;
 
-    #[inline(always)]
-    fn atan_series(z: Self) -> Self {
-        estrin!(
-            z;
+        atan_series = ATAN_SERIES(z):
             -0.333333333333332,
             0.19999999999953996,
             -0.14285714280239575,
@@ -130,35 +100,23 @@ impl Format for f64 {
             0.058479866042361967,
             -0.05039742523452163,
             0.03807564582985294,
-            -0.017919289335346308,
-        )
-    }
+            -0.017919289335346308;
 
-    #[inline(always)]
-    fn sin_series(z: Self) -> Self {
-        estrin!(
-            z;
+        sin_series = SIN_SERIES(z):
             -0.16666666666666632,
             0.008333333333322413,
             -0.00019841269829807957,
             2.75573136919588e-06,
             -2.5050758120523338e-08,
-            1.589679591390133e-10,
-        )
-    }
+            1.589679591390133e-10;
 
-    #[inline(always)]
-    fn cos_beyond(first: Self, z: Self) -> Self {
-        estrin!(
-            z;
-            [first],
+        cos_beyond = COS_BEYOND(z, [first]):
             0.0416666666666666,
             -0.0013888888888874125,
             2.480158728948228e-05,
             -2.7557314352354947e-07,
             2.0875723275799333e-09,
-            -1.1359647923399437e-11,
-        )
+            -1.1359647923399437e-11;
     }
 }
 

@@ -3,7 +3,7 @@
 use super::bits::Bits;
 
 /// The constants and polynomials of double or single precision.
-pub trait Format: Bits {
+pub trait Format: Bits + 'static {
     /// Beyond these `e^x` is 0 or infinite.
     const EXP_RANGE: (Self, Self);
     /// Below the first `e^x - 1` is -1, above the second infinite.
@@ -34,6 +34,16 @@ pub trait Format: Bits {
     const PHI_PAIRS: usize;
     /// `1 / n!`, 0 where nobody would notice.
     fn inverse_factorial(n: usize) -> Self;
+
+    // The coefficients of the polynomials below.
+    const EXP_BEYOND: &'static [Self];
+    const EXPM1_BEYOND: &'static [Self];
+    const EXP2_SERIES: &'static [Self];
+    const LOG_BEYOND: &'static [Self];
+    const LOG_TAIL: &'static [Self];
+    const ATAN_SERIES: &'static [Self];
+    const SIN_SERIES: &'static [Self];
+    const COS_BEYOND: &'static [Self];
 
     /// `first + e^r - 1 - r` for `|r| <= ln(2) / 2`, as close as `e^r` needs it.
     fn exp_beyond(first: Self, r: Self) -> Self;

@@ -17,6 +17,7 @@
 //! | `phase` | quarter turns in a large phase |
 //! | `bits` | powers of two, whole numbers and signs |
 //! | `polynomial` | Estrin's scheme |
+//! | `listing` | all constants by name |
 //!
 //! Errors are below 1 unit in the last place for `exp`, `ln`, `sin` and `cos`, 1.3 for `expm1`,
 //! `tanh` and `atan`, 1.7 for `phi_1`, 1.9 for `powf` and 4 for `phi_2`, over the whole range
@@ -28,6 +29,7 @@ mod double;
 mod exponential;
 mod format;
 mod hyperbolic;
+mod listing;
 mod logarithm;
 mod phase;
 mod phi;
@@ -40,7 +42,15 @@ macro_rules! elementary {
     ($float:ident: $sqrt:ident, $cbrt:ident) => {
         /// Elementary functions on one primitive type.
         pub mod $float {
-            use super::{arctangent, exponential, hyperbolic, logarithm, phi, power, trigonometric};
+            use super::{
+                arctangent, exponential, hyperbolic, listing, logarithm, phi, power, trigonometric,
+            };
+
+            /// Each constant behind these functions, and each polynomial's coefficients, by name:
+            /// for programs in other languages.
+            pub fn constants(each: impl FnMut(&'static str, &[$float])) {
+                listing::constants(each);
+            }
 
             elementary!(@ "`e^x`.", exp(x: $float) -> $float, exponential::exp(x));
             elementary!(@ "`e^x - 1`.", expm1(x: $float) -> $float, exponential::expm1(x));

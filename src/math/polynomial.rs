@@ -24,4 +24,19 @@ macro_rules! estrin {
     }};
 }
 
-pub(super) use estrin;
+/// The polynomials of a format: each as a function, and its coefficients as a constant.
+macro_rules! polynomials {
+    ($(
+        $name:ident = $constant:ident($x:ident $(, $([$without_next:ident])? $($first:ident)?)?):
+        $($coefficient:expr),+ $(,)?;
+    )+) => {$(
+        const $constant: &'static [Self] = &[$($coefficient),+];
+
+        #[inline(always)]
+        fn $name($($($without_next: Self,)? $($first: Self,)?)? $x: Self) -> Self {
+            estrin!($x; $($([$without_next],)? $($first,)?)? $($coefficient),+)
+        }
+    )+};
+}
+
+pub(super) use {estrin, polynomials};

@@ -6,7 +6,7 @@
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
 use super::format::Format;
-use super::polynomial::estrin;
+use super::polynomial::{estrin, polynomials};
 
 impl Format for f32 {
     const EXP_RANGE: (Self, Self) = (-105.0, 89.0);
@@ -30,98 +30,56 @@ impl Format for f32 {
         INVERSE_FACTORIALS.get(n).copied().unwrap_or(0.0)
     }
 
-    #[inline(always)]
-    fn exp_beyond(first: Self, r: Self) -> Self {
-        estrin!(
-            r;
-            [first],
+    polynomials! {
+        exp_beyond = EXP_BEYOND(r, [first]):
             0.5,
             0.16666518,
             0.041666206,
             0.00836889,
-            0.0013950492,
-        )
-    }
+            0.0013950492;
 
-    #[inline(always)]
-    fn expm1_beyond(first: Self, r: Self) -> Self {
-        estrin!(
-            r;
-            [first],
+        expm1_beyond = EXPM1_BEYOND(r, [first]):
             0.5,
             0.16666667,
             0.041666467,
             0.008333286,
             0.0013933652,
-            0.00019907588,
-        )
-    }
+            0.00019907588;
 
-    #[inline(always)]
-    fn exp2_series(f: Self) -> Self {
-        estrin!(
-            f;
+        exp2_series = EXP2_SERIES(f):
             0.6931472,
             0.2402265,
             0.05550328,
             0.009618004,
             0.0013400282,
-            0.00015476315,
-        )
-    }
+            0.00015476315;
 
-    #[inline(always)]
-    fn log_beyond(first: Self, z: Self) -> Self {
-        estrin!(
-            z;
-            first,
+        log_beyond = LOG_BEYOND(z, first):
             0.66666776,
             0.39977533,
-            0.29871997,
-        )
-    }
+            0.29871997;
 
-    #[inline(always)]
-    fn log_tail(z: Self) -> Self {
-        estrin!(
-            z;
+        log_tail = LOG_TAIL(z):
             0.6000023,
             0.42820686,
-            0.3512823,
-        )
-    }
+            0.3512823;
 
-    #[inline(always)]
-    fn atan_series(z: Self) -> Self {
-        estrin!(
-            z;
+        atan_series = ATAN_SERIES(z):
             -0.33333316,
             0.19998488,
             -0.14243828,
             0.10595831,
-            -0.060830005,
-        )
-    }
+            -0.060830005;
 
-    #[inline(always)]
-    fn sin_series(z: Self) -> Self {
-        estrin!(
-            z;
+        sin_series = SIN_SERIES(z):
             -0.16666655,
             0.008332178,
-            -0.00019517235,
-        )
-    }
+            -0.00019517235;
 
-    #[inline(always)]
-    fn cos_beyond(first: Self, z: Self) -> Self {
-        estrin!(
-            z;
-            [first],
+        cos_beyond = COS_BEYOND(z, [first]):
             0.041666646,
             -0.0013887367,
-            2.443838e-05,
-        )
+            2.443838e-05;
     }
 }
 

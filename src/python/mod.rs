@@ -4,6 +4,7 @@ mod arm;
 mod catalog;
 mod columns;
 mod compensation;
+mod export;
 mod formula;
 mod joint;
 mod model;
@@ -37,6 +38,8 @@ mod _core {
     use super::catalog::catalog;
     #[pymodule_export]
     use super::compensation::{compensate, largest_factor};
+    #[pymodule_export]
+    use super::export::{elementary, elementary_constants};
     #[pymodule_export]
     use super::formula::Formula;
     #[pymodule_export]

@@ -10,6 +10,7 @@ use pyo3::types::PyDict;
 
 use super::catalog::parameter;
 use super::columns::{Arguments, Array, Dt, Start, contiguous};
+use super::export::program;
 use super::{ModelError, refuse};
 use crate::batch;
 use crate::composed::Spec;
@@ -126,6 +127,14 @@ impl Model {
                 Ok(row)
             })
             .collect()
+    }
+
+    /// A step of the model as a list of operations, to print programs from: dict of `operations`
+    /// (name, operands, what else is said), `torque` (which operation) and `states` (dicts). With
+    /// `single` what is known beforehand is computed in single precision.
+    #[pyo3(signature = (*, single=false))]
+    fn program<'py>(&self, py: Python<'py>, single: bool) -> PyResult<Bound<'py, PyDict>> {
+        program(py, &self.spec, single)
     }
 
     /// Friction torque of every row; with a memory, at the end of the row's step. `single` computes
