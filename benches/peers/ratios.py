@@ -1,0 +1,132 @@
+"""Times of this package and of its peers side by side in one process.
+
+    python3 develop.py peers
+
+installs what is compared with and runs this. Each line is the median of interleaved repeats, one
+thread. Peers compute the same numbers: that is checked first.
+"""
+
+from __future__ import annotations
+
+import os
+
+for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "POLARS_MAX_THREADS"):
+    os.environ[threads] = "1"
+
+from collections.abc import Callable
+from statistics import median
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+import fits
+import laws
+import numpy as np
+import polars as pl
+
+import stribeck as sb
+
+SAMPLES = 30_000
+STARTS = 20
+DT = 0.002
+
+
+def seconds(work: Callable[[], object]) -> float:
+    """Wall-clock seconds of one call."""
+    begin = perf_counter()
+    work()
+    return perf_counter() - begin
+
+
+def line(
+    what: str, peer: str, ours: Callable[[], object], theirs: Callable[[], object], repeats: int
+) -> None:
+    """Print the medians of interleaved repeats and their ratio."""
+    ours(), theirs()
+    pairs = [(seconds(ours), seconds(theirs)) for _ in range(repeats)]
+    mine, other = (median(times) for times in zip(*pairs, strict=True))
+    print(f"| {what} | {1e3 * mine:.3g} ms | {peer}: {1e3 * other:.3g} ms | {other / mine:.2g} x |")
+
+
+def velocities(samples: int) -> np.ndarray:
+    """A motion that passes slow and fast speeds and reverses."""
+    time = DT * np.arange(samples)
+    return 0.9 * np.sin(0.7 * time) * np.cos(0.11 * time) + 0.05 * np.sin(6.1 * time)
+
+
+def model(law: str, values: tuple[float, ...]) -> sb.Model:
+    names = [parameter.name for parameter in sb.model(law).parameters]
+    return sb.model(law, **dict(zip(names, values, strict=True)))
+
+
+def compare_laws() -> None:
+    many = velocities(1_000_000)
+    out, work = np.empty_like(many), np.empty_like(many)
+    static = model("bittencourt_a", laws.BITTENCOURT_A)
+    np.testing.assert_allclose(
+        static.torque(many), laws.bittencourt_a(many, laws.BITTENCOURT_A, out, work), rtol=1e-12
+    )
+    line(
+        "bittencourt_a, 1e6 samples",
+        "numpy, in place",
+        lambda: static.torque(many),
+        lambda: laws.bittencourt_a(many, laws.BITTENCOURT_A, out, work),
+        15,
+    )
+    few = velocities(100_000)
+    bristle = model("lugre", laws.LUGRE)
+    torque, slopes = laws.lugre_gradient(few, DT, laws.LUGRE)
+    own_torque, own_slopes = bristle.torque(few, dt=DT), bristle.gradient(few, dt=DT)
+    size = np.abs(slopes).max(axis=0)
+    # The first row starts a segment, whose length nobody knows.
+    assert np.abs((own_torque - torque)[1000:]).max() < 1e-6 * np.abs(torque).max()
+    assert (np.abs(own_slopes - slopes)[1000:] < 1e-6 * size).all()
+    line(
+        "lugre, exact step, 1e5 samples",
+        "numba",
+        lambda: bristle.torque(few, dt=DT),
+        lambda: laws.lugre(few, DT, laws.LUGRE),
+        25,
+    )
+    line(
+        "lugre and 7 derivatives, 1e5 samples",
+        "numba",
+        lambda: bristle.gradient(few, dt=DT),
+        lambda: laws.lugre_gradient(few, DT, laws.LUGRE),
+        25,
+    )
+
+
+def compare_fits() -> None:
+    for law, values, gradient in (
+        ("bittencourt_a", laws.BITTENCOURT_A, laws.bittencourt_a_gradient),
+        ("lugre", laws.LUGRE, lambda v, p: laws.lugre_gradient(v, DT, p)),
+    ):
+        velocity = velocities(SAMPLES)
+        true = model(law, values)
+        noise = 0.3 * np.random.default_rng(1).standard_normal(SAMPLES)
+        torque = np.asarray(true.torque(velocity, dt=DT)) + noise
+        time = DT * np.arange(SAMPLES)
+        table = pl.DataFrame({"time": time, "velocity": velocity, "friction_torque": torque})
+        with TemporaryDirectory() as folder:
+            table.write_parquet(f"{folder}/log.parquet")
+            recording = sb.read(f"{folder}/log.parquet", joint_kind="revolute")
+        bounds = [(row.lower, row.upper) for row in sb.model(law).parameters]
+        made = []
+        their = fits.Slsqp(gradient, velocity, torque, bounds, STARTS)
+        line(
+            f"{law}, {STARTS} starts, {SAMPLES} samples",
+            "SciPy SLSQP, analytic gradient" + (" by numba" if law == "lugre" else ""),
+            lambda law=law, made=made, recording=recording: made.append(
+                sb.fit(law, recording, starts=STARTS)
+            ),
+            their.run,
+            1,
+        )
+        print(f"<!-- SciPy: {their.at_optimum()} of {STARTS} starts at its best; -->")
+
+
+if __name__ == "__main__":
+    print("| work | stribeck | peer | ratio |")
+    print("|---|---|---|---|")
+    compare_laws()
+    compare_fits()
