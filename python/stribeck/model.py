@@ -511,7 +511,7 @@ class Model:
         if external is None and load is not None and "external_torque" in self.core.needs:
             external = -load
         return {
-            "dt": np.zeros_like(speed) if dt is None else column(dt),
+            "dt": dt if dt is None or np.ndim(dt) == 0 else column(dt),
             "velocity": speed,
             "position": column(position),
             "acceleration": column(acceleration),

@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::vec;
 use std::vec::Vec;
 
@@ -6,6 +7,7 @@ use super::balance::Balance;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 use crate::dynamics::{Memory, State};
+use crate::graph::Beginning;
 use crate::sample::Sample;
 use crate::scalar::{Real, Scalar};
 use crate::table::Channel;
@@ -195,18 +197,20 @@ impl<'a> Columns<'a> {
                 if spec.has_state() || spec.effects().contains(EffectId::Delay) {
                     return Err(BatchError::NoTimeStep);
                 }
-                vec![0.0; count]
+                Steps::Uniform(0.0)
             }
-            TimeStep::Uniform(dt) if dt > 0.0 && dt.is_finite() => {
-                return Ok(Rows { steps: vec![dt; count], uniform: true });
-            }
+            TimeStep::Uniform(dt) if dt > 0.0 && dt.is_finite() => Steps::Uniform(dt),
+            // Without time every row stands alone.
+            TimeStep::Uniform(0.0) => Steps::Each(vec![0.0; count]),
             TimeStep::Uniform(_) => return Err(BatchError::NotFinite { column: "dt", row: 0 }),
             TimeStep::Each(dt) if dt.len() != count => {
                 return Err(BatchError::Length { column: "dt", length: dt.len(), rows: count });
             }
-            TimeStep::Each(dt) => dt.iter().map(|&dt| if dt > 0.0 { dt } else { 0.0 }).collect(),
+            TimeStep::Each(dt) => {
+                Steps::Each(dt.iter().map(|&dt| if dt > 0.0 { dt } else { 0.0 }).collect())
+            }
         };
-        Ok(Rows { steps, uniform: false })
+        Ok(Rows { count, steps })
     }
 }
 
@@ -220,23 +224,52 @@ fn whole(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchE
     }
 }
 
-/// The time axis: steps, 0 where a segment starts and infinite where one starts settled.
+/// The time axis.
 pub(super) struct Rows {
-    pub(super) steps: Vec<f64>,
-    uniform: bool,
+    count: usize,
+    steps: Steps,
+}
+
+/// Steps (s), 0 where a segment starts and infinite where one starts settled.
+enum Steps {
+    /// The same for all rows of one segment.
+    Uniform(f64),
+    /// One a row.
+    Each(Vec<f64>),
 }
 
 impl Rows {
     pub(super) fn count(&self) -> usize {
-        self.steps.len()
+        self.count
     }
 
-    pub(super) fn starts_at(&self, row: usize) -> bool {
-        row == 0 || (!self.uniform && (self.steps[row] == 0.0 || self.is_settled(row)))
+    /// The step that all rows share, if they do.
+    pub(super) fn uniform_step(&self) -> Option<f64> {
+        match self.steps {
+            Steps::Uniform(dt) => Some(dt),
+            Steps::Each(_) => None,
+        }
     }
 
-    /// Whether a segment starts at this row whose velocity has been held for long.
-    pub(super) fn is_settled(&self, row: usize) -> bool {
-        self.steps[row] == f64::INFINITY
+    /// One step a row.
+    pub(super) fn steps(&self) -> Cow<'_, [f64]> {
+        match &self.steps {
+            Steps::Uniform(dt) => Cow::Owned(vec![*dt; self.count]),
+            Steps::Each(steps) => Cow::Borrowed(steps),
+        }
+    }
+
+    /// The rows at which segments start, and how.
+    pub(super) fn starts(&self) -> Vec<(usize, Beginning)> {
+        let steps: &[f64] = match &self.steps {
+            Steps::Uniform(_) => return vec![(0, Beginning::Fresh)],
+            Steps::Each(steps) => steps,
+        };
+        let starts = steps.iter().enumerate().filter_map(|(row, &dt)| match dt {
+            f64::INFINITY => Some((row, Beginning::Settled)),
+            _ if row == 0 || dt == 0.0 => Some((row, Beginning::Fresh)),
+            _ => None,
+        });
+        starts.collect()
     }
 }

@@ -8,12 +8,13 @@ use std::vec::Vec;
 
 use super::columns::{Channels, Columns, Rows};
 use crate::composed::Spec;
-use crate::graph::{self, Beginning, Given, Operation, Recorded, Recorder, Schedule};
+use crate::graph::{self, Given, Operation, Recorded, Recorder, Schedule};
 use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::table::Channel;
 
-/// Columns beside the channels: the mean velocity over each row's step, and its length.
+/// Columns beside the channels: the mean velocity over each row's step, and its length (where that
+/// is the same for all rows, it is one more parameter).
 const MEAN_VELOCITY: usize = Channel::ALL.len();
 const STEP: usize = MEAN_VELOCITY + 1;
 
@@ -32,6 +33,7 @@ struct Purpose {
     spec: Spec,
     wanted: Vec<usize>,
     mean_velocity: bool,
+    uniform_step: bool,
 }
 
 thread_local! {
@@ -40,9 +42,18 @@ thread_local! {
 
 impl Compiled {
     /// Compiles a model that [can](crate::composed::Composed::runs_side_by_side) be, or finds it compiled.
-    pub(super) fn of(spec: &Spec, wanted: &[usize], columns: &Columns<'_>) -> Rc<Self> {
-        let mean_velocity = columns.mean_velocity.is_some();
-        let purpose = Purpose { spec: *spec, wanted: wanted.to_vec(), mean_velocity };
+    pub(super) fn of(
+        spec: &Spec,
+        wanted: &[usize],
+        rows: &Rows,
+        columns: &Columns<'_>,
+    ) -> Rc<Self> {
+        let purpose = Purpose {
+            spec: *spec,
+            wanted: wanted.to_vec(),
+            mean_velocity: columns.mean_velocity.is_some(),
+            uniform_step: rows.uniform_step().is_some(),
+        };
         RECENT
             .with_borrow_mut(|recent| {
                 if let Some(place) = recent.iter().position(|(own, _)| *own == purpose) {
@@ -82,37 +93,31 @@ impl Compiled {
             Channel::ALL.iter().map(|&channel| channels.get(channel).unwrap_or_default()).collect();
         given.push(columns.mean_velocity.unwrap_or_default());
         let steps: Vec<f64>;
-        given.push(if rows.steps.iter().all(|dt| dt.is_finite()) {
-            &rows.steps
+        let mut parameters = values.to_vec();
+        if let Some(dt) = rows.uniform_step() {
+            parameters.push(dt);
         } else {
-            steps = rows.steps.iter().map(|&dt| if dt.is_finite() { dt } else { 0.0 }).collect();
-            &steps
-        });
-        let beginning = |row: usize| match () {
-            () if !rows.starts_at(row) => Beginning::Continued,
-            () if rows.is_settled(row) => Beginning::Settled,
-            () => Beginning::Fresh,
-        };
+            steps = rows.steps().iter().map(|&dt| if dt.is_finite() { dt } else { 0.0 }).collect();
+            given.push(&steps);
+        }
         let mut torque = vec![0.0; rows.count()];
         let mut slopes = vec![0.0; rows.count() * self.width];
         let given = Given {
-            parameters: values,
+            parameters: &parameters,
             columns: &given,
             rows: rows.count(),
             start: columns.state.first().copied().unwrap_or(0.0),
-            beginning: &beginning,
+            starts: &if self.schedule.memories > 0 { rows.starts() } else { vec![] },
         };
-        graph::run(&self.schedule, &given, |first, outputs| {
-            let count = graph::BLOCK.min(torque.len() - first);
-            for i in 0..count {
-                torque[first + i] = outputs[0].at(i);
-            }
+        let width = self.width;
+        graph::run(&self.schedule, &given, |block, outputs| {
+            let count = block.len();
+            let first = block.start;
+            outputs[0].copy_to(&mut torque[block]);
+            let slopes = &mut slopes[first * width..][..count * width];
             for (k, slope) in outputs[1..].iter().enumerate() {
-                let own = slopes[first * self.width..].chunks_exact_mut(self.width).take(count);
-                for (i, row) in own.enumerate() {
-                    // Turns -0 into 0: which of them it is depends on what else is wanted.
-                    row[k] = slope.at(i) + 0.0;
-                }
+                // Turns -0 into 0: which of them it is depends on what else is wanted.
+                slope.each(count, |row, slope| slopes[row * width + k] = slope + 0.0);
             }
         });
         (torque, slopes)
@@ -145,7 +150,12 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
                 }
                 None => end,
             };
-            let course = bristle.course(dry, velocity, column(STEP));
+            let step = if purpose.uniform_step {
+                recorder.number(Operation::Parameter(spec.parameter_count()))
+            } else {
+                column(STEP)
+            };
+            let course = bristle.course(dry, velocity, step);
             let shift = match mean {
                 Some(_) => bristle.shift(&course, dry, end, velocity),
                 None => Recorded::Known(0.0),

@@ -10,14 +10,12 @@ use super::columns::Rows;
 pub fn shift(rows: &Rows, delay: f64, series: &[f64], width: usize, out: &mut [f64]) -> Vec<f64> {
     let count = rows.count();
     let mut by_delay = Vec::with_capacity(count);
-    let mut start = 0;
-    while start < count {
-        let end = (start + 1..count).find(|&i| rows.starts_at(i)).unwrap_or(count);
+    let (steps, starts) = (rows.steps(), rows.starts());
+    let ends = starts.iter().skip(1).map(|&(row, _)| row).chain([count]);
+    for (&(start, _), end) in starts.iter().zip(ends) {
         let range = start * width..end * width;
-        let segment =
-            Segment { steps: &rows.steps[start..end], series: &series[range.clone()], width };
+        let segment = Segment { steps: &steps[start..end], series: &series[range.clone()], width };
         segment.shift(delay, &mut out[range], &mut by_delay);
-        start = end;
     }
     by_delay
 }

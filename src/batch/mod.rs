@@ -19,6 +19,7 @@ use std::vec::Vec;
 use crate::catalog::EffectId;
 use crate::composed::{Composed, Spec};
 use crate::dynamics::Interval;
+use crate::graph::Beginning;
 use crate::scalar::{Dual, Real, Scalar};
 use balance::Balance;
 use columns::Rows;
@@ -169,7 +170,7 @@ fn side_by_side(
     locked: Locked,
 ) -> Result<Results, BatchError> {
     measured(spec, values, columns, wanted, locked, |rows, channels| {
-        Compiled::of(spec, wanted, columns).run(values, rows, channels, columns)
+        Compiled::of(spec, wanted, rows, columns).run(values, rows, channels, columns)
     })
 }
 
@@ -240,16 +241,16 @@ fn evaluate<S: Scalar>(
 ) {
     let fresh = columns.start(model.memory());
     let mut state = fresh;
-    for (i, &dt) in rows.steps.iter().enumerate() {
+    let mut starts = rows.starts().into_iter().peekable();
+    for (i, &dt) in rows.steps().iter().enumerate() {
         let sample = channels.sample(i);
-        let starts = rows.starts_at(i);
-        let settled = starts && rows.is_settled(i);
-        if settled {
-            state = model.settled(&sample);
-        } else if starts {
-            state = fresh;
+        let beginning = starts.next_if(|&(row, _)| row == i).map(|(_, beginning)| beginning);
+        match beginning {
+            Some(Beginning::Settled) => state = model.settled(&sample),
+            Some(Beginning::Fresh) => state = fresh,
+            None => {}
         }
-        let dt = if settled { 0.0 } else { dt };
+        let dt = if beginning == Some(Beginning::Settled) { 0.0 } else { dt };
         let mean_velocity = columns.mean_velocity.and_then(|mean| mean.get(i));
         let interval = Interval {
             sample,

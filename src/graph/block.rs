@@ -4,6 +4,9 @@ use super::operation::{Binary, Unary};
 use crate::math::f64 as elementary;
 use crate::scalar::Real;
 
+/// Rows of a block: what all operations leave stays in the first cache.
+pub const BLOCK: usize = 256;
+
 /// Numbers of a block: one a row, or the same for all.
 #[derive(Clone, Copy, Debug)]
 pub enum Rows<'a> {
@@ -21,6 +24,24 @@ impl Rows<'_> {
         match self {
             Self::Same(x) => *x,
             Self::Each(rows) => rows[row],
+        }
+    }
+
+    /// Copies them.
+    #[inline(always)]
+    pub fn copy_to(&self, out: &mut [f64]) {
+        match self {
+            Self::Same(x) => out.fill(*x),
+            Self::Each(rows) => out.copy_from_slice(rows),
+        }
+    }
+
+    /// Hands each of the first `count` over with its row.
+    #[inline(always)]
+    pub fn each(&self, count: usize, mut to: impl FnMut(usize, f64)) {
+        match self {
+            Self::Same(x) => (0..count).for_each(|row| to(row, *x)),
+            Self::Each(rows) => rows[..count].iter().enumerate().for_each(|(row, &x)| to(row, x)),
         }
     }
 }
@@ -104,24 +125,34 @@ pub fn binary(out: &mut [f64], operation: Binary, x: Rows<'_>, y: Rows<'_>) {
     }
 }
 
-/// An exponent that all rows share is laid out row by row: asked once about its special cases, the
-/// loop would be one of branches.
+/// Of an exponent that all rows share the special cases are looked at once.
 #[inline(always)]
 fn power(out: &mut [f64], x: Rows<'_>, p: Rows<'_>) {
     match p {
+        Rows::Same(1.0) => map(out, x, |x| elementary::powf(x, 1.0)),
         Rows::Same(2.0) => map(out, x, |x| elementary::powf(x, 2.0)),
-        Rows::Same(p) => {
-            out.fill(p);
-            match x {
-                Rows::Same(x) => out.fill(elementary::powf(x, p)),
-                Rows::Each(x) => {
-                    for (out, &x) in out.iter_mut().zip(x) {
-                        *out = elementary::powf(x, *out);
-                    }
-                }
+        Rows::Same(p) if elementary::is_plain_exponent(p) => plain_power(out, x, p),
+        p => zip(out, x, p, elementary::powf),
+    }
+}
+
+/// Two loops keep more rows under way than one; the few bases that need care are mended.
+#[inline(always)]
+fn plain_power(out: &mut [f64], x: Rows<'_>, p: f64) {
+    let Rows::Each(x) = x else { return map(out, x, |x| elementary::powf(x, p)) };
+    let (mut high, mut low) = ([0.0; BLOCK], [0.0; BLOCK]);
+    for ((&x, high), low) in x.iter().zip(&mut high).zip(&mut low) {
+        (*high, *low) = elementary::log2_fast(x);
+    }
+    for (((out, &x), high), low) in out.iter_mut().zip(x).zip(high).zip(low) {
+        *out = elementary::powf_fast(x, (high, low), p);
+    }
+    if out.iter().fold(false, |any, out| any | out.is_nan()) {
+        for (out, &x) in out.iter_mut().zip(x) {
+            if out.is_nan() {
+                *out = elementary::powf(x, p);
             }
         }
-        p => zip(out, x, p, elementary::powf),
     }
 }
 

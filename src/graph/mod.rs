@@ -18,5 +18,5 @@ pub use derivative::derivatives;
 pub use operation::{Binary, Id, Operation, Unary};
 pub use recorded::{Format, Recorded};
 pub use recorder::Recorder;
-pub use run::{BLOCK, Beginning, Given, run};
+pub use run::{Beginning, Given, run};
 pub use schedule::Schedule;

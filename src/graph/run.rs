@@ -2,17 +2,15 @@
 
 use core::array::from_fn;
 use core::mem::take;
+use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::block::{Rows, binary, binary_once, choose, unary, unary_once};
+use super::block::{BLOCK, Rows, binary, binary_once, choose, unary, unary_once};
 use super::operation::{Operation, Relaxing, Start};
 use super::schedule::{Place, Schedule, Task};
-
-/// Rows of a block: what all operations leave stays in the first cache.
-pub const BLOCK: usize = 256;
 
 /// Derivatives of a state that run together.
 const MOST_TOGETHER: usize = 4;
@@ -27,23 +25,21 @@ pub struct Given<'a> {
     pub rows: usize,
     /// What a state is where a segment starts.
     pub start: f64,
-    /// How each row begins.
-    pub beginning: &'a dyn Fn(usize) -> Beginning,
+    /// The rows at which segments start, from the first row on, and how.
+    pub starts: &'a [(usize, Beginning)],
 }
 
-/// How a row begins.
+/// How a segment starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beginning {
-    /// Where the one before ends.
-    Continued,
-    /// A segment starts with the state that is given.
+    /// With the state that is given.
     Fresh,
-    /// A segment starts settled.
+    /// Settled.
     Settled,
 }
 
-/// Carries out the operations; `sink` takes the outputs of each block and its first row.
-pub fn run(schedule: &Schedule, given: &Given<'_>, sink: impl FnMut(usize, &[Rows<'_>])) {
+/// Carries out the operations; `sink` takes the outputs of each block of rows.
+pub fn run(schedule: &Schedule, given: &Given<'_>, sink: impl FnMut(Range<usize>, &[Rows<'_>])) {
     Arch::new().dispatch(Running { schedule, given, sink });
 }
 
@@ -53,7 +49,7 @@ struct Running<'a, F> {
     sink: F,
 }
 
-impl<F: FnMut(usize, &[Rows<'_>])> WithSimd for Running<'_, F> {
+impl<F: FnMut(Range<usize>, &[Rows<'_>])> WithSimd for Running<'_, F> {
     type Output = ();
 
     #[inline(always)]
@@ -65,21 +61,18 @@ impl<F: FnMut(usize, &[Rows<'_>])> WithSimd for Running<'_, F> {
     }
 }
 
-impl<F: FnMut(usize, &[Rows<'_>])> Running<'_, F> {
+impl<F: FnMut(Range<usize>, &[Rows<'_>])> Running<'_, F> {
     #[inline(always)]
     fn all(mut self) {
         let schedule = self.schedule;
         let uniforms = once(schedule, self.given.parameters);
         let mut buffers: Vec<Vec<f64>> = vec![vec![0.0; BLOCK]; schedule.buffers];
         let mut memories = vec![0.0; schedule.memories];
-        let mut beginnings = [Beginning::Continued; BLOCK];
+        let mut starts = self.given.starts;
         for first in (0..self.given.rows).step_by(BLOCK) {
             let count = BLOCK.min(self.given.rows - first);
-            if !memories.is_empty() {
-                for (i, beginning) in beginnings[..count].iter_mut().enumerate() {
-                    *beginning = (self.given.beginning)(first + i);
-                }
-            }
+            let (own, later) = starts.split_at(starts.partition_point(|s| s.0 < first + count));
+            starts = later;
             macro_rules! reader {
                 ($buffers:expr) => {
                     |place| match place {
@@ -91,7 +84,7 @@ impl<F: FnMut(usize, &[Rows<'_>])> Running<'_, F> {
                     }
                 };
             }
-            let moment = Moment { beginnings: &beginnings[..count], start: self.given.start };
+            let moment = Moment { first, count, starts: own, given: self.given.start };
             let mut tasks = &schedule.each[..];
             while let Some(task) = tasks.first() {
                 let together = relaxing_alike(tasks);
@@ -121,7 +114,7 @@ impl<F: FnMut(usize, &[Rows<'_>])> Running<'_, F> {
             }
             let outputs: Vec<Rows<'_>> =
                 schedule.outputs.iter().map(|&place| reader!(buffers)(place)).collect();
-            (self.sink)(first, &outputs);
+            (self.sink)(first..first + count, &outputs);
         }
     }
 }
@@ -168,8 +161,12 @@ fn relaxing_alike(tasks: &[Task]) -> usize {
 
 /// What the operations with a memory need to know about a block.
 struct Moment<'a> {
-    beginnings: &'a [Beginning],
-    start: f64,
+    first: usize,
+    count: usize,
+    /// The starts of segments in this block.
+    starts: &'a [(usize, Beginning)],
+    /// What a state is where a segment starts.
+    given: f64,
 }
 
 impl Moment<'_> {
@@ -188,7 +185,10 @@ impl Moment<'_> {
             (Operation::Choose(..), _) => choose(out, rows(a), rows(b), rows(c)),
             (Operation::Previous(_), Some(memory)) => self.previous(out, rows(a), memory),
             (Operation::Relax(Relaxing { start, .. }), Some(memory)) => {
-                self.relax(out, [rows(a), rows(b), rows(c), rows(d), rows(e)], start, memory);
+                let mut states = [*memory];
+                let given = [[rows(a)], [rows(b)], [rows(c)], [rows(d)], [rows(e)]];
+                self.relax(&mut [out], given, start, &mut states);
+                [*memory] = states;
             }
             (Operation::Before(_, _, start), Some(memory)) => {
                 self.before(out, rows(a), rows(b), start, memory);
@@ -197,49 +197,96 @@ impl Moment<'_> {
         }
     }
 
-    /// Where the state is before a row that begins so.
+    /// The rows of the block in stretches without a start, and how their first one starts.
     #[inline(always)]
-    fn from(&self, row: usize, state: f64, settled: f64, start: Start) -> f64 {
-        match self.beginnings[row] {
-            Beginning::Continued => state,
-            Beginning::Settled => settled,
-            Beginning::Fresh if start == Start::Given => self.start,
-            Beginning::Fresh => 0.0,
+    fn stretches(&self) -> impl Iterator<Item = (Option<Beginning>, Range<usize>)> {
+        let starts =
+            self.starts.iter().map(|&(row, beginning)| (Some(beginning), row - self.first));
+        let continued = match self.starts.first() {
+            Some(&(row, _)) if row == self.first => None,
+            _ => Some((None, 0)),
+        };
+        let ends = self.starts.iter().map(|&(row, _)| row - self.first).filter(|&row| row > 0);
+        let starts = continued.into_iter().chain(starts);
+        starts.zip(ends.chain([self.count])).map(|((how, from), to)| (how, from..to))
+    }
+
+    /// Where the state is before a row at which a stretch begins so.
+    #[inline(always)]
+    fn before_start(
+        &self,
+        how: Option<Beginning>,
+        state: f64,
+        settled: impl Fn() -> f64,
+        start: Start,
+    ) -> f64 {
+        match how {
+            None => state,
+            Some(Beginning::Settled) => settled(),
+            Some(Beginning::Fresh) if start == Start::Given => self.given,
+            Some(Beginning::Fresh) => 0.0,
         }
     }
 
     #[inline(always)]
     fn previous(&self, out: &mut [f64], x: Rows<'_>, memory: &mut f64) {
-        for (i, out) in out.iter_mut().enumerate() {
-            let own = x.at(i);
-            *out = if self.beginnings[i] == Beginning::Continued { *memory } else { own };
-            *memory = own;
+        for (how, rows) in self.stretches() {
+            let first = rows.start;
+            out[first] = if how.is_none() { *memory } else { x.at(first) };
+            for row in rows.skip(1) {
+                out[row] = x.at(row - 1);
+            }
         }
+        *memory = x.at(self.count - 1);
     }
 
+    /// One state, or derivatives of one: while one waits for its sum the others go on.
     #[inline(always)]
-    fn relax(
+    fn relax<const K: usize>(
         &self,
-        out: &mut [f64],
-        [share, target, extra, shift, settled]: [Rows<'_>; 5],
+        outs: &mut [&mut [f64]; K],
+        [share, target, extra, shift, settled]: [[Rows<'_>; K]; 5],
         start: Start,
-        memory: &mut f64,
+        states: &mut [f64; K],
     ) {
-        let mut spread = [[0.0; BLOCK]; 4];
-        let [a, b, c, d] = &mut spread;
-        let (share, target) = (as_slice(share, a, out.len()), as_slice(target, b, out.len()));
-        let (extra, shift) = (as_slice(extra, c, out.len()), as_slice(shift, d, out.len()));
-        let mut state = *memory;
-        let rows = share.iter().zip(target).zip(extra).zip(shift).zip(out).enumerate();
-        for (i, ((((share, target), extra), shift), out)) in rows {
-            let before = self.from(i, state, settled.at(i), start);
-            state = (before + extra) + share * (target - before) + shift;
-            *out = state;
+        let nothing =
+            |rows: &[Rows<'_>; K]| rows.iter().all(|rows| matches!(rows, Rows::Same(0.0)));
+        let (no_extra, no_shift) = (nothing(&extra), nothing(&shift));
+        let mut scratch = [[[0.0; BLOCK]; K]; 4];
+        let [a, b, c, d] = &mut scratch;
+        let share = slices(share, a, self.count)[0];
+        let target = slices(target, b, self.count);
+        let (extra, shift) = (slices(extra, c, self.count), slices(shift, d, self.count));
+        for (how, rows) in self.stretches() {
+            let first = rows.start;
+            for (state, settled) in states.iter_mut().zip(settled) {
+                *state = self.before_start(how, *state, || settled.at(first), start);
+            }
+            macro_rules! step {
+                ($row:ident, $k:ident => $state:expr) => {
+                    for $row in rows {
+                        for $k in 0..K {
+                            states[$k] = $state;
+                            outs[$k][$row] = states[$k];
+                        }
+                    }
+                };
+            }
+            match (no_extra, no_shift) {
+                (true, true) => {
+                    step!(i, k => states[k] + share[i] * (target[k][i] - states[k]));
+                }
+                (false, true) => {
+                    step!(i, k => (states[k] + extra[k][i]) + share[i] * (target[k][i] - states[k]));
+                }
+                _ => step!(i, k => {
+                    (states[k] + extra[k][i]) + share[i] * (target[k][i] - states[k]) + shift[k][i]
+                }),
+            }
         }
-        *memory = state;
     }
 
-    /// Derivatives of one state: while one waits for its sum the others go on.
+    /// Derivatives of one state, together.
     #[inline(always)]
     fn relax_alike<'b, const K: usize>(
         &self,
@@ -248,24 +295,14 @@ impl Moment<'_> {
         rows: impl Fn(Place) -> Rows<'b>,
         memories: &mut [f64],
     ) {
-        let count = self.beginnings.len();
-        let mut scratch = [[[0.0; BLOCK]; K]; 5];
-        let [a, b, c, d, e] = &mut scratch;
-        let read = |k: usize| -> [Rows<'b>; K] { from_fn(|own| rows(tasks[own].from[k])) };
-        let share = slices(read(0), a, count)[0];
-        let (target, extra) = (slices(read(1), b, count), slices(read(2), c, count));
-        let (shift, settled) = (slices(read(3), d, count), slices(read(4), e, count));
+        let given = from_fn(|part| from_fn(|own| rows(tasks[own].from[part])));
         let mut states: [f64; K] = from_fn(|own| memories[tasks[own].memory]);
-        for i in 0..count {
-            for k in 0..K {
-                let before = self.from(i, states[k], settled[k][i], Start::Zero);
-                states[k] =
-                    (before + extra[k][i]) + share[i] * (target[k][i] - before) + shift[k][i];
-            }
-            for k in 0..K {
-                outs[k][i] = states[k];
-            }
-        }
+        let mut outs = outs.iter_mut();
+        let mut outs: [&mut [f64]; K] = from_fn(|_| match outs.next() {
+            Some(out) => &mut out[..self.count],
+            None => &mut [],
+        });
+        self.relax(&mut outs, given, Start::Zero, &mut states);
         for (task, state) in tasks.iter().zip(states) {
             memories[task.memory] = state;
         }
@@ -280,11 +317,14 @@ impl Moment<'_> {
         start: Start,
         memory: &mut f64,
     ) {
-        for (i, out) in out.iter_mut().enumerate() {
-            let state_before = if i == 0 { *memory } else { state.at(i - 1) };
-            *out = self.from(i, state_before, settled.at(i), start);
+        for (how, rows) in self.stretches() {
+            let first = rows.start;
+            out[first] = self.before_start(how, *memory, || settled.at(first), start);
+            for row in rows.skip(1) {
+                out[row] = state.at(row - 1);
+            }
         }
-        *memory = state.at(out.len() - 1);
+        *memory = state.at(self.count - 1);
     }
 }
 

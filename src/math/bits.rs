@@ -36,6 +36,8 @@ pub trait Bits:
     fn nearest(self) -> (Self, Self::Whole);
     /// `2^(n-1)`, for a result in the normal range.
     fn half_power_of_two(n: Self::Whole) -> Self;
+    /// `2^n x`, where both and the result are in the normal range.
+    fn times_power_of_two_in_range(self, n: Self::Whole) -> Self;
     /// `2^n x`, rounded once: `n` may be somewhat less or more than any exponent of the format.
     fn times_power_of_two(self, n: Self::Whole) -> Self;
     /// Whether the bit of weight one is set.
@@ -45,6 +47,10 @@ pub trait Bits:
     /// `k` and `m` of `x = 2^k m` with `m` between `sqrt(1/2)` and `sqrt(2)`, for finite `x > 0`;
     /// some finite numbers for any other `x`.
     fn exponent_and_significand(self) -> (Self, Self);
+    /// The same of a number in the normal range.
+    fn exponent_and_significand_of_normal(self) -> (Self, Self);
+    /// Whether a number is in the normal range and positive.
+    fn is_normal_and_positive(self) -> bool;
     /// `m` and `e` of `|x| = m 2^e` with a whole `m`, for a finite number in the normal range.
     fn whole_and_exponent(self) -> (u64, i32);
     /// `fraction / 2^digits` as the sum of a number and a small one.
@@ -111,6 +117,11 @@ macro_rules! bits {
                 }
 
                 #[inline(always)]
+                fn times_power_of_two_in_range(self, n: $whole) -> Self {
+                    self * Self::from_bits(n.wrapping_add(BIAS) << STORED)
+                }
+
+                #[inline(always)]
                 fn times_power_of_two(self, n: $whole) -> Self {
                     // Two factors reach beyond the normal range. Twice the bias is enough for both
                     // and makes their sum positive, so that a logical shift halves it.
@@ -133,19 +144,30 @@ macro_rules! bits {
 
                 #[inline(always)]
                 fn exponent_and_significand(self) -> (Self, Self) {
-                    const ROOT_HALF: $whole =
-                        (core::f64::consts::FRAC_1_SQRT_2 as $float).to_bits();
                     const LIFT: $float = WHOLE * WHOLE;
                     let (x, lifted) = if self < Self::MIN_POSITIVE {
-                        (self * LIFT, WHOLE + (BIAS + 2 * STORED as $whole) as $float)
+                        (self * LIFT, (2 * STORED) as $float)
                     } else {
-                        (self, WHOLE + BIAS as $float)
+                        (self, 0.0)
                     };
+                    let (exponent, significand) = x.exponent_and_significand_of_normal();
+                    (exponent - lifted, significand)
+                }
+
+                #[inline(always)]
+                fn exponent_and_significand_of_normal(self) -> (Self, Self) {
+                    const ROOT_HALF: $whole =
+                        (core::f64::consts::FRAC_1_SQRT_2 as $float).to_bits();
                     // Moved so that the binary exponent changes at the root and not at 1.
-                    let moved = x.to_bits().wrapping_add(ONE - ROOT_HALF);
+                    let moved = self.to_bits().wrapping_add(ONE - ROOT_HALF);
                     let exponent = Self::from_bits((moved >> STORED) | WHOLE.to_bits());
                     let significand = (moved & ((1 << STORED) - 1)) + ROOT_HALF;
-                    (exponent - lifted, Self::from_bits(significand))
+                    (exponent - (WHOLE + BIAS as $float), Self::from_bits(significand))
+                }
+
+                #[inline(always)]
+                fn is_normal_and_positive(self) -> bool {
+                    (Self::MIN_POSITIVE..Self::INFINITY).contains(&self)
                 }
 
                 fn whole_and_exponent(self) -> (u64, i32) {

@@ -12,6 +12,7 @@ impl Format for f64 {
     const EXP_RANGE: (Self, Self) = (-746.0, 710.0);
     const EXPM1_RANGE: (Self, Self) = (-40.0, 710.0);
     const EXP2_RANGE: Self = 1100.0;
+    const EXP2_NORMAL: Self = 1020.0;
     const EXPM1_LINEAR: Self = 1e-16;
     const TANH_ONE: Self = 20.0;
     const LARGE_EXPONENT: Self = 1e20;

@@ -10,6 +10,8 @@ pub trait Format: Bits + 'static {
     const EXPM1_RANGE: (Self, Self);
     /// From here on a power of two is 0 or infinite.
     const EXP2_RANGE: Self;
+    /// Up to here it is in the normal range.
+    const EXP2_NORMAL: Self;
     /// Up to here `e^x - 1` is `x`, and `phi_2` is 1/2.
     const EXPM1_LINEAR: Self;
     /// From here on the hyperbolic tangent is 1.

@@ -22,16 +22,15 @@ pub fn ln<F: Format>(x: F) -> F {
     if x < F::INFINITY { value } else { x }
 }
 
-/// The binary logarithm of a finite positive number as the sum of a short number and a small one:
-/// half as many digits again as one number has.
+/// The binary logarithm of `2^k m` (from `exponent_and_significand`) as the sum of a short number and
+/// a small one: half as many digits again as one number has.
 ///
 /// `ln m = 2/3 s (3 + z + z^2 L)` with `z = s^2`. Every factor is split so that the product of the
 /// short parts is exact (as in fdlibm's `pow`). The short parts come from the rough values, and what
 /// these lack joins the small ones: so the two chains do not wait for each other.
 #[inline(always)]
-pub fn log2_pair<F: Format>(x: F) -> (F, F) {
+pub fn log2_pair<F: Format>((k, m): (F, F)) -> (F, F) {
     let (one, three) = (F::of(1.0), F::of(3.0));
-    let (k, m) = x.exponent_and_significand();
 
     let numerator = m - one;
     let denominator = m + one;

@@ -59,6 +59,13 @@ macro_rules! elementary {
             elementary!(@ "Natural logarithm.", ln(x: $float) -> $float, logarithm::ln(x));
             elementary!(@ "`x` to the power `p`; of a negative `x` only whole ones.",
                 powf(x: $float, p: $float) -> $float, power::powf(x, p));
+            elementary!(@ "Binary logarithm of a normal, positive number in two parts: half of a power.",
+                log2_fast(x: $float) -> ($float, $float), power::log2_fast(x));
+            elementary!(@ "The power from the [logarithm](log2_fast), or NaN where [`powf`] is to be asked.",
+                powf_fast(x: $float, logarithm: ($float, $float), p: $float) -> $float,
+                power::powf_fast(x, logarithm, p));
+            elementary!(@ "Whether [`powf_fast`] takes this exponent.",
+                is_plain_exponent(p: $float) -> bool, power::is_plain_exponent(p));
             elementary!(@ "Hyperbolic tangent.", tanh(x: $float) -> $float, hyperbolic::tanh(x));
             elementary!(@ "Arc tangent.", atan(x: $float) -> $float, arctangent::atan(x));
             elementary!(@ "Square root.", sqrt(x: $float) -> $float, libm::$sqrt(x));

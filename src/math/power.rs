@@ -11,7 +11,10 @@ use super::logarithm::log2_pair;
 pub fn powf<F: Format>(x: F, p: F) -> F {
     let (zero, one) = (F::of(0.0), F::of(1.0));
     let size = x.abs();
-    let value = exp2_of_product(within(p, -F::LARGE_EXPONENT, F::LARGE_EXPONENT), log2_pair(size));
+    let value = exp2_of_product(
+        within(p, -F::LARGE_EXPONENT, F::LARGE_EXPONENT),
+        log2_pair(size.exponent_and_significand()),
+    );
 
     let limit = if (size == zero) == (p < zero) { F::INFINITY } else { zero };
     let value = if (size == zero) | (size == F::INFINITY) { limit } else { value };
@@ -24,15 +27,53 @@ pub fn powf<F: Format>(x: F, p: F) -> F {
     if (p == zero) | (x == one) { one } else { value }
 }
 
+/// The binary logarithm of a normal, positive number, high and low part: the first half of
+/// [`powf`]. In two loops more numbers are under way at a time than in one.
+#[inline(always)]
+pub fn log2_fast<F: Format>(x: F) -> (F, F) {
+    log2_pair(x.exponent_and_significand_of_normal())
+}
+
+/// `x` to the power `p` from its [logarithm](log2_fast), without a branch and without most special
+/// cases: where these might matter the result is NaN, and [`powf`] is to be asked. Otherwise the bits
+/// are the same. `p` is neither 0, 1, 2 nor beyond any use.
+#[inline(always)]
+pub fn powf_fast<F: Format>(x: F, logarithm: (F, F), p: F) -> F {
+    let zero = F::of(0.0);
+    let (product, rest) = product(p, logarithm);
+    let (n, bits) = (product + rest).nearest();
+    let value = exp2_of_fraction((product - n) + rest).times_power_of_two_in_range(bits);
+
+    let in_range = x.is_normal_and_positive() & (product.abs() < F::EXP2_NORMAL);
+    let value = if in_range { value } else { F::NAN };
+    if (x == zero) & (p > zero) { zero } else { value }
+}
+
+/// Whether [`powf_fast`] takes this exponent.
+#[inline(always)]
+pub fn is_plain_exponent<F: Format>(p: F) -> bool {
+    p.abs() < F::LARGE_EXPONENT && p != F::of(0.0) && p != F::of(1.0) && p != F::of(2.0)
+}
+
+/// `p l` for `l = high + low`: an exact product, and the rest.
+#[inline(always)]
+fn product<F: Format>(p: F, (high, low): (F, F)) -> (F, F) {
+    let p_high = p.short();
+    (p_high * high, (p - p_high) * high + p * low)
+}
+
+/// `2^f` for `|f| <= 1/2`.
+#[inline(always)]
+fn exp2_of_fraction<F: Format>(fraction: F) -> F {
+    F::of(1.0) + fraction * F::exp2_series(fraction)
+}
+
 /// `2^(p l)` for `l = high + low`.
 #[inline(always)]
-fn exp2_of_product<F: Format>(p: F, (high, low): (F, F)) -> F {
-    let p_high = p.short();
-    let product = p_high * high;
-    let rest = (p - p_high) * high + p * low;
+fn exp2_of_product<F: Format>(p: F, logarithm: (F, F)) -> F {
+    let (product, rest) = product(p, logarithm);
     let rest = if product.abs() > F::EXP2_RANGE { F::of(0.0) } else { rest };
     let product = within(product, -F::EXP2_RANGE, F::EXP2_RANGE);
     let (n, bits) = (product + rest).nearest();
-    let fraction = (product - n) + rest;
-    (F::of(1.0) + fraction * F::exp2_series(fraction)).times_power_of_two(bits)
+    exp2_of_fraction((product - n) + rest).times_power_of_two(bits)
 }

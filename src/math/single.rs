@@ -12,6 +12,7 @@ impl Format for f32 {
     const EXP_RANGE: (Self, Self) = (-105.0, 89.0);
     const EXPM1_RANGE: (Self, Self) = (-20.0, 89.0);
     const EXP2_RANGE: Self = 200.0;
+    const EXP2_NORMAL: Self = 124.0;
     const EXPM1_LINEAR: Self = 1e-8;
     const TANH_ONE: Self = 10.0;
     const LARGE_EXPONENT: Self = 1e10;
