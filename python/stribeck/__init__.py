@@ -26,6 +26,7 @@ from stribeck.errors import (
     SpecError,
     StribeckError,
 )
+from stribeck.export import Export, export
 from stribeck.fit import Estimate, Fit, evaluate, fit
 from stribeck.fleet import Fleet, fleet
 from stribeck.improve import Addition, Improvement, add, improve
@@ -83,6 +84,7 @@ __all__ = [
     "Compensator",
     "Diagnosis",
     "Estimate",
+    "Export",
     "Finding",
     "Fit",
     "FitError",
@@ -113,6 +115,7 @@ __all__ = [
     "diagnose",
     "effects",
     "evaluate",
+    "export",
     "fit",
     "fleet",
     "improve",

@@ -13,6 +13,7 @@ from stribeck.cli.catalog import effects, inspect, models
 from stribeck.cli.check import check
 from stribeck.cli.compensate import compensate
 from stribeck.cli.demo import demo
+from stribeck.cli.export import export
 from stribeck.cli.fleet import fleet
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
@@ -53,6 +54,7 @@ for command in (demo, inspect, models, effects, fit, compare, diagnose, add, imp
     cli.add_command(command)
 cli.add_command(plan)
 cli.add_command(check)
+cli.add_command(export)
 cli.add_command(simulate)
 cli.add_command(compensate)
 cli.add_command(validate)

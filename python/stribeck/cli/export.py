@@ -1,0 +1,65 @@
+"""`stribeck export`: a model as a program for the joint's controller."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from stribeck.cli.common import echo_json, is_model_file, json_option, say, seed_option
+from stribeck.errors import SpecError
+from stribeck.export import export as write
+from stribeck.model import model as named
+from stribeck.model_file import read_model_file
+from stribeck.passivity.operating_box import parse_sides
+
+
+@click.command()
+@click.argument("model")
+@click.option(
+    "--to", "language", required=True, metavar="FORMAT",
+    help="c: C99 that needs no library; rust: a module for the crate; json: the step as data.",
+)  # fmt: skip
+@click.argument("folder", metavar="DIR", type=click.Path(file_okay=False))
+@click.option("--name", default=None, help="What files, types and functions begin with.")
+@click.option(
+    "--precision", default="f64", show_default=True, metavar="f64|f32",
+    help="Format of all numbers.",
+)  # fmt: skip
+@click.option("--libm", is_flag=True, help="In C, use math.h in place of own functions.")
+@click.option(
+    "--box", "sides", multiple=True, metavar="CHANNEL=LOW:HIGH",
+    help="Operating box, as in velocity=-3.14:3.14. [default: the model file's]",
+)  # fmt: skip
+@seed_option
+@json_option
+def export(
+    model: str,
+    language: str,
+    folder: str,
+    name: str | None,
+    precision: str,
+    libm: bool,
+    sides: tuple[str, ...],
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Write MODEL into DIR as a program for a controller, with test vectors and a self-test.
+
+    Written code, crate and Python give the same bits. MODEL is a model file, which says what it was
+    fitted on and where it holds.
+    """
+    if seed < 0:
+        raise SpecError(f"seed {seed} is negative: give 0 or more")
+    asked = read_model_file(model) if is_model_file(model) else named(model)
+    called = name or (Path(model).stem if is_model_file(model) else None)
+    written = write(
+        asked, language, folder, name=called, precision=precision, libm=libm,
+        box=parse_sides(sides), seed=seed,
+    )  # fmt: skip
+    if "delay" in written.model.effects:
+        say("note: the delay belongs to the recording, not to the joint: it is left out")
+    if as_json:
+        echo_json(written.to_dict())
+    else:
+        click.echo(repr(written))
