@@ -9,7 +9,7 @@ use crate::error::ModelError;
 use crate::formula::{Formula, OwnTerms};
 use crate::sample::{Sample, Split};
 use crate::scalar::{Real, Scalar};
-use crate::table::{Channel, ParameterInfo, Pole, Presence, Role};
+use crate::table::{self, Channel, ParameterInfo, Pole, Presence, Role};
 
 /// Which law, which terms by formula, which effects, which constants. Displays as
 /// `law+effect+...`.
@@ -197,20 +197,7 @@ impl Spec {
     /// # Errors
     /// A wrong number of values, or a value at which a formula cannot be evaluated.
     pub fn with<S: Real>(&self, values: &[S]) -> Result<Composed<S>, ModelError<'static>> {
-        let expected = self.parameter_count();
-        if values.len() != expected {
-            return Err(ModelError::Count { expected, given: values.len() });
-        }
-        for (parameter, value) in self.parameters().zip(values) {
-            let mut refused = None;
-            value.every(|value| {
-                refused = (!parameter.admits(value)).then_some(value);
-                refused.is_none()
-            });
-            if let Some(value) = refused {
-                return Err(ModelError::Value { parameter: parameter.name, value });
-            }
-        }
+        table::check(|| self.parameters(), values)?;
         let mut values = values.iter().copied();
         let mut next = |presence| {
             let value = if self.includes(presence) { values.next() } else { None };

@@ -50,6 +50,7 @@ pub mod effect;
 pub mod error;
 #[cfg(feature = "std")]
 pub mod export;
+pub mod fixed;
 pub mod formula;
 #[cfg(feature = "std")]
 mod graph;

@@ -237,7 +237,7 @@ impl<S: Real> StribeckCurve<S> {
 }
 
 /// The Stribeck curve at `velocity`: 1 at rest, whatever the Stribeck velocity.
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn stribeck_curve<S: Real>(
     velocity: S::Plain,

@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+use crate::error::ModelError;
+use crate::scalar::Real;
+
 /// A column of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
@@ -199,6 +202,31 @@ impl ParameterInfo {
                 _ => value > 0.0,
             }
     }
+}
+
+/// Whether there is one value for each parameter, at which a formula can be evaluated.
+///
+/// # Errors
+/// A wrong number of values, or a value at which a formula cannot be evaluated.
+pub(crate) fn check<S: Real, I: Iterator<Item = &'static ParameterInfo>>(
+    parameters: impl Fn() -> I,
+    values: &[S],
+) -> Result<(), ModelError<'static>> {
+    let expected = parameters().count();
+    if values.len() != expected {
+        return Err(ModelError::Count { expected, given: values.len() });
+    }
+    for (parameter, value) in parameters().zip(values) {
+        let mut refused = None;
+        value.every(|value| {
+            refused = (!parameter.admits(value)).then_some(value);
+            refused.is_none()
+        });
+        if let Some(value) = refused {
+            return Err(ModelError::Value { parameter: parameter.name, value });
+        }
+    }
+    Ok(())
 }
 
 /// A fixed number of an effect, chosen with the recording and kept with the model.

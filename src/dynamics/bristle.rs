@@ -108,7 +108,7 @@ impl<S: Real> Bristle<S> {
 
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
     /// which the torque is read.
-    #[inline]
+    #[inline(always)]
     pub fn over(
         &self,
         state: &mut BristleState<S>,

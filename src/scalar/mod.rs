@@ -257,7 +257,8 @@ macro_rules! primitive {
 
             #[inline]
             fn powf(self, p: Self) -> Self {
-                crate::math::$float::powf(self, p)
+                // What the function says itself, said before it computes anything else.
+                if p == 2.0 { self * self } else { crate::math::$float::powf(self, p) }
             }
 
             #[inline]

@@ -1,0 +1,153 @@
+//! The image: counts instructions of each step and hashes what it answers.
+#![no_std]
+#![no_main]
+
+use core::arch::{asm, global_asm};
+use core::hint::black_box;
+use core::panic::PanicInfo;
+use core::ptr;
+
+use stribeck_firmware::{Joints, Motion, Number, STEPS, Step, hash};
+
+global_asm!(include_str!("../reset.s"));
+
+/// Steps whose instructions are counted.
+const COUNTED: u32 = 10_000;
+/// Steps that are hashed.
+const HASHED: u32 = 1_000;
+
+/// Counts down with the instructions, as the emulator is asked to.
+const SYSTICK: [*mut u32; 3] =
+    [0xe000_e010_u32 as *mut u32, 0xe000_e014_u32 as *mut u32, 0xe000_e018_u32 as *mut u32];
+const LARGEST: u32 = 0x00ff_ffff;
+
+#[unsafe(no_mangle)]
+extern "C" fn run() -> ! {
+    // SAFETY: the registers of the timer that every Cortex-M has.
+    unsafe {
+        ptr::write_volatile(SYSTICK[1], LARGEST);
+        ptr::write_volatile(SYSTICK[2], 0);
+        ptr::write_volatile(SYSTICK[0], 5);
+    }
+    let Some(mut joints) = Joints::new() else { exit() };
+    report("calibration", [u64::from(thousand_instructions())]);
+    let empty = count(&mut joints, nothing);
+    report("empty", empty);
+    for (name, step) in STEPS {
+        report(name, count(&mut joints, *step));
+    }
+    report("stack empty", [stack(&mut joints, nothing)]);
+    for (name, step) in STEPS {
+        write("stack ");
+        report(name, [stack(&mut joints, *step)]);
+    }
+    let Some(mut joints) = Joints::new() else { exit() };
+    for (name, step) in STEPS {
+        write("hash ");
+        report(name, [hash(&mut joints, *step, HASHED)]);
+    }
+    exit()
+}
+
+extern "C" fn nothing(_: &mut Joints, velocity: Number, _: Number, _: Number) -> Number {
+    velocity
+}
+
+/// Sum and largest number of ticks of a step.
+fn count(joints: &mut Joints, step: Step) -> [u64; 2] {
+    let step = black_box(step);
+    let mut motion = Motion::new();
+    let (mut sum, mut largest) = (0, 0);
+    for _ in 0..COUNTED {
+        let reading = motion.next();
+        let before = ticks();
+        black_box(step(joints, reading.velocity, reading.temperature, reading.load_torque));
+        let taken = before.wrapping_sub(ticks()) & LARGEST;
+        sum += u64::from(taken);
+        largest = largest.max(u64::from(taken));
+    }
+    [sum, largest]
+}
+
+fn ticks() -> u32 {
+    // SAFETY: reading the timer changes nothing.
+    unsafe { ptr::read_volatile(SYSTICK[2]) }
+}
+
+/// Ticks of a thousand instructions.
+#[inline(never)]
+fn thousand_instructions() -> u32 {
+    let before = ticks();
+    // SAFETY: does nothing, a thousand times.
+    unsafe { asm!(".rept 1000", "nop", ".endr") };
+    before.wrapping_sub(ticks()) & LARGEST
+}
+
+/// Bytes below the stack pointer that a step has written to.
+#[inline(never)]
+fn stack(joints: &mut Joints, step: Step) -> u64 {
+    const DEPTH: usize = 4096;
+    const UNTOUCHED: u32 = 0x5afe_c0de;
+    let step = black_box(step);
+    let mut motion = Motion::new();
+    let mut deepest = 0;
+    for _ in 0..1000 {
+        let reading = motion.next();
+        let top: usize;
+        // SAFETY: only what is free below the stack pointer is written; nothing interrupts.
+        unsafe {
+            asm!("mov {}, sp", out(reg) top);
+            for offset in 1..=DEPTH / 4 {
+                ptr::write_volatile((top - 4 * offset) as *mut u32, UNTOUCHED);
+            }
+        }
+        black_box(step(joints, reading.velocity, reading.temperature, reading.load_torque));
+        let mut offset = DEPTH;
+        // SAFETY: the same bytes.
+        while offset > 0 && unsafe { ptr::read_volatile((top - offset) as *const u32) } == UNTOUCHED
+        {
+            offset -= 4;
+        }
+        deepest = deepest.max(offset);
+    }
+    deepest as u64
+}
+
+fn report<const N: usize>(name: &str, numbers: [u64; N]) {
+    write(name);
+    for number in numbers {
+        write(" ");
+        for digit in (0..16).rev() {
+            let digit = (number >> (4 * digit)) as u8 & 15;
+            put(if digit < 10 { b'0' + digit } else { b'a' - 10 + digit });
+        }
+    }
+    put(b'\n');
+}
+
+fn write(text: &str) {
+    for &byte in text.as_bytes() {
+        put(byte);
+    }
+}
+
+fn put(byte: u8) {
+    semihosting(0x03, &raw const byte as usize);
+}
+
+fn exit() -> ! {
+    loop {
+        semihosting(0x18, 0x2_0026);
+    }
+}
+
+/// Asks the emulator for a service.
+fn semihosting(operation: usize, argument: usize) {
+    // SAFETY: both services only read what they are given.
+    unsafe { asm!("bkpt 0xab", inout("r0") operation => _, in("r1") argument) };
+}
+
+#[panic_handler]
+fn panicked(_: &PanicInfo) -> ! {
+    exit()
+}
