@@ -63,7 +63,7 @@ impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> FixedLaw<L, S> {
 
     /// The torque (T) at the end of a step of `dt` (s) over which `sample` is held; a static law has
     /// no use for `state` and `dt`.
-    #[inline]
+    #[inline(always)]
     pub fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
         let interval = Interval { sample: *sample, mean_velocity: None, dt, mean: false };
         let split = self.law.split(sample, &self.constants);

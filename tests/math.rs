@@ -223,6 +223,29 @@ macro_rules! format {
             }
 
             #[test]
+            fn branching_changes_no_bits() {
+                use own::branching;
+                let limits = [64.0, 87.0, 105.0, 128.0, 512.0, 709.0, 746.0, 1024.0];
+                let limits = limits.into_iter().flat_map(|x: $float| [x, -x]);
+                for x in arguments().into_iter().chain(limits) {
+                    let check = |value, expected, name: &str| {
+                        assert!(same(value, expected), "{name} {x:e}: {value:e}, not {expected:e}");
+                    };
+                    check(branching::exp(x), own::exp(x), "exp");
+                    check(branching::expm1(x), own::expm1(x), "expm1");
+                    for order in 0..4 {
+                        check(branching::phi(order, x), own::phi(order, x), "phi");
+                    }
+                    for p in [0.0, -0.0, 0.5, 1.0, 1.3, -1.7, 2.0, 3.0, 70.0, 1e9, 1e-30] {
+                        check(branching::powf(x, p), own::powf(x, p), "powf");
+                    }
+                    for p in [$float::INFINITY, -$float::INFINITY, $float::NAN, -$float::MAX] {
+                        check(branching::powf(x, p), own::powf(x, p), "powf");
+                    }
+                }
+            }
+
+            #[test]
             fn the_fast_sine_is_the_sine() {
                 for x in arguments().into_iter().filter(|&x| !own::needs_care(x)) {
                     let (sin, cos) = own::sin_cos_fast(x);

@@ -12,6 +12,9 @@ use crate::scalar::{Mask, Real, Scalar};
 /// A bristle that settles faster than this (s) has settled in any step.
 const SHORTEST: f64 = 1e-12;
 
+/// Dry friction below this (T) has no bristle.
+const LEAST_DRY: f64 = 1e-30;
+
 /// Parameters of a bristle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bristle<S> {
@@ -19,6 +22,18 @@ pub struct Bristle<S> {
     pub stiffness: S,
     /// Damping `s1` (T s/X).
     pub damping: S,
+}
+
+/// The dry magnitude (T) below which nothing is left of the way after a step of this length (s), and
+/// whether it is below: the bristle then takes the lowest, with which it settles. It is positive at
+/// rest, too, where nothing pulls.
+#[inline(always)]
+fn settling<S: Real>(pull: S, dry: S, dt: S::Plain) -> (S::Plain, S::Mask) {
+    let shortest = S::Plain::from_f64(SHORTEST);
+    let lasting = S::Plain::choose(dt.is_above(shortest.plain()), dt, shortest);
+    let share = lasting * S::Plain::from_f64(1.0 / SATURATED);
+    let lowest = pull.plain() * share + S::Plain::from_f64(LEAST_DRY);
+    (lowest, dry.is_below(lowest))
 }
 
 /// State of a bristle, kept apart from its parameters.
@@ -41,35 +56,22 @@ impl<S: Real> Bristle<S> {
     /// `z = sgn(v) D/s0` is used, so that a fit passing through it sees a finite slope.
     #[inline(always)]
     pub fn course(&self, dry: S, velocity: S::Plain, dt: S::Plain) -> Course<S> {
-        let (zero, one) = (S::zero(), S::one());
         let lasts = dt.is_positive();
         let dt = S::Plain::choose(lasts, dt, S::Plain::zero());
-        let speed = velocity.abs();
-        let rest = velocity.at_zero();
-        let pull = self.stiffness.scale(speed);
-        let settled = self.settles(pull, dry, dt);
-        let still = rest.or(settled);
-        let pace = S::choose(still, zero, pull / dry);
+        let pull = self.stiffness.scale(velocity.abs());
+        let (lowest, settled) = settling(pull, dry, dt);
+        let pace = pull / S::choose(settled, S::from_plain(lowest), dry);
+        let pace = S::choose(settled.and(lasts.not()), S::zero(), pace);
         let decay = pace.scale(-dt);
         let left = decay.expm1();
-        let share = S::choose(settled.and(lasts).and(rest.not()), one, -left);
         let target = self.target(dry, velocity);
-        Course { target, share, pace, decay, left, rest, settled }
+        Course { target, share: -left, pace, decay, left, rest: velocity.at_zero(), settled }
     }
 
     /// Where the deflection tends to (X).
     #[inline(always)]
     pub fn target(&self, dry: S, velocity: S::Plain) -> S {
         (dry / self.stiffness).scale(velocity.sign())
-    }
-
-    /// Where a pull is so strong that the bristle settles in any step of this length (s).
-    #[inline(always)]
-    fn settles(&self, pull: S, dry: S, dt: S::Plain) -> S::Mask {
-        let shortest = S::Plain::from_f64(SHORTEST);
-        let lasting = S::Plain::choose(dt.is_above(shortest.plain()), dt, shortest);
-        let bound = dry.plain() * S::Plain::from_f64(SATURATED);
-        (pull.plain() * lasting).is_below(bound.plain()).not()
     }
 
     /// How far the deflection moves where the dry magnitude changes from the one that was held to
@@ -89,7 +91,7 @@ impl<S: Real> Bristle<S> {
     #[inline(always)]
     pub fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
         let pull = self.stiffness.scale(velocity.abs());
-        let settled = self.settles(pull, dry, S::Plain::zero());
+        let (_, settled) = settling(pull, dry, S::Plain::zero());
         S::choose(settled, S::zero(), (-(pull / dry * z)).shift(velocity))
     }
 }
@@ -188,7 +190,7 @@ pub struct Course<S: Real> {
     pub target: S,
     /// `1 - e^-x`.
     pub share: S,
-    /// `s0 |v|/D` (1/s), 0 of a bristle at rest and of one that has settled at once.
+    /// `s0 |v|/D` (1/s), 0 of a bristle at rest.
     pace: S,
     /// `-x`.
     decay: S,

@@ -33,7 +33,7 @@ impl<S: Real> FrictionLaw<S> for BittencourtA<S> {
         captures: &["coulomb", "viscous", "stribeck"],
     };
 
-    #[inline]
+    #[inline(always)]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         Split {
             coulomb: self.coulomb_friction,

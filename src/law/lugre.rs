@@ -38,7 +38,7 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
         captures: &["coulomb", "viscous", "stribeck", "presliding"],
     };
 
-    #[inline]
+    #[inline(always)]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         Split {
             coulomb: self.coulomb_friction,

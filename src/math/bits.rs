@@ -19,6 +19,7 @@ pub trait Bits:
     /// A whole number in the lowest bits; those above it mean nothing.
     type Whole: Copy;
 
+    const SMALLEST_NORMAL: Self;
     const INFINITY: Self;
     const NAN: Self;
 
@@ -26,6 +27,10 @@ pub trait Bits:
     fn of(x: f32) -> Self;
     /// Whether it is no number.
     fn is_nan(self) -> bool;
+    /// Whether it is the same number, or the same NaN, with the same sign.
+    fn has_bits_of(self, other: Self) -> bool;
+    /// Whether `lower <= x < upper`, for two positive numbers.
+    fn is_between(self, lower: Self, upper: Self) -> bool;
     /// `|x|`.
     fn abs(self) -> Self;
     /// `|x|` with the sign of another number.
@@ -36,7 +41,7 @@ pub trait Bits:
     fn nearest(self) -> (Self, Self::Whole);
     /// `2^(n-1)`, for a result in the normal range.
     fn half_power_of_two(n: Self::Whole) -> Self;
-    /// `2^n x`, where both and the result are in the normal range.
+    /// `2^n x`, where `x` and the result are in the normal range.
     fn times_power_of_two_in_range(self, n: Self::Whole) -> Self;
     /// `2^n x`, rounded once: `n` may be somewhat less or more than any exponent of the format.
     fn times_power_of_two(self, n: Self::Whole) -> Self;
@@ -75,6 +80,7 @@ macro_rules! bits {
             impl Bits for $float {
                 type Whole = $whole;
 
+                const SMALLEST_NORMAL: Self = <$float>::MIN_POSITIVE;
                 const INFINITY: Self = <$float>::INFINITY;
                 const NAN: Self = <$float>::NAN;
 
@@ -86,6 +92,18 @@ macro_rules! bits {
                 #[inline(always)]
                 fn is_nan(self) -> bool {
                     <$float>::is_nan(self)
+                }
+
+                #[inline(always)]
+                fn has_bits_of(self, other: Self) -> bool {
+                    self.to_bits() == other.to_bits()
+                }
+
+                #[inline(always)]
+                fn is_between(self, lower: Self, upper: Self) -> bool {
+                    // As whole numbers positive floats are in order, and negative ones above them.
+                    let (lower, upper) = (lower.to_bits(), upper.to_bits());
+                    self.to_bits().wrapping_sub(lower) < upper - lower
                 }
 
                 #[inline(always)]
@@ -118,7 +136,7 @@ macro_rules! bits {
 
                 #[inline(always)]
                 fn times_power_of_two_in_range(self, n: $whole) -> Self {
-                    self * Self::from_bits(n.wrapping_add(BIAS) << STORED)
+                    Self::from_bits(self.to_bits().wrapping_add(n << STORED))
                 }
 
                 #[inline(always)]

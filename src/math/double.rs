@@ -13,7 +13,11 @@ impl Format for f64 {
     const EXPM1_RANGE: (Self, Self) = (-40.0, 710.0);
     const EXP2_RANGE: Self = 1100.0;
     const EXP2_NORMAL: Self = 1020.0;
-    const EXPM1_LINEAR: Self = 1e-16;
+    const EXPM1_LINEAR: Self = 5.551115123125783e-17;
+    // Powers of two, which are cheap to compare with.
+    const EXP_USUAL: Self = 512.0;
+    const EXP_FAR: Self = 1024.0;
+    const EXPM1_USUAL: Self = 64.0;
     const TANH_ONE: Self = 20.0;
     const LARGE_EXPONENT: Self = 1e20;
     const LARGEST_PHASE: Self = 1.6e6;

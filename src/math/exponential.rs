@@ -9,11 +9,17 @@ use super::format::{Format, within};
 #[inline(always)]
 pub fn exp<F: Format>(x: F) -> F {
     let (lowest, highest) = F::EXP_RANGE;
-    let x = within(x, lowest, highest);
+    let (significand, bits) = exp_parts(within(x, lowest, highest));
+    significand.times_power_of_two(bits)
+}
+
+/// `m` and `n` of `e^x = 2^n m` with `m` about 1, for `x` in `EXP_RANGE`.
+#[inline(always)]
+pub fn exp_parts<F: Format>(x: F) -> (F, F::Whole) {
     let (n, bits) = (x * F::LOG2_E).nearest();
     let (large, small) = (x - n * F::LN_2[0], n * F::LN_2[1]);
     let r = large - small;
-    (F::of(1.0) + (large + F::exp_beyond(-small, r))).times_power_of_two(bits)
+    (F::of(1.0) + (large + F::exp_beyond(-small, r)), bits)
 }
 
 /// `e^x - 1`.
@@ -33,7 +39,12 @@ pub fn expm1<F: Format>(x: F) -> F {
 #[inline(always)]
 pub fn half_expm1<F: Format>(x: F) -> (F, F) {
     let (lowest, highest) = F::EXPM1_RANGE;
-    let x = within(x, lowest, highest);
+    half_expm1_within(within(x, lowest, highest))
+}
+
+/// The same for `x` in `EXPM1_RANGE`.
+#[inline(always)]
+pub fn half_expm1_within<F: Format>(x: F) -> (F, F) {
     let (n, bits) = (x * F::LOG2_E).nearest();
     let (large, small) = (x - n * F::LN_2[0], n * F::LN_2[1]);
     let beyond = F::expm1_beyond(-small, large - small);

@@ -14,6 +14,12 @@ pub trait Format: Bits + 'static {
     const EXP2_NORMAL: Self;
     /// Up to here `e^x - 1` is `x`, and `phi_2` is 1/2.
     const EXPM1_LINEAR: Self;
+    /// Up to this `|x|` every `e^x` is in the normal range.
+    const EXP_USUAL: Self;
+    /// From this `|x|` on `e^x` is 0 or infinite.
+    const EXP_FAR: Self;
+    /// From this `|x|` on `e^x - 1` of a negative `x` is -1.
+    const EXPM1_USUAL: Self;
     /// From here on the hyperbolic tangent is 1.
     const TANH_ONE: Self;
     /// An exponent as large as this takes every base but 1 to 0 or infinity.

@@ -13,6 +13,7 @@
 //! | file | what is there |
 //! |---|---|
 //! | `exponential`, `phi`, `logarithm`, `power`, `hyperbolic`, `arctangent`, `trigonometric` | the functions, once for both formats |
+//! | `branching` | some of them again for one number at a time |
 //! | `double`, `single`, `format` | constants and minimax polynomials of a format |
 //! | `phase` | quarter turns in a large phase |
 //! | `bits` | powers of two, whole numbers and signs |
@@ -25,6 +26,7 @@
 
 mod arctangent;
 mod bits;
+mod branching;
 mod double;
 mod exponential;
 mod format;
@@ -76,6 +78,18 @@ macro_rules! elementary {
                 trigonometric::sin_cos(x));
             elementary!(@ "Sine and cosine without a branch, where `x` does not [need care](needs_care).",
                 sin_cos_fast(x: $float) -> ($float, $float), trigonometric::sin_cos_fast(x));
+            /// The same functions for one number at a time, by branches: fewer operations, equal bits.
+            pub mod branching {
+                use super::super::branching;
+
+                elementary!(@ "`e^x`.", exp(x: $float) -> $float, branching::exp(x));
+                elementary!(@ "`e^x - 1`.", expm1(x: $float) -> $float, branching::expm1(x));
+                elementary!(@ "`phi_k(x)`.",
+                    phi(order: u8, x: $float) -> $float, branching::phi(order, x));
+                elementary!(@ "`x` to the power `p`.",
+                    powf(x: $float, p: $float) -> $float, branching::powf(x, p));
+            }
+
             elementary!(@ "Whether `x` is too large for [`sin_cos_fast`].",
                 needs_care(x: $float) -> bool, trigonometric::needs_care(x));
         }

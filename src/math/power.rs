@@ -57,14 +57,14 @@ pub fn is_plain_exponent<F: Format>(p: F) -> bool {
 
 /// `p l` for `l = high + low`: an exact product, and the rest.
 #[inline(always)]
-fn product<F: Format>(p: F, (high, low): (F, F)) -> (F, F) {
+pub fn product<F: Format>(p: F, (high, low): (F, F)) -> (F, F) {
     let p_high = p.short();
     (p_high * high, (p - p_high) * high + p * low)
 }
 
 /// `2^f` for `|f| <= 1/2`.
 #[inline(always)]
-fn exp2_of_fraction<F: Format>(fraction: F) -> F {
+pub fn exp2_of_fraction<F: Format>(fraction: F) -> F {
     F::of(1.0) + fraction * F::exp2_series(fraction)
 }
 

@@ -13,7 +13,11 @@ impl Format for f32 {
     const EXPM1_RANGE: (Self, Self) = (-20.0, 89.0);
     const EXP2_RANGE: Self = 200.0;
     const EXP2_NORMAL: Self = 124.0;
-    const EXPM1_LINEAR: Self = 1e-8;
+    const EXPM1_LINEAR: Self = 7.450580596923828e-9;
+    // Powers of two, which are cheap to compare with.
+    const EXP_USUAL: Self = 64.0;
+    const EXP_FAR: Self = 128.0;
+    const EXPM1_USUAL: Self = 32.0;
     const TANH_ONE: Self = 10.0;
     const LARGE_EXPONENT: Self = 1e10;
     const LARGEST_PHASE: Self = 3000.0;

@@ -235,7 +235,7 @@ macro_rules! primitive {
 
             #[inline]
             fn exponent_of(self, base: Self) -> Self {
-                crate::math::$float::powf(base, self)
+                crate::math::$float::branching::powf(base, self)
             }
 
             #[inline]
@@ -255,15 +255,24 @@ macro_rules! primitive {
                 }
             }
 
-            #[inline]
+            #[inline(always)]
             fn powf(self, p: Self) -> Self {
-                // What the function says itself, said before it computes anything else.
-                if p == 2.0 { self * self } else { crate::math::$float::powf(self, p) }
+                crate::math::$float::branching::powf(self, p)
             }
 
             #[inline]
             fn phi(self, order: u8) -> Self {
-                crate::math::$float::phi(order, self)
+                crate::math::$float::branching::phi(order, self)
+            }
+
+            #[inline]
+            fn exp(self) -> Self {
+                crate::math::$float::branching::exp(self)
+            }
+
+            #[inline]
+            fn expm1(self) -> Self {
+                crate::math::$float::branching::expm1(self)
             }
 
             #[inline]
@@ -281,5 +290,5 @@ macro_rules! primitive {
     };
 }
 
-primitive!(f64: exp, expm1, ln, sqrt, cbrt, sin, cos, tanh, atan);
-primitive!(f32: exp, expm1, ln, sqrt, cbrt, sin, cos, tanh, atan);
+primitive!(f64: ln, sqrt, cbrt, sin, cos, tanh, atan);
+primitive!(f32: ln, sqrt, cbrt, sin, cos, tanh, atan);
