@@ -5,6 +5,7 @@
     python3 develop.py test     build, then run all Rust and Python tests
     python3 develop.py check    formatters, linters and type checks
     python3 develop.py slow     the long tests as well
+    python3 develop.py embedded steps counted and compared on emulated microcontrollers
     python3 develop.py setup    only build and install
 
 Needs git, CPython >= 3.10 and stable Rust, nothing else: everything below is standard library.
@@ -107,7 +108,18 @@ def check() -> None:
     run(PYTHON, "-m", "mypy.stubtest", "stribeck._core", "--ignore-disjoint-bases")
 
 
-TASKS = {"setup": lambda: None, "demo": demo, "test": test, "slow": slow, "check": check}
+def embedded() -> None:
+    run(sys.executable, "tests/embedded/run.py", *sys.argv[2:])
+
+
+TASKS = {
+    "setup": lambda: None,
+    "demo": demo,
+    "test": test,
+    "slow": slow,
+    "check": check,
+    "embedded": embedded,
+}
 
 
 def main() -> None:

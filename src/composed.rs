@@ -39,9 +39,10 @@ impl Spec {
         let law = catalog::law(id).ok_or(unknown)?;
         let mut constants = Constants::default();
         if let Some(count) = elements {
-            let count = count.parse().map_err(|_| unknown)?;
+            // A whole number: reading a float would link code that can panic.
+            let count: u8 = count.parse().map_err(|_| unknown)?;
             if !law.info().constants.contains(&"elements")
-                || constants.set("elements", count) != Some(true)
+                || constants.set("elements", count.into()) != Some(true)
             {
                 return Err(unknown);
             }

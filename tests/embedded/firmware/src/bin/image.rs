@@ -13,8 +13,15 @@ global_asm!(include_str!("../reset.s"));
 
 /// Steps whose instructions are counted.
 const COUNTED: u32 = 10_000;
-/// Steps that are hashed.
-const HASHED: u32 = 1_000;
+/// Steps whose stack is looked at.
+const PROBED: u32 = 1000;
+/// Steps that are hashed: fewer where arithmetic takes long.
+const HASHED: u32 = match u32::from_str_radix(env!("HASHED_STEPS"), 10) {
+    Ok(count) => count,
+    Err(_) => panic!("HASHED_STEPS is a whole number"),
+};
+/// Instructions of the calibration: as many as fit between code and constants of a Cortex-M0.
+const CALIBRATION: u32 = 250;
 
 /// Counts down with the instructions, as the emulator is asked to.
 const SYSTICK: [*mut u32; 3] =
@@ -29,22 +36,16 @@ extern "C" fn run() -> ! {
         ptr::write_volatile(SYSTICK[2], 0);
         ptr::write_volatile(SYSTICK[0], 5);
     }
+    report("ticks", "calibration", [CALIBRATION.into(), calibration().into()]);
     let Some(mut joints) = Joints::new() else { exit() };
-    report("calibration", [u64::from(thousand_instructions())]);
-    let empty = count(&mut joints, nothing);
-    report("empty", empty);
-    for (name, step) in STEPS {
-        report(name, count(&mut joints, *step));
-    }
-    report("stack empty", [stack(&mut joints, nothing)]);
-    for (name, step) in STEPS {
-        write("stack ");
-        report(name, [stack(&mut joints, *step)]);
+    for (name, step) in [("nothing", nothing as Step)].iter().chain(STEPS) {
+        let [sum, largest] = count(&mut joints, *step);
+        report("ticks", name, [COUNTED.into(), sum, largest]);
+        report("stack", name, [stack(&mut joints, *step)]);
     }
     let Some(mut joints) = Joints::new() else { exit() };
     for (name, step) in STEPS {
-        write("hash ");
-        report(name, [hash(&mut joints, *step, HASHED)]);
+        report("hash", name, [hash(&mut joints, *step, HASHED)]);
     }
     exit()
 }
@@ -80,12 +81,12 @@ fn ticks() -> u32 {
     unsafe { ptr::read_volatile(SYSTICK[2]) }
 }
 
-/// Ticks of a thousand instructions.
+/// Ticks of so many instructions.
 #[inline(never)]
-fn thousand_instructions() -> u32 {
+fn calibration() -> u32 {
     let before = ticks();
-    // SAFETY: does nothing, a thousand times.
-    unsafe { asm!(".rept 1000", "nop", ".endr") };
+    // SAFETY: does nothing.
+    unsafe { asm!(".rept {count}", "nop", ".endr", count = const CALIBRATION) };
     before.wrapping_sub(ticks()) & LARGEST
 }
 
@@ -97,7 +98,7 @@ fn stack(joints: &mut Joints, step: Step) -> u64 {
     let step = black_box(step);
     let mut motion = Motion::new();
     let mut deepest = 0;
-    for _ in 0..1000 {
+    for _ in 0..PROBED {
         let reading = motion.next();
         let top: usize;
         // SAFETY: only what is free below the stack pointer is written; nothing interrupts.
@@ -119,7 +120,10 @@ fn stack(joints: &mut Joints, step: Step) -> u64 {
     deepest as u64
 }
 
-fn report<const N: usize>(name: &str, numbers: [u64; N]) {
+/// One row: words and hexadecimal numbers.
+fn report<const N: usize>(kind: &str, name: &str, numbers: [u64; N]) {
+    write(kind);
+    write(" ");
     write(name);
     for number in numbers {
         write(" ");

@@ -1,0 +1,32 @@
+//! The whole catalog, chosen at run time, and the motion of a joint: what the linker keeps of it.
+#![no_std]
+#![no_main]
+
+use core::arch::global_asm;
+use core::hint::black_box;
+use core::panic::PanicInfo;
+
+use stribeck::composed::Spec;
+use stribeck::dynamics::State;
+use stribeck::sample::Sample;
+
+global_asm!(include_str!("../reset.s"));
+
+#[unsafe(no_mangle)]
+extern "C" fn run() -> ! {
+    let values = black_box([0.5_f32; 40]);
+    if let Ok(spec) = Spec::new(black_box("lugre"), black_box(["load", "position"]))
+        && let Some(values) = values.get(..spec.parameter_count())
+        && let Ok(model) = spec.with(values)
+    {
+        let mut state = State::default();
+        black_box(model.step(&mut state, &black_box(Sample::at(1.0)), 1e-3));
+        black_box(model.settled(&black_box(Sample::at(1.0))));
+    }
+    loop {}
+}
+
+#[panic_handler]
+fn panicked(_: &PanicInfo) -> ! {
+    loop {}
+}

@@ -1,0 +1,169 @@
+"""Images for a microcontroller: built, looked into, run in an emulator."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import toolchain
+
+FIRMWARE = Path(__file__).resolve().parent / "firmware"
+# What a program that cannot panic, does not allocate and computes with its own functions has not.
+FORBIDDEN = re.compile(
+    r"panic|slice_index|unwrap|alloc|^(exp|expm1|log|log2|pow|tanh|atan|sin|cos|fma)f?$"
+)
+FUSED = re.compile(r"\tvfn?m[as]")
+INSTRUCTION = re.compile(r"^ *([0-9a-f]+):\t(\S+)(.*)")
+BRANCH = re.compile(r"\t([0-9a-f]+) <")
+
+
+@dataclass(frozen=True)
+class Board:
+    """A processor, how to build for it and the machine that QEMU emulates."""
+
+    name: str
+    target: str
+    machine: str
+    number: str
+    hashed: int
+    flags: str = ""
+
+
+BOARDS = (
+    Board("Cortex-M0", "thumbv6m-none-eabi", "microbit", "f32", 20_000),
+    Board("Cortex-M4", "thumbv7em-none-eabi", "mps2-an386", "f32", 20_000),
+    Board("Cortex-M4F", "thumbv7em-none-eabihf", "mps2-an386", "f32", 1_000_000),
+    Board(
+        "Cortex-M7",
+        "thumbv7em-none-eabihf",
+        "mps2-an500",
+        "f64",
+        1_000_000,
+        "-Ctarget-cpu=cortex-m7",
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What an image says of one law."""
+
+    mean: float
+    largest: float
+    stack: int
+    hash: str
+
+
+def build(board: Board, binary: str) -> Path:
+    """Build one of the firmware's images."""
+    root = toolchain.sysroot(board.target)
+    folder = toolchain.BUILD / board.name
+    features = "image,double" if board.number == "f64" else "image"
+    subprocess.run(
+        ["cargo", "build", "--quiet", "--locked", "--release", f"--target={board.target}"]
+        + [f"--bin={binary}", f"--features={features}"],
+        cwd=FIRMWARE,
+        env={
+            **os.environ,
+            "CARGO_TARGET_DIR": str(folder),
+            "RUSTC": str(toolchain.RUSTC),
+            "RUSTFLAGS": f"--sysroot={root} -Clinker=arm-none-eabi-ld -Clinker-flavor=ld "
+            f"-Clink-arg=-T{FIRMWARE / 'link.ld'} {board.flags}",
+            "HASHED_STEPS": str(board.hashed),
+        },
+        check=True,
+    )
+    return folder / board.target / "release" / binary
+
+
+def forbidden(image: Path) -> list[str]:
+    """Symbols and instructions that must not be in an image."""
+    symbols = subprocess.check_output(["arm-none-eabi-nm", "--demangle", image], text=True)
+    names = [line.split(maxsplit=2)[-1] for line in symbols.splitlines()]
+    fused = [line.strip() for line in _disassembled(image) if FUSED.search(line)]
+    return [name for name in names if FORBIDDEN.search(name)] + fused
+
+
+def sizes(image: Path, laws: list[str]) -> dict[str, int]:
+    """Bytes of code and constants of each step, with all that it calls."""
+    symbols = subprocess.check_output(["arm-none-eabi-nm", "--print-size", image], text=True)
+    size_at, address_of = {}, {}
+    for words in map(str.split, symbols.splitlines()):
+        if len(words) == 4 and words[2] in "tTwW":
+            address = int(words[0], 16) & ~1
+            size_at[address] = int(words[1], 16)
+            address_of[words[3]] = address
+    calls: dict[int, set[int]] = {address: set() for address in size_at}
+    within = 0
+    for line in _disassembled(image):
+        found = INSTRUCTION.match(line)
+        if found is None:
+            continue
+        address = int(found[1], 16)
+        within = address if address in size_at else within
+        to = BRANCH.search(found[3])
+        if found[2].startswith("b") and to is not None and int(to[1], 16) in size_at:
+            calls.setdefault(within, set()).add(int(to[1], 16))
+    return {law: sum(size_at[at] for at in _reached(address_of[law], calls)) for law in laws}
+
+
+def _reached(start: int, calls: dict[int, set[int]]) -> set[int]:
+    reached: set[int] = set()
+    waiting = [start]
+    while waiting:
+        address = waiting.pop()
+        if address not in reached:
+            reached.add(address)
+            waiting.extend(calls[address])
+    return reached
+
+
+def _disassembled(image: Path) -> list[str]:
+    command = ["arm-none-eabi-objdump", "--disassemble", "--no-show-raw-insn", image]
+    return subprocess.check_output(command, text=True).splitlines()
+
+
+def run(board: Board, image: Path) -> dict[str, Answers]:
+    """Run an image; what it says of each law. Instructions, not cycles: the emulator counts them."""
+    said = subprocess.check_output(
+        ["qemu-system-arm", "-M", board.machine, "-nographic", "-monitor", "none"]
+        + ["-serial", "none", "-chardev", "stdio,id=said", "-semihosting-config"]
+        + ["enable=on,target=native,chardev=said", "-icount", "shift=6", "-kernel", image],
+        text=True,
+        stdin=subprocess.DEVNULL,
+        timeout=240,
+    )
+    rows = {(kind, name): numbers for kind, name, *numbers in map(str.split, said.splitlines())}
+
+    def ticks(kind: str, name: str) -> list[int]:
+        return [int(number, 16) for number in rows[kind, name]]
+
+    instructions, calibration = ticks("ticks", "calibration")
+    tick = instructions / calibration
+    steps, empty, _ = ticks("ticks", "nothing")
+    answers = {}
+    for kind, name in rows:
+        if kind == "hash":
+            _, total, largest = ticks("ticks", name)
+            stack = ticks("stack", name)[0] - ticks("stack", "nothing")[0]
+            answers[name] = Answers(
+                mean=(total - empty) / steps * tick,
+                largest=(largest - empty / steps) * tick,
+                stack=stack,
+                hash=rows[kind, name][0],
+            )
+    return answers
+
+
+def on_the_host(number: str, steps: int) -> dict[str, str]:
+    """The hashes that the host finds."""
+    command = ["cargo", "run", "--quiet", "--locked", "--release", "--bin=stribeck-firmware"]
+    command += ["--features=double"] if number == "f64" else []
+    environment = {**os.environ, "CARGO_TARGET_DIR": str(toolchain.BUILD / "host")}
+    said = subprocess.check_output(
+        [*command, "--", str(steps)], cwd=FIRMWARE, env=environment, text=True
+    )
+    return dict(line.split() for line in said.splitlines())
