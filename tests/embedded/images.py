@@ -63,8 +63,10 @@ def build(board: Board, binary: str) -> Path:
     folder = toolchain.BUILD / board.name
     features = "image,double" if board.number == "f64" else "image"
     subprocess.run(
-        ["cargo", "build", "--quiet", "--locked", "--release", f"--target={board.target}"]
-        + [f"--bin={binary}", f"--features={features}"],
+        [
+            *("cargo", "build", "--quiet", "--locked", "--release", f"--target={board.target}"),
+            *(f"--bin={binary}", f"--features={features}"),
+        ],
         cwd=FIRMWARE,
         env={
             **os.environ,
@@ -127,11 +129,13 @@ def _disassembled(image: Path) -> list[str]:
 
 
 def run(board: Board, image: Path) -> dict[str, Answers]:
-    """Run an image; what it says of each law. Instructions, not cycles: the emulator counts them."""
+    """Run an image: what it says of each law. The emulator counts instructions, not cycles."""
     said = subprocess.check_output(
-        ["qemu-system-arm", "-M", board.machine, "-nographic", "-monitor", "none"]
-        + ["-serial", "none", "-chardev", "stdio,id=said", "-semihosting-config"]
-        + ["enable=on,target=native,chardev=said", "-icount", "shift=6", "-kernel", image],
+        [
+            *("qemu-system-arm", "-M", board.machine, "-nographic", "-monitor", "none"),
+            *("-serial", "none", "-chardev", "stdio,id=said", "-semihosting-config"),
+            *("enable=on,target=native,chardev=said", "-icount", "shift=6", "-kernel", image),
+        ],
         text=True,
         stdin=subprocess.DEVNULL,
         timeout=240,

@@ -1,4 +1,4 @@
-"""What builds and runs for a microcontroller: Debian's packages, and Rust's core for its targets."""
+"""What builds and runs for a microcontroller: Debian's packages, Rust's core for each target."""
 
 from __future__ import annotations
 
@@ -94,8 +94,10 @@ def sysroot(target: str) -> Path:
     )
     for name, source, flags in crates:
         subprocess.run(
-            [RUSTC, LIBRARY / source, f"--crate-name={name}", f"--target={target}"]
-            + [f"--sysroot={root}", f"--out-dir={libraries}", *FLAGS, *flags],
+            [
+                *(RUSTC, LIBRARY / source, f"--crate-name={name}", f"--target={target}"),
+                *(f"--sysroot={root}", f"--out-dir={libraries}", *FLAGS, *flags),
+            ],
             env={**os.environ, **BUILTINS_ENVIRONMENT, "RUSTC_BOOTSTRAP": "1"},
             check=True,
         )
