@@ -13,6 +13,7 @@
 //! | [`law`], [`effect`] | one file each: table and formula |
 //! | [`catalog`] | the list of laws and effects |
 //! | [`composed`], [`error`] | a law with its effects |
+//! | [`fixed`], [`feedforward`] | a law chosen when the program is built; friction in a controller |
 //! | [`joint`] | friction coupled to an inertia: joints in motion |
 //! | `graph` (feature `std`) | what a law computes, written down, differentiated and vectorised |
 //! | `batch` (feature `std`) | whole recordings: torque, gradient, delay |
@@ -50,6 +51,7 @@ pub mod effect;
 pub mod error;
 #[cfg(feature = "std")]
 pub mod export;
+pub mod feedforward;
 pub mod fixed;
 pub mod formula;
 #[cfg(feature = "std")]

@@ -29,11 +29,12 @@ class Board:
     machine: str
     number: str
     hashed: int
+    memory: int = 0x10000
     flags: str = ""
 
 
 BOARDS = (
-    Board("Cortex-M0", "thumbv6m-none-eabi", "microbit", "f32", 20_000),
+    Board("Cortex-M0", "thumbv6m-none-eabi", "microbit", "f32", 20_000, 0x4000),
     Board("Cortex-M4", "thumbv7em-none-eabi", "mps2-an386", "f32", 20_000),
     Board("Cortex-M4F", "thumbv7em-none-eabihf", "mps2-an386", "f32", 1_000_000),
     Board(
@@ -42,7 +43,7 @@ BOARDS = (
         "mps2-an500",
         "f64",
         1_000_000,
-        "-Ctarget-cpu=cortex-m7",
+        flags="-Ctarget-cpu=cortex-m7",
     ),
 )
 
@@ -73,6 +74,7 @@ def build(board: Board, binary: str) -> Path:
             "CARGO_TARGET_DIR": str(folder),
             "RUSTC": str(toolchain.RUSTC),
             "RUSTFLAGS": f"--sysroot={root} -Clinker=arm-none-eabi-ld -Clinker-flavor=ld "
+            f"-Clink-arg=--defsym=memory_size={board.memory} "
             f"-Clink-arg=-T{FIRMWARE / 'link.ld'} {board.flags}",
             "HASHED_STEPS": str(board.hashed),
         },

@@ -1,0 +1,186 @@
+//! Friction feedforward in a controller: what to add to the motor torque, whatever the sensors say.
+//!
+//! | what comes | what is given | the state |
+//! |---|---|---|
+//! | a reading | the law's torque at the end of the step, within the limit | goes on |
+//! | the first reading, or the first after a stop | as if its velocity had been held for long | begins anew |
+//! | no reading, NaN, an infinity, a speed that cannot be | the last torque, so many times | stays as it is |
+//! | the same, more often | 0 | forgotten |
+//!
+//! Each call takes the same time but for the first after a stop, which takes one step more. The
+//! state only ever sees finite numbers; that of a bristle is within the largest `D/s0`.
+
+use crate::composed::Composed;
+use crate::dynamics::{Interval, State};
+use crate::error::ModelError;
+use crate::fixed::FixedLaw;
+use crate::law::FrictionLaw;
+use crate::sample::Sample;
+use crate::scalar::Scalar;
+use crate::table::Channel;
+
+/// After so long (s) every state has settled.
+const LONG: f64 = 1e9;
+
+/// Friction with its parameters, stepped from sample to sample.
+pub trait Friction<S: Scalar> {
+    /// The torque (T) at the end of a step of `dt` (s) over which `sample` is held.
+    fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S;
+}
+
+impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> Friction<S> for FixedLaw<L, S> {
+    #[inline]
+    fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
+        FixedLaw::torque(self, state, sample, dt)
+    }
+}
+
+impl<S: Scalar<Plain = S>> Friction<S> for Composed<S> {
+    #[inline]
+    fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
+        let interval = Interval { sample: *sample, mean_velocity: None, dt, mean: false };
+        self.over(state, &interval).torque
+    }
+}
+
+/// What a controller allows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits<S> {
+    /// Largest torque that is given (T).
+    pub torque: S,
+    /// Largest speed that a joint can have (X/s): a reading beyond it is not believed.
+    pub speed: S,
+    /// For how many samples in a row without a reading the last torque is given.
+    pub held: u32,
+}
+
+/// Where a torque comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// From the law.
+    Law,
+    /// From the law, which gives more than is allowed.
+    Limit,
+    /// From the last reading that could be used.
+    Last,
+    /// From nowhere: there is nothing to go by.
+    None,
+}
+
+/// What to add to the motor torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Feed<S> {
+    /// The torque (T).
+    pub torque: S,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// Friction of one joint, sampled with a fixed period.
+///
+/// ```
+/// use stribeck::feedforward::{Feedforward, Limits, Source};
+/// use stribeck::fixed::FixedLaw;
+/// use stribeck::law::Coulomb;
+/// use stribeck::sample::Sample;
+///
+/// let law = FixedLaw::new(Coulomb { viscous_friction: 0.5_f32, coulomb_friction: 2.0 });
+/// let limits = Limits { torque: 10.0, speed: 6.0, held: 1 };
+/// let mut friction = Feedforward::new(law, 2.5e-4, limits)?;
+/// assert_eq!(friction.next(Some(&Sample::at(1.0))).torque, 2.5);
+/// assert_eq!(friction.next(Some(&Sample::at(f32::NAN))).torque, 2.5);
+/// assert_eq!(friction.next(None).source, Source::None);
+/// # Ok::<(), stribeck::error::ModelError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Feedforward<F, S: Scalar> {
+    friction: F,
+    period: S,
+    limits: Limits<S>,
+    state: State<S>,
+    last: Option<S>,
+    missed: u32,
+}
+
+impl<S: Scalar<Plain = S> + PartialOrd, F: Friction<S>> Feedforward<F, S> {
+    /// Friction of a joint of which nothing has been read yet; `period` in s.
+    ///
+    /// # Errors
+    /// A period or limit that is not a positive number.
+    pub fn new(friction: F, period: S, limits: Limits<S>) -> Result<Self, ModelError<'static>> {
+        for (name, x) in
+            [("period", period), ("torque limit", limits.torque), ("speed limit", limits.speed)]
+        {
+            if !(x.is_finite() && x > S::zero()) {
+                return Err(ModelError::Constant(name, x.value()));
+            }
+        }
+        Ok(Self { friction, period, limits, state: State::default(), last: None, missed: 0 })
+    }
+
+    /// The torque to add until the next sample; `None` where there is no reading. All channels of
+    /// a reading have to be finite: leave those that the law does not read at 0.
+    #[inline]
+    pub fn next(&mut self, reading: Option<&Sample<S>>) -> Feed<S> {
+        match reading {
+            Some(sample) if self.can_be(sample) => self.follow(sample),
+            _ => self.bridge(),
+        }
+    }
+
+    /// Its state.
+    #[must_use]
+    pub const fn state(&self) -> &State<S> {
+        &self.state
+    }
+
+    #[inline]
+    fn can_be(&self, sample: &Sample<S>) -> bool {
+        let finite = Channel::ALL.iter().all(|&channel| sample.channel(channel).is_finite());
+        finite && sample.velocity.abs() <= self.limits.speed
+    }
+
+    #[inline]
+    fn follow(&mut self, sample: &Sample<S>) -> Feed<S> {
+        if self.last.is_none() {
+            self.begin(sample);
+        }
+        let torque = self.friction.torque(&mut self.state, sample, self.period);
+        if !torque.is_finite() {
+            return self.stop();
+        }
+        let limit = self.limits.torque;
+        let (torque, source) = if torque.abs() > limit {
+            (torque.sign() * limit, Source::Limit)
+        } else {
+            (torque, Source::Law)
+        };
+        (self.last, self.missed) = (Some(torque), 0);
+        Feed { torque, source }
+    }
+
+    /// The state of a joint that has had this velocity for long; at rest one without tension.
+    #[cold]
+    #[inline(never)]
+    fn begin(&mut self, sample: &Sample<S>) {
+        self.state = State::default();
+        self.friction.torque(&mut self.state, sample, S::from_f64(LONG));
+    }
+
+    #[cold]
+    fn bridge(&mut self) -> Feed<S> {
+        match self.last {
+            Some(torque) if self.missed < self.limits.held => {
+                self.missed += 1;
+                Feed { torque, source: Source::Last }
+            }
+            _ => self.stop(),
+        }
+    }
+
+    #[cold]
+    fn stop(&mut self) -> Feed<S> {
+        (self.state, self.last, self.missed) = (State::default(), None, 0);
+        Feed { torque: S::zero(), source: Source::None }
+    }
+}
