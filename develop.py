@@ -89,6 +89,7 @@ def demo() -> None:
 
 def test() -> None:
     run("cargo", "test", "--quiet", "--locked")
+    run("cargo", "test", "--quiet", "--locked", "--package", "stribeck-c")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
     run(PYTHON, "-m", "pytest", "-q", "--doctest-modules", "python/stribeck")
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow", *sys.argv[2:])
@@ -99,9 +100,9 @@ def slow() -> None:
 
 
 def check() -> None:
-    run("cargo", "fmt", "--check")
-    run("cargo", "clippy", "--quiet", "--locked", "--all-targets", "--all-features", "--",
-        "-D", "warnings")  # fmt: skip
+    run("cargo", "fmt", "--all", "--check")
+    run("cargo", "clippy", "--quiet", "--locked", "--workspace", "--all-targets",
+        "--all-features", "--", "-D", "warnings")  # fmt: skip
     run(PYTHON, "-m", "ruff", "check", ".")
     run(PYTHON, "-m", "ruff", "format", "--check", ".")
     run(PYTHON, "-m", "mypy")
