@@ -109,8 +109,8 @@ fn whatever_is_read_the_state_stays_bounded() {
         seed ^= seed >> 7;
         seed ^= seed << 17;
         let any = f64::from_bits(seed);
-        let velocity = if seed % 3 == 0 { any } else { (seed as f64 / 1e19 - 0.9) * 7.0 };
-        let feed = joint.next((seed % 11 != 0).then(|| Sample::at(velocity)).as_ref());
+        let velocity = if seed.is_multiple_of(3) { any } else { (seed as f64 / 1e19 - 0.9) * 7.0 };
+        let feed = joint.next((!seed.is_multiple_of(11)).then(|| Sample::at(velocity)).as_ref());
         assert!(feed.torque.abs() <= LIMITS.torque);
         assert!(joint.state().bristle.z.abs() <= FARTHEST * (1.0 + 1e-12));
     }
