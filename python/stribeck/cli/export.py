@@ -23,8 +23,8 @@ from stribeck.passivity.operating_box import parse_sides
 @click.argument("folder", metavar="DIR", type=click.Path(file_okay=False))
 @click.option("--name", default=None, help="What files, types and functions begin with.")
 @click.option(
-    "--precision", default="f64", show_default=True, metavar="f64|f32",
-    help="Format of all numbers.",
+    "--precision", default="f64", show_default=True, metavar="f64|f32|q31|q15",
+    help="Format of all numbers; q31 and q15 are fixed point.",
 )  # fmt: skip
 @click.option("--libm", is_flag=True, help="In C, use math.h in place of own functions.")
 @click.option(

@@ -13,6 +13,7 @@ from stribeck.export.about import About
 from stribeck.export.c import Precision, c_files
 from stribeck.export.c.files import identifier
 from stribeck.export.document import json_files
+from stribeck.export.fixed import FIXED, FixedPrecision, analyse, fixed_files
 from stribeck.export.program import Program
 from stribeck.export.rust import rust_files
 from stribeck.export.vectors import vectors
@@ -40,7 +41,7 @@ class Export:
 
     model: Model
     language: Language
-    precision: Precision
+    precision: Precision | FixedPrecision
     passive: bool | None
     files: tuple[Path, ...]
 
@@ -86,8 +87,9 @@ def export(
         Where to; it is made if it does not exist. Files of the same names are replaced.
     name
         What files, types and functions begin with. [default: the model's spec]
-    precision : {"f64", "f32"}
-        Format of all numbers.
+    precision : {"f64", "f32", "q31", "q15"}
+        Format of all numbers. In fixed point, of laws and effects without a memory, the header
+        states how far the torque may be off over the operating box.
     libm
         In C, use the platform's ``math.h``: smaller, but the bits are the platform's.
     box : dict of (low, high)
@@ -117,21 +119,15 @@ def export(
     (['coulomb.h', 'coulomb.c', 'coulomb_vectors.h', 'coulomb_test.c'], True)
     """
     language: Language = _choice("to", to, get_args(Language))
-    form: Precision = _choice("precision", precision, get_args(Precision))
+    form: Precision | FixedPrecision = _choice(
+        "precision", precision, (*get_args(Precision), *FIXED)
+    )
     asked = model if isinstance(model, Model) else model.model
     asked._known_values()
     friction = asked.friction
     about = About.of(friction, _provenance(model), box or {})
-    program = Program.of(friction, "single" if form == "f32" else "double")
-    rows = vectors(friction, program, box or {}, form, seed=seed)
     called = identifier(name or friction.spec)
-    match language:
-        case "c":
-            texts = c_files(about, program, rows, name=called, precision=form, libm=libm)
-        case "rust":
-            texts = rust_files(about, program, rows, name=called, precision=form)
-        case "json":
-            texts = json_files(about, program, name=called, precision=form)
+    texts = _texts(about, language, form, called, libm, box or {}, seed)
     certificate = about.certificate
     return Export(
         model=friction,
@@ -140,6 +136,31 @@ def export(
         passive=None if certificate is None else certificate.passive,
         files=_write(texts, Path(folder)),
     )
+
+
+def _texts(
+    about: About,
+    language: Language,
+    form: Precision | FixedPrecision,
+    name: str,
+    libm: bool,
+    box: Mapping[str, tuple[float, float]],
+    seed: int,
+) -> Mapping[str, str]:
+    if form == "q31" or form == "q15":
+        if language != "c":
+            raise SpecError(f"{form} is for C alone: give --to c, or --precision f32")
+        analysis = analyse(about, Program.of(about.model), box, form)
+        return fixed_files(about, analysis, name=name, precision=form, seed=seed)
+    program = Program.of(about.model, "single" if form == "f32" else "double")
+    rows = vectors(about.model, program, box, form, seed=seed)
+    match language:
+        case "c":
+            return c_files(about, program, rows, name=name, precision=form, libm=libm)
+        case "rust":
+            return rust_files(about, program, rows, name=name, precision=form)
+        case "json":
+            return json_files(about, program, name=name, precision=form)
 
 
 def _provenance(model: Model | ModelFile | Fit) -> Mapping[str, Any]:

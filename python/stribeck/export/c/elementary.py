@@ -172,6 +172,4 @@ def polynomial(name: str, coefficients: Sequence[float], form: Format) -> str:
         power = square
     arguments = f"{form.real} first, {form.real} {variable}" if first else f"{form.real} {variable}"
     value = joined[0].removeprefix("(").removesuffix(")")
-    return (
-        f"static {form.real} {name}({arguments})\n{{\n{''.join(squares)}    return {value};\n}}"
-    )
+    return f"static {form.real} {name}({arguments})\n{{\n{''.join(squares)}    return {value};\n}}"

@@ -86,7 +86,7 @@ def c_files(
         "lit": form.literal,
         "libm": libm,
         "parameters": parameters,
-        "channels": [Member(c, _unit(model, _CHANNEL_UNITS[c])) for c in program.channels],
+        "channels": channel_members(model, program),
         "states": [Member(s.name, _unit(model, s.unit), s.what) for s in program.states],
         "torque_unit": model.torque_unit,
     }
@@ -97,7 +97,7 @@ def c_files(
         return template("c", file).render({**shared, **more})
 
     return {
-        f"{name}.h": render("model.h.j2", about=list(_wrapped(about.lines()))),
+        f"{name}.h": render("model.h.j2", about=list(wrapped(about.lines()))),
         f"{name}.c": render(
             "model.c.j2",
             elementary=_elementary(program, form, libm),
@@ -122,6 +122,11 @@ def identifier(text: str) -> str:
     word = re.sub(r"\W+", "_", text, flags=re.ASCII).strip("_") or "model"
     word = f"m_{word}" if word[0].isdigit() else word
     return f"{word}_" if word in _KEYWORDS else word
+
+
+def channel_members(model: Model, program: Program) -> list[Member]:
+    """The channels that a program reads, with their units."""
+    return [Member(c, _unit(model, _CHANNEL_UNITS[c])) for c in program.channels]
 
 
 def _parameters(model: Model) -> Iterator[Member]:
@@ -167,7 +172,7 @@ def _unused(program: Program) -> Iterator[str]:
         yield "dt"
 
 
-def _wrapped(lines: Iterator[str]) -> Iterator[str]:
+def wrapped(lines: Iterator[str]) -> Iterator[str]:
     """Lines of a comment, none of which ends it."""
     for line in lines:
         yield from textwrap.wrap(line.replace("*/", "* /"), 96, subsequent_indent="    ") or [""]
