@@ -6,6 +6,7 @@
     python3 develop.py check    formatters, linters and type checks
     python3 develop.py slow     the long tests as well
     python3 develop.py embedded steps counted and compared on emulated microcontrollers
+    python3 develop.py peers    times beside numpy, numba and SciPy
     python3 develop.py setup    only build and install
 
 Needs git, CPython >= 3.10 and stable Rust, nothing else: everything below is standard library.
@@ -25,6 +26,7 @@ VENV = ROOT / ".venv"
 BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 PYTHON = BIN / ("python.exe" if os.name == "nt" else "python")
 STAMP = VENV / "installed-for"
+PEERS = ROOT / "target" / "peers"
 
 
 def stop(sentence: str) -> None:
@@ -113,6 +115,17 @@ def embedded() -> None:
     run(sys.executable, "tests/embedded/run.py", *sys.argv[2:])
 
 
+def peers() -> None:
+    """Times beside those of other packages, which are installed apart, in one thread."""
+    folder = ROOT / "benches" / "peers"
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--upgrade", "--target", PEERS,
+        "-r", folder / "requirements.txt")  # fmt: skip
+    for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "POLARS_MAX_THREADS"):
+        os.environ[threads] = "1"
+    os.environ["PYTHONPATH"] = str(PEERS)
+    run(PYTHON, folder / "ratios.py", *sys.argv[2:])
+
+
 TASKS = {
     "setup": lambda: None,
     "demo": demo,
@@ -120,6 +133,7 @@ TASKS = {
     "slow": slow,
     "check": check,
     "embedded": embedded,
+    "peers": peers,
 }
 
 

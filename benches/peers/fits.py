@@ -9,19 +9,20 @@ from scipy.optimize import minimize
 
 
 class Slsqp:
-    """Bounded least squares from random starts, scaled to the unit cube, by an analytic gradient."""
+    """Bounded least squares from random starts in the unit cube, by an analytic gradient."""
 
     def __init__(
         self,
         gradient: Callable,
         velocity: np.ndarray,
         torque: np.ndarray,
-        bounds: list[tuple[float, float]],
+        lower: np.ndarray,
+        upper: np.ndarray,
         starts: int,
     ) -> None:
         self.gradient, self.velocity, self.torque = gradient, velocity, torque
-        self.lower, self.upper = np.array(bounds).T
-        self.starts = np.random.default_rng(0).random((starts, len(bounds)))
+        self.lower, self.upper = lower, upper
+        self.starts = np.random.default_rng(0).random((starts, lower.size))
         self.errors: list[float] = []
 
     def _cost(self, unit: np.ndarray) -> tuple[float, np.ndarray]:

@@ -44,7 +44,7 @@ def bittencourt_a_gradient(velocity, parameters):
     return torque, slopes
 
 
-@numba.njit(cache=False)
+@numba.njit(error_model="numpy")
 def lugre(velocity, dt, parameters):
     """Torque of the exact step for a velocity that is held over it."""
     s0, s1, s2, coulomb, static, stribeck, exponent = parameters
@@ -62,7 +62,7 @@ def lugre(velocity, dt, parameters):
     return torque
 
 
-@numba.njit(cache=False)
+@numba.njit(error_model="numpy")
 def lugre_gradient(velocity, dt, parameters):
     """The same with its derivatives by all seven parameters, row by row."""
     s0, s1, s2, coulomb, static, stribeck, exponent = parameters

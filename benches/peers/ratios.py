@@ -8,11 +8,6 @@ thread. Peers compute the same numbers: that is checked first.
 
 from __future__ import annotations
 
-import os
-
-for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "POLARS_MAX_THREADS"):
-    os.environ[threads] = "1"
-
 from collections.abc import Callable
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -22,8 +17,8 @@ import fits
 import laws
 import numpy as np
 import polars as pl
-
 import stribeck as sb
+from stribeck.identify.scaling import bounds, model_for
 
 SAMPLES = 30_000
 STARTS = 20
@@ -110,9 +105,9 @@ def compare_fits() -> None:
         with TemporaryDirectory() as folder:
             table.write_parquet(f"{folder}/log.parquet")
             recording = sb.read(f"{folder}/log.parquet", joint_kind="revolute")
-        bounds = [(row.lower, row.upper) for row in sb.model(law).parameters]
+        lower, upper, _ = bounds(model_for(law, recording), recording)
         made = []
-        their = fits.Slsqp(gradient, velocity, torque, bounds, STARTS)
+        their = fits.Slsqp(gradient, velocity, torque, lower, upper, STARTS)
         line(
             f"{law}, {STARTS} starts, {SAMPLES} samples",
             "SciPy SLSQP, analytic gradient" + (" by numba" if law == "lugre" else ""),
@@ -122,7 +117,12 @@ def compare_fits() -> None:
             their.run,
             1,
         )
-        print(f"<!-- SciPy: {their.at_optimum()} of {STARTS} starts at its best; -->")
+        own = sb.model(law, **{name: e.value for name, e in made[-1].estimates.items()})
+        rms = float(np.sqrt(np.mean((torque - np.asarray(own.torque(velocity, dt=DT))) ** 2)))
+        print(
+            f"  {law}: RMS error {rms:.6f} here; SciPy {min(their.errors):.6f}, at which end "
+            f"{their.at_optimum()} of its {STARTS} starts"
+        )
 
 
 if __name__ == "__main__":

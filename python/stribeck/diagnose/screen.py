@@ -19,9 +19,9 @@ from stribeck.fit import Fit, own_load
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
 from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import ReducedProblem, Search
 from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.separable import CAUTIOUS, minimise
+from stribeck.identify.separable import CAUTIOUS, Search, minimise
+from stribeck.identify.space import SearchSpace
 from stribeck.model import Model
 
 Array = NDArray[np.float64]
@@ -115,8 +115,8 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     known = problem.model.values
     unknown = ~np.isfinite(known)
     start = np.where(unknown, first, np.clip(known, lower, upper))
-    reduced = ReducedProblem(problem, lower, upper)
-    nonlinear = reduced.nonlinear
+    space = SearchSpace(problem.model, lower, upper)
+    nonlinear = space.nonlinear
     # Behind a bristle a search finds the amplitudes of dry friction from anywhere.
     amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
     varied = unknown & nonlinear & ~amplitude
@@ -129,7 +129,7 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     for k in range(starts if varied.any() else 1):
         at = start.copy()
         if k > 0:
-            at[varied] = reduced.drawn(start, random)[varied]
+            at[varied] = space.drawn(start, random)[varied]
         tried.append(_steps(problem, at, lower, upper, FIRST_STEPS))
     best = min(tried, key=lambda search: search.square)
     if not nonlinear.any():

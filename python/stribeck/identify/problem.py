@@ -252,10 +252,8 @@ class Problem:
         except _core.ModelError:
             # A law of the catalog refuses values at which it means nothing.
             return None
-        columns = jacobian * slope
-        if not (np.all(np.isfinite(residual)) and np.all(np.isfinite(columns))):
-            return None
-        made = Triangle.of(columns, residual)
+        made = Triangle.of(jacobian if np.all(slope == 1.0) else jacobian * slope, residual)
+        # One number that is not finite reaches the factor.
         return made if np.isfinite(made.square) and np.all(np.isfinite(made.factor)) else None
 
     def thinned(self, most: int) -> Problem:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import ReducedProblem, Search
-from stribeck.identify.separable import CAUTIOUS, TOLERANCE, minimise, rounding
+from stribeck.identify.separable import CAUTIOUS, TOLERANCE, Search, minimise, rounding
+from stribeck.identify.space import SearchSpace
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -23,8 +23,12 @@ SPREAD = 10.0
 #: Searches without bounds take more steps, and a formula is slower than a law of the catalog: they
 #: have so many times fewer rows.
 FEWER = 4
-#: A coarse search without bounds ends when its next step foresees a smaller relative fall.
-COARSE = 1e-12
+#: A coarse search between bounds, and one without, ends when its next step foresees a smaller
+#: relative fall.
+COARSE, COARSE_WITHOUT_BOUNDS = 1e-6, 1e-12
+#: A coarse search has landed where another one ended when their sums of squares agree to `SAME` and
+#: their search coordinates to this.
+NEAR = 0.01
 #: Most steps of a search from the given start where there are no bounds.
 MOST_STEPS = 200
 
@@ -73,11 +77,11 @@ def multi_start(
 ) -> tuple[Search, int, int]:
     """The best of searches from `start` and from random ones.
 
-    Between bounds, random starts are drawn evenly (evenly in the logarithm where a bound above
-    zero allows it) and nlopt searches them. Where a nonlinear parameter has no bounds, they lie
-    within a factor of `SPREAD` of `start` and Levenberg and Marquardt's method searches them: from
-    `start` itself twice, in the logarithms of the parameters, which keep the sign, and in the
-    parameters as they are.
+    Levenberg and Marquardt's method goes on from each. Between bounds, random starts are drawn
+    evenly (evenly in the logarithm where a bound above zero allows it). Where a nonlinear parameter
+    has no bounds, they lie within a factor of `SPREAD` of `start`, and from `start` itself it goes
+    twice: in the logarithms of the parameters, which keep the sign, and in the parameters as they
+    are.
 
     Parameters
     ----------
@@ -88,8 +92,8 @@ def multi_start(
     -------
     Search, starts, evaluations
     """
-    reduced = ReducedProblem(problem, lower, upper)
-    nonlinear = reduced.nonlinear
+    space = SearchSpace(problem.model, lower, upper)
+    nonlinear = space.nonlinear
     # Behind a bristle the torque is nearly linear in the amplitudes of dry friction: a search finds
     # them from anywhere, and random ones would only spoil the start.
     amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
@@ -100,9 +104,9 @@ def multi_start(
     if not nonlinear.any() or effort.evaluations == 0:
         tried, evaluations = [Search(start, np.inf, True, "")], 0
     elif bounded:
-        tried, evaluations = _between_bounds(reduced, start, moved, starts, rng, effort)
+        tried, evaluations = _between_bounds(problem, space, start, moved, starts, rng, effort)
     else:
-        tried, evaluations = _without_bounds(reduced, start, moved, starts, rng, effort)
+        tried, evaluations = _without_bounds(problem, space, start, moved, starts, rng, effort)
     noise = rounding(problem)
     finished = []
     for search in _distinct(tried, noise)[: effort.finished]:
@@ -120,37 +124,52 @@ def _coarse(problem: Problem, effort: Effort) -> Problem:
 
 
 def _between_bounds(
-    reduced: ReducedProblem,
+    problem: Problem,
+    space: SearchSpace,
     start: Array,
     moved: Mask,
     starts: int,
     rng: np.random.Generator,
     effort: Effort,
 ) -> tuple[list[Search], int]:
-    """Coarse searches by nlopt, best first, and their evaluations."""
-    coarse = ReducedProblem(_coarse(reduced.problem, effort), reduced.lower, reduced.upper)
-    tried = []
+    """Coarse searches, best first, and their evaluations."""
+    coarse = _coarse(problem, effort)
+    evaluations = 0
+    tried: list[Search] = []
+    ends: list[tuple[Array, float]] = []
+
+    def landed(values: Array, square: float) -> bool:
+        like = [at for at, end in ends if abs(square - end) <= SAME * end]
+        return any(np.all(np.abs(space.encode(values) - at) <= NEAR) for at in like)
+
     for k in range(starts):
         at = start.copy()
         if k > 0:
-            at[moved] = reduced.drawn(start, rng)[moved]
-        tried.append(coarse.search(at, effort.evaluations, 1e-7))
-    return sorted(tried, key=lambda search: search.square), coarse.evaluations
+            at[moved] = space.drawn(start, rng)[moved]
+        found, count = minimise(
+            coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
+            tolerance=COARSE, landed=landed,
+        )  # fmt: skip
+        evaluations += count
+        tried.append(found)
+        ends.append((space.encode(found.values), found.square))
+    return sorted(tried, key=lambda search: search.square), evaluations
 
 
 def _without_bounds(
-    reduced: ReducedProblem,
+    problem: Problem,
+    space: SearchSpace,
     start: Array,
     moved: Mask,
     starts: int,
     rng: np.random.Generator,
     effort: Effort,
 ) -> tuple[list[Search], int]:
-    """Coarse searches by Levenberg and Marquardt's method in order, and their evaluations."""
-    lower, upper = reduced.lower, reduced.upper
+    """Coarse searches in order, and their evaluations."""
+    lower, upper = space.lower, space.upper
     fewer = replace(effort, rows=effort.rows // FEWER, samples=effort.samples // FEWER)
-    coarse = _coarse(reduced.problem, fewer)
-    signed = reduced.nonlinear & (start != 0.0)
+    coarse = _coarse(problem, fewer)
+    signed = space.nonlinear & (start != 0.0)
     evaluations = 0
     tried = []
 
@@ -158,7 +177,7 @@ def _without_bounds(
         nonlocal evaluations
         found, count = minimise(
             coarse, at, lower, upper, most=most, damping=CAUTIOUS, logarithmic=logarithmic,
-            tolerance=COARSE,
+            tolerance=COARSE_WITHOUT_BOUNDS,
         )  # fmt: skip
         tried.append(found)
         evaluations += count

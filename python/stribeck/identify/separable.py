@@ -8,13 +8,13 @@ before and after, is therefore the error that the linear parameters leave. Dampi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.reduced import Search
 from stribeck.identify.triangle import Triangle
 from stribeck.model import Model
 
@@ -54,6 +54,16 @@ class LeastSquares(Protocol):
         wanted, slope : arrays [k]
             The parameters to differentiate by, and by what their columns are multiplied.
         """
+
+
+@dataclass
+class Search:
+    """Where one search ended."""
+
+    values: Array
+    square: float
+    converged: bool
+    outcome: str
 
 
 @dataclass(frozen=True)
@@ -159,6 +169,7 @@ def minimise(
     most: int = MOST_ROUNDS,
     damping: float = 0.0,
     logarithmic: NDArray[np.bool_] | None = None,
+    landed: Callable[[Array, float], bool] | None = None,
 ) -> tuple[Search, int]:
     """Bring the sum of squares down from `values` to the minimum they lead to.
 
@@ -172,6 +183,10 @@ def minimise(
         Most steps, those that are taken back included.
     damping : float
         First damping: 0 from a point near the minimum, `CAUTIOUS` from anywhere else.
+    logarithmic : bool array [p]
+        Nonlinear parameters whose logarithm is stepped in.
+    landed : function of values [p] and their sum of squares
+        Ends the search where it says that another one has been there.
 
     Returns
     -------
@@ -184,7 +199,8 @@ def minimise(
     start = np.clip(values, lower, upper)
     with np.errstate(all="ignore"):
         # Steps that leave the range of numbers are taken back.
-        return _descend(search, start, tolerance, most, damping), search.evaluations
+        found = _descend(search, start, tolerance, most, damping, landed)
+        return found, search.evaluations
 
 
 def rounding(problem: LeastSquares) -> float:
@@ -193,7 +209,12 @@ def rounding(problem: LeastSquares) -> float:
 
 
 def _descend(
-    search: _Separable, start: Array, tolerance: float, most: int, damping: float
+    search: _Separable,
+    start: Array,
+    tolerance: float,
+    most: int,
+    damping: float,
+    landed: Callable[[Array, float], bool] | None,
 ) -> Search:
     """Damped steps from `start` until the next one would change nothing."""
     point = search.at(start)
@@ -221,6 +242,9 @@ def _descend(
             damping *= max(0.1, 1.0 - (2.0 * share - 1.0) ** 3)
             damping = 0.0 if damping < 1e-12 else damping
             growth = 2.0
+            if landed is not None and landed(point.values, point.square):
+                outcome = "converged (where another search did)"
+                break
         else:
             damping = max(damping, LEAST_RETREAT) * growth
             growth *= 2.0

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from stribeck import _core
 from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import Search
+from stribeck.identify.separable import Search
 from stribeck.identify.triangle import Triangle
 from stribeck.passivity.conditions import Conditions
 from stribeck.passivity.step import step_under

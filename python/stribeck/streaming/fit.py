@@ -13,8 +13,7 @@ from stribeck.fit import Fit, needs_own_load
 from stribeck.identify.covariance import correlation_length
 from stribeck.identify.estimates import Estimate, estimates_by_rows
 from stribeck.identify.held_out import Bounded
-from stribeck.identify.reduced import Search
-from stribeck.identify.separable import minimise
+from stribeck.identify.separable import Search, minimise
 from stribeck.identify.triangle import Triangle
 from stribeck.model import Model
 from stribeck.streaming.dataset import DataSet

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from stribeck.errors import StribeckError
 from stribeck.fit import Effort, fit
-from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import ReducedProblem
 from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.space import SearchSpace
 from stribeck.model import Model
 from stribeck.recording import Recording
 from stribeck.study.plan import Job
@@ -71,7 +70,7 @@ def start_model(law: str, recording: Recording, start: int, seed: int) -> Model:
     """
     model = model_for(law, recording)
     lower, upper, first = bounds(model, recording)
-    search = ReducedProblem(Problem(recording, model, np.empty(0, dtype=np.intp)), lower, upper)
+    search = SearchSpace(model, lower, upper)
     values = np.full(len(model.names), np.nan)
     values[search.nonlinear] = first[search.nonlinear]
     if start > 0:

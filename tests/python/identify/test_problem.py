@@ -9,8 +9,8 @@ import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import ReducedProblem
 from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.space import SearchSpace
 from synthetic import joint, motion, record
 
 
@@ -38,37 +38,15 @@ def test_target_is_the_torque_as_recorded(recording: sb.Recording) -> None:
     np.testing.assert_allclose(residual, expected[recording.moving], rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("spec", ["coulomb+stribeck+load", "coulomb+stribeck+presliding"])
-def test_slope_of_what_linear_parameters_leave(recording: sb.Recording, spec: str) -> None:
-    """The envelope theorem: partial derivatives at the solved linear parameters are enough."""
-    p, lower, upper = problem(recording, spec)
-    reduced = ReducedProblem(p, lower, upper)
-    u = np.full(int(reduced.nonlinear.sum()), 0.55)
-
-    def square(at: np.ndarray) -> float:
-        values = np.zeros(lower.size)
-        values[reduced.nonlinear] = reduced.decode(at)
-        return reduced.square_and_slope(reduced.complete(values))[0]
-
-    values = np.zeros(lower.size)
-    values[reduced.nonlinear] = reduced.decode(u)
-    _, slope = reduced.square_and_slope(reduced.complete(values))
-    for k in range(u.size):
-        step = np.zeros_like(u)
-        step[k] = 1e-5
-        numeric = (square(u + step) - square(u - step)) / 2e-5
-        assert slope[k] == pytest.approx(numeric, rel=1e-3, abs=1e-4 * np.abs(slope).max())
-
-
 def test_search_coordinates_round_trip(recording: sb.Recording) -> None:
     p, lower, upper = problem(recording, "coulomb+stribeck+presliding+delay")
-    reduced = ReducedProblem(p, lower, upper)
-    u = np.random.default_rng(0).uniform(size=int(reduced.nonlinear.sum()))
+    space = SearchSpace(p.model, lower, upper)
+    u = np.random.default_rng(0).uniform(size=int(space.nonlinear.sum()))
     values = np.zeros(lower.size)
-    values[reduced.nonlinear] = reduced.decode(u)
-    np.testing.assert_allclose(reduced.encode(values), u, atol=1e-12)
+    values[space.nonlinear] = space.decode(u)
+    np.testing.assert_allclose(space.encode(values), u, atol=1e-12)
     for end, bound in ((np.zeros_like(u), lower), (np.ones_like(u), upper)):
-        np.testing.assert_allclose(reduced.decode(end), bound[reduced.nonlinear], rtol=1e-12)
+        np.testing.assert_allclose(space.decode(end), bound[space.nonlinear], rtol=1e-12)
 
 
 def test_fewer_rows_are_spread_and_windows_are_where_it_turns(recording: sb.Recording) -> None:
