@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import ctypes
 import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stribeck as sb
-from exported_models import compile_and_run, needs, random_model, valued
+from exported_models import FLAGS, compile_and_run, needs, random_model, valued
+from stribeck.export.program import Program
 from stribeck.model import effect_ids, law_ids
 
 PRECISIONS = ("f64", "f32")
@@ -88,3 +90,41 @@ def test_random_models_pass_two_compilers_and_a_checker(
         checks = "--enable=warning,performance,portability"
         words = [checker, "--quiet", "--std=c99", checks, "--error-exitcode=1"]
         subprocess.run([*words, str(tmp_path / "joint.c")], check=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("precision", PRECISIONS)
+@pytest.mark.parametrize("law", ["bittencourt_a", "lugre", "tadese_full", "gms"])
+def test_a_minute_at_4_khz_has_the_bits_of_python(law: str, precision: str, tmp_path: Path) -> None:
+    form = np.float32 if precision == "f32" else np.float64
+    real = "float" if precision == "f32" else "double"
+    model = valued(sb.model(law), np.random.default_rng(8))
+    sb.export(model, "c", tmp_path, precision=precision, name="joint")
+    time = np.arange(240_000) / 4000.0
+    channels = {
+        "velocity": 0.8 * np.sin(2.1 * time) * np.sin(0.13 * time),
+        "temperature": 25.0 + 0.2 * time,
+        "load_torque": 5.0 * np.cos(0.7 * time),
+    }
+    channels = {c: x.astype(form) for c, x in channels.items() if c in model.core.needs}
+    prototype = f"void run(const joint_sample *samples, {real} *torque, unsigned int count)"
+    (tmp_path / "run.c").write_text(
+        f'#include "joint.c"\n{prototype};\n{prototype}\n{{\n'
+        "    joint_state state;\n    joint_init(&state);\n"
+        "    for (unsigned int i = 0U; i < count; i++) {\n"
+        f"        torque[i] = joint_step(&joint_fitted, &state, &samples[i], ({real})0.00025);\n"
+        "    }\n}\n"
+    )
+    library = tmp_path / "run.so"
+    words = [needs("gcc"), *FLAGS, "-shared", "-fPIC", str(tmp_path / "run.c"), "-o", str(library)]
+    subprocess.run(words, check=True)
+    order = [c for c in Program.of(model).channels if c in channels]
+    samples = np.ascontiguousarray(np.stack([channels[c] for c in order], axis=1))
+    torque = np.empty(time.size, dtype=form)
+    pointers = (array.ctypes.data_as(ctypes.c_void_p) for array in (samples, torque))
+    ctypes.CDLL(str(library)).run(*pointers, ctypes.c_uint(time.size))
+    single = precision == "f32"
+    given = {c: x.astype(float) for c, x in channels.items()}
+    dt = float(form(0.00025))
+    expected = model.torque(**given, dt=dt, precision="single" if single else "double")
+    assert np.array_equal(torque.astype(float), expected)
