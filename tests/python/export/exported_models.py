@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +22,13 @@ FLAGS = (
 CREEP = "creep = creep_torque*tanh(v/creep_speed) + exp(-abs(q))*creep_bias"
 
 
+@cache
 def needs(tool: str) -> str:
-    """The path of a tool, or a skip that says what is missing."""
+    """The path of a tool, installed where that can be; else a skip that says what is missing."""
+    if shutil.which(tool) is None and shutil.which("apt-get") and os.geteuid() == 0:
+        command = ["apt-get", "install", "--yes", "--quiet", "--no-install-recommends", tool]
+        environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+        subprocess.run(command, env=environment, capture_output=True, check=False)
     path = shutil.which(tool)
     if path is None:
         pytest.skip(f"{tool} is not installed (Debian: apt-get install {tool})")
