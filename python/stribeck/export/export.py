@@ -122,6 +122,8 @@ def export(
     form: Precision | FixedPrecision = _choice(
         "precision", precision, (*get_args(Precision), *FIXED)
     )
+    if libm and (language != "c" or form in FIXED):
+        raise SpecError("libm is for C in floating point: leave it out, or give --to c")
     asked = model if isinstance(model, Model) else model.model
     asked._known_values()
     friction = asked.friction
