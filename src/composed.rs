@@ -31,10 +31,7 @@ impl Spec {
         law: &'a str,
         effects: impl IntoIterator<Item = &'a str>,
     ) -> Result<Self, ModelError<'a>> {
-        let (id, elements) = match law.split_once(':') {
-            Some((id, count)) => (id, Some(count)),
-            None => (law, None),
-        };
+        let (id, elements) = cut(law, b':');
         let unknown = ModelError::UnknownLaw(law);
         let law = catalog::law(id).ok_or(unknown)?;
         let mut constants = Constants::default();
@@ -49,6 +46,20 @@ impl Spec {
         }
         let effects = effects_of(law, effects)?;
         Ok(Self { law, own: None, effects, constants })
+    }
+
+    /// From what it displays as, `law+effect+...`.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn parse(text: &str) -> Result<Self, ModelError<'_>> {
+        let (law, mut rest) = cut(text, b'+');
+        let effects = core::iter::from_fn(|| {
+            let (effect, after) = cut(rest?, b'+');
+            rest = after;
+            Some(effect)
+        });
+        Self::new(law, effects)
     }
 
     /// A law by formula, with effects by their ids.
@@ -237,6 +248,14 @@ impl fmt::Display for Spec {
             write!(f, ":{elements}")?;
         }
         self.effects.iter().try_for_each(|effect| write!(f, "+{}", effect.info().id))
+    }
+}
+
+/// What stands before a character and what after it. Searches of `core` contain code that can panic.
+fn cut(text: &str, at: u8) -> (&str, Option<&str>) {
+    match text.bytes().position(|byte| byte == at) {
+        Some(i) => (text.get(..i).unwrap_or_default(), text.get(i + 1..)),
+        None => (text, None),
     }
 }
 

@@ -2,9 +2,11 @@
 
 mod common;
 
+use common::every_model;
 use stribeck::catalog::{EffectId, LawId};
 use stribeck::composed::Spec;
 use stribeck::dynamics::State;
+use stribeck::error::ModelError;
 use stribeck::sample::Sample;
 use stribeck::scalar::Dual;
 use stribeck::table::ParameterInfo;
@@ -159,4 +161,17 @@ fn tables_are_sound() {
         names.dedup();
         assert_eq!(names.len(), spec.parameter_count(), "{spec}");
     }
+}
+
+#[test]
+fn a_model_is_read_from_what_it_displays_as() {
+    for spec in every_model() {
+        let read = Spec::parse(&spec.to_string()).unwrap();
+        assert_eq!(read.to_string(), spec.to_string());
+    }
+    assert_eq!(Spec::parse("gms:8").unwrap().to_string(), "gms:8");
+    for unknown in ["", "+load", "gms:", "gms:0", "gms:17", "lugre:2", "colomb"] {
+        assert!(matches!(Spec::parse(unknown), Err(ModelError::UnknownLaw(_))), "{unknown}");
+    }
+    assert_eq!(Spec::parse("coulomb+").unwrap_err(), ModelError::UnknownEffect(""));
 }

@@ -126,10 +126,7 @@ pub unsafe fn build<S: Scalar<Plain = S> + PartialOrd>(
 /// The string ends in 0.
 pub unsafe fn spec(model: *const c_char) -> Result<Spec, StribeckStatus> {
     // SAFETY: as for this function.
-    let model = unsafe { text(model)? };
-    let mut ids = model.split('+');
-    let law = ids.next().unwrap_or_default();
-    Spec::new(law, ids).map_err(|error| status(&error))
+    Spec::parse(unsafe { text(model)? }).map_err(|error| status(&error))
 }
 
 /// One step, for all that may be wrong with pointers.

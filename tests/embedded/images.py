@@ -31,12 +31,21 @@ class Board:
     hashed: int
     memory: int = 0x10000
     flags: str = ""
+    # For a C compiler, where the C interface is linked too.
+    c_flags: tuple[str, ...] = ()
 
 
 BOARDS = (
     Board("Cortex-M0", "thumbv6m-none-eabi", "microbit", "f32", 20_000, 0x4000),
     Board("Cortex-M4", "thumbv7em-none-eabi", "mps2-an386", "f32", 20_000),
-    Board("Cortex-M4F", "thumbv7em-none-eabihf", "mps2-an386", "f32", 1_000_000),
+    Board(
+        "Cortex-M4F",
+        "thumbv7em-none-eabihf",
+        "mps2-an386",
+        "f32",
+        1_000_000,
+        c_flags=("-mcpu=cortex-m4", "-mthumb", "-mfpu=fpv4-sp-d16", "-mfloat-abi=hard"),
+    ),
     Board(
         "Cortex-M7",
         "thumbv7em-none-eabihf",
@@ -60,18 +69,49 @@ class Answers:
 
 def build(board: Board, binary: str) -> Path:
     """Build one of the firmware's images."""
-    root = toolchain.sysroot(board.target)
-    folder = toolchain.BUILD / board.name
     features = "image,double" if board.number == "f64" else "image"
+    _cargo(board, "build", f"--bin={binary}", f"--features={features}", folder=FIRMWARE)
+    return toolchain.BUILD / board.name / board.target / "release" / binary
+
+
+def build_interface(board: Board) -> Path:
+    """Link a program in C with the C interface's static library."""
+    interface = toolchain.ROOT / "c"
+    _cargo(
+        board,
+        *("rustc", "--package=stribeck-c", "--no-default-features", "--crate-type=staticlib"),
+        folder=interface,
+    )
+    release = toolchain.BUILD / board.name / board.target / "release"
+    program = release / "interface"
     subprocess.run(
         [
-            *("cargo", "build", "--quiet", "--locked", "--release", f"--target={board.target}"),
-            *(f"--bin={binary}", f"--features={features}"),
+            *("arm-none-eabi-gcc", *board.c_flags, "-std=c11", "-O2", "-ffreestanding"),
+            *("-Wall", "-Wextra", "-Werror", "-nostdlib", f"-I{interface / 'include'}"),
+            *(
+                "-Wl,--gc-sections",
+                "-Wl,-z,noexecstack",
+                f"-Wl,--defsym=memory_size={board.memory}",
+            ),
+            *(f"-T{FIRMWARE / 'link.ld'}", FIRMWARE / "interface.c"),
+            *(release / "libstribeck_c.a", "-o", program),
         ],
-        cwd=FIRMWARE,
+        check=True,
+    )
+    return program
+
+
+def _cargo(board: Board, *arguments: str, folder: Path) -> None:
+    root = toolchain.sysroot(board.target)
+    subprocess.run(
+        [
+            *("cargo", *arguments),
+            *("--quiet", "--locked", "--release", f"--target={board.target}"),
+        ],
+        cwd=folder,
         env={
             **os.environ,
-            "CARGO_TARGET_DIR": str(folder),
+            "CARGO_TARGET_DIR": str(toolchain.BUILD / board.name),
             "RUSTC": str(toolchain.RUSTC),
             "RUSTFLAGS": f"--sysroot={root} -Clinker=arm-none-eabi-ld -Clinker-flavor=ld "
             f"-Clink-arg=--defsym=memory_size={board.memory} "
@@ -80,7 +120,6 @@ def build(board: Board, binary: str) -> Path:
         },
         check=True,
     )
-    return folder / board.target / "release" / binary
 
 
 def forbidden(image: Path) -> list[str]:

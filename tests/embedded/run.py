@@ -48,9 +48,10 @@ def main() -> int:
 def prove(board: images.Board) -> tuple[dict[figures.Key, figures.Figures], list[str]]:
     """The figures of one board, and what is wrong there."""
     image, catalog = images.build(board, "image"), images.build(board, "catalog")
+    programs = [image, catalog] + ([images.build_interface(board)] if board.c_flags else [])
     wrong = [
         f"{path.name} for {board.name} contains {name}"
-        for path in (image, catalog)
+        for path in programs
         for name in images.forbidden(path)
     ]
     answers = images.run(board, image)

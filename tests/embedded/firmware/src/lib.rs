@@ -5,7 +5,7 @@
 use stribeck::constants::Constants;
 use stribeck::dynamics::State;
 use stribeck::fixed::FixedLaw;
-use stribeck::law::{BittencourtA, Coulomb, FrictionLaw, Gms, Lugre, TadeseFull};
+use stribeck::law::{BittencourtA, Coulomb, Elastoplastic, FrictionLaw, Gms, Lugre, TadeseFull};
 use stribeck::sample::Sample;
 
 /// The kind of number that is measured.
@@ -102,6 +102,7 @@ joints! {
         0.7, 0.08, 2.0, 200.0, 1.5,
         0.5, 4000.0, 0.5, 2000.0, 0.5, 1000.0, 0.5, 500.0,
     ];
+    elastoplastic: Elastoplastic = [2000.0, 12.0, 1.5, 2.0, 2.7, 0.08, 0.4];
 }
 
 /// A repeatable motion: accelerations that change now and then, rests, large and tiny speeds.
