@@ -112,7 +112,7 @@ def check() -> None:
 
 
 def embedded() -> None:
-    run(sys.executable, "tests/embedded/run.py", *sys.argv[2:])
+    run(PYTHON, "tests/embedded/run.py", *sys.argv[2:])
 
 
 def peers() -> None:

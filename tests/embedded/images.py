@@ -31,7 +31,7 @@ class Board:
     hashed: int
     memory: int = 0x10000
     flags: str = ""
-    # For a C compiler, where the C interface is linked too.
+    # For a C compiler, where exported C and the C interface run too.
     c_flags: tuple[str, ...] = ()
 
 
@@ -53,6 +53,7 @@ BOARDS = (
         "f64",
         1_000_000,
         flags="-Ctarget-cpu=cortex-m7",
+        c_flags=("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"),
     ),
 )
 
@@ -169,17 +170,19 @@ def _disassembled(image: Path) -> list[str]:
     return subprocess.check_output(command, text=True).splitlines()
 
 
+def emulator(board: Board, image: Path) -> list[str | Path]:
+    """The command that runs an image."""
+    return [
+        *("qemu-system-arm", "-M", board.machine, "-nographic", "-monitor", "none"),
+        *("-serial", "none", "-chardev", "stdio,id=said", "-semihosting-config"),
+        *("enable=on,target=native,chardev=said", "-icount", "shift=6", "-kernel", image),
+    ]
+
+
 def run(board: Board, image: Path) -> dict[str, Answers]:
     """Run an image: what it says of each law. The emulator counts instructions, not cycles."""
     said = subprocess.check_output(
-        [
-            *("qemu-system-arm", "-M", board.machine, "-nographic", "-monitor", "none"),
-            *("-serial", "none", "-chardev", "stdio,id=said", "-semihosting-config"),
-            *("enable=on,target=native,chardev=said", "-icount", "shift=6", "-kernel", image),
-        ],
-        text=True,
-        stdin=subprocess.DEVNULL,
-        timeout=240,
+        emulator(board, image), text=True, stdin=subprocess.DEVNULL, timeout=240
     )
     rows = {(kind, name): numbers for kind, name, *numbers in map(str.split, said.splitlines())}
 
@@ -205,10 +208,14 @@ def run(board: Board, image: Path) -> dict[str, Answers]:
 
 def on_the_host(number: str, steps: int) -> dict[str, str]:
     """The hashes that the host finds."""
+    return dict(line.split() for line in host_program(number, "hash", str(steps)).splitlines())
+
+
+def host_program(number: str, *arguments: str) -> str:
+    """What the firmware's laws and motion say on the host."""
     command = ["cargo", "run", "--quiet", "--locked", "--release", "--bin=stribeck-firmware"]
     command += ["--features=double"] if number == "f64" else []
     environment = {**os.environ, "CARGO_TARGET_DIR": str(toolchain.BUILD / "host")}
-    said = subprocess.check_output(
-        [*command, "--", str(steps)], cwd=FIRMWARE, env=environment, text=True
+    return subprocess.check_output(
+        [*command, "--", *arguments], cwd=FIRMWARE, env=environment, text=True
     )
-    return dict(line.split() for line in said.splitlines())

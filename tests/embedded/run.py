@@ -12,6 +12,7 @@ import argparse
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
+import exported
 import figures
 import images
 import toolchain
@@ -61,6 +62,7 @@ def prove(board: images.Board) -> tuple[dict[figures.Key, figures.Figures], list
         for law, value in expected.items()
         if answers[law].hash != value
     ]
+    wrong += exported.differing(board) if board.c_flags else []
     sizes = images.sizes(image, list(answers))
     return {
         (law, board.name, board.number): figures.Figures(

@@ -12,11 +12,14 @@ BUILD = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "embedded"
 # A compiler beside rustup's, with the sources of its core.
 RUSTC = Path("/usr/bin/rustc")
 LIBRARY = Path("/usr/lib/rustlib/src/rust/library")
+# Headers of C's library.
+NEWLIB = Path("/usr/lib/arm-none-eabi/include")
 PACKAGES = (
     "rustc-web",
     "rust-web-src",
     "binutils-arm-none-eabi",
     "gcc-arm-none-eabi",
+    "libnewlib-arm-none-eabi",
     "qemu-system-arm",
 )
 PROGRAMS = ("cargo", "arm-none-eabi-ld", "arm-none-eabi-objdump", "qemu-system-arm")
@@ -53,7 +56,7 @@ class Unavailable(Exception):
 def missing() -> list[str]:
     """Programs and files that are not there."""
     names = [name for name in PROGRAMS if shutil.which(name) is None]
-    return names + [str(path) for path in (RUSTC, LIBRARY) if not path.exists()]
+    return names + [str(path) for path in (RUSTC, LIBRARY, NEWLIB) if not path.exists()]
 
 
 def install() -> None:

@@ -66,6 +66,9 @@ macro_rules! joints {
             }
         }
 
+        /// Name and parameters of each.
+        pub const VALUES: &[(&str, &[Number])] = &[$((stringify!($joint), &$values),)+];
+
         /// Name and step of each.
         pub const STEPS: &[(&str, Step)] = &[$((stringify!($joint), $joint),)+];
 
