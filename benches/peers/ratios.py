@@ -117,11 +117,9 @@ def compare_fits() -> None:
             their.run,
             1,
         )
-        own = sb.model(law, **{name: e.value for name, e in made[-1].estimates.items()})
-        rms = float(np.sqrt(np.mean((torque - np.asarray(own.torque(velocity, dt=DT))) ** 2)))
         print(
-            f"  {law}: RMS error {rms:.6f} here; SciPy {min(their.errors):.6f}, at which end "
-            f"{their.at_optimum()} of its {STARTS} starts"
+            f"  {law}: RMS error {made[-1].rmse:.6f} here, {min(their.errors):.6f} by SciPy, "
+            f"where {their.at_optimum()} of its {STARTS} starts end"
         )
 
 
