@@ -6,7 +6,7 @@
     python3 develop.py check    formatters, linters and type checks
     python3 develop.py slow     the long tests as well
     python3 develop.py embedded steps counted and compared on emulated microcontrollers
-    python3 develop.py peers    times beside numpy, numba and SciPy
+    python3 develop.py peers    times beside numpy, numba and SciPy (--bam FOLDER: and BAM)
     python3 develop.py setup    only build and install
 
 Needs git, CPython >= 3.10 and stable Rust, nothing else: everything below is standard library.

@@ -1,45 +1,29 @@
 """Times of this package and of its peers side by side in one process.
 
-    python3 develop.py peers
+    python3 develop.py peers --bam FOLDER
 
 installs what is compared with and runs this. Each line is the median of interleaved repeats, one
-thread. Peers compute the same numbers: that is checked first.
+thread. Peers compute the same numbers: that is checked first. BAM's simulator is compared with
+where a checkout of its repository (Rhoban/bam) is given.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from statistics import median
+import argparse
 from tempfile import TemporaryDirectory
-from time import perf_counter
 
 import fits
 import laws
 import numpy as np
 import polars as pl
+import servo
 import stribeck as sb
 from stribeck.identify.scaling import bounds, model_for
+from timing import line
 
 SAMPLES = 30_000
 STARTS = 20
 DT = 0.002
-
-
-def seconds(work: Callable[[], object]) -> float:
-    """Wall-clock seconds of one call."""
-    begin = perf_counter()
-    work()
-    return perf_counter() - begin
-
-
-def line(
-    what: str, peer: str, ours: Callable[[], object], theirs: Callable[[], object], repeats: int
-) -> None:
-    """Print the medians of interleaved repeats and their ratio."""
-    ours(), theirs()
-    pairs = [(seconds(ours), seconds(theirs)) for _ in range(repeats)]
-    mine, other = (median(times) for times in zip(*pairs, strict=True))
-    print(f"| {what} | {1e3 * mine:.3g} ms | {peer}: {1e3 * other:.3g} ms | {other / mine:.2g} x |")
 
 
 def velocities(samples: int) -> np.ndarray:
@@ -123,8 +107,24 @@ def compare_fits() -> None:
         )
 
 
-if __name__ == "__main__":
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument(
+        "--bam", type=servo.checkout, metavar="FOLDER", help="a checkout of Rhoban/bam"
+    )
+    said = parser.parse_args()
     print("| work | stribeck | peer | ratio |")
     print("|---|---|---|---|")
     compare_laws()
     compare_fits()
+    if said.bam is None:
+        print(
+            "left out: BAM's simulator, because no checkout of Rhoban/bam is given (--bam FOLDER)"
+        )
+    else:
+        servo.compare_simulators(said.bam)
+
+
+if __name__ == "__main__":
+    main()
