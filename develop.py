@@ -7,6 +7,7 @@
     python3 develop.py slow     the long tests as well
     python3 develop.py embedded steps counted and compared on emulated microcontrollers
     python3 develop.py peers    times beside numpy, numba and SciPy (--bam FOLDER: and BAM)
+    python3 develop.py instructions  those of each kernel, counted (--write keeps the table)
     python3 develop.py setup    only build and install
 
 Needs git, CPython >= 3.10 and stable Rust, nothing else: everything below is standard library.
@@ -115,6 +116,10 @@ def embedded() -> None:
     run(PYTHON, "tests/embedded/run.py", *sys.argv[2:])
 
 
+def instructions() -> None:
+    run(PYTHON, "benches/kernels/instructions.py", *sys.argv[2:])
+
+
 def peers() -> None:
     """Times beside those of other packages, which are installed apart, in one thread."""
     folder = ROOT / "benches" / "peers"
@@ -133,6 +138,7 @@ TASKS = {
     "slow": slow,
     "check": check,
     "embedded": embedded,
+    "instructions": instructions,
     "peers": peers,
 }
 
