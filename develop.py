@@ -8,6 +8,7 @@
     python3 develop.py embedded steps counted and compared on emulated microcontrollers
     python3 develop.py peers    times beside numpy, numba and SciPy (--bam FOLDER: and BAM)
     python3 develop.py instructions  those of each kernel, counted (--write keeps the table)
+    python3 develop.py scaling  how times grow, and how near they come to what the machine can do
     python3 develop.py setup    only build and install
 
 Needs git, CPython >= 3.10 and stable Rust, nothing else: everything below is standard library.
@@ -125,10 +126,20 @@ def peers() -> None:
     folder = ROOT / "benches" / "peers"
     run(PYTHON, "-m", "pip", "install", "--quiet", "--upgrade", "--target", PEERS,
         "-r", folder / "requirements.txt")  # fmt: skip
-    for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "POLARS_MAX_THREADS"):
-        os.environ[threads] = "1"
+    in_one_thread()
     os.environ["PYTHONPATH"] = str(PEERS)
     run(PYTHON, folder / "ratios.py", *sys.argv[2:])
+
+
+def scaling() -> None:
+    in_one_thread()
+    run(PYTHON, "benches/kernels/limits.py")
+    run(PYTHON, "benches/scaling/run.py", "-o", "docs/scaling.png")
+
+
+def in_one_thread() -> None:
+    for threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "POLARS_MAX_THREADS"):
+        os.environ[threads] = "1"
 
 
 TASKS = {
@@ -140,6 +151,7 @@ TASKS = {
     "embedded": embedded,
     "instructions": instructions,
     "peers": peers,
+    "scaling": scaling,
 }
 
 
