@@ -6,7 +6,7 @@
     python3 develop.py check    formatters, linters and type checks
     python3 develop.py slow     the long tests as well
     python3 develop.py embedded steps counted and compared on emulated microcontrollers
-    python3 develop.py peers    times beside numpy, numba and SciPy (--bam FOLDER: and BAM)
+    python3 develop.py peers    times beside those of other packages (--bam FOLDER: BAM, too)
     python3 develop.py instructions  those of each kernel, counted (--write keeps the table)
     python3 develop.py scaling  how times grow, and how near they come to what the machine can do
     python3 develop.py setup    only build and install

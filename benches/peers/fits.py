@@ -1,9 +1,10 @@
-"""The least-squares fit as a skilled user writes it with SciPy."""
+"""The least-squares fit as a skilled user writes it with SciPy, or has it from lmfit."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+import lmfit
 import numpy as np
 from scipy.optimize import minimize
 
@@ -46,3 +47,35 @@ class Slsqp:
     def at_optimum(self) -> int:
         """How many starts end within 0.1 % of the best error."""
         return sum(error <= 1.001 * min(self.errors) for error in self.errors)
+
+
+class Levenberg:
+    """Bounded least squares by lmfit from one start, by an analytic gradient; standard errors."""
+
+    def __init__(
+        self,
+        gradient: Callable,
+        velocity: np.ndarray,
+        torque: np.ndarray,
+        lower: np.ndarray,
+        upper: np.ndarray,
+        start: np.ndarray,
+    ) -> None:
+        self.gradient, self.velocity, self.torque = gradient, velocity, torque
+        self.parameters = lmfit.Parameters()
+        for k, (low, high, value) in enumerate(zip(lower, upper, start, strict=True)):
+            self.parameters.add(f"a{k + 1}", value=value, min=low, max=high)
+
+    def _linearised(self, parameters: lmfit.Parameters) -> tuple[np.ndarray, np.ndarray]:
+        values = tuple(parameter.value for parameter in parameters.values())
+        return self.gradient(self.velocity, values)
+
+    def run(self) -> float:
+        """The RMS error (T)."""
+        found = lmfit.minimize(
+            lambda parameters: self._linearised(parameters)[0] - self.torque,
+            self.parameters,
+            method="leastsq",
+            Dfun=lambda parameters: self._linearised(parameters)[1],
+        )
+        return float(np.sqrt(np.mean(found.residual**2)))
