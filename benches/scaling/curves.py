@@ -121,17 +121,20 @@ def over_parameters() -> list[Curve]:
 
 
 def over_threads() -> list[Curve]:
-    """s of one fit in threads, and of one fit each for some joints in processes."""
+    """s of one fit in threads, of a fit for each of some joints in processes, and of counting."""
     cores = len(os.sched_getaffinity(0))
     counts = tuple(
         sorted({1, 2, *(2**k for k in range(cores.bit_length()) if 2**k <= cores), cores})
     )
+    tasks = {
+        "threads": "one fit of lugre, 20 starts, threads",
+        "processes": f"fits of {JOINTS} joints, processes",
+        "counting": f"counting, {JOINTS} times, processes",
+    }
     return [
-        Curve("one fit of lugre, 20 starts, threads", counts,
-              tuple(_elsewhere("threads", count) for count in counts)),
-        Curve(f"fits of {JOINTS} joints, processes", counts,
-              tuple(_elsewhere("processes", count) for count in counts)),
-    ]  # fmt: skip
+        Curve(name, counts, tuple(_elsewhere(task, count) for count in counts))
+        for task, name in tasks.items()
+    ]
 
 
 def _elsewhere(task: str, count: int) -> float:

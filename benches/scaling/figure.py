@@ -6,7 +6,7 @@ from curves import Curve
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
-from stribeck.report.figures import COLOURS, MEASURED, new_figure, style, title
+from stribeck.report.figures import COLOURS, new_figure, style, title
 
 MARKERS = "osD^vP"
 
@@ -18,7 +18,6 @@ def drawn(samples: list[Curve], parameters: list[Curve], threads: list[Curve]) -
     _lines(left, samples)
     _dots(middle, parameters)
     _lines(right, threads)
-    _evenly(right, threads)
     title(left, "time a sample (ns) over samples")
     title(middle, "time a sample (ns) over parameters of the law")
     title(right, "time (s) over threads or processes")
@@ -44,14 +43,6 @@ def _lines(axes: Axes, curves: list[Curve]) -> None:
     for curve, colour, marker in zip(curves, COLOURS, MARKERS, strict=False):
         axes.loglog(curve.at, curve.time, color=colour, marker=marker, ms=4, lw=1.3,
                     label=curve.name)  # fmt: skip
-
-
-def _evenly(axes: Axes, curves: list[Curve]) -> None:
-    """What each time would be if the work were shared out without loss."""
-    for curve, colour in zip(curves, COLOURS, strict=False):
-        shared = [curve.time[0] / count for count in curve.at]
-        axes.loglog(curve.at, shared, color=colour, lw=1.0, ls=":")
-    axes.plot([], [], color=MEASURED, lw=1.0, ls=":", label="shared out without loss")
 
 
 def _dots(axes: Axes, curves: list[Curve]) -> None:

@@ -1,6 +1,8 @@
 """Time of fits with as many threads as the environment says, or in as many processes as asked.
 
-python benches/scaling/side_by_side.py threads|processes COUNT
+python benches/scaling/side_by_side.py threads|processes|counting COUNT
+
+Counting needs no memory and shares nothing: how it gains is what the machine has to give just then.
 """
 
 from __future__ import annotations
@@ -17,6 +19,8 @@ LAW = "lugre"
 STARTS = 20
 #: Of each joint's fit, where there are many.
 FEW_STARTS = 4
+#: As long as a fit.
+COUNTED = 30_000_000
 
 
 def fit_of_one(recording: sb.Recording) -> float:
@@ -24,16 +28,22 @@ def fit_of_one(recording: sb.Recording) -> float:
     return sb.fit(LAW, recording, starts=FEW_STARTS).rmse
 
 
+def counting(_: sb.Recording) -> float:
+    """As much work, without any memory."""
+    return float(sum(1 for _ in range(COUNTED)))
+
+
 def main() -> None:
     """Print seconds."""
     task, count = sys.argv[1], int(sys.argv[2])
     recording = motions.recording(LAW, MIDDLE)
-    errors: list[float] = []
+    answers: list[float] = []
     begin = perf_counter()
     if task == "threads":
         sb.fit(LAW, recording, starts=STARTS)
     else:
-        in_processes(fit_of_one, [recording] * JOINTS, errors.append, count)
+        do = counting if task == "counting" else fit_of_one
+        in_processes(do, [recording] * JOINTS, answers.append, count)
     print(perf_counter() - begin)
 
 
