@@ -10,7 +10,7 @@ use crate::timing::{elapsed, runs_within};
 const CHAINS: usize = 12;
 /// Operations of each chain in a run.
 const LENGTH: usize = 4096;
-const REPEATS: usize = 101;
+const REPEATS: usize = 1001;
 
 /// One line for each kind: the best of many short measurements, in operations a nanosecond.
 pub fn print() {
