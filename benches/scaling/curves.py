@@ -16,13 +16,14 @@ import stribeck as sb
 from stribeck.model import law_ids
 
 #: A time is the median of as many calls as fit into this, s, and at least of one.
-PATIENCE = 1.0
+PATIENCE = 0.5
 MOST_CALLS = 101
 SAMPLES = (1_000, 10_000, 100_000, 1_000_000)
 #: Random starts of a fit whose time grows with the samples.
 STARTS = 4
-#: Samples at which laws are compared, and those of the fits that run side by side.
+#: Samples at which laws are compared, and of the fits that run side by side; of the laws' fits.
 MIDDLE = 30_000
+FEW = 10_000
 THREADS = ("OMP_NUM_THREADS", "RAYON_NUM_THREADS")
 JOINTS = 8
 
@@ -97,27 +98,29 @@ def _fit(law: str) -> Callable[[int], Callable[[], object]]:
 
 
 def over_parameters() -> list[Curve]:
-    """ns a sample of torque and gradient of every law that does not read the motor's torque."""
+    """ns a sample of torque, gradient and fit of each law that does not read the motor torque."""
     models = [
         motions.valued(law) for law in law_ids() if "motor_torque" not in sb.model(law).core.needs
     ]
+    models.sort(key=lambda model: len(model.names))
     kinds = (
         ("without memory", [m for m in models if not m.has_state]),
         ("with a memory", [m for m in models if m.has_state]),
     )
-    calls = (("torque", sb.Model.torque), ("gradient", sb.Model.gradient))
-    columns = motions.channels(MIDDLE)
-    curves = []
-    for call, of in calls:
-        for kind, some in kinds:
-            some.sort(key=lambda model: len(model.names))
-            times = [
-                1e9 * seconds(lambda model=model, of=of: of(model, **columns, dt=motions.DT))
-                for model in some
-            ]
-            sizes = tuple(len(model.names) for model in some)
-            curves.append(Curve(f"{call}, {kind}", sizes, tuple(t / MIDDLE for t in times)))
-    return curves
+    calls = (
+        ("torque", _torque, MIDDLE),
+        ("gradient", _gradient, MIDDLE),
+        (f"fit, {STARTS} starts", _fit, FEW),
+    )
+    return [
+        Curve(
+            f"{call}, {kind}",
+            tuple(len(model.names) for model in some),
+            tuple(1e9 * seconds(of(model.spec)(samples)) / samples for model in some),
+        )
+        for call, of, samples in calls
+        for kind, some in kinds
+    ]
 
 
 def over_threads() -> list[Curve]:

@@ -13,7 +13,7 @@ MARKERS = "osD^vP"
 
 def drawn(samples: list[Curve], parameters: list[Curve], threads: list[Curve]) -> Figure:
     """Times over samples, parameters and threads, side by side; both axes logarithmic."""
-    figure = new_figure(13.0, 4.4)
+    figure = new_figure(13.0, 5.0)
     left, middle, right = figure.subplots(1, 3)
     _lines(left, samples)
     _dots(middle, parameters)
@@ -35,7 +35,10 @@ def drawn(samples: list[Curve], parameters: list[Curve], threads: list[Curve]) -
     right.set_xticks(threads[0].at)
     for axes in (left, middle, right):
         style(axes)
-        axes.legend(frameon=False, fontsize=8)
+        axes.legend(
+            loc="upper center", bbox_to_anchor=(0.5, -0.14), frameon=False, fontsize=8,
+            ncols=2 if axes is middle else 1,
+        )  # fmt: skip
     return figure
 
 
@@ -47,5 +50,5 @@ def _lines(axes: Axes, curves: list[Curve]) -> None:
 
 def _dots(axes: Axes, curves: list[Curve]) -> None:
     for curve, colour, marker in zip(curves, COLOURS, MARKERS, strict=False):
-        axes.loglog(curve.at, curve.time, color=colour, marker=marker, ms=5, ls="", alpha=0.8,
+        axes.loglog(curve.at, curve.time, color=colour, marker=marker, ms=4, ls="", alpha=0.8,
                     label=curve.name)  # fmt: skip

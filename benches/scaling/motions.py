@@ -42,12 +42,9 @@ def recording(law: str, samples: int) -> sb.Recording:
     """A recording whose torque is that of a law, with noise."""
     columns = channels(samples)
     torque = valued(law).torque(**columns, dt=DT)
+    noise = NOISE * np.random.default_rng(1).standard_normal(samples)
     table = pl.DataFrame(
-        {
-            "time": DT * np.arange(samples),
-            "velocity": columns["velocity"],
-            "friction_torque": torque + NOISE * np.random.default_rng(1).standard_normal(samples),
-        }
+        {"time": DT * np.arange(samples), **columns, "friction_torque": torque + noise}
     )
     with TemporaryDirectory() as folder:
         path = Path(folder) / "log.parquet"
