@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
+use crate::dynamics::{Bristle, Deflection, Interval, LONG, Memory, State, Step};
 use crate::error::ModelError;
 use crate::formula::{Formula, OwnTerms};
 use crate::sample::{Sample, Split};
@@ -276,9 +276,6 @@ fn effects_of<'a>(
     })
 }
 
-/// After so long (s) every state has settled.
-const LONG: f64 = 1e9;
-
 /// A law and its effects with numbers: immutable, its state is kept apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composed<S: Real> {
@@ -386,14 +383,14 @@ impl<S: Real> Composed<S> {
     pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
         let mut state = State::default();
         let dt = S::Plain::from_f64(LONG);
-        self.over(&mut state, &Interval { sample: *sample, mean_velocity: None, dt, mean: false });
+        self.over(&mut state, &Interval::held(*sample, dt));
         state
     }
 
     /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.
     #[inline]
     pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
-        self.over(state, &Interval { sample: *sample, mean_velocity: None, dt, mean: true })
+        self.over(state, &Interval { mean: true, ..Interval::held(*sample, dt) })
     }
 
     /// As [`step`](Self::step), over an interval. The torque at its end is as it is measured; the

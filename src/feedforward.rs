@@ -11,16 +11,13 @@
 //! state only ever sees finite numbers; that of a bristle is within the largest `D/s0`.
 
 use crate::composed::Composed;
-use crate::dynamics::{Interval, State};
+use crate::dynamics::{Interval, LONG, State};
 use crate::error::ModelError;
 use crate::fixed::FixedLaw;
 use crate::law::FrictionLaw;
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 use crate::table::Channel;
-
-/// After so long (s) every state has settled.
-const LONG: f64 = 1e9;
 
 /// Friction with its parameters, stepped from sample to sample.
 pub trait Friction<S: Scalar> {
@@ -38,8 +35,7 @@ impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> Friction<S> for FixedLaw<L, S> {
 impl<S: Scalar<Plain = S>> Friction<S> for Composed<S> {
     #[inline]
     fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
-        let interval = Interval { sample: *sample, mean_velocity: None, dt, mean: false };
-        self.over(state, &interval).torque
+        self.over(state, &Interval::held(*sample, dt)).torque
     }
 }
 

@@ -65,7 +65,7 @@ impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> FixedLaw<L, S> {
     /// no use for `state` and `dt`.
     #[inline(always)]
     pub fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
-        let interval = Interval { sample: *sample, mean_velocity: None, dt, mean: false };
+        let interval = Interval::held(*sample, dt);
         let split = self.law.split(sample, &self.constants);
         let dry = split.dry();
         let step = match self.law.bristle(sample) {

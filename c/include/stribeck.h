@@ -96,7 +96,7 @@ typedef struct {
 } stribeck_constant;
 
 /**
- * What a joint is made from. Pointers are read by `stribeck_joint_init_f64` alone.
+ * What a joint is made from. Pointers are read by the function that makes a joint alone.
  */
 typedef struct {
   /**
@@ -189,7 +189,7 @@ typedef struct {
 } stribeck_joint_f32;
 
 /**
- * What a joint is made from. Pointers are read by `stribeck_joint_init_f32` alone.
+ * What a joint is made from. Pointers are read by the function that makes a joint alone.
  */
 typedef struct {
   /**

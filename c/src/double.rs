@@ -1,69 +1,17 @@
 //! Joints in double precision.
 
-use core::ffi::c_char;
+use crate::joint::{
+    StribeckJoint, StribeckSample, StribeckSettings, StribeckSource, StribeckStatus, init, next,
+};
 
-use stribeck::feedforward::Limits;
-use stribeck::sample::Sample;
+/// What is read at one instant, in double precision.
+pub type StribeckSampleF64 = StribeckSample<f64>;
 
-use crate::joint::{Room, Settings, StribeckConstant, StribeckSource, StribeckStatus, build, next};
+/// What a joint in double precision is made from.
+pub type StribeckSettingsF64 = StribeckSettings<f64>;
 
-/// Words that a joint takes at most.
-const WORDS: usize = 384;
-
-/// What is read at one instant, in SI units. Channels that the model does not read: 0.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct StribeckSampleF64 {
-    /// Velocity (rad/s or m/s).
-    pub velocity: f64,
-    /// Position (rad or m).
-    pub position: f64,
-    /// Acceleration (rad/s2 or m/s2).
-    pub acceleration: f64,
-    /// Joint temperature (degC).
-    pub temperature: f64,
-    /// Load torque: all at the joint that is not friction (N m or N).
-    pub load_torque: f64,
-    /// Second derivative of the load torque by time (N m/s2 or N/s2).
-    pub load_torque_curvature: f64,
-    /// Motor torque (N m or N).
-    pub motor_torque: f64,
-    /// Torque of the environment on the joint, without inertia (N m or N).
-    pub external_torque: f64,
-    /// Time since the start (s).
-    pub time: f64,
-}
-
-/// What a joint is made from. Pointers are read by `stribeck_joint_init_f64` alone.
-#[repr(C)]
-pub struct StribeckSettingsF64 {
-    /// Law and effects, as in a model file: `"lugre+load"`.
-    pub model: *const c_char,
-    /// Parameters in the order of the model file.
-    pub parameters: *const f64,
-    /// How many parameters.
-    pub parameter_count: usize,
-    /// Constants that are not the usual ones; may be null.
-    pub constants: *const StribeckConstant,
-    /// How many constants.
-    pub constant_count: usize,
-    /// Sample period (s).
-    pub period: f64,
-    /// Largest torque that is given (N m or N).
-    pub torque_limit: f64,
-    /// Largest speed that the joint can have: a reading beyond it is not believed.
-    pub speed_limit: f64,
-    /// For how many samples in a row without a reading the last torque is given.
-    pub held: u32,
-}
-
-/// Friction of one joint with its state: room that the caller owns. Its contents may change from
-/// version to version.
-#[repr(C)]
-pub struct StribeckJointF64 {
-    tag: u64,
-    words: [u64; 384],
-}
+/// A joint in double precision.
+pub type StribeckJointF64 = StribeckJoint<384>;
 
 /// Makes a joint of which nothing has been read yet.
 ///
@@ -72,30 +20,11 @@ pub struct StribeckJointF64 {
 /// elements as the counts say, strings end in 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stribeck_joint_init_f64(
-    joint: *mut StribeckJointF64,
-    settings: *const StribeckSettingsF64,
+    joint: *mut StribeckJoint<384>,
+    settings: *const StribeckSettings<f64>,
 ) -> StribeckStatus {
-    // SAFETY: both have the same layout; as for this function.
-    let (room, said) = unsafe { (joint.cast::<Room<WORDS>>().as_mut(), settings.as_ref()) };
-    let (Some(room), Some(said)) = (room, said) else { return StribeckStatus::NullPointer };
-    room.tag = 0;
-    let settings = Settings {
-        model: said.model,
-        parameters: said.parameters,
-        parameter_count: said.parameter_count,
-        constants: said.constants,
-        constant_count: said.constant_count,
-        period: said.period,
-        limits: Limits { torque: said.torque_limit, speed: said.speed_limit, held: said.held },
-    };
     // SAFETY: as for this function.
-    match unsafe { build(&settings) } {
-        Ok(joint) => {
-            room.fill(joint);
-            StribeckStatus::Ok
-        }
-        Err(status) => status,
-    }
+    unsafe { init(joint, settings) }
 }
 
 /// The torque to add until the next sample. A null `sample` is a reading that has not come; one that
@@ -105,25 +34,11 @@ pub unsafe extern "C" fn stribeck_joint_init_f64(
 /// The pointers are null or point to what their types say.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stribeck_joint_next_f64(
-    joint: *mut StribeckJointF64,
-    sample: *const StribeckSampleF64,
+    joint: *mut StribeckJoint<384>,
+    sample: *const StribeckSample<f64>,
     torque: *mut f64,
     source: *mut StribeckSource,
 ) -> StribeckStatus {
-    // SAFETY: both have the same layout; as for this function.
-    let (room, sample) = unsafe { (joint.cast::<Room<WORDS>>().as_mut(), sample.as_ref()) };
     // SAFETY: as for this function.
-    let (torque, source) = unsafe { (torque.as_mut(), source.as_mut()) };
-    let sample = sample.map(|read| Sample {
-        velocity: read.velocity,
-        position: read.position,
-        acceleration: read.acceleration,
-        temperature: read.temperature,
-        load_torque: read.load_torque,
-        load_torque_curvature: read.load_torque_curvature,
-        motor_torque: read.motor_torque,
-        external_torque: read.external_torque,
-        time: read.time,
-    });
-    next(room, sample, torque, source)
+    unsafe { next(joint, sample, torque, source) }
 }

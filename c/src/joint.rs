@@ -56,15 +56,67 @@ pub struct StribeckConstant {
     pub value: f64,
 }
 
-/// What a joint is made from, whatever the precision.
-pub struct Settings<S> {
+/// What is read at one instant, in SI units. Channels that the model does not read: 0.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct StribeckSample<S> {
+    /// Velocity (rad/s or m/s).
+    pub velocity: S,
+    /// Position (rad or m).
+    pub position: S,
+    /// Acceleration (rad/s2 or m/s2).
+    pub acceleration: S,
+    /// Joint temperature (degC).
+    pub temperature: S,
+    /// Load torque: all at the joint that is not friction (N m or N).
+    pub load_torque: S,
+    /// Second derivative of the load torque by time (N m/s2 or N/s2).
+    pub load_torque_curvature: S,
+    /// Motor torque (N m or N).
+    pub motor_torque: S,
+    /// Torque of the environment on the joint, without inertia (N m or N).
+    pub external_torque: S,
+    /// Time since the start (s).
+    pub time: S,
+}
+
+impl<S: Scalar<Plain = S>> StribeckSample<S> {
+    fn read(&self) -> Sample<S> {
+        Sample {
+            velocity: self.velocity,
+            position: self.position,
+            acceleration: self.acceleration,
+            temperature: self.temperature,
+            load_torque: self.load_torque,
+            load_torque_curvature: self.load_torque_curvature,
+            motor_torque: self.motor_torque,
+            external_torque: self.external_torque,
+            time: self.time,
+        }
+    }
+}
+
+/// What a joint is made from. Pointers are read by the function that makes a joint alone.
+#[repr(C)]
+pub struct StribeckSettings<S> {
+    /// Law and effects, as in a model file: `"lugre+load"`.
     pub model: *const c_char,
+    /// Parameters in the order of the model file.
     pub parameters: *const S,
+    /// How many parameters.
     pub parameter_count: usize,
+    /// Constants that are not the usual ones; may be null.
     pub constants: *const StribeckConstant,
+    /// How many constants.
     pub constant_count: usize,
+    /// Sample period (s).
     pub period: S,
-    pub limits: Limits<S>,
+    /// Largest torque that is given (N m or N).
+    pub torque_limit: S,
+    /// Largest speed that the joint can have: a reading beyond it is not believed.
+    pub speed_limit: S,
+    /// For how many samples in a row without a reading the last torque is given.
+    pub held: u32,
 }
 
 pub type Joint<S> = Feedforward<Composed<S>, S>;
@@ -72,14 +124,15 @@ pub type Joint<S> = Feedforward<Composed<S>, S>;
 /// What the first word of a joint is once it has been initialised.
 const INITIALISED: u64 = 0x7374_7269_6265_636b;
 
-/// Room for a joint, owned by the caller.
+/// Friction of one joint with its state: room that the caller owns. Its contents may change from
+/// version to version.
 #[repr(C)]
-pub struct Room<const WORDS: usize> {
-    pub tag: u64,
-    pub words: [u64; WORDS],
+pub struct StribeckJoint<const WORDS: usize> {
+    tag: u64,
+    words: [u64; WORDS],
 }
 
-impl<const WORDS: usize> Room<WORDS> {
+impl<const WORDS: usize> StribeckJoint<WORDS> {
     /// Puts a joint there.
     pub fn fill<S: Scalar<Plain = S> + PartialOrd>(&mut self, joint: Joint<S>) {
         const { assert!(size_of::<Joint<S>>() <= 8 * WORDS && align_of::<Joint<S>>() <= 8) };
@@ -96,19 +149,42 @@ impl<const WORDS: usize> Room<WORDS> {
     }
 }
 
+/// Puts a joint as the settings say into its room.
+///
+/// # Safety
+/// The pointers, those in the settings too, are null or point to as much as types and counts say;
+/// strings end in 0.
+pub unsafe fn init<S: Scalar<Plain = S> + PartialOrd, const WORDS: usize>(
+    joint: *mut StribeckJoint<WORDS>,
+    settings: *const StribeckSettings<S>,
+) -> StribeckStatus {
+    // SAFETY: as for this function.
+    let (room, said) = unsafe { (joint.as_mut(), settings.as_ref()) };
+    let (Some(room), Some(said)) = (room, said) else { return StribeckStatus::NullPointer };
+    room.tag = 0;
+    // SAFETY: as for this function.
+    match unsafe { build(said) } {
+        Ok(joint) => {
+            room.fill(joint);
+            StribeckStatus::Ok
+        }
+        Err(status) => status,
+    }
+}
+
 /// A joint as the settings say.
 ///
 /// # Safety
 /// Pointers that are not null point to as many elements as the settings say, strings end in 0.
-pub unsafe fn build<S: Scalar<Plain = S> + PartialOrd>(
-    settings: &Settings<S>,
+unsafe fn build<S: Scalar<Plain = S> + PartialOrd>(
+    said: &StribeckSettings<S>,
 ) -> Result<Joint<S>, StribeckStatus> {
     // SAFETY: as for this function.
     let (mut spec, parameters, constants) = unsafe {
         (
-            spec(settings.model)?,
-            array(settings.parameters, settings.parameter_count)?,
-            array(settings.constants, settings.constant_count)?,
+            spec(said.model)?,
+            array(said.parameters, said.parameter_count)?,
+            array(said.constants, said.constant_count)?,
         )
     };
     for constant in constants {
@@ -117,7 +193,8 @@ pub unsafe fn build<S: Scalar<Plain = S> + PartialOrd>(
         spec.set_constant(name, constant.value).map_err(|error| status(&error))?;
     }
     let model = spec.with(parameters).map_err(|error| status(&error))?;
-    Feedforward::new(model, settings.period, settings.limits).map_err(|_| StribeckStatus::Limit)
+    let limits = Limits { torque: said.torque_limit, speed: said.speed_limit, held: said.held };
+    Feedforward::new(model, said.period, limits).map_err(|_| StribeckStatus::Limit)
 }
 
 /// The model that a string names.
@@ -129,15 +206,23 @@ pub unsafe fn spec(model: *const c_char) -> Result<Spec, StribeckStatus> {
     Spec::parse(unsafe { text(model)? }).map_err(|error| status(&error))
 }
 
-/// One step, for all that may be wrong with pointers.
-pub fn next<S: Scalar<Plain = S> + PartialOrd, const WORDS: usize>(
-    room: Option<&mut Room<WORDS>>,
-    sample: Option<Sample<S>>,
-    torque: Option<&mut S>,
-    source: Option<&mut StribeckSource>,
+/// One step.
+///
+/// # Safety
+/// The pointers are null or point to what their types say.
+pub unsafe fn next<S: Scalar<Plain = S> + PartialOrd, const WORDS: usize>(
+    joint: *mut StribeckJoint<WORDS>,
+    sample: *const StribeckSample<S>,
+    torque: *mut S,
+    source: *mut StribeckSource,
 ) -> StribeckStatus {
+    // SAFETY: as for this function.
+    let (room, sample) = unsafe { (joint.as_mut(), sample.as_ref()) };
+    // SAFETY: as for this function.
+    let (torque, source) = unsafe { (torque.as_mut(), source.as_mut()) };
     let (Some(room), Some(torque)) = (room, torque) else { return StribeckStatus::NullPointer };
     let Some(joint) = room.joint::<S>() else { return StribeckStatus::NotInitialised };
+    let sample = sample.map(StribeckSample::read);
     let feed = joint.next(sample.as_ref());
     *torque = feed.torque;
     if let Some(source) = source {

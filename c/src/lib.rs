@@ -11,7 +11,10 @@ mod single;
 mod text;
 
 pub use double::*;
-pub use joint::{StribeckConstant, StribeckSource, StribeckStatus};
+pub use joint::{
+    StribeckConstant, StribeckJoint, StribeckSample, StribeckSettings, StribeckSource,
+    StribeckStatus,
+};
 pub use single::*;
 pub use text::{stribeck_message, stribeck_parameter_count, stribeck_version};
 

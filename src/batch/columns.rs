@@ -192,25 +192,21 @@ impl<'a> Columns<'a> {
     pub(super) fn rows(&self, spec: &Spec) -> Result<Rows, BatchError> {
         self.check(spec)?;
         let count = self.channels.velocity.len();
-        let steps = match self.dt {
-            TimeStep::Unknown => {
-                if spec.has_state() || spec.effects().contains(EffectId::Delay) {
-                    return Err(BatchError::NoTimeStep);
-                }
-                Steps::Uniform(0.0)
+        let timed = spec.has_state() || spec.effects().contains(EffectId::Delay);
+        match self.dt {
+            TimeStep::Unknown if timed => Err(BatchError::NoTimeStep),
+            TimeStep::Uniform(dt) if !(dt >= 0.0 && dt.is_finite()) => {
+                Err(BatchError::NotFinite { column: "dt", row: 0 })
             }
-            TimeStep::Uniform(dt) if dt > 0.0 && dt.is_finite() => Steps::Uniform(dt),
-            // Without time every row stands alone.
-            TimeStep::Uniform(0.0) => Steps::Each(vec![0.0; count]),
-            TimeStep::Uniform(_) => return Err(BatchError::NotFinite { column: "dt", row: 0 }),
             TimeStep::Each(dt) if dt.len() != count => {
-                return Err(BatchError::Length { column: "dt", length: dt.len(), rows: count });
+                Err(BatchError::Length { column: "dt", length: dt.len(), rows: count })
             }
-            TimeStep::Each(dt) => {
-                Steps::Each(dt.iter().map(|&dt| if dt > 0.0 { dt } else { 0.0 }).collect())
-            }
-        };
-        Ok(Rows { count, steps })
+            // Without time every row stands alone.
+            TimeStep::Uniform(0.0) if timed => Ok(Rows::each(&vec![0.0; count])),
+            TimeStep::Uniform(dt) if timed => Ok(Rows::uniform(dt, count)),
+            TimeStep::Each(dt) if timed => Ok(Rows::each(dt)),
+            _ => Ok(Rows::uniform(0.0, count)),
+        }
     }
 }
 
@@ -228,17 +224,39 @@ fn whole(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchE
 pub(super) struct Rows {
     count: usize,
     steps: Steps,
+    starts: Vec<(usize, Beginning)>,
 }
 
-/// Steps (s), 0 where a segment starts and infinite where one starts settled.
+/// Lengths of steps (s).
 enum Steps {
-    /// The same for all rows of one segment.
+    /// The same for all rows.
     Uniform(f64),
-    /// One a row.
+    /// One a row; 0 where a segment starts.
     Each(Vec<f64>),
 }
 
 impl Rows {
+    /// One segment with one step for all rows.
+    fn uniform(dt: f64, count: usize) -> Self {
+        Self { count, steps: Steps::Uniform(dt), starts: vec![(0, Beginning::Fresh)] }
+    }
+
+    /// What is not positive and finite starts a segment, settled where it is infinite.
+    fn each(dt: &[f64]) -> Self {
+        let mut starts = vec![];
+        let steps = dt.iter().enumerate().map(|(row, &dt)| {
+            let passes = dt > 0.0 && dt.is_finite();
+            if dt == f64::INFINITY {
+                starts.push((row, Beginning::Settled));
+            } else if row == 0 || !passes {
+                starts.push((row, Beginning::Fresh));
+            }
+            if passes { dt } else { 0.0 }
+        });
+        let steps = Steps::Each(steps.collect());
+        Self { count: dt.len(), steps, starts }
+    }
+
     pub(super) fn count(&self) -> usize {
         self.count
     }
@@ -259,17 +277,8 @@ impl Rows {
         }
     }
 
-    /// The rows at which segments start, and how.
-    pub(super) fn starts(&self) -> Vec<(usize, Beginning)> {
-        let steps: &[f64] = match &self.steps {
-            Steps::Uniform(_) => return vec![(0, Beginning::Fresh)],
-            Steps::Each(steps) => steps,
-        };
-        let starts = steps.iter().enumerate().filter_map(|(row, &dt)| match dt {
-            f64::INFINITY => Some((row, Beginning::Settled)),
-            _ if row == 0 || dt == 0.0 => Some((row, Beginning::Fresh)),
-            _ => None,
-        });
-        starts.collect()
+    /// The rows at which segments start, from the first row on, and how.
+    pub(super) fn starts(&self) -> &[(usize, Beginning)] {
+        &self.starts
     }
 }

@@ -1,5 +1,6 @@
 //! A model's torque and derivatives as a graph, run over whole columns.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::rc::Rc;
 use std::thread_local;
@@ -9,7 +10,6 @@ use std::vec::Vec;
 use super::columns::{Channels, Columns, Rows};
 use crate::composed::Spec;
 use crate::graph::{self, Given, Operation, Recorded, Recorder, Schedule};
-use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::table::Channel;
 
@@ -92,12 +92,12 @@ impl Compiled {
         let mut given: Vec<&[f64]> =
             Channel::ALL.iter().map(|&channel| channels.get(channel).unwrap_or_default()).collect();
         given.push(columns.mean_velocity.unwrap_or_default());
-        let steps: Vec<f64>;
+        let steps: Cow<'_, [f64]>;
         let mut parameters = values.to_vec();
         if let Some(dt) = rows.uniform_step() {
             parameters.push(dt);
         } else {
-            steps = rows.steps().iter().map(|&dt| if dt.is_finite() { dt } else { 0.0 }).collect();
+            steps = rows.steps();
             given.push(&steps);
         }
         let mut torque = vec![0.0; rows.count()];
@@ -107,7 +107,7 @@ impl Compiled {
             columns: &given,
             rows: rows.count(),
             start: columns.state.first().copied().unwrap_or(0.0),
-            starts: &if self.schedule.memories > 0 { rows.starts() } else { vec![] },
+            starts: rows.starts(),
         };
         let width = self.width;
         graph::run(&self.schedule, &given, |block, outputs| {
@@ -127,16 +127,10 @@ impl Compiled {
 /// What the model does in numbers that write it down.
 fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
     let spec = &purpose.spec;
-    let parameters: Vec<Recorded<'r>> = (0..spec.parameter_count())
-        .map(|index| recorder.number(Operation::Parameter(index)))
-        .collect();
     let column = |index| recorder.number(Operation::Column(index));
-    let read: Vec<Channel> = spec.channels().collect();
-    let channel = |channel: Channel| {
-        if read.contains(&channel) { column(channel as usize) } else { Recorded::Known(0.0) }
+    let Ok((model, sample)) = graph::model(recorder, spec) else {
+        return Recorded::Known(f64::NAN);
     };
-    let sample = Sample::of(channel);
-    let Ok(model) = spec.with(&parameters) else { return Recorded::Known(f64::NAN) };
     match model.bristle(&sample) {
         Some(bristle) if model.has_state() => {
             let split = model.split(&sample);

@@ -241,7 +241,7 @@ fn evaluate<S: Scalar>(
 ) {
     let fresh = columns.start(model.memory());
     let mut state = fresh;
-    let mut starts = rows.starts().into_iter().peekable();
+    let mut starts = rows.starts().iter().copied().peekable();
     for (i, &dt) in rows.steps().iter().enumerate() {
         let sample = channels.sample(i);
         let beginning = starts.next_if(|&(row, _)| row == i).map(|(_, beginning)| beginning);
@@ -250,7 +250,6 @@ fn evaluate<S: Scalar>(
             Some(Beginning::Fresh) => state = fresh,
             None => {}
         }
-        let dt = if beginning == Some(Beginning::Settled) { 0.0 } else { dt };
         let mean_velocity = columns.mean_velocity.and_then(|mean| mean.get(i));
         let interval = Interval {
             sample,

@@ -147,8 +147,7 @@ impl<S: Real> Bristle<S> {
         velocity: S::Plain,
         dt: S::Plain,
     ) -> Step<S> {
-        let sample = Sample::at(velocity);
-        let interval = Interval { sample, mean_velocity: None, dt, mean: true };
+        let interval = Interval { mean: true, ..Interval::held(Sample::at(velocity), dt) };
         self.over(state, split.dry(), split, &interval)
     }
 

@@ -34,6 +34,9 @@ use crate::scalar::{Mask, Real};
 /// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
 const SATURATED: f64 = 700.0;
 
+/// After so long (s) every state has settled.
+pub const LONG: f64 = 1e9;
+
 /// A stretch of time over which a sample is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval<P> {
@@ -49,6 +52,13 @@ pub struct Interval<P> {
 }
 
 impl<P: Real> Interval<P> {
+    /// `sample` held for `dt` (s); the mean torque is not wanted.
+    #[inline(always)]
+    #[must_use]
+    pub const fn held(sample: Sample<P>, dt: P) -> Self {
+        Self { sample, mean_velocity: None, dt, mean: false }
+    }
+
     /// The velocity that carries the state (X/s).
     #[inline]
     #[must_use]

@@ -4,8 +4,7 @@ use std::vec::Vec;
 use crate::composed::Spec;
 use crate::dynamics::{Interval, Part, State};
 use crate::error::ModelError;
-use crate::graph::{Format, Id, Operation, Recorded, Recorder};
-use crate::sample::Sample;
+use crate::graph::{self, Format, Id, Operation, Recorder};
 use crate::table::Channel;
 
 /// The column of the time step; those before are channels, those behind numbers of the state.
@@ -51,22 +50,14 @@ impl Program {
     pub fn of<F: Format>(spec: &Spec) -> Result<Self, ModelError<'static>> {
         let recorder = Recorder::default();
         let number = |operation| recorder.number::<F>(operation);
-        let parameters: Vec<_> =
-            (0..spec.parameter_count()).map(|index| number(Operation::Parameter(index))).collect();
-        let model = spec.with(&parameters)?;
-        let read: Vec<Channel> = spec.channels().collect();
-        let sample = Sample::of(|channel| match read.contains(&channel) {
-            true => number(Operation::Column(channel as usize)),
-            false => Recorded::Known(F::zero()),
-        });
+        let (model, sample) = graph::model::<F>(&recorder, spec)?;
         let mut parts = vec![];
         let mut state = State::default().map(|part, _| {
             parts.push(part);
             number(Operation::Column(TIME_STEP + parts.len()))
         });
         let dt = number(Operation::Column(TIME_STEP));
-        let interval = Interval { sample, mean_velocity: None, dt, mean: false };
-        let torque = recorder.id(model.over(&mut state, &interval).torque);
+        let torque = recorder.id(model.over(&mut state, &Interval::held(sample, dt)).torque);
         let mut states = vec![];
         let _ = state.map(|part, number| {
             states.push(StateNumber { part, after: recorder.id(number) });

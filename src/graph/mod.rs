@@ -8,6 +8,7 @@
 
 mod block;
 mod derivative;
+mod model;
 mod operation;
 mod recorded;
 mod recorder;
@@ -15,6 +16,7 @@ mod run;
 mod schedule;
 
 pub use derivative::derivatives;
+pub use model::model;
 pub use operation::{Binary, Id, Operation, Unary};
 pub use recorded::{Format, Recorded};
 pub use recorder::Recorder;

@@ -15,6 +15,9 @@ use super::schedule::{Place, Schedule, Task};
 /// Derivatives of a state that run together.
 const MOST_TOGETHER: usize = 4;
 
+/// Where operands of states that run together are spread out if all rows share them.
+type Scratch = [[[f64; BLOCK]; MOST_TOGETHER]; 4];
+
 /// What a graph is carried out on.
 pub struct Given<'a> {
     /// The parameters.
@@ -69,6 +72,7 @@ impl<F: FnMut(Range<usize>, &[Rows<'_>])> Running<'_, F> {
         let mut buffers: Vec<Vec<f64>> = vec![vec![0.0; BLOCK]; schedule.buffers];
         let mut memories = vec![0.0; schedule.memories];
         let mut starts = self.given.starts;
+        let mut scratch: Scratch = [[[0.0; BLOCK]; MOST_TOGETHER]; 4];
         for first in (0..self.given.rows).step_by(BLOCK) {
             let count = BLOCK.min(self.given.rows - first);
             let (own, later) = starts.split_at(starts.partition_point(|s| s.0 < first + count));
@@ -94,7 +98,7 @@ impl<F: FnMut(Range<usize>, &[Rows<'_>])> Running<'_, F> {
                 if now.len() == 1 {
                     let rows = reader!(buffers);
                     let memory = memories.get_mut(task.memory);
-                    moment.carry_out(task, &mut out[..count], rows, memory);
+                    moment.carry_out(task, &mut out[..count], rows, memory, &mut scratch);
                     buffers[task.to] = out;
                     continue;
                 }
@@ -104,9 +108,9 @@ impl<F: FnMut(Range<usize>, &[Rows<'_>])> Running<'_, F> {
                 }
                 let rows = reader!(buffers);
                 match now.len() {
-                    2 => moment.relax_alike::<2>(now, &mut outs, rows, &mut memories),
-                    3 => moment.relax_alike::<3>(now, &mut outs, rows, &mut memories),
-                    _ => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories),
+                    2 => moment.relax_alike::<2>(now, &mut outs, rows, &mut memories, &mut scratch),
+                    3 => moment.relax_alike::<3>(now, &mut outs, rows, &mut memories, &mut scratch),
+                    _ => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories, &mut scratch),
                 }
                 for (out, task) in outs.into_iter().zip(now) {
                     buffers[task.to] = out;
@@ -177,6 +181,7 @@ impl Moment<'_> {
         out: &mut [f64],
         rows: impl Fn(Place) -> Rows<'b>,
         memory: Option<&mut f64>,
+        scratch: &mut Scratch,
     ) {
         let [a, b, c, d, e] = task.from;
         match (task.operation, memory) {
@@ -187,7 +192,7 @@ impl Moment<'_> {
             (Operation::Relax(Relaxing { start, .. }), Some(memory)) => {
                 let mut states = [*memory];
                 let given = [[rows(a)], [rows(b)], [rows(c)], [rows(d)], [rows(e)]];
-                self.relax(&mut [out], given, start, &mut states);
+                self.relax(&mut [out], given, start, &mut states, scratch);
                 [*memory] = states;
             }
             (Operation::Before(_, _, start), Some(memory)) => {
@@ -248,13 +253,13 @@ impl Moment<'_> {
         [share, target, extra, shift, settled]: [[Rows<'_>; K]; 5],
         start: Start,
         states: &mut [f64; K],
+        scratch: &mut Scratch,
     ) {
         let nothing =
             |rows: &[Rows<'_>; K]| rows.iter().all(|rows| matches!(rows, Rows::Same(0.0)));
         let (no_extra, no_shift) = (nothing(&extra), nothing(&shift));
-        let mut scratch = [[[0.0; BLOCK]; K]; 4];
-        let [a, b, c, d] = &mut scratch;
-        let share = slices(share, a, self.count)[0];
+        let [a, b, c, d] = scratch;
+        let share = as_slice(share[0], &mut a[0], self.count);
         let target = slices(target, b, self.count);
         let (extra, shift) = (slices(extra, c, self.count), slices(shift, d, self.count));
         for (how, rows) in self.stretches() {
@@ -294,6 +299,7 @@ impl Moment<'_> {
         outs: &mut [Vec<f64>; MOST_TOGETHER],
         rows: impl Fn(Place) -> Rows<'b>,
         memories: &mut [f64],
+        scratch: &mut Scratch,
     ) {
         let given = from_fn(|part| from_fn(|own| rows(tasks[own].from[part])));
         let mut states: [f64; K] = from_fn(|own| memories[tasks[own].memory]);
@@ -302,7 +308,7 @@ impl Moment<'_> {
             Some(out) => &mut out[..self.count],
             None => &mut [],
         });
-        self.relax(&mut outs, given, Start::Zero, &mut states);
+        self.relax(&mut outs, given, Start::Zero, &mut states, scratch);
         for (task, state) in tasks.iter().zip(states) {
             memories[task.memory] = state;
         }
@@ -345,7 +351,7 @@ fn as_slice<'a>(from: Rows<'a>, scratch: &'a mut [f64; BLOCK], count: usize) -> 
 #[inline(always)]
 fn slices<'a, const K: usize>(
     from: [Rows<'a>; K],
-    scratch: &'a mut [[f64; BLOCK]; K],
+    scratch: &'a mut [[f64; BLOCK]],
     count: usize,
 ) -> [&'a [f64]; K] {
     let mut scratch = scratch.iter_mut();

@@ -247,6 +247,6 @@ pub(super) fn friction_over<P: Scalar<Plain = P> + PartialOrd>(
     sample: &Sample<P>,
     h: P,
 ) -> P {
-    let interval = Interval { sample: *sample, mean_velocity: None, dt: h, mean: true };
+    let interval = Interval { mean: true, ..Interval::held(*sample, h) };
     model.over(state, &interval).mean_torque
 }

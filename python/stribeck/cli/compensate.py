@@ -93,8 +93,6 @@ def compensate(
     identified with the friction.
     """
     check_output(picture)
-    if seed < 0:
-        raise SpecError(f"seed {seed} is negative: give 0 or more")
     asked = _known(model, values)
     friction = asked if plant is None else _known(plant)
     joint = joint_of(sizes)

@@ -7,7 +7,6 @@ from pathlib import Path
 import click
 
 from stribeck.cli.common import echo_json, is_model_file, json_option, say, seed_option
-from stribeck.errors import SpecError
 from stribeck.export import export as write
 from stribeck.model import model as named
 from stribeck.model_file import read_model_file
@@ -49,8 +48,6 @@ def export(
     Written code, crate and Python give the same bits. MODEL is a model file, which says what it was
     fitted on and where it holds.
     """
-    if seed < 0:
-        raise SpecError(f"seed {seed} is negative: give 0 or more")
     asked = read_model_file(model) if is_model_file(model) else named(model)
     called = name or (Path(model).stem if is_model_file(model) else None)
     written = write(

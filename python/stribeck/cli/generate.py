@@ -75,8 +75,6 @@ def generate(
     target = Path(output)
     if target.suffix.lower() not in (".parquet", ".csv"):
         raise SpecError(f"cannot write {output}: its name must end in .parquet or .csv")
-    if seed < 0:
-        raise SpecError(f"seed {seed} is negative: give 0 or more")
     check_output(output)
     _refuse_strangers(context, robot)
     if robot is None:

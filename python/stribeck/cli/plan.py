@@ -70,8 +70,6 @@ def plan(
         check_output(path)
     if output is not None and Path(output).suffix.lower() not in FORMATS:
         raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
-    if seed < 0:
-        raise SpecError(f"seed {seed} is negative: give 0 or more")
     joint = _joint(data, model, noise, starts=starts, seed=seed, reading=reading)
     say("note: searching for a motion, some seconds to a minute ...")
     planned = make(

@@ -92,8 +92,6 @@ def simulate(
         check_output(path)
     if output is not None and Path(output).suffix.lower() not in FORMATS:
         raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
-    if seed < 0:
-        raise SpecError(f"seed {seed} is negative: give 0 or more")
     asked = model_of(model, values)
     joint = _with_transmission(joint_of(sizes), sizes)
     drive = _drive(sizes, take_apart(asked, joint).joint, seed)

@@ -87,7 +87,7 @@ def vectors(
     }
     dt = np.repeat(rng.choice(_STEPS, size=-(-rows // 25)), 25)[:rows]
     dt = dt.astype(form).astype(np.float64)
-    friction = model.without_effect("delay") if "delay" in model.effects else model
+    friction = model.without_effect("delay")
     given: dict[str, Any] = {
         name: column for name, column in channels.items() if name != "velocity"
     }

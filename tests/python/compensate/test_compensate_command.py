@@ -95,7 +95,6 @@ def test_a_hand_needs_less_with_compensation(files: tuple[Path, Path]) -> None:
         (("--box", "velocity=-1:1"), "give both or none"),
         (("--kp", "1", "--ki", "1"), "must exceed 2 KI"),
         (("--observer", "0"), "bandwidth is 0 Hz"),
-        (("--seed", "-1"), "is negative"),
         (("--guided", "--observer", "5"), "leave out --guided"),
         (("--guided", "--feedforward"), "use feedback"),
         (("--seconds", "1e300"), "steps: give 1 to"),

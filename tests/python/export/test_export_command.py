@@ -55,7 +55,7 @@ def test_the_document_holds_the_step(model_file: str, tmp_path: Path) -> None:
         (["--to", "c", "--precision", "f16"], "precision cannot be 'f16'"),
         (["--to", "rust", "--libm"], "libm is for C in floating point"),
         (["--to", "c", "--box", "velocity"], "write --box CHANNEL=LOW:HIGH"),
-        (["--to", "c", "--seed", "-1"], "seed -1 is negative"),
+        (["--to", "c", "--seed", "-1"], "-1 is not in the range"),
     ],
 )
 def test_bad_options_end_in_one_line(

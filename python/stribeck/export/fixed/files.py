@@ -93,9 +93,7 @@ def _rows(about: About, analysis: Analysis, seed: int) -> Sequence[Sequence[int]
     columns: dict[str, Any] = {
         name: np.ldexp(x.astype(np.float64), -digits) for name, (x, digits) in given.items()
     }
-    model = about.model
-    if "delay" in model.effects:
-        model = model.without_effect("delay")
+    model = about.model.without_effect("delay")
     velocity = columns.pop("velocity", np.zeros(ROWS))
     values = model._known_values()
     torque = np.asarray(model.core.torque(values, None, velocity, **columns))
