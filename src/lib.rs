@@ -17,6 +17,7 @@
 //! | [`joint`] | friction coupled to an inertia: joints in motion |
 //! | `graph` (feature `std`) | what a law computes, written down, differentiated and vectorised |
 //! | `batch` (feature `std`) | whole recordings: torque, gradient, delay |
+//! | `identify` (feature `std`) | parameters from recordings: separable least squares |
 //! | `export` (feature `std`) | a step of a model as a list of operations, for controllers |
 //! | `passivity` (feature `std`) | proofs over a box of operating points, and counterexamples |
 //! | `python` (feature `python`) | the extension module `stribeck._core` |
@@ -56,6 +57,8 @@ pub mod fixed;
 pub mod formula;
 #[cfg(feature = "std")]
 mod graph;
+#[cfg(feature = "std")]
+pub mod identify;
 pub mod joint;
 pub mod law;
 pub mod math;

@@ -4,7 +4,7 @@
 mod common;
 
 use common::close;
-use stribeck::batch::triangle;
+use stribeck::identify::triangles;
 
 /// Sum of products of two columns of `R`.
 fn product(factor: &[f64], width: usize, i: usize, j: usize) -> f64 {
@@ -17,9 +17,9 @@ fn a_factor_keeps_every_sum_of_products() {
     let jacobian: Vec<f64> = (0..n * 3).map(|k| ((k * k * 7) % 23) as f64 - 11.0).collect();
     let residual: Vec<f64> = (0..n).map(|k| ((k * 5) % 17) as f64 - 8.0).collect();
     let group: Vec<u32> = (0..n as u32).map(|k| k % 2).collect();
-    let factor = triangle(&jacobian, 3, &residual, &group, 2).unwrap().factor;
-    for g in 0..2 {
-        let part = &factor[g * 16..][..16];
+    let factors = triangles(&jacobian, 3, &residual, &group, 2).unwrap();
+    for (g, made) in factors.iter().enumerate() {
+        let part = made.factor();
         for i in 0..4 {
             let entry = |k: usize, i: usize| if i == 3 { residual[k] } else { jacobian[3 * k + i] };
             let rows = || (0..n).filter(|k| k % 2 == g);
@@ -36,7 +36,8 @@ fn a_factor_keeps_every_sum_of_products() {
 #[test]
 fn nearly_equal_columns_stay_apart() {
     let e = 1e-9;
-    let factor = triangle(&[1.0, 1.0, e, 0.0, 0.0, e], 2, &[2.0, e, e], &[0; 3], 1).unwrap().factor;
+    let made = triangles(&[1.0, 1.0, e, 0.0, 0.0, e], 2, &[2.0, e, e], &[0; 3], 1).unwrap();
+    let factor = made[0].factor();
     let second = factor[5] / factor[4];
     let first = (factor[2] - factor[1] * second) / factor[0];
     close(first, 1.0, 1e-6);
@@ -46,7 +47,7 @@ fn nearly_equal_columns_stay_apart() {
 #[test]
 fn what_does_not_fit_together_is_refused() {
     let refused = |jacobian: &[f64], p, group: &[u32]| {
-        triangle(jacobian, p, &[1.0, 2.0], group, 2).unwrap_err().to_string()
+        triangles(jacobian, p, &[1.0, 2.0], group, 2).unwrap_err().to_string()
     };
     assert_eq!(refused(&[1.0; 4], 2, &[0]), "'group' has 1 rows but 'residual' has 2");
     assert_eq!(refused(&[1.0; 6], 2, &[0, 0]), "'jacobian' has 3 rows but 'residual' has 2");

@@ -19,6 +19,28 @@ def normal_equations(
 def triangle(
     jacobian: ArrayLike, residual: ArrayLike, group: ArrayLike, groups: int
 ) -> NDArray[np.float64]: ...
+def triangles_of(
+    model: Model,
+    measured: Mapping[str, Any],
+    groups: int,
+    values: ArrayLike,
+    wanted: list[int],
+    slope: ArrayLike,
+) -> NDArray[np.float64] | None: ...
+def slides(model: Model, measured: Mapping[str, Any], values: ArrayLike) -> list[bool]: ...
+def search(
+    model: Model,
+    measured: Mapping[str, Any],
+    starts: ArrayLike,
+    within: Mapping[str, Any],
+    threads: int,
+) -> list[tuple[NDArray[np.float64], float, bool, str, int]]: ...
+def search_by(
+    problem: object, start: ArrayLike, within: Mapping[str, Any]
+) -> tuple[NDArray[np.float64], float, bool, str, int]: ...
+def bounded_least_squares(
+    matrix: ArrayLike, right: ArrayLike, lower: ArrayLike, upper: ArrayLike
+) -> NDArray[np.float64]: ...
 def passivity(
     model: Model,
     values: ArrayLike,

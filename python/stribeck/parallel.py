@@ -7,9 +7,17 @@ import multiprocessing
 import os
 import signal
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any, TypeVar
+
+from threadpoolctl import threadpool_limits
 
 from stribeck.errors import StribeckError
 
@@ -31,6 +39,24 @@ def worker_count(wanted: int | None = None) -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def threads() -> int:
+    """On how many threads to search: as OMP_NUM_THREADS says, else one for each core.
+
+    A process of a pool has a core to itself.
+    """
+    said = os.environ.get("OMP_NUM_THREADS", "")
+    if said.isdigit() and int(said) > 0:
+        return int(said)
+    return worker_count() if multiprocessing.parent_process() is None else 1
+
+
+@contextlib.contextmanager
+def on_threads() -> Iterator[ThreadPoolExecutor]:
+    """A pool of `threads`, each of which keeps to itself in linear algebra too."""
+    with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(threads()) as pool:
+        yield pool
 
 
 def in_processes(

@@ -1,3 +1,4 @@
+use core::ops::Range;
 use std::borrow::Cow;
 use std::vec;
 use std::vec::Vec;
@@ -41,6 +42,22 @@ impl<'a> Channels<'a> {
             Channel::MotorTorque => self.motor_torque,
             Channel::ExternalTorque => self.external_torque,
             Channel::Time => self.time,
+        }
+    }
+
+    /// The columns of some rows; one that is shorter than they are is empty.
+    fn part(&self, rows: &Range<usize>) -> Self {
+        let some = |column: &'a [f64]| column.get(rows.clone()).unwrap_or_default();
+        Self {
+            velocity: some(self.velocity),
+            position: self.position.map(some),
+            acceleration: self.acceleration.map(some),
+            temperature: self.temperature.map(some),
+            load_torque: self.load_torque.map(some),
+            load_torque_curvature: self.load_torque_curvature.map(some),
+            motor_torque: self.motor_torque.map(some),
+            external_torque: self.external_torque.map(some),
+            time: self.time.map(some),
         }
     }
 
@@ -127,6 +144,22 @@ impl<'a> Columns<'a> {
             motor_torque: smooth.motor_torque.or(plain.motor_torque),
             external_torque: smooth.external_torque.or(plain.external_torque),
             time: smooth.time.or(plain.time),
+        }
+    }
+
+    /// The columns of some rows.
+    pub(crate) fn part(&self, rows: &Range<usize>) -> Self {
+        Self {
+            dt: match self.dt {
+                TimeStep::Each(steps) => TimeStep::Each(&steps[rows.clone()]),
+                dt => dt,
+            },
+            channels: self.channels.part(rows),
+            smooth: self.smooth.part(rows),
+            mean_velocity: self
+                .mean_velocity
+                .map(|mean| mean.get(rows.clone()).unwrap_or_default()),
+            ..*self
         }
     }
 

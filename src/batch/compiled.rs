@@ -1,5 +1,6 @@
 //! A model's torque and derivatives as a graph, run over whole columns.
 
+use core::ops::Range;
 use std::borrow::Cow;
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -9,7 +10,7 @@ use std::vec::Vec;
 
 use super::columns::{Channels, Columns, Rows};
 use crate::composed::Spec;
-use crate::graph::{self, Given, Operation, Recorded, Recorder, Schedule};
+use crate::graph::{self, Beginning, Given, Numbers, Operation, Recorded, Recorder, Schedule};
 use crate::scalar::Real;
 use crate::table::Channel;
 
@@ -34,6 +35,8 @@ struct Purpose {
     wanted: Vec<usize>,
     mean_velocity: bool,
     uniform_step: bool,
+    /// Whether a segment starts with a state that has settled.
+    settles: bool,
 }
 
 thread_local! {
@@ -53,6 +56,7 @@ impl Compiled {
             wanted: wanted.to_vec(),
             mean_velocity: columns.mean_velocity.is_some(),
             uniform_step: rows.uniform_step().is_some(),
+            settles: rows.starts().iter().any(|&(_, how)| how == Beginning::Settled),
         };
         RECENT
             .with_borrow_mut(|recent| {
@@ -89,6 +93,31 @@ impl Compiled {
         channels: Channels<'_>,
         columns: &Columns<'_>,
     ) -> (Vec<f64>, Vec<f64>) {
+        let mut torque = vec![0.0; rows.count()];
+        let mut slopes = vec![0.0; rows.count() * self.width];
+        let width = self.width;
+        self.each_block(values, rows, channels, columns, |block, outputs| {
+            let count = block.len();
+            let first = block.start;
+            outputs[0].copy_to(&mut torque[block]);
+            let slopes = &mut slopes[first * width..][..count * width];
+            for (k, slope) in outputs[1..].iter().enumerate() {
+                // Turns -0 into 0: which of them it is depends on what else is wanted.
+                slope.each(count, |row, slope| slopes[row * width + k] = slope + 0.0);
+            }
+        });
+        (torque, slopes)
+    }
+
+    /// Hands torque and derivatives of each block of rows over.
+    pub(super) fn each_block(
+        &self,
+        values: &[f64],
+        rows: &Rows,
+        channels: Channels<'_>,
+        columns: &Columns<'_>,
+        sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
+    ) {
         let mut given: Vec<&[f64]> =
             Channel::ALL.iter().map(|&channel| channels.get(channel).unwrap_or_default()).collect();
         given.push(columns.mean_velocity.unwrap_or_default());
@@ -100,8 +129,6 @@ impl Compiled {
             steps = rows.steps();
             given.push(&steps);
         }
-        let mut torque = vec![0.0; rows.count()];
-        let mut slopes = vec![0.0; rows.count() * self.width];
         let given = Given {
             parameters: &parameters,
             columns: &given,
@@ -109,18 +136,7 @@ impl Compiled {
             start: columns.state.first().copied().unwrap_or(0.0),
             starts: rows.starts(),
         };
-        let width = self.width;
-        graph::run(&self.schedule, &given, |block, outputs| {
-            let count = block.len();
-            let first = block.start;
-            outputs[0].copy_to(&mut torque[block]);
-            let slopes = &mut slopes[first * width..][..count * width];
-            for (k, slope) in outputs[1..].iter().enumerate() {
-                // Turns -0 into 0: which of them it is depends on what else is wanted.
-                slope.each(count, |row, slope| slopes[row * width + k] = slope + 0.0);
-            }
-        });
-        (torque, slopes)
+        graph::run(&self.schedule, &given, sink);
     }
 }
 
@@ -154,7 +170,11 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
                 Some(_) => bristle.shift(&course, dry, end, velocity),
                 None => Recorded::Known(0.0),
             };
-            let settled = bristle.target(end, sample.velocity);
+            let settled = if purpose.settles {
+                bristle.target(end, sample.velocity)
+            } else {
+                Recorded::Known(0.0)
+            };
             let (before, after) = recorder.relax(course.share, course.target, shift, settled);
             let rate = match mean {
                 Some(_) => bristle.rate(after, end, sample.velocity),

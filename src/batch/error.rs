@@ -42,6 +42,13 @@ pub enum BatchError {
         /// How many groups there are.
         groups: usize,
     },
+    /// A run begins at a row that does not exist.
+    Begin {
+        /// Row, counted from 0.
+        begin: usize,
+        /// How many rows there are.
+        rows: usize,
+    },
     /// The sums of so many groups do not fit into memory.
     TooManyGroups(usize),
     /// A value is NaN or infinite.
@@ -104,6 +111,9 @@ impl fmt::Display for BatchError {
             }
             Self::Group { row, group, groups } => {
                 write!(f, "row {row} is in group {group} but there are {groups} groups")
+            }
+            Self::Begin { begin, rows } => {
+                write!(f, "a run begins at row {begin} but there are {rows} rows, from 0")
             }
             Self::TooManyGroups(groups) => {
                 write!(f, "the sums of {groups} groups do not fit into memory")

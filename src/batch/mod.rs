@@ -6,20 +6,19 @@ mod compiled;
 mod delay;
 mod error;
 mod normal;
-mod triangle;
 
 pub use columns::{Channels, Columns, TimeStep};
 pub use error::BatchError;
 pub use normal::{NormalEquations, normal_equations};
-pub use triangle::{Triangle, triangle};
 
+use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
 
 use crate::catalog::EffectId;
 use crate::composed::{Composed, Spec};
 use crate::dynamics::Interval;
-use crate::graph::Beginning;
+use crate::graph::{Beginning, Numbers};
 use crate::scalar::{Dual, Real, Scalar};
 use balance::Balance;
 use columns::Rows;
@@ -27,6 +26,8 @@ use compiled::Compiled;
 
 /// Derivatives that are carried along in one pass over the rows.
 const MOST_AT_ONCE: usize = 16;
+/// Rows of a block that is handed over.
+const AT_ONCE: usize = 256;
 
 /// The friction torque of every row (T): of a model with a memory, at the end of the row's step.
 ///
@@ -73,14 +74,7 @@ pub fn gradient(
             &all
         }
     };
-    for (k, &index) in wanted.iter().enumerate() {
-        if index >= values.len() {
-            return Err(BatchError::Wanted { index, parameters: values.len() });
-        }
-        if wanted[..k].contains(&index) {
-            return Err(BatchError::WantedTwice(index));
-        }
-    }
+    check_wanted(values, wanted)?;
     if spec.with(values)?.runs_side_by_side() {
         return side_by_side(spec, values, columns, wanted, Locked::Amplified);
     }
@@ -98,6 +92,55 @@ pub fn gradient(
         }
     }
     Ok((torque, jacobian))
+}
+
+/// As [`gradient`], a block of rows after another: `sink` is handed the torque and each derivative
+/// of these rows, and nothing is kept of them.
+///
+/// # Errors
+/// As [`gradient`].
+pub(crate) fn blocks(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    wanted: &[usize],
+    mut sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
+) -> Result<(), BatchError> {
+    check_wanted(values, wanted)?;
+    let rows = columns.rows(spec)?;
+    let alone = !spec.effects().contains(EffectId::Delay)
+        && Balance::of(spec, values, columns, &columns.channels)?.is_none();
+    if alone && spec.with(values)?.runs_side_by_side() {
+        let compiled = Compiled::of(spec, wanted, &rows, columns);
+        compiled.each_block(values, &rows, columns.channels, columns, sink);
+        return Ok(());
+    }
+    let (torque, slopes) = gradient(spec, values, columns, Some(wanted))?;
+    let width = wanted.len();
+    let mut turned = vec![vec![0.0; AT_ONCE]; width];
+    for (block, torque) in torque.chunks(AT_ONCE).enumerate() {
+        let rows = block * AT_ONCE..block * AT_ONCE + torque.len();
+        for (k, column) in turned.iter_mut().enumerate() {
+            let slopes = slopes[rows.start * width..].iter().skip(k).step_by(width);
+            column.iter_mut().zip(slopes).for_each(|(x, &slope)| *x = slope);
+        }
+        let mut outputs = vec![Numbers::Each(torque)];
+        outputs.extend(turned.iter().map(|column| Numbers::Each(&column[..torque.len()])));
+        sink(rows, &outputs);
+    }
+    Ok(())
+}
+
+fn check_wanted(values: &[f64], wanted: &[usize]) -> Result<(), BatchError> {
+    for (k, &index) in wanted.iter().enumerate() {
+        if index >= values.len() {
+            return Err(BatchError::Wanted { index, parameters: values.len() });
+        }
+        if wanted[..k].contains(&index) {
+            return Err(BatchError::WantedTwice(index));
+        }
+    }
+    Ok(())
 }
 
 fn gradient_at_once(

@@ -1,22 +1,24 @@
 //! The loops over a block of rows, one an operation.
 
+use core::ops::Range;
+
 use super::operation::{Binary, Unary};
 use crate::math::f64 as elementary;
 use crate::scalar::Real;
 
-/// Rows of a block: what all operations leave stays in the first cache.
+/// Numbers of a block: what all operations leave stays in the first cache.
 pub const BLOCK: usize = 256;
 
 /// Numbers of a block: one a row, or the same for all.
 #[derive(Clone, Copy, Debug)]
-pub enum Rows<'a> {
+pub enum Numbers<'a> {
     /// The same.
     Same(f64),
     /// One a row.
     Each(&'a [f64]),
 }
 
-impl Rows<'_> {
+impl Numbers<'_> {
     /// That of one row.
     #[inline(always)]
     #[must_use]
@@ -25,6 +27,28 @@ impl Rows<'_> {
             Self::Same(x) => *x,
             Self::Each(rows) => rows[row],
         }
+    }
+
+    /// Those of some rows.
+    #[inline(always)]
+    #[must_use]
+    pub fn part(&self, rows: &Range<usize>) -> Self {
+        match *self {
+            Self::Same(x) => Self::Same(x),
+            Self::Each(all) => Self::Each(&all[rows.clone()]),
+        }
+    }
+
+    /// Products with a factor.
+    #[inline(always)]
+    pub fn times(&self, factor: f64, out: &mut [f64]) {
+        map(out, *self, |x| x * factor);
+    }
+
+    /// Differences to other numbers.
+    #[inline(always)]
+    pub fn subtracted_from(&self, others: &[f64], out: &mut [f64]) {
+        zip(out, Numbers::Each(others), *self, |other, x| other - x);
     }
 
     /// Copies them.
@@ -51,10 +75,10 @@ const fn mask(yes: bool) -> f64 {
 }
 
 #[inline(always)]
-fn map(out: &mut [f64], x: Rows<'_>, f: impl Fn(f64) -> f64) {
+fn map(out: &mut [f64], x: Numbers<'_>, f: impl Fn(f64) -> f64) {
     match x {
-        Rows::Same(x) => out.fill(f(x)),
-        Rows::Each(x) => {
+        Numbers::Same(x) => out.fill(f(x)),
+        Numbers::Each(x) => {
             for (out, &x) in out.iter_mut().zip(x) {
                 *out = f(x);
             }
@@ -63,11 +87,11 @@ fn map(out: &mut [f64], x: Rows<'_>, f: impl Fn(f64) -> f64) {
 }
 
 #[inline(always)]
-fn zip(out: &mut [f64], x: Rows<'_>, y: Rows<'_>, f: impl Fn(f64, f64) -> f64) {
+fn zip(out: &mut [f64], x: Numbers<'_>, y: Numbers<'_>, f: impl Fn(f64, f64) -> f64) {
     match (x, y) {
-        (Rows::Same(x), y) => map(out, y, |y| f(x, y)),
-        (x, Rows::Same(y)) => map(out, x, |x| f(x, y)),
-        (Rows::Each(x), Rows::Each(y)) => {
+        (Numbers::Same(x), y) => map(out, y, |y| f(x, y)),
+        (x, Numbers::Same(y)) => map(out, x, |x| f(x, y)),
+        (Numbers::Each(x), Numbers::Each(y)) => {
             for ((out, &x), &y) in out.iter_mut().zip(x).zip(y) {
                 *out = f(x, y);
             }
@@ -77,7 +101,7 @@ fn zip(out: &mut [f64], x: Rows<'_>, y: Rows<'_>, f: impl Fn(f64, f64) -> f64) {
 
 /// An operation on one number of each row.
 #[inline(always)]
-pub fn unary(out: &mut [f64], operation: Unary, x: Rows<'_>) {
+pub fn unary(out: &mut [f64], operation: Unary, x: Numbers<'_>) {
     match operation {
         Unary::Negate => map(out, x, |x| -x),
         Unary::Abs => map(out, x, f64::abs),
@@ -99,7 +123,7 @@ pub fn unary(out: &mut [f64], operation: Unary, x: Rows<'_>) {
 
 /// Sine or cosine: the few phases that need care are mended.
 #[inline(always)]
-fn wave(out: &mut [f64], x: Rows<'_>, of: impl Fn((f64, f64)) -> f64) {
+fn wave(out: &mut [f64], x: Numbers<'_>, of: impl Fn((f64, f64)) -> f64) {
     map(out, x, |x| of(elementary::sin_cos_fast(x)));
     for (row, out) in out.iter_mut().enumerate() {
         if elementary::needs_care(x.at(row)) {
@@ -110,7 +134,7 @@ fn wave(out: &mut [f64], x: Rows<'_>, of: impl Fn((f64, f64)) -> f64) {
 
 /// An operation on two numbers of each row.
 #[inline(always)]
-pub fn binary(out: &mut [f64], operation: Binary, x: Rows<'_>, y: Rows<'_>) {
+pub fn binary(out: &mut [f64], operation: Binary, x: Numbers<'_>, y: Numbers<'_>) {
     match operation {
         Binary::Add => zip(out, x, y, |x, y| x + y),
         Binary::Subtract => zip(out, x, y, |x, y| x - y),
@@ -127,19 +151,19 @@ pub fn binary(out: &mut [f64], operation: Binary, x: Rows<'_>, y: Rows<'_>) {
 
 /// Of an exponent that all rows share the special cases are looked at once.
 #[inline(always)]
-fn power(out: &mut [f64], x: Rows<'_>, p: Rows<'_>) {
+fn power(out: &mut [f64], x: Numbers<'_>, p: Numbers<'_>) {
     match p {
-        Rows::Same(1.0) => map(out, x, |x| elementary::powf(x, 1.0)),
-        Rows::Same(2.0) => map(out, x, |x| elementary::powf(x, 2.0)),
-        Rows::Same(p) if elementary::is_plain_exponent(p) => plain_power(out, x, p),
+        Numbers::Same(1.0) => map(out, x, |x| elementary::powf(x, 1.0)),
+        Numbers::Same(2.0) => map(out, x, |x| elementary::powf(x, 2.0)),
+        Numbers::Same(p) if elementary::is_plain_exponent(p) => plain_power(out, x, p),
         p => zip(out, x, p, elementary::powf),
     }
 }
 
 /// Two loops keep more rows under way than one; the few bases that need care are mended.
 #[inline(always)]
-fn plain_power(out: &mut [f64], x: Rows<'_>, p: f64) {
-    let Rows::Each(x) = x else { return map(out, x, |x| elementary::powf(x, p)) };
+fn plain_power(out: &mut [f64], x: Numbers<'_>, p: f64) {
+    let Numbers::Each(x) = x else { return map(out, x, |x| elementary::powf(x, p)) };
     let (mut high, mut low) = ([0.0; BLOCK], [0.0; BLOCK]);
     for ((&x, high), low) in x.iter().zip(&mut high).zip(&mut low) {
         (*high, *low) = elementary::log2_fast(x);
@@ -165,16 +189,16 @@ fn chain(slope: f64, by: f64) -> f64 {
 
 /// The second where the mask holds, else the third.
 #[inline(always)]
-pub fn choose(out: &mut [f64], mask: Rows<'_>, yes: Rows<'_>, no: Rows<'_>) {
+pub fn choose(out: &mut [f64], mask: Numbers<'_>, yes: Numbers<'_>, no: Numbers<'_>) {
     match (mask, yes, no) {
-        (Rows::Same(mask), yes, no) => map(out, if mask == 0.0 { no } else { yes }, |x| x),
-        (mask, Rows::Same(yes), no) => {
+        (Numbers::Same(mask), yes, no) => map(out, if mask == 0.0 { no } else { yes }, |x| x),
+        (mask, Numbers::Same(yes), no) => {
             zip(out, mask, no, |mask, no| if mask == 0.0 { no } else { yes });
         }
-        (mask, yes, Rows::Same(no)) => {
+        (mask, yes, Numbers::Same(no)) => {
             zip(out, mask, yes, |mask, yes| if mask == 0.0 { no } else { yes });
         }
-        (Rows::Each(mask), Rows::Each(yes), Rows::Each(no)) => {
+        (Numbers::Each(mask), Numbers::Each(yes), Numbers::Each(no)) => {
             for (((out, &mask), &yes), &no) in out.iter_mut().zip(mask).zip(yes).zip(no) {
                 *out = if mask == 0.0 { no } else { yes };
             }
@@ -185,13 +209,13 @@ pub fn choose(out: &mut [f64], mask: Rows<'_>, yes: Rows<'_>, no: Rows<'_>) {
 /// The same operation on single numbers.
 pub fn unary_once(operation: Unary, x: f64) -> f64 {
     let mut out = [0.0];
-    unary(&mut out, operation, Rows::Same(x));
+    unary(&mut out, operation, Numbers::Same(x));
     out[0]
 }
 
 /// The same operation on single numbers.
 pub fn binary_once(operation: Binary, x: f64, y: f64) -> f64 {
     let mut out = [0.0];
-    binary(&mut out, operation, Rows::Same(x), Rows::Same(y));
+    binary(&mut out, operation, Numbers::Same(x), Numbers::Same(y));
     out[0]
 }

@@ -68,21 +68,26 @@ impl<'r> Rules<'r, '_> {
             Operation::Before(state, _, _) => {
                 self.of(state).into_iter().map(|by| Some(self.before(by?))).collect()
             }
-            _ => self.backwards(id),
+            _ => self.backwards(&[(id, Recorded::Known(1.0))]),
         };
         self.known.insert(id, slopes.clone());
         slopes
     }
 
-    /// From a node back to parameters and states, and from these on by what is known of them.
-    fn backwards(&mut self, root: Id) -> Vec<Slope<'r>> {
-        let mut factors: Vec<Slope<'r>> = vec![None; root + 1];
-        factors[root] = Some(Recorded::Known(1.0));
+    /// The derivatives of a sum of nodes times factors: from these back to parameters, states and
+    /// nodes whose derivatives have been found, and from these on by what is known of them.
+    fn backwards(&mut self, sum: &[(Id, Recorded<'r>)]) -> Vec<Slope<'r>> {
+        let last = sum.iter().map(|&(id, _)| id).max().unwrap_or(0);
+        let mut factors: Vec<Slope<'r>> = vec![None; last + 1];
+        for &(id, factor) in sum.iter().filter(|&&(id, _)| self.depends[id]) {
+            factors[id] = plus(factors[id], Some(factor));
+        }
         let mut slopes = vec![None; self.wanted.len()];
-        for id in (0..=root).rev() {
+        for id in (0..=last).rev() {
             let Some(factor) = factors[id] else { continue };
             let operation = self.operations[id];
-            if matches!(operation, Operation::Parameter(_)) || operation.has_memory() {
+            let ends = matches!(operation, Operation::Parameter(_)) || operation.has_memory();
+            if ends || self.known.contains_key(&id) {
                 for (sum, by) in slopes.iter_mut().zip(self.of(id)) {
                     *sum = plus(*sum, by.map(|by| self.times(factor, by)));
                 }
@@ -203,23 +208,29 @@ impl<'r> Rules<'r, '_> {
         }
     }
 
-    /// The state's derivative relaxes alike, and is moved by those of share, target and shift.
+    /// The state's derivative relaxes to nothing by the same share, and is moved by what the
+    /// parameters do to share, target, extra and shift.
     fn relax(&mut self, state: Id, relaxing: Relaxing) -> Vec<Slope<'r>> {
         let Relaxing { share, target, extra, shift, settled, .. } = relaxing;
-        let [by_share, by_target, by_extra, by_shift, by_settled] =
-            [share, target, extra, shift, settled].map(|id| self.of(id));
+        let one = Recorded::Known(1.0);
         let way = self.number(target) - self.before(Recorded::Node(self.recorder, state));
+        // What the row before hands on is differentiated first: the sum then ends there.
+        let by_settled = self.of(settled);
+        let moved = self.backwards(&[
+            (share, way),
+            (target, self.number(share)),
+            (extra, one),
+            (shift, one),
+        ]);
         let node = |slope: Slope<'r>| self.recorder.id(slope.unwrap_or(Recorded::Known(0.0)));
         let slope = |k: usize| {
-            let moved = by_share[k].map(|by| self.times(by, way));
-            let extra = plus(plus(moved, by_extra[k]), by_shift[k]);
-            if extra.is_none() && by_target[k].is_none() && by_settled[k].is_none() {
+            if moved[k].is_none() && by_settled[k].is_none() {
                 return None;
             }
             let relaxing = Relaxing {
                 share,
-                target: node(by_target[k]),
-                extra: node(extra),
+                target: node(None),
+                extra: node(moved[k]),
                 shift: node(None),
                 settled: node(by_settled[k]),
                 start: Start::Zero,

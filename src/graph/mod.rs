@@ -15,6 +15,7 @@ mod recorder;
 mod run;
 mod schedule;
 
+pub use block::Numbers;
 pub use derivative::derivatives;
 pub use model::model;
 pub use operation::{Binary, Id, Operation, Unary};

@@ -8,7 +8,7 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::block::{BLOCK, Rows, binary, binary_once, choose, unary, unary_once};
+use super::block::{BLOCK, Numbers, binary, binary_once, choose, unary, unary_once};
 use super::operation::{Operation, Relaxing, Start};
 use super::schedule::{Place, Schedule, Task};
 
@@ -42,7 +42,7 @@ pub enum Beginning {
 }
 
 /// Carries out the operations; `sink` takes the outputs of each block of rows.
-pub fn run(schedule: &Schedule, given: &Given<'_>, sink: impl FnMut(Range<usize>, &[Rows<'_>])) {
+pub fn run(schedule: &Schedule, given: &Given<'_>, sink: impl FnMut(Range<usize>, &[Numbers<'_>])) {
     Arch::new().dispatch(Running { schedule, given, sink });
 }
 
@@ -52,7 +52,7 @@ struct Running<'a, F> {
     sink: F,
 }
 
-impl<F: FnMut(Range<usize>, &[Rows<'_>])> WithSimd for Running<'_, F> {
+impl<F: FnMut(Range<usize>, &[Numbers<'_>])> WithSimd for Running<'_, F> {
     type Output = ();
 
     #[inline(always)]
@@ -64,7 +64,7 @@ impl<F: FnMut(Range<usize>, &[Rows<'_>])> WithSimd for Running<'_, F> {
     }
 }
 
-impl<F: FnMut(Range<usize>, &[Rows<'_>])> Running<'_, F> {
+impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
     #[inline(always)]
     fn all(mut self) {
         let schedule = self.schedule;
@@ -80,11 +80,11 @@ impl<F: FnMut(Range<usize>, &[Rows<'_>])> Running<'_, F> {
             macro_rules! reader {
                 ($buffers:expr) => {
                     |place| match place {
-                        Place::Uniform(i) => Rows::Same(uniforms[i]),
+                        Place::Uniform(i) => Numbers::Same(uniforms[i]),
                         Place::Column(i) => {
-                            Rows::Each(&self.given.columns[i][first..first + count])
+                            Numbers::Each(&self.given.columns[i][first..first + count])
                         }
-                        Place::Buffer(i) => Rows::Each(&$buffers[i][..count]),
+                        Place::Buffer(i) => Numbers::Each(&$buffers[i][..count]),
                     }
                 };
             }
@@ -116,7 +116,7 @@ impl<F: FnMut(Range<usize>, &[Rows<'_>])> Running<'_, F> {
                     buffers[task.to] = out;
                 }
             }
-            let outputs: Vec<Rows<'_>> =
+            let outputs: Vec<Numbers<'_>> =
                 schedule.outputs.iter().map(|&place| reader!(buffers)(place)).collect();
             (self.sink)(first..first + count, &outputs);
         }
@@ -179,7 +179,7 @@ impl Moment<'_> {
         &self,
         task: &Task,
         out: &mut [f64],
-        rows: impl Fn(Place) -> Rows<'b>,
+        rows: impl Fn(Place) -> Numbers<'b>,
         memory: Option<&mut f64>,
         scratch: &mut Scratch,
     ) {
@@ -234,7 +234,7 @@ impl Moment<'_> {
     }
 
     #[inline(always)]
-    fn previous(&self, out: &mut [f64], x: Rows<'_>, memory: &mut f64) {
+    fn previous(&self, out: &mut [f64], x: Numbers<'_>, memory: &mut f64) {
         for (how, rows) in self.stretches() {
             let first = rows.start;
             out[first] = if how.is_none() { *memory } else { x.at(first) };
@@ -250,14 +250,15 @@ impl Moment<'_> {
     fn relax<const K: usize>(
         &self,
         outs: &mut [&mut [f64]; K],
-        [share, target, extra, shift, settled]: [[Rows<'_>; K]; 5],
+        [share, target, extra, shift, settled]: [[Numbers<'_>; K]; 5],
         start: Start,
         states: &mut [f64; K],
         scratch: &mut Scratch,
     ) {
         let nothing =
-            |rows: &[Rows<'_>; K]| rows.iter().all(|rows| matches!(rows, Rows::Same(0.0)));
-        let (no_extra, no_shift) = (nothing(&extra), nothing(&shift));
+            |rows: &[Numbers<'_>; K]| rows.iter().all(|rows| matches!(rows, Numbers::Same(0.0)));
+        let (no_target, no_extra) = (nothing(&target), nothing(&extra));
+        let no_shift = nothing(&shift);
         let [a, b, c, d] = scratch;
         let share = as_slice(share[0], &mut a[0], self.count);
         let target = slices(target, b, self.count);
@@ -267,9 +268,15 @@ impl Moment<'_> {
             for (state, settled) in states.iter_mut().zip(settled) {
                 *state = self.before_start(how, *state, || settled.at(first), start);
             }
+            // Cut to one length, so that no index needs to be checked within the loops.
+            let length = rows.len();
+            let share = &share[rows.clone()][..length];
+            let [target, extra, shift] =
+                [target, extra, shift].map(|all| all.map(|all| &all[rows.clone()][..length]));
+            let outs = outs.each_mut().map(|out| &mut out[rows.clone()][..length]);
             macro_rules! step {
                 ($row:ident, $k:ident => $state:expr) => {
-                    for $row in rows {
+                    for $row in 0..length {
                         for $k in 0..K {
                             states[$k] = $state;
                             outs[$k][$row] = states[$k];
@@ -277,12 +284,12 @@ impl Moment<'_> {
                     }
                 };
             }
-            match (no_extra, no_shift) {
-                (true, true) => {
-                    step!(i, k => states[k] + share[i] * (target[k][i] - states[k]));
+            match (no_target, no_extra, no_shift) {
+                (true, _, true) => {
+                    step!(i, k => extra[k][i] + (states[k] - share[i] * states[k]));
                 }
-                (false, true) => {
-                    step!(i, k => (states[k] + extra[k][i]) + share[i] * (target[k][i] - states[k]));
+                (_, true, true) => {
+                    step!(i, k => states[k] + share[i] * (target[k][i] - states[k]));
                 }
                 _ => step!(i, k => {
                     (states[k] + extra[k][i]) + share[i] * (target[k][i] - states[k]) + shift[k][i]
@@ -297,7 +304,7 @@ impl Moment<'_> {
         &self,
         tasks: &[Task],
         outs: &mut [Vec<f64>; MOST_TOGETHER],
-        rows: impl Fn(Place) -> Rows<'b>,
+        rows: impl Fn(Place) -> Numbers<'b>,
         memories: &mut [f64],
         scratch: &mut Scratch,
     ) {
@@ -318,8 +325,8 @@ impl Moment<'_> {
     fn before(
         &self,
         out: &mut [f64],
-        state: Rows<'_>,
-        settled: Rows<'_>,
+        state: Numbers<'_>,
+        settled: Numbers<'_>,
         start: Start,
         memory: &mut f64,
     ) {
@@ -336,10 +343,10 @@ impl Moment<'_> {
 
 /// One number a row, also of what all share.
 #[inline(always)]
-fn as_slice<'a>(from: Rows<'a>, scratch: &'a mut [f64; BLOCK], count: usize) -> &'a [f64] {
+fn as_slice<'a>(from: Numbers<'a>, scratch: &'a mut [f64; BLOCK], count: usize) -> &'a [f64] {
     match from {
-        Rows::Each(rows) => rows,
-        Rows::Same(x) => {
+        Numbers::Each(rows) => rows,
+        Numbers::Same(x) => {
             let scratch = &mut scratch[..count];
             scratch.fill(x);
             scratch
@@ -350,7 +357,7 @@ fn as_slice<'a>(from: Rows<'a>, scratch: &'a mut [f64; BLOCK], count: usize) -> 
 /// The same of several.
 #[inline(always)]
 fn slices<'a, const K: usize>(
-    from: [Rows<'a>; K],
+    from: [Numbers<'a>; K],
     scratch: &'a mut [[f64; BLOCK]],
     count: usize,
 ) -> [&'a [f64]; K] {

@@ -47,21 +47,35 @@ impl Start<'_> {
     }
 }
 
-/// The arguments that `torque`, `gradient` and `split` share.
+/// The arguments that `torque`, `gradient` and `split` share; elsewhere a dict of them.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
 pub(super) struct Arguments<'py> {
     pub dt: Option<Dt<'py>>,
     pub velocity: Array<'py>,
+    #[pyo3(default)]
     pub position: Option<Array<'py>>,
+    #[pyo3(default)]
     pub acceleration: Option<Array<'py>>,
+    #[pyo3(default)]
     pub temperature: Option<Array<'py>>,
+    #[pyo3(default)]
     pub load_torque: Option<Array<'py>>,
+    #[pyo3(default)]
     pub load_torque_curvature: Option<Array<'py>>,
+    #[pyo3(default)]
     pub motor_torque: Option<Array<'py>>,
+    #[pyo3(default)]
     pub external_torque: Option<Array<'py>>,
+    #[pyo3(default)]
     pub time: Option<Array<'py>>,
+    #[pyo3(default)]
     pub smooth: Option<BTreeMap<String, Array<'py>>>,
+    #[pyo3(default = true)]
     pub shift_load: bool,
+    #[pyo3(default)]
     pub mean_velocity: Option<Array<'py>>,
+    #[pyo3(default)]
     pub state: Option<Start<'py>>,
 }
 

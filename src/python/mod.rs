@@ -6,6 +6,7 @@ mod columns;
 mod compensation;
 mod export;
 mod formula;
+mod identify;
 mod joint;
 mod model;
 mod normal;
@@ -43,11 +44,15 @@ mod _core {
     #[pymodule_export]
     use super::formula::Formula;
     #[pymodule_export]
+    use super::identify::{
+        bounded_least_squares, search, search_by, slides, triangle, triangles_of,
+    };
+    #[pymodule_export]
     use super::joint::{fourier, simulate, stroke};
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
-    use super::normal::{normal_equations, triangle};
+    use super::normal::normal_equations;
     #[pymodule_export]
     use super::passivity::{Requirement, margins, missed, passivity, requirements, work};
 }

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use super::columns::{Array, contiguous};
 use super::{ModelError, refuse};
-use crate::batch::{self, NormalEquations, Triangle};
+use crate::batch::{self, NormalEquations};
 
 type Sums<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
 
@@ -37,34 +37,13 @@ pub fn normal_equations<'py>(
     Ok((matrix.into_pyarray(py), vector.into_pyarray(py), square.into_pyarray(py)))
 }
 
-/// Triangular factors of `[J r]` over `groups` groups of rows, array `[groups, p + 1, p + 1]`.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value)]
-pub fn triangle<'py>(
-    py: Python<'py>,
-    jacobian: PyArrayLike2<'py, f64, AllowTypeChange>,
-    residual: Array<'py>,
-    group: PyArrayLike1<'py, u32, AllowTypeChange>,
-    groups: usize,
-) -> PyResult<Bound<'py, PyArray3<f64>>> {
-    let jacobian = jacobian.as_array();
-    let p = jacobian.ncols();
-    let rows = row_by_row(&jacobian);
-    let residual = contiguous(&residual);
-    let group = group.as_array().to_vec();
-    let Triangle { factor } =
-        py.detach(|| batch::triangle(&rows, p, &residual, &group, groups)).map_err(refuse)?;
-    let factor = Array3::from_shape_vec((groups, p + 1, p + 1), factor).map_err(bad)?;
-    Ok(factor.into_pyarray(py))
-}
-
-fn row_by_row<'a>(matrix: &'a ArrayView2<'_, f64>) -> Cow<'a, [f64]> {
+pub(super) fn row_by_row<'a>(matrix: &'a ArrayView2<'_, f64>) -> Cow<'a, [f64]> {
     match matrix.as_slice() {
         Some(slice) => Cow::Borrowed(slice),
         None => Cow::Owned(matrix.iter().copied().collect()),
     }
 }
 
-fn bad(error: numpy::ndarray::ShapeError) -> PyErr {
+pub(super) fn bad(error: numpy::ndarray::ShapeError) -> PyErr {
     ModelError::new_err(error.to_string())
 }

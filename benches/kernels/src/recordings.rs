@@ -5,6 +5,7 @@ use std::hint::black_box;
 
 use stribeck::batch::{self, Channels, Columns, TimeStep};
 use stribeck::composed::Spec;
+use stribeck::identify;
 use stribeck::math;
 
 use crate::{Kernel, Work};
@@ -60,7 +61,7 @@ fn triangle() -> Work {
         batch::gradient(&spec, values, &columns(&velocity), None).expect("a model");
     let group = vec![0; ROWS];
     Box::new(move || {
-        black_box(batch::triangle(black_box(&jacobian), WIDTH, &residual, &group, 1))
+        black_box(identify::triangles(black_box(&jacobian), WIDTH, &residual, &group, 1))
             .expect("columns that fit together");
     })
 }

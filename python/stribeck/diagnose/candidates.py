@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Collection
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
@@ -25,6 +23,7 @@ from stribeck.fit import Fit, own_load
 from stribeck.formula_law import effect_name
 from stribeck.identify.scaling import check_channels
 from stribeck.model import effect_ids
+from stribeck.parallel import on_threads
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,7 @@ def tried_on(
     effect does the same there with fewer parameters, those two take its place: the larger of them.
     """
     alone = [effect for effect in possible if contained(effect, fitted.model) is None]
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with on_threads() as pool:
         looked_at = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
         promising = [s for s in looked_at if promises(s, least)]
         trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]

@@ -20,7 +20,7 @@ from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.separable import CAUTIOUS, Search, minimise
+from stribeck.identify.separable import CAUTIOUS, Search, minimise_from
 from stribeck.identify.space import SearchSpace
 from stribeck.model import Model
 
@@ -95,7 +95,9 @@ def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Arr
     else:
         base = replace(problem, model=before.model)
         least, most, _ = bounds(before.model, before.recording)
-        level = np.sqrt(_steps(base, before.model.values, least, most, FIRST_STEPS).square)
+        level = np.sqrt(
+            _steps(base, before.model.values[None, :], least, most, FIRST_STEPS)[0].square
+        )
         left = np.sqrt(found.square)
     return 1.0 - float(left / level) if level > 0.0 else 0.0
 
@@ -123,20 +125,21 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     if not np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])):
         varied = np.zeros_like(varied)
     random = np.random.default_rng(seed)
-    tried = []
     few = problem.model.memoryless or problem.rows.size <= SAMPLES
     starts = STARTS if few else STARTS_ON_ALL_ROWS
-    for k in range(starts if varied.any() else 1):
-        at = start.copy()
-        if k > 0:
-            at[varied] = space.drawn(start, random)[varied]
-        tried.append(_steps(problem, at, lower, upper, FIRST_STEPS))
+    at = np.tile(start, (starts if varied.any() else 1, 1))
+    for drawn in at[1:]:
+        drawn[varied] = space.drawn(start, random)[varied]
+    tried = _steps(problem, at, lower, upper, FIRST_STEPS)
     best = min(tried, key=lambda search: search.square)
     if not nonlinear.any():
         return best
     further = FURTHER_STEPS if few else FURTHER_STEPS_ON_ALL_ROWS
-    return _steps(problem, best.values, lower, upper, further)
+    return _steps(problem, best.values[None, :], lower, upper, further)[0]
 
 
-def _steps(problem: Problem, at: Array, lower: Array, upper: Array, most: int) -> Search:
-    return minimise(problem, at, lower, upper, tolerance=TOLERANCE, most=most, damping=CAUTIOUS)[0]
+def _steps(problem: Problem, at: Array, lower: Array, upper: Array, most: int) -> list[Search]:
+    """Searches from `at`, array [k, p]."""
+    return minimise_from(
+        problem, at, lower, upper, tolerance=TOLERANCE, most=most, damping=CAUTIOUS
+    )[0]

@@ -21,6 +21,7 @@ from stribeck.identify.figures import rms
 from stribeck.identify.periodogram import most_periods
 from stribeck.identify.problem import Problem
 from stribeck.model import catalog
+from stribeck.parallel import on_threads
 
 Array = NDArray[np.float64]
 
@@ -166,20 +167,25 @@ def visibility(
         # What a freer form of the effects in the model takes up is not claimed for another.
         beside.append((Beside(problem, freer), replace(need, least_fall=need.least_fall / 2.0)))
     unit, largest = fit.model.torque_unit, _friction(fit)
-    shown, hidden = [], []
-    for effect in candidates:
+
+    def look(effect: str) -> Shown | None:
         try:
             widened = Widened.of(problem, effect, fit.residual)
             guesses = most_periods(fit.recording) if effect == "ripple" else 1
-            one = show(widened, beside, noise, fit.prediction[fit.rows], guesses)
+            return show(widened, beside, noise, fit.prediction[fit.rows], guesses)
         except StribeckError:
-            continue
+            return None
+
+    shown, hidden = [], []
+    with on_threads() as pool:
+        looked_at = [one for one in pool.map(look, candidates) if one is not None]
+    for one in looked_at:
         if one.smallest <= largest:
             shown.append(one)
         elif (
-            effect not in found
+            one.effect not in found
             and one.is_looked_for(found)
-            and not fit.model.has(HELD_BY.get(effect, effect))
+            and not fit.model.has(HELD_BY.get(one.effect, one.effect))
         ):
             hidden.append(_hidden(one, base, unit))
     smallest = sorted(

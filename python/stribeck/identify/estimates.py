@@ -77,11 +77,19 @@ def estimates(
     problem: Problem, values: Array, lower: Array, upper: Array, errors: Errors = "robust"
 ) -> dict[str, Estimate]:
     """The parameters at the solution `values` [p] between bounds, by name."""
-    residual, jacobian = problem.linearise(values)
-    batch = None
-    if errors == "robust":
-        batch = batches(residual.size, correlation_length(residual))
-    return estimates_by_rows(problem.model, values, lower, upper, jacobian, residual, batch)
+    if errors == "independent":
+        residual, jacobian = problem.linearise(values)
+        return estimates_by_rows(problem.model, values, lower, upper, jacobian, residual, None)
+    residual = problem.residual(values)
+    batch = batches(residual.size, correlation_length(residual))
+    count = int(batch.max()) + 1
+    parts = problem.triangles(values, np.arange(values.size), batch, count)
+    return estimates_by_rows(
+        problem.model, values, lower, upper,
+        np.concatenate([part.factor for part in parts]),
+        np.concatenate([part.right for part in parts]),
+        np.repeat(np.arange(count, dtype=np.uint32), values.size),
+    )  # fmt: skip
 
 
 def estimates_by_rows(

@@ -56,10 +56,8 @@ class Bounded:
     def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
         """A second step; a damped search from `values` where the first went too far."""
         free = np.flatnonzero(self.lower < self.upper)
-        with np.errstate(all="ignore"):
-            residual, jacobian = problem.linearise(refit, free)
-        others = Triangle.of(jacobian, residual)
-        if others.square <= square:
+        others = problem.triangle(refit, free, np.ones(free.size))
+        if others is not None and others.square <= square:
             return self.step(refit, others)
         return minimise(problem, values, self.lower, self.upper, tolerance=SETTLED)[0].values
 
@@ -103,8 +101,8 @@ def held_out_prediction(
         return np.full_like(prediction, np.nan), refits
     by = by or Bounded(lower, upper)
     free = np.flatnonzero(lower < upper)
-    residual, jacobian = problem.linearise(values, free)
-    parts = triangles(jacobian, residual, group, count)
+    parts = problem.triangles(values, free, group, count)
+    jacobian = None if exact else problem.linearise(values, free)[1]
     linear = all(p.linear for p in problem.model.parameters)
     for b in range(count):
         kept = group != b
@@ -112,14 +110,14 @@ def held_out_prediction(
             continue
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
         refits[b] = by.step(values, others)
-        if not exact:
+        if jacobian is not None:
             prediction[problem.rows[~kept]] += jacobian[~kept] @ (refits[b] - values)[free]
             continue
         if not linear:
             remaining = replace(problem, rows=problem.rows[kept])
             refits[b] = by.refine(remaining, refits[b], values, others.square)
-        rows = block == b
-        prediction[rows] = problem.predict(refits[b])[rows]
+        rows = np.flatnonzero(block == b)
+        prediction[rows] = problem.predict(refits[b], rows)
     return prediction, refits
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,16 +13,17 @@ from numpy.typing import NDArray
 
 from stribeck import _core
 from stribeck.errors import FitError
-from stribeck.identify.triangle import Triangle
+from stribeck.identify.triangle import Triangle, triangles
 from stribeck.model import Model
+from stribeck.parallel import threads
 from stribeck.recording import Recording
 
 Array = NDArray[np.float64]
 
 #: Steady-state points, one a run, have slid for so long (s) that every state has settled.
 SETTLED = 1e9
-#: How many rows of a run tell how it began.
-FIRST_ROWS = 500
+#: The group of a row whose residual is not summed.
+NOT_SUMMED = np.uint32(2**32 - 1)
 
 #: Laws that read the sign of the motor torque and nothing else of it.
 SIGN_OF_MOTOR_TORQUE = ("clochiatti",)
@@ -166,12 +169,46 @@ class Problem:
     def _stretch(self, start: int, stop: int, values: Array) -> dict[str, Any]:
         """The channels of a contiguous stretch, each run in it begun as the data says."""
         channels = self._channels_at(slice(start, stop))
-        begins = self._moving_begins(start, stop)
-        if begins.size:
+        begins = self._moving_begins(start, stop) - start
+        if begins.size and self.in_core:
+            slides = _core.slides(self.model.core, self._measured(start, stop), values)
             dt = channels["dt"].copy()
-            dt[begins - start] = np.where(self._slides(begins, stop, values), np.inf, 0.0)
+            dt[begins] = np.where(slides, np.inf, 0.0)
             channels["dt"] = dt
         return channels
+
+    @property
+    def in_core(self) -> bool:
+        """Whether the core can linearise the model: any but one behind a voltage drive."""
+        return self.model.drive is None
+
+    @cached_property
+    def _own(self) -> dict[str, Any]:
+        """What is fitted to, as the core takes it."""
+        if self.model.memoryless:
+            return {
+                "columns": self._row_channels,
+                "target": self.target - self.known[self.rows],
+                "group": np.zeros(self.rows.size, dtype=np.uint32),
+                "begins": [],
+                "moving": np.ones(self.rows.size, dtype=bool),
+                "torque_norm": self.torque_norm,
+            }
+        return self._measured(*(self.span or (0, self.recording.time.size)))
+
+    def _measured(self, start: int, stop: int) -> dict[str, Any]:
+        """A contiguous stretch, as the core takes it."""
+        r = self.recording
+        group = np.full(stop - start, NOT_SUMMED)
+        group[self.rows[(self.rows >= start) & (self.rows < stop)] - start] = 0
+        return {
+            "columns": self._channels_at(slice(start, stop)),
+            "target": (r.torque - self.known)[start:stop],
+            "group": group,
+            "begins": (self._moving_begins(start, stop) - start).tolist(),
+            "moving": r.moving[start:stop],
+            "torque_norm": self.torque_norm,
+        }
 
     def _moving_begins(self, start: int, stop: int) -> NDArray[np.intp]:
         """Rows at which a run begins in motion, where a model with a memory has to know how."""
@@ -182,38 +219,25 @@ class Problem:
         begins[:1] = True
         return start + np.flatnonzero(begins & r.moving[start:stop])
 
-    def _slides(self, begins: NDArray[np.intp], stop: int, values: Array) -> NDArray[np.bool_]:
-        """Whether the joint slides already where a run begins in motion, or is without tension.
-
-        Nothing recorded says which: what fits the first rows better is taken, array [begins].
-        """
-        r = self.recording
-        ends = np.append(np.flatnonzero(~(r.dt[:stop] > 0.0)), stop)
-        ends = np.minimum(ends[np.searchsorted(ends, begins, side="right")], begins + FIRST_ROWS)
-        at = np.concatenate([np.arange(*pair) for pair in zip(begins, ends, strict=True)])
-        first = np.isin(at, begins)
-        window = np.cumsum(first) - 1
-        channels = self._channels_at(at)
-        misfit = []
-        for step in (0.0, np.inf):
-            channels["dt"] = np.where(first, step, channels["dt"])
-            wrong = r.torque[at] - self.known[at] - self.model.predictor.torque(values, **channels)
-            misfit.append(np.bincount(window, np.where(r.moving[at], wrong**2, 0.0)))
-        return np.asarray(misfit[1] < misfit[0])
-
-    def predict(self, values: Array) -> Array:
-        """Predicted torque of every row of the recording, array [n].
+    def predict(self, values: Array, rows: NDArray[np.intp] | None = None) -> Array:
+        """Predicted torque of every row of the recording, array [n], or of some `rows`, array [m].
 
         Raises
         ------
         FitError
             The model means nothing at these values, or has no answer in some row.
         """
-        try:
+        with self._said():
+            if rows is not None and self.model.memoryless:
+                some = self._channels_at(rows)
+                return self.model.predictor.torque(values, **some) + self.known[rows]
             everything = self._stretch(0, self.recording.time.size, values)
-            return self.model.predictor.torque(values, **everything) + self.known
-        except _core.ModelError as error:
-            raise FitError(f"{self.model.spec} on {self.recording.path}: {error}") from None
+            predicted = self.model.predictor.torque(values, **everything) + self.known
+        return predicted if rows is None else predicted[rows]
+
+    def residual(self, values: Array) -> Array:
+        """Measured - predicted on `rows`, array [m]."""
+        return self.linearise(values, np.empty(0, dtype=np.intp))[0]
 
     def linearise(
         self, values: Array, wanted: NDArray[np.intp] | None = None
@@ -247,14 +271,62 @@ class Problem:
 
         None where the model is not finite, or means nothing.
         """
+        if self.in_core:
+            with self._said():
+                made = _core.triangles_of(
+                    self.model.core, self._own, 1, values, wanted.tolist(), slope
+                )
+            return None if made is None else Triangle.of_whole(made[0])
         try:
             residual, jacobian = self.linearise(values, wanted)
         except _core.ModelError:
             # A law of the catalog refuses values at which it means nothing.
             return None
-        made = Triangle.of(jacobian if np.all(slope == 1.0) else jacobian * slope, residual)
+        scaled = Triangle.of(jacobian * slope, residual)
         # One number that is not finite reaches the factor.
-        return made if np.isfinite(made.square) and np.all(np.isfinite(made.factor)) else None
+        return scaled if np.all(np.isfinite(scaled.whole())) else None
+
+    def triangles(
+        self, values: Array, wanted: NDArray[np.intp], group: NDArray[np.uint32], groups: int
+    ) -> list[Triangle]:
+        """Factors of each group of rows by itself, by the parameters `wanted` [k].
+
+        Parameters
+        ----------
+        group : array [m]
+            Which of the `groups` each of `rows` belongs to.
+
+        Raises
+        ------
+        FitError
+            The model is not finite at `values`.
+        """
+        if not self.in_core:
+            residual, jacobian = self.linearise(values, wanted)
+            return triangles(jacobian, residual, group, groups)
+        own = self._own["group"].copy()
+        own[own != NOT_SUMMED] = group
+        with self._said():
+            made = _core.triangles_of(
+                self.model.core, {**self._own, "group": own}, groups, values, wanted.tolist(),
+                np.ones(wanted.size),
+            )  # fmt: skip
+        if made is None:
+            raise FitError(f"{self.model.spec} on {self.recording.path} is not finite")
+        return [Triangle.of_whole(whole) for whole in made]
+
+    def search(self, starts: Array, within: dict[str, Any]) -> list[tuple[Any, ...]]:
+        """The core's searches from `starts` [k, p], on all threads."""
+        with self._said():
+            return _core.search(self.model.core, self._own, starts, within, threads())
+
+    @contextmanager
+    def _said(self) -> Iterator[None]:
+        """Say of which model and recording the core's error is."""
+        try:
+            yield
+        except _core.ModelError as error:
+            raise FitError(f"{self.model.spec} on {self.recording.path}: {error}") from None
 
     def thinned(self, most: int) -> Problem:
         """The same problem on at most `most` rows, evenly chosen."""

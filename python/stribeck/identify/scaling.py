@@ -100,7 +100,7 @@ def effect_constants(
     load: Array | None = None,
     residual: Array | None = None,
 ) -> dict[str, float]:
-    """The constants that an effect needs, taken from the recording.
+    """The constants that an effect needs, taken from the recording; of an excerpt, from all of it.
 
     Parameters
     ----------
@@ -109,6 +109,11 @@ def effect_constants(
     residual : array [n]
         What the model without the effect leaves, in which a ripple's period is looked for.
     """
+    if effect == "ripple":
+        stroke = effect_constants("spring", recording)
+        return {**stroke, "ripple_period": ripple_period(recording, residual)} if stroke else {}
+    if recording.excerpt_of is not None and (effect != "load" or load is None):
+        recording = recording.excerpt_of
     moving = recording.moving
     if effect in ("temperature_viscous", "temperature_dry"):
         if recording.temperature is None:
@@ -125,13 +130,9 @@ def effect_constants(
     if effect == "saturation":
         top = float(np.quantile(np.abs(recording.torque[moving]), 0.99))
         return {"reference_torque": top or 1.0}
-    if effect in ("spring", "ripple"):
-        if recording.position is None:
-            return {}
+    if effect == "spring":
         stroke = effect_constants("position", recording)
-        del stroke["position_periodic"]
-        if effect == "ripple":
-            stroke["ripple_period"] = ripple_period(recording, residual)
+        stroke.pop("position_periodic", None)
         return stroke
     if effect == "position":
         if recording.position is None:

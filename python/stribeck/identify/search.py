@@ -8,7 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.identify.problem import Problem
-from stribeck.identify.separable import CAUTIOUS, TOLERANCE, Search, minimise, rounding
+from stribeck.identify.separable import (
+    CAUTIOUS,
+    TOLERANCE,
+    Search,
+    minimise,
+    minimise_from,
+    rounding,
+)
 from stribeck.identify.space import SearchSpace
 
 Array = NDArray[np.float64]
@@ -16,19 +23,19 @@ Mask = NDArray[np.bool_]
 
 #: Of coarse searches whose sums of squares agree to this share one is finished.
 SAME = 1e-4
+#: Searches have ended in the same place where their search coordinates agree to this as well.
+NEAR = 0.01
 #: Sums of squares that agree to this share are one minimum, or equal ones.
 TIE = 1e-9
 #: Without bounds, random starts lie within this factor of the given one, either way.
 SPREAD = 10.0
-#: Searches without bounds take more steps, and a formula is slower than a law of the catalog: they
-#: have so many times fewer rows.
+#: A search of a model with a state begins on so many times fewer samples. Searches without bounds
+#: take more steps, and a formula is slower than a law of the catalog: they have as many times fewer
+#: rows.
 FEWER = 4
 #: A coarse search between bounds, and one without, ends when its next step foresees a smaller
 #: relative fall.
 COARSE, COARSE_WITHOUT_BOUNDS = 1e-6, 1e-12
-#: A coarse search has landed where another one ended when their sums of squares agree to `SAME` and
-#: their search coordinates to this.
-NEAR = 0.01
 #: Most steps of a search from the given start where there are no bounds.
 MOST_STEPS = 200
 
@@ -116,11 +123,12 @@ def multi_start(
     return _winner(finished, noise), starts, evaluations
 
 
-def _coarse(problem: Problem, effort: Effort) -> Problem:
-    """The problem on fewer rows."""
+def _coarse(problem: Problem, effort: Effort) -> list[Problem]:
+    """The problem on fewer rows: on very few of them first where each costs much."""
     if problem.model.memoryless:
-        return problem.thinned(effort.rows)
-    return problem.window(effort.samples)
+        return [problem.thinned(effort.rows)]
+    first, second = problem.window(effort.samples // FEWER), problem.window(effort.samples)
+    return [second] if first is second else [first, second]
 
 
 def _between_bounds(
@@ -133,27 +141,35 @@ def _between_bounds(
     effort: Effort,
 ) -> tuple[list[Search], int]:
     """Coarse searches, best first, and their evaluations."""
-    coarse = _coarse(problem, effort)
+    at = np.tile(start, (starts, 1))
+    for drawn in at[1:]:
+        drawn[moved] = space.drawn(start, rng)[moved]
     evaluations = 0
     tried: list[Search] = []
-    ends: list[tuple[Array, float]] = []
-
-    def landed(values: Array, square: float) -> bool:
-        like = [at for at, end in ends if abs(square - end) <= SAME * end]
-        return any(np.all(np.abs(space.encode(values) - at) <= NEAR) for at in like)
-
-    for k in range(starts):
-        at = start.copy()
-        if k > 0:
-            at[moved] = space.drawn(start, rng)[moved]
-        found, count = minimise(
+    for coarse in _coarse(problem, effort):
+        tried, count = minimise_from(
             coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
-            tolerance=COARSE, landed=landed,
+            tolerance=COARSE,
         )  # fmt: skip
         evaluations += count
-        tried.append(found)
-        ends.append((space.encode(found.values), found.square))
-    return sorted(tried, key=lambda search: search.square), evaluations
+        tried = _apart(tried, space)[: effort.finished]
+        at = np.stack([search.values for search in tried])
+    return tried, evaluations
+
+
+def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
+    """One of each group of searches that ended in the same place, best first."""
+    kept: list[tuple[Array, Search]] = []
+    for search in sorted(tried, key=lambda search: search.square):
+        at = space.encode(search.values)
+        same = (
+            abs(search.square - other.square) <= SAME * other.square
+            and bool(np.all(np.abs(at - place) <= NEAR))
+            for place, other in kept
+        )
+        if not any(same):
+            kept.append((at, search))
+    return [search for _, search in kept]
 
 
 def _without_bounds(
@@ -168,28 +184,28 @@ def _without_bounds(
     """Coarse searches in order, and their evaluations."""
     lower, upper = space.lower, space.upper
     fewer = replace(effort, rows=effort.rows // FEWER, samples=effort.samples // FEWER)
-    coarse = _coarse(problem, fewer)
+    coarse = _coarse(problem, fewer)[-1]
     signed = space.nonlinear & (start != 0.0)
     evaluations = 0
-    tried = []
+    tried: list[Search] = []
 
     def search(at: Array, logarithmic: Mask, most: int) -> None:
         nonlocal evaluations
-        found, count = minimise(
+        found, count = minimise_from(
             coarse, at, lower, upper, most=most, damping=CAUTIOUS, logarithmic=logarithmic,
             tolerance=COARSE_WITHOUT_BOUNDS,
         )  # fmt: skip
-        tried.append(found)
+        tried.extend(found)
         evaluations += count
 
     # First what keeps the given signs: a formula may have the same torque at several values.
-    search(start, signed, MOST_STEPS)
-    search(start, np.zeros_like(signed), MOST_STEPS)
-    for _ in range(1, starts):
-        at = start.copy()
+    search(start[None, :], signed, MOST_STEPS)
+    search(start[None, :], np.zeros_like(signed), MOST_STEPS)
+    at = np.tile(start, (starts - 1, 1))
+    for drawn in at:
         factor = SPREAD ** rng.uniform(-1.0, 1.0, size=start.size)
-        at[moved] = np.where(signed, start * factor, factor - 1.0)[moved]
-        search(np.clip(at, lower, upper), signed, effort.evaluations)
+        drawn[moved] = np.where(signed, start * factor, factor - 1.0)[moved]
+    search(np.clip(at, lower, upper), signed, effort.evaluations)
     return tried, evaluations
 
 

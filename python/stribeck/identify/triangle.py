@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
 from stribeck import _core
 
@@ -66,6 +65,16 @@ class Triangle:
         rest = np.linalg.norm([self.rest, *(part.rest for part in parts)])
         return Triangle(self.factor, self.right, float(rest))
 
+    @classmethod
+    def of_whole(cls, whole: Array) -> Triangle:
+        """From the factor of ``[J r]``, array [p + 1, p + 1]."""
+        return cls(whole[:-1, :-1], whole[:-1, -1], abs(float(whole[-1, -1])))
+
+    def whole(self) -> Array:
+        """The factor of ``[J r]``, array [p + 1, p + 1]."""
+        bottom = np.append(np.zeros(self.right.size), self.rest)
+        return np.vstack([np.column_stack([self.factor, self.right]), bottom])
+
     @property
     def square(self) -> float:
         """Sum of squares before any step."""
@@ -110,13 +119,7 @@ def triangles(
     group : array [n]
         Which of the `groups` each row belongs to.
     """
-    size = _largest(jacobian)
-    height = float(np.abs(residual).max(initial=0.0)) or 1.0
-    made = _core.triangle(jacobian / size, residual / height, group, groups)
-    return [
-        Triangle(r[:-1, :-1] * size, r[:-1, -1] * height, abs(float(r[-1, -1])) * height)
-        for r in made
-    ]
+    return [Triangle.of_whole(whole) for whole in _core.triangle(jacobian, residual, group, groups)]
 
 
 def least_squares(matrix: Array, right: Array, lower: Array, upper: Array) -> Array:
@@ -124,31 +127,17 @@ def least_squares(matrix: Array, right: Array, lower: Array, upper: Array) -> Ar
 
     Where A has left the range of numbers there is no step: zeros.
     """
-    if matrix.shape[1] == 0:
-        return np.zeros(0)
-    scale = _lengths(matrix)
-    scaled = matrix / scale
-    if not (np.all(np.isfinite(scaled)) and np.all(np.isfinite(right))):
-        return np.zeros(matrix.shape[1])
-    free = np.linalg.lstsq(scaled, right, rcond=UNSEEN)[0] / scale
-    if np.all(free >= lower) and np.all(free <= upper):
-        return np.asarray(free)
-    bounded = lsq_linear(scaled, right, bounds=(lower * scale, upper * scale), method="bvls")
-    return np.asarray(np.clip(bounded.x / scale, lower, upper))
+    return _core.bounded_least_squares(matrix, right, lower, upper)
 
 
 def _lengths(matrix: Array) -> Array:
-    """Lengths of the columns [p], 1 for one that is zero."""
-    size = _largest(matrix)
+    """Lengths of the columns [p], 1 for one that is zero.
+
+    Divided by the largest entries, squares of very large and very small ones stay in the range of
+    numbers.
+    """
+    size = np.abs(matrix).max(axis=0, initial=0.0)
+    size = np.where(size > 0.0, size, 1.0)
     scaled = matrix / size
     length = size * np.sqrt(np.einsum("ij,ij->j", scaled, scaled))
     return np.where(length > 0.0, length, 1.0)
-
-
-def _largest(matrix: Array) -> Array:
-    """Largest entries of the columns [p], 1 for one that is zero.
-
-    Divided by them, squares of very large and very small entries stay in the range of numbers.
-    """
-    size = np.abs(matrix).max(axis=0, initial=0.0)
-    return np.where(size > 0.0, size, 1.0)

@@ -1,0 +1,168 @@
+use std::borrow::Cow;
+use std::vec;
+use std::vec::Vec;
+
+use super::separable::LeastSquares;
+use super::triangle::{Triangle, factored};
+use crate::batch::{self, BatchError, Columns, TimeStep};
+use crate::composed::Spec;
+
+/// The group of a row whose residual is not summed. A state runs through it all the same.
+pub const NOT_SUMMED: u32 = u32::MAX;
+/// How many rows of a run tell how it began.
+const FIRST_ROWS: usize = 500;
+
+/// A model against a measured torque, over columns in memory.
+#[derive(Clone, Copy, Debug)]
+pub struct Problem<'a> {
+    /// The model.
+    pub spec: &'a Spec,
+    /// What it is run over.
+    pub columns: Columns<'a>,
+    /// The torque that it should have: measured, less what is known.
+    pub target: &'a [f64],
+    /// Which group of rows each belongs to, or [`NOT_SUMMED`].
+    pub group: &'a [u32],
+    /// How many groups there are.
+    pub groups: usize,
+    /// The rows at which runs begin in motion, in order.
+    pub begins: &'a [usize],
+    /// Where the joint moves; the rows that tell how a run began.
+    pub moving: &'a [bool],
+    /// Norm of the measured torque.
+    pub torque_norm: f64,
+}
+
+impl Problem<'_> {
+    /// Whether the joint slides already where each run begins in motion, or is without tension.
+    ///
+    /// Nothing recorded says which: what fits the first rows better is taken.
+    ///
+    /// # Errors
+    /// As [`batch::torque`]; columns of other lengths.
+    pub fn slides(&self, values: &[f64]) -> Result<Vec<bool>, BatchError> {
+        self.check()?;
+        let rows = self.target.len();
+        let given = self.steps();
+        let starts: Vec<usize> =
+            (0..rows).filter(|&row| !passes(given[row])).chain([rows]).collect();
+        let slides = |&begin: &usize| {
+            let next = starts[starts.partition_point(|&start| start <= begin)];
+            let first = begin..next.min(begin + FIRST_ROWS);
+            let mut steps = given[first.clone()].to_vec();
+            let mut misfit = |step| {
+                steps[0] = step;
+                let columns = Columns { dt: TimeStep::Each(&steps), ..self.columns.part(&first) };
+                let torque = batch::torque(self.spec, values, &columns)?;
+                let wrong = first.clone().zip(torque).filter(|&(row, _)| self.moving[row]);
+                let square = |(row, torque)| {
+                    let wrong: f64 = self.target[row] - torque;
+                    wrong * wrong
+                };
+                Ok::<f64, BatchError>(wrong.map(square).sum())
+            };
+            let rested = misfit(0.0)?;
+            Ok(misfit(f64::INFINITY)? < rested)
+        };
+        self.begins.iter().map(slides).collect()
+    }
+
+    /// The problem of each group linearised at `values` by the parameters `wanted`, their columns
+    /// times `slope`; none where the model means nothing or is not finite.
+    ///
+    /// # Errors
+    /// As [`batch::gradient`]; columns of other lengths.
+    pub fn triangles(
+        &self,
+        values: &[f64],
+        wanted: &[usize],
+        slope: &[f64],
+    ) -> Result<Option<Vec<Triangle>>, BatchError> {
+        self.check()?;
+        if self.spec.with(values).is_err() {
+            return Ok(None);
+        }
+        let mut steps;
+        let mut columns = self.columns;
+        if !self.begins.is_empty() {
+            steps = self.steps();
+            for (&begin, slides) in self.begins.iter().zip(self.slides(values)?) {
+                steps.to_mut()[begin] = if slides { f64::INFINITY } else { 0.0 };
+            }
+            columns.dt = TimeStep::Each(&steps);
+        }
+        let made = factored(wanted.len() + 1, self.groups, |into| {
+            batch::blocks(self.spec, values, &columns, wanted, |block, outputs| {
+                let own = &self.group[block.clone()];
+                let mut from = 0;
+                for alike in own.chunk_by(|x, y| x == y) {
+                    let first = from;
+                    from += alike.len();
+                    into.take(alike[0], alike.len(), |column, taken, out| {
+                        let rows = first + taken..first + taken + out.len();
+                        match slope.get(column) {
+                            Some(&slope) => outputs[column + 1].part(&rows).times(slope, out),
+                            None => {
+                                let target = &self.target[block.start..][rows.clone()];
+                                outputs[0].part(&rows).subtracted_from(target, out);
+                            }
+                        }
+                    });
+                }
+            })
+        })?;
+        Ok(made.iter().all(Triangle::is_finite).then_some(made))
+    }
+
+    /// One step a row.
+    fn steps(&self) -> Cow<'_, [f64]> {
+        match self.columns.dt {
+            TimeStep::Each(steps) => Cow::Borrowed(steps),
+            TimeStep::Uniform(dt) => Cow::Owned(vec![dt; self.target.len()]),
+            TimeStep::Unknown => Cow::Owned(vec![0.0; self.target.len()]),
+        }
+    }
+
+    fn check(&self) -> Result<(), BatchError> {
+        let rows = self.columns.channels.velocity.len();
+        let fit = |column, length| {
+            if length == rows { Ok(()) } else { Err(BatchError::Length { column, length, rows }) }
+        };
+        fit("target", self.target.len())?;
+        fit("group", self.group.len())?;
+        fit("moving", self.moving.len())?;
+        if let TimeStep::Each(steps) = self.columns.dt {
+            fit("dt", steps.len())?;
+        }
+        let beyond = |&&group: &&u32| group != NOT_SUMMED && group as usize >= self.groups;
+        if let Some(row) = self.group.iter().position(|group| beyond(&group)) {
+            return Err(BatchError::Group { row, group: self.group[row], groups: self.groups });
+        }
+        match self.begins.iter().find(|&&begin| begin >= rows) {
+            Some(&begin) => Err(BatchError::Begin { begin, rows }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Whether time passes from the row before; else a run begins.
+fn passes(step: f64) -> bool {
+    step > 0.0
+}
+
+impl LeastSquares for Problem<'_> {
+    type Error = BatchError;
+
+    fn triangle(
+        &self,
+        values: &[f64],
+        wanted: &[usize],
+        slope: &[f64],
+    ) -> Result<Option<Triangle>, BatchError> {
+        Ok(self.triangles(values, wanted, slope)?.and_then(|mut all| all.pop()))
+    }
+
+    fn torque_norm(&self) -> Result<f64, BatchError> {
+        Ok(self.torque_norm)
+    }
+}

@@ -1,0 +1,334 @@
+use core::ops::Range;
+use std::vec;
+use std::vec::Vec;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::batch::BatchError;
+use crate::scalar::Real;
+
+/// Rows that are reflected together.
+const BLOCK: usize = 128;
+/// Sums that run side by side.
+const LANES: usize = 16;
+/// Numbers whose squares, and sums of very many of them, stay in the range of numbers.
+const COMFORTABLE: Range<f64> = 1e-100..1e100;
+
+/// The triangular factor of a least-squares problem.
+///
+/// With `[J r] = Q R` the best step solves `R_jj x = R_jr`, and the last entry of the diagonal is
+/// the norm of what is left. `J'J = R'R` has the square of the condition of `R`: a problem that
+/// halves the digits in `R` loses all of them in the normal equations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Triangle {
+    width: usize,
+    factor: Vec<f64>,
+}
+
+impl Triangle {
+    /// From `R`, `(p + 1) x (p + 1)`, row by row, zero below the diagonal.
+    #[must_use]
+    pub fn new(width: usize, factor: Vec<f64>) -> Self {
+        Self { width, factor }
+    }
+
+    /// Columns of `R`: parameters, and the residual.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// `R`, row by row.
+    #[must_use]
+    pub fn factor(&self) -> &[f64] {
+        &self.factor
+    }
+
+    /// A row of `R`.
+    #[must_use]
+    pub fn row(&self, row: usize) -> &[f64] {
+        &self.factor[row * self.width..(row + 1) * self.width]
+    }
+
+    /// `Q'r` of one row; the last one is the norm of what no step explains.
+    #[must_use]
+    pub fn right(&self, row: usize) -> f64 {
+        self.row(row)[self.width - 1]
+    }
+
+    /// Sum of squares of the residual before any step.
+    #[must_use]
+    pub fn square(&self) -> f64 {
+        (0..self.width).map(|row| self.right(row) * self.right(row)).sum()
+    }
+
+    /// By how much a step of the parameters lowers the sum of squares: no difference of two sums.
+    #[must_use]
+    pub fn fall(&self, step: &[f64]) -> f64 {
+        let lowered = |row: usize| {
+            let change = self.change(row, step);
+            change * (2.0 * self.right(row) - change)
+        };
+        (0..step.len()).map(lowered).sum()
+    }
+
+    /// The same problem after a step of the parameters in which it is linear.
+    #[must_use]
+    pub fn moved(mut self, step: &[f64]) -> Self {
+        for row in 0..step.len() {
+            self.factor[(row + 1) * self.width - 1] -= self.change(row, step);
+        }
+        self
+    }
+
+    fn change(&self, row: usize, step: &[f64]) -> f64 {
+        self.row(row).iter().zip(step).skip(row).map(|(x, step)| x * step).sum()
+    }
+
+    /// Whether all of it is finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.factor.iter().all(|x| x.is_finite()) && self.square().is_finite()
+    }
+}
+
+/// Factors of the problems of which `pass` hands all rows over, one a group.
+///
+/// `pass` is asked a second time, and its columns are scaled, where squares would leave the range
+/// of numbers. The same rows have the same bits on every machine.
+///
+/// # Errors
+/// Those of `pass`, and more groups than fit into memory.
+pub fn factored<E: From<BatchError>>(
+    width: usize,
+    groups: usize,
+    mut pass: impl FnMut(&mut Factoring) -> Result<(), E>,
+) -> Result<Vec<Triangle>, E> {
+    let mut factoring = Factoring::new(vec![1.0; width], groups)?;
+    pass(&mut factoring)?;
+    factoring.absorb();
+    if let Some(scale) = factoring.better_scale() {
+        factoring = Factoring::new(scale, groups)?;
+        pass(&mut factoring)?;
+        factoring.absorb();
+    }
+    Ok(factoring.triangles())
+}
+
+/// Factors `[J r]`, one a group: `jacobian` is `n x parameters`, row by row; `group` holds each
+/// row's group.
+///
+/// # Errors
+/// Lengths that do not fit together, or a group that is not below `groups`.
+pub fn triangles(
+    jacobian: &[f64],
+    parameters: usize,
+    residual: &[f64],
+    group: &[u32],
+    groups: usize,
+) -> Result<Vec<Triangle>, BatchError> {
+    let (n, p) = (residual.len(), parameters);
+    let fit = |column, length| {
+        if length == n { Ok(()) } else { Err(BatchError::Unequal { column, length, rows: n }) }
+    };
+    fit("group", group.len())?;
+    if jacobian.len() != n * p {
+        fit("jacobian", jacobian.len() / p.max(1))?;
+    }
+    if let Some(row) = group.iter().position(|&group| group as usize >= groups) {
+        return Err(BatchError::Group { row, group: group[row], groups });
+    }
+    factored(p + 1, groups, |into| {
+        let mut first = 0;
+        for alike in group.chunk_by(|x, y| x == y) {
+            into.take(alike[0], alike.len(), |column, taken, out| {
+                let from = first + taken;
+                if column == p {
+                    out.copy_from_slice(&residual[from..from + out.len()]);
+                } else {
+                    let slopes = jacobian[from * p + column..].iter().step_by(p);
+                    out.iter_mut().zip(slopes).for_each(|(x, &slope)| *x = slope);
+                }
+            });
+            first += alike.len();
+        }
+        Ok(())
+    })
+}
+
+/// Rows on their way into triangles.
+pub struct Factoring {
+    scale: Vec<f64>,
+    largest: Vec<f64>,
+    groups: Vec<Group>,
+}
+
+/// Rows that wait, column by column: sums along columns run side by side.
+#[derive(Clone)]
+struct Group {
+    columns: Vec<[f64; BLOCK]>,
+    rows: usize,
+    factor: Vec<f64>,
+}
+
+impl Factoring {
+    fn new(scale: Vec<f64>, groups: usize) -> Result<Self, BatchError> {
+        let width = scale.len();
+        let waiting =
+            Group { columns: vec![[0.0; BLOCK]; width], rows: 0, factor: vec![0.0; width * width] };
+        let mut all = Vec::new();
+        let numbers = width.checked_mul(width + BLOCK).and_then(|each| each.checked_mul(groups));
+        let room = numbers.is_some_and(|numbers| Vec::<f64>::new().try_reserve(numbers).is_ok());
+        if !room || all.try_reserve_exact(groups).is_err() {
+            return Err(BatchError::TooManyGroups(groups));
+        }
+        all.resize(groups, waiting);
+        Ok(Self { largest: vec![0.0; width], scale, groups: all })
+    }
+
+    /// Takes `count` rows of a group; `fill` puts a column's numbers from a row on into place.
+    #[inline(always)]
+    pub fn take(
+        &mut self,
+        group: u32,
+        count: usize,
+        mut fill: impl FnMut(usize, usize, &mut [f64]),
+    ) {
+        let Some(own) = self.groups.get_mut(group as usize) else { return };
+        let mut taken = 0;
+        while taken < count {
+            let more = (count - taken).min(BLOCK - own.rows);
+            let room = own.rows..own.rows + more;
+            for (k, (column, &scale)) in own.columns.iter_mut().zip(&self.scale).enumerate() {
+                let out = &mut column[room.clone()];
+                fill(k, taken, out);
+                if scale != 1.0 {
+                    out.iter_mut().for_each(|x| *x *= scale);
+                }
+            }
+            taken += more;
+            own.rows += more;
+            if own.rows == BLOCK {
+                own.absorb(&mut self.largest);
+            }
+        }
+    }
+
+    /// Reflects all rows that still wait.
+    fn absorb(&mut self) {
+        for group in &mut self.groups {
+            group.absorb(&mut self.largest);
+        }
+    }
+
+    /// By what columns are to be multiplied, if they are not comfortable as they are.
+    fn better_scale(&self) -> Option<Vec<f64>> {
+        let strange = |x: &f64| *x > 0.0 && x.is_finite() && !COMFORTABLE.contains(x);
+        self.largest.iter().any(strange).then(|| {
+            let scale = |x: &f64| if strange(x) { (1.0 / x).min(f64::MAX) } else { 1.0 };
+            self.largest.iter().map(scale).collect()
+        })
+    }
+
+    fn triangles(self) -> Vec<Triangle> {
+        let width = self.scale.len();
+        let whole = |mut group: Group| {
+            for row in group.factor.chunks_exact_mut(width) {
+                for (x, scale) in row.iter_mut().zip(&self.scale) {
+                    *x /= scale;
+                }
+            }
+            Triangle { width, factor: group.factor }
+        };
+        self.groups.into_iter().map(whole).collect()
+    }
+}
+
+impl Group {
+    /// Reflects the rows into the triangle and forgets them.
+    fn absorb(&mut self, largest: &mut [f64]) {
+        if self.rows > 0 {
+            let Self { columns, factor, .. } = self;
+            Arch::new().dispatch(Absorbing { columns, triangle: factor, largest });
+            self.columns.iter_mut().for_each(|column| column.fill(0.0));
+            self.rows = 0;
+        }
+    }
+}
+
+struct Absorbing<'a> {
+    columns: &'a mut [[f64; BLOCK]],
+    triangle: &'a mut [f64],
+    largest: &'a mut [f64],
+}
+
+impl WithSimd for Absorbing<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        simd.vectorize(
+            #[inline(always)]
+            || self.all(),
+        );
+    }
+}
+
+impl Absorbing<'_> {
+    /// Householder reflections (Golub and Van Loan, section 5.1), those of a column after another.
+    #[inline(always)]
+    fn all(self) {
+        let width = self.columns.len();
+        for (largest, column) in self.largest.iter_mut().zip(self.columns.iter()) {
+            *largest = largest.max(height(column));
+        }
+        for k in 0..width {
+            let (done, right) = self.columns.split_at_mut(k + 1);
+            let own = &done[k];
+            let top = &mut self.triangle[k * width + k..(k + 1) * width];
+            let below = dot(own, own);
+            if below < f64::MIN_POSITIVE {
+                // Nothing below the diagonal, or so little that its square has no inverse.
+                continue;
+            }
+            let diagonal = top[0];
+            let norm = Real::sqrt(diagonal * diagonal + below);
+            let norm = if diagonal > 0.0 { -norm } else { norm };
+            let head = diagonal - norm;
+            let scale = 1.0 / (norm * head);
+            top[0] = norm;
+            for (x, column) in top[1..].iter_mut().zip(right) {
+                let product = (head * *x + dot(own, column)) * scale;
+                *x += head * product;
+                for (x, entry) in column.iter_mut().zip(own) {
+                    *x += entry * product;
+                }
+            }
+        }
+    }
+}
+
+/// The sum of products, in the same order whatever the width of the registers.
+#[inline(always)]
+fn dot(x: &[f64; BLOCK], y: &[f64; BLOCK]) -> f64 {
+    let mut sums = [0.0; LANES];
+    for (x, y) in x.as_chunks::<LANES>().0.iter().zip(y.as_chunks::<LANES>().0) {
+        for lane in 0..LANES {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    sums.iter().sum()
+}
+
+/// The largest magnitude.
+#[inline(always)]
+fn height(x: &[f64; BLOCK]) -> f64 {
+    let mut largest = [0.0_f64; LANES];
+    for x in x.as_chunks::<LANES>().0 {
+        for lane in 0..LANES {
+            let size = x[lane].abs();
+            largest[lane] = if size > largest[lane] { size } else { largest[lane] };
+        }
+    }
+    largest.iter().fold(0.0, |most, &x| most.max(x))
+}

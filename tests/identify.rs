@@ -1,0 +1,246 @@
+//! Separable least squares: the bounded step, the search, and a model's linearisation.
+#![cfg(feature = "std")]
+#![allow(clippy::disallowed_methods)]
+
+mod common;
+
+use common::close;
+use stribeck::batch::{self, BatchError, Channels, Columns, TimeStep};
+use stribeck::composed::Spec;
+use stribeck::identify::{
+    Bounds, LeastSquares, NOT_SUMMED, Outcome, Problem, Steps, Triangle, bounded_least_squares,
+    minimise, triangles,
+};
+
+/// Numbers between -1 and 1 that look like chance.
+fn chance(count: usize, seed: u64) -> Vec<f64> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    (0..count).map(|_| next()).collect()
+}
+
+/// Slope of half the squared error by each parameter.
+fn slopes(matrix: &[f64], right: &[f64], x: &[f64]) -> Vec<f64> {
+    let p = x.len();
+    let row = |i: usize| &matrix[i * p..(i + 1) * p];
+    let left = |i: usize| row(i).iter().zip(x).map(|(a, x)| a * x).sum::<f64>() - right[i];
+    (0..p).map(|k| (0..right.len()).map(|i| row(i)[k] * left(i)).sum()).collect()
+}
+
+#[test]
+fn a_bounded_step_cannot_be_bettered() {
+    let mut met = 0;
+    for seed in 0..300 {
+        let (rows, p) = (8, 4);
+        let mut matrix = chance(rows * p, 2 * seed + 1);
+        // Columns of very different lengths, as parameters of a law have.
+        matrix.iter_mut().enumerate().for_each(|(i, x)| *x *= [1e-3, 1.0, 40.0, 1e5][i % p]);
+        let right = chance(rows, 2 * seed + 2);
+        let width: Vec<f64> = chance(p, 7 * seed + 3).iter().map(|x| 0.6 * (x + 1.0)).collect();
+        let reach: Vec<f64> =
+            width.iter().zip([1e3, 1.0, 0.03, 1e-5]).map(|(x, s)| x * s).collect();
+        let lower: Vec<f64> = reach.iter().map(|x| -x).collect();
+        let x = bounded_least_squares(&matrix, &right, &lower, &reach);
+        for (k, slope) in slopes(&matrix, &right, &x).into_iter().enumerate() {
+            let small = 1e-9 * [1e-3, 1.0, 40.0, 1e5][k];
+            assert!((lower[k]..=reach[k]).contains(&x[k]));
+            met += usize::from(x[k] == lower[k] || x[k] == reach[k]);
+            assert!(slope <= small || x[k] == lower[k], "{seed}: {k} would go down");
+            assert!(slope >= -small || x[k] == reach[k], "{seed}: {k} would go up");
+        }
+    }
+    assert!(met > 300, "the bounds are met in {met} places only");
+}
+
+#[test]
+fn what_is_not_shown_stays_at_zero() {
+    let free = [f64::INFINITY; 3];
+    let none = free.map(|x| -x);
+    // The first two columns are one, the third is nothing.
+    let x = bounded_least_squares(&[1.0, 1.0, 0.0, 2.0, 2.0, 0.0], &[2.0, 4.0], &none, &free);
+    close(x[0], 1.0, 1e-14);
+    close(x[1], 1.0, 1e-14);
+    assert_eq!(x[2], 0.0);
+    let infinite = [1.0, f64::NAN, 0.0];
+    assert_eq!(bounded_least_squares(&infinite, &[1.0], &none, &free), [0.0; 3]);
+}
+
+/// y = a exp(-k t) + b, measured at some instants.
+struct Decay {
+    time: Vec<f64>,
+    measured: Vec<f64>,
+}
+
+impl Decay {
+    fn new(a: f64, k: f64, b: f64) -> Self {
+        let time: Vec<f64> = (0..50).map(|i| 0.1 * f64::from(i)).collect();
+        let measured = time.iter().map(|t| a * (-k * t).exp() + b).collect();
+        Self { time, measured }
+    }
+}
+
+impl LeastSquares for Decay {
+    type Error = BatchError;
+
+    fn triangle(
+        &self,
+        values: &[f64],
+        wanted: &[usize],
+        slope: &[f64],
+    ) -> Result<Option<Triangle>, BatchError> {
+        let [a, k, b] = [values[0], values[1], values[2]];
+        let mut jacobian = vec![];
+        let mut residual = vec![];
+        for (t, y) in self.time.iter().zip(&self.measured) {
+            let e = (-k * t).exp();
+            let all = [e, -a * t * e, 1.0];
+            jacobian.extend(wanted.iter().zip(slope).map(|(&own, slope)| all[own] * slope));
+            residual.push(y - (a * e + b));
+        }
+        let group = vec![0; residual.len()];
+        let mut made = triangles(&jacobian, wanted.len(), &residual, &group, 1)?;
+        Ok(made.pop().filter(Triangle::is_finite))
+    }
+
+    fn torque_norm(&self) -> Result<f64, BatchError> {
+        Ok(self.measured.iter().map(|y| y * y).sum::<f64>().sqrt())
+    }
+}
+
+const CAUTIOUS: Steps = Steps { tolerance: 1e-18, most: 60, damping: 1e-2 };
+
+#[test]
+fn a_search_finds_what_made_the_data() {
+    let truth = [3.0, 1.7, -0.4];
+    let decay = Decay::new(truth[0], truth[1], truth[2]);
+    let free = [f64::INFINITY; 3];
+    for logarithmic in [false, true] {
+        let bounds = Bounds {
+            lower: &free.map(|x| -x),
+            upper: &free,
+            linear: &[true, false, true],
+            logarithmic: &[false, logarithmic, false],
+        };
+        let found = minimise(&decay, &[1.0, 0.05, 0.0], &bounds, CAUTIOUS).unwrap();
+        assert!(matches!(found.outcome, Outcome::Converged | Outcome::ToRounding));
+        for (value, truth) in found.values.iter().zip(truth) {
+            close(*value, truth, 1e-9);
+        }
+    }
+}
+
+#[test]
+fn bounds_hold_and_equal_ones_hold_a_parameter() {
+    let decay = Decay::new(3.0, 1.7, -0.4);
+    let bounds = Bounds {
+        lower: &[0.0, 0.1, 0.2],
+        upper: &[2.5, 5.0, 0.2],
+        linear: &[true, false, true],
+        logarithmic: &[false; 3],
+    };
+    let found = minimise(&decay, &[9.0, 9.0, 9.0], &bounds, CAUTIOUS).unwrap();
+    assert_eq!((found.values[0], found.values[2]), (2.5, 0.2));
+    assert!(found.square > 0.1 && found.square < decay.torque_norm().unwrap().powi(2));
+    let infinite =
+        minimise(&decay, &[1.0, -1e6, 0.0], &Bounds { lower: &[-1e9; 3], ..bounds }, CAUTIOUS);
+    assert_eq!(infinite.unwrap().outcome, Outcome::NotFinite);
+}
+
+fn motion(rows: usize) -> Vec<f64> {
+    (0..rows)
+        .map(|i| 0.3 * (0.02 * i as f64 + 0.4).sin() + 0.05 * (0.11 * i as f64).sin())
+        .collect()
+}
+
+const LUGRE: [f64; 7] = [900.0, 8.0, 0.6, 2.0, 3.0, 0.05, 1.4];
+
+fn problem<'a>(
+    spec: &'a Spec,
+    velocity: &'a [f64],
+    target: &'a [f64],
+    group: &'a [u32],
+    begins: &'a [usize],
+    moving: &'a [bool],
+) -> Problem<'a> {
+    let channels = Channels { velocity, ..Channels::default() };
+    let columns = Columns { dt: TimeStep::Uniform(0.002), channels, ..Columns::default() };
+    Problem { spec, columns, target, group, groups: 2, begins, moving, torque_norm: 1.0 }
+}
+
+#[test]
+fn a_model_is_linearised_without_a_jacobian() {
+    let velocity = motion(1000);
+    let target: Vec<f64> = velocity.iter().map(|v| 2.5 * v.signum() + v).collect();
+    let group: Vec<u32> = (0..1000).map(|i| [0, 1, NOT_SUMMED][(i / 70) % 3]).collect();
+    let moving = vec![true; 1000];
+    for (text, values) in [("lugre", &LUGRE[..]), ("coulomb+delay", &[2.0, 0.5, 0.003][..])] {
+        let spec = Spec::parse(text).unwrap();
+        let own = problem(&spec, &velocity, &target, &group, &[], &moving);
+        let wanted: Vec<usize> = (0..values.len()).rev().collect();
+        let slope: Vec<f64> = wanted.iter().map(|&k| 1.0 + k as f64).collect();
+        let made = own.triangles(values, &wanted, &slope).unwrap().unwrap();
+        let (torque, jacobian) =
+            batch::gradient(&spec, values, &own.columns, Some(&wanted)).unwrap();
+        let p = wanted.len();
+        for (g, triangle) in made.iter().enumerate() {
+            let summed = || (0..1000).filter(|&i| group[i] == g as u32);
+            let entry = |i: usize, k: usize| match slope.get(k) {
+                Some(slope) => jacobian[i * p + k] * slope,
+                None => target[i] - torque[i],
+            };
+            for a in 0..=p {
+                for b in 0..=p {
+                    let sum: f64 = summed().map(|i| entry(i, a) * entry(i, b)).sum();
+                    let same: f64 = (0..=p).map(|r| triangle.row(r)[a] * triangle.row(r)[b]).sum();
+                    let size: f64 = summed().map(|i| (entry(i, a) * entry(i, b)).abs()).sum();
+                    assert!((sum - same).abs() <= 1e-11 * size, "{text}: {a}, {b}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_run_that_begins_in_motion_slides_already_or_does_not() {
+    let spec = Spec::parse("lugre").unwrap();
+    let velocity = motion(600);
+    let (group, moving) = (vec![0; 600], vec![true; 600]);
+    for slides in [true, false] {
+        let mut steps = vec![0.002; 600];
+        for begin in [0, 300] {
+            steps[begin] = if slides { f64::INFINITY } else { 0.0 };
+        }
+        let channels = Channels { velocity: &velocity, ..Channels::default() };
+        let columns = Columns { dt: TimeStep::Each(&steps), channels, ..Columns::default() };
+        let target = batch::torque(&spec, &LUGRE, &columns).unwrap();
+        steps[0] = 0.0;
+        steps[300] = 0.0;
+        let columns = Columns { dt: TimeStep::Each(&steps), channels, ..Columns::default() };
+        let own =
+            Problem { columns, ..problem(&spec, &velocity, &target, &group, &[0, 300], &moving) };
+        assert_eq!(own.slides(&LUGRE).unwrap(), [slides; 2]);
+        let made = own.triangles(&LUGRE, &[0], &[1.0]).unwrap().unwrap();
+        assert!(made[0].square() < 1e-20);
+    }
+}
+
+#[test]
+fn what_does_not_fit_together_is_refused() {
+    let spec = Spec::parse("coulomb").unwrap();
+    let velocity = motion(4);
+    let refused = |target: &[f64], group: &[u32], begins: &[usize]| {
+        let own = problem(&spec, &velocity, target, group, begins, &[true; 4]);
+        own.triangles(&[1.0, 1.0], &[0], &[1.0]).unwrap_err().to_string()
+    };
+    assert_eq!(refused(&[0.0; 3], &[0; 4], &[]), "column 'target' has 3 rows but 'velocity' has 4");
+    assert_eq!(refused(&[0.0; 4], &[2; 4], &[]), "row 0 is in group 2 but there are 2 groups");
+    assert_eq!(
+        refused(&[0.0; 4], &[0; 4], &[4]),
+        "a run begins at row 4 but there are 4 rows, from 0"
+    );
+}
