@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import polars as pl
 
-from stribeck.diagnose import LEAST_FALL, Diagnosis, NoiseFloor, Unexplained, Untestable
+from stribeck.diagnose import (
+    LEAST_FALL,
+    Diagnosis,
+    NoiseFloor,
+    Unexplained,
+    Untestable,
+)
 from stribeck.diagnose.trial import add_effect
+from stribeck.diagnose.whole import NEAR, noted, on_all_rows, recounted
 from stribeck.fit import Fit, fit, on_recording
 from stribeck.formula_law import is_formula
+from stribeck.identify.transients import transient_rows
 from stribeck.model import Model, check_effect
 from stribeck.recording import Recording
-from stribeck.walk import MOST_STEPS, Step, walk
+from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
+from stribeck.walk import MOST_STEPS, Step, Way, walk
 
 
 @dataclass(frozen=True)
@@ -142,6 +152,7 @@ def improve(
     most_steps: int = MOST_STEPS,
     rejected: Collection[str] = (),
     candidates: Collection[str] = (),
+    sample_rows: int = SAMPLE_ROWS,
     progress: Callable[[str], None] = lambda sentence: None,
 ) -> Improvement:
     """Diagnose and add until nothing passes the test.
@@ -154,15 +165,21 @@ def improve(
     rejected, candidates : collections of str
         Effects that are never added, and effects by formula that are tried too
         (``"creep = c*abs(load)*sgn(v)"``).
+    sample_rows : int
+        In a longer recording causes are looked for on so many rows, in stretches taken evenly; each
+        step's model is then identified on all rows.
     progress : callable
         Told what is being done, in one sentence.
     """
     progress(f"fitting {base if isinstance(base, str) else base.spec}")
-    first = fit(base, recording, starts=starts, seed=seed)
+    few = excerpt(recording, sample_rows, seed)
+    first = fit(base, few, starts=starts, seed=seed)
     *_, way = walk(
         first, seed=seed, least_fall=least_fall, most_steps=most_steps, rejected=rejected,
         candidates=candidates, progress=progress,
     )  # fmt: skip
+    if few is not recording:
+        way = _on_all_rows(way, recording, progress)
     found = way.last
     stopped = "nothing_passes"
     if found.findings:
@@ -170,6 +187,22 @@ def improve(
     elif not found.unexplained.is_structure and found.noise_floor.is_reached_by(way.current.rmse):
         stopped = "noise_floor"
     return Improvement(
-        first, way.steps, way.current, found.noise_floor, stopped, found.untestable,
+        way.start, way.steps, way.current, found.noise_floor, stopped, found.untestable,
         found.unexplained, found,
     )  # fmt: skip
+
+
+def _on_all_rows(way: Way, recording: Recording, progress: Callable[[str], None]) -> Way:
+    """The same way with each model identified on all rows of `recording`."""
+    progress(f"identifying the models on all {recording.rows} rows")
+    transient = transient_rows(recording)
+    rows = way.start.recording.rows
+    *on_the_way, last = [way.start, *(step.after for step in way.steps)]
+    # Of the models on the way only the errors are wanted.
+    fits = [on_all_rows(found, recording, transient) for found in on_the_way]
+    fits.append(noted(on_all_rows(last, recording, transient, NEAR), rows))
+    steps = [
+        Step(recounted(step.finding, before, after, way.last.noise_floor), before, after)
+        for step, (before, after) in zip(way.steps, itertools.pairwise(fits), strict=True)
+    ]
+    return replace(way, start=fits[0], steps=tuple(steps))

@@ -125,7 +125,7 @@ def walk(
         progress(f"looking for what {current.model.spec} misses")
         found = diagnose(
             current, least_fall=least_fall, rejected={*rejected, *(s.effect for s in gone)},
-            candidates=candidates, seed=seed, brief=True,
+            candidates=candidates, seed=seed, sample_rows=start.recording.rows, brief=True,
         )  # fmt: skip
         way = Way(start, found, steps, gone)
         if not found.findings or len(steps) >= most_steps:

@@ -186,8 +186,9 @@ def diagnose(
         recording = read_recording(data, reading)
         fitted = written_fit(model, written, recording, starts=starts, seed=seed)
         diagnosis = diagnose_fit(
-            fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed
-        )
+            fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed,
+            sample_rows=streaming.sample_rows,
+        )  # fmt: skip
     save_findings(diagnosis.findings, figures)
     if report is not None:
         from stribeck.report.html import diagnosis_page
@@ -283,7 +284,9 @@ def improve(
             streamed = opened.improve(start, told=bar.show_pass, **options)
         improvement = streamed.found
     else:
-        improvement = improve_from(start, read_recording(data, reading), **options)
+        improvement = improve_from(
+            start, read_recording(data, reading), sample_rows=streaming.sample_rows, **options
+        )
     if output is not None:
         if streamed is not None:
             save_streamed(streamed.final, output)

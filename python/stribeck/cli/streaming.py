@@ -11,6 +11,7 @@ import click
 
 from stribeck.cli.common import echo_json, say
 from stribeck.errors import SpecError
+from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.streaming import (
     Stream,
     StreamedDiagnosis,
@@ -19,7 +20,6 @@ from stribeck.streaming import (
     is_data_set,
     stream,
 )
-from stribeck.streaming.sample import SAMPLE_ROWS
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -87,6 +87,7 @@ _STREAM_OPTIONS = [
     ),
     click.option(
         "--sample-rows", type=click.IntRange(min=1000), default=SAMPLE_ROWS, show_default=True,
-        help="Rows of such data in memory, in stretches spread over it: for bounds and starts.",
+        help="Rows on which causes are looked for, in stretches spread over longer data; of data "
+        "read in passes, those in memory.",
     ),
 ]  # fmt: skip

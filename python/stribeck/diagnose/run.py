@@ -13,9 +13,11 @@ from stribeck.diagnose.stand_in import without_stand_ins
 from stribeck.diagnose.trial import SIGNIFICANCE
 from stribeck.diagnose.unexplained import Unexplained, unexplained
 from stribeck.diagnose.visibility import visibility
-from stribeck.fit import Fit, on_recording
+from stribeck.diagnose.whole import NEAR, with_all_rows
+from stribeck.fit import Fit, fit, on_recording
 from stribeck.model import effect_ids
 from stribeck.recording import Recording
+from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
@@ -30,6 +32,7 @@ def diagnose(
     rejected: Collection[str] = (),
     candidates: Collection[str] = (),
     seed: int = 0,
+    sample_rows: int = SAMPLE_ROWS,
     brief: bool = False,
 ) -> Diagnosis:
     """Find the effects that are missing from `fitted`.
@@ -47,33 +50,43 @@ def diagnose(
         Effects that are not to be tried.
     candidates : collection of str
         Effects by formula that are to be tried too: ``"creep = c*abs(load)*sgn(v)"``.
+    sample_rows : int
+        In a longer recording causes are looked for on so many rows, in stretches taken evenly; the
+        errors are those of all rows.
     brief : bool
         Where there are findings, those alone: not what else could have been seen, nor how much of
         what can be explained is.
     """
     fitted = on_recording(fitted, recording, seed)
+    few = excerpt(fitted.recording, sample_rows, seed)
+    if few is not fitted.recording:
+        found = diagnose(
+            fit(fitted.model, few, starts=1, effort=NEAR), least_fall=least_fall,
+            rejected=rejected, candidates=candidates, seed=seed, sample_rows=few.rows, brief=brief,
+        )  # fmt: skip
+        return with_all_rows(found, fitted)
     could_be = candidates_for(fitted, rejected, candidates)
     passed, tried = tried_on(fitted, could_be.possible, least_fall, seed)
     good = without_stand_ins(fitted, passed)
     best = good[0].fit if good else fitted
     floor = noise_floor(best)
-    found = findings(fitted, good, tried, least_fall, floor, seed)
-    if brief and found:
-        return Diagnosis(fitted, floor, "missing", found, could_be.untestable, NOT_ASKED)
+    ranked = findings(fitted, good, tried, least_fall, floor, seed)
+    if brief and ranked:
+        return Diagnosis(fitted, floor, "missing", ranked, could_be.untestable, NOT_ASKED)
     # Where nothing repeats, a regressor can learn nothing that lasts.
-    after = found[0].fit if found else fitted
+    after = ranked[0].fit if ranked else fitted
     could = None if floor.value is None else explainable(fitted, after)
-    left = unexplained(after, floor, could, last=not found)
-    verdict = "missing" if found else ("unexplained" if left.is_structure else "none")
+    left = unexplained(after, floor, could, last=not ranked)
+    verdict = "missing" if ranked else ("unexplained" if left.is_structure else "none")
     shown = visibility(
         fitted,
         [effect for effect in could_be.possible if effect in effect_ids()],
-        found={e for finding in found for e in (finding.effect, *finding.indistinguishable_from)},
+        found={e for finding in ranked for e in (finding.effect, *finding.indistinguishable_from)},
         tried=tried,
         significance=SIGNIFICANCE,
         least_fall=least_fall,
     )
     return Diagnosis(
-        fitted, floor, verdict, found, (*could_be.untestable, *shown.hidden), left,
+        fitted, floor, verdict, ranked, (*could_be.untestable, *shown.hidden), left,
         shown.smallest, shown.groups, could,
     )  # fmt: skip

@@ -61,7 +61,7 @@ class Recording:
     step to the previous sample, 0 where a segment (run, or stretch between gaps) starts. `moving`
     marks the scored rows, `block` the held-out blocks, `counted` the rows of which the held-out
     error counts (None: all). `elapsed_before` [s] has gone by before the first row, where that is
-    not the first of a longer recording.
+    not the first of a longer recording. `excerpt_of` is the recording of which this is an excerpt.
     """
 
     path: str
@@ -103,6 +103,7 @@ class Recording:
     enabled: Bools | None = None
     counted: Bools | None = None
     elapsed_before: float = 0.0
+    excerpt_of: Recording | None = None
 
     def __len__(self) -> int:
         return len(self.time)

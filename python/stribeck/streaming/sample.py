@@ -12,20 +12,17 @@ from stribeck.errors import RecordingError
 from stribeck.recording import Recording
 from stribeck.recording.assemble import build
 from stribeck.recording.columns import Choice
+from stribeck.recording.excerpt import stretches
 from stribeck.recording.options import Options
 from stribeck.recording.readers import Source
 from stribeck.recording.table import Prepared, joint_rows, prepared_table
 from stribeck.streaming.dataset import DataSet
 from stribeck.streaming.runs import block_edges, run_starts
 
-__all__ = ["SAMPLE_ROWS", "Sample", "stretches", "take"]
+__all__ = ["Sample", "take"]
 
 Ints = NDArray[np.int64]
 
-#: Rows in memory, unless something else is said.
-SAMPLE_ROWS = 200_000
-#: They are taken in so many stretches: long enough for a motion, many enough for slow changes.
-STRETCHES = 40
 #: Column that numbers the runs where only the clock tells them apart.
 CLOCK_RUN = "run of the clock"
 
@@ -69,29 +66,6 @@ class _Rows(Source):
     def place(self, row: int) -> str:
         """Name a row (counted from 0)."""
         return self._data.place(row)
-
-
-def stretches(rows: int, most: int, seed: int) -> list[tuple[int, int]]:
-    """First and last row (exclusive) of stretches of equal length, one in each equal share.
-
-    Where a stretch lies in its share is drawn from `seed`, so that no motion that repeats itself
-    is always met at the same place.
-
-    Examples
-    --------
-    >>> stretches(1000, 1000, seed=0)
-    [(0, 1000)]
-    >>> len(stretches(10_000_000, 200_000, seed=0))
-    40
-    """
-    if rows <= most:
-        return [(0, rows)]
-    count = min(STRETCHES, most)
-    length = most // count
-    borders = np.arange(count + 1) * rows // count
-    room = np.diff(borders) - length
-    first = borders[:-1] + np.random.default_rng(seed).integers(0, room + 1)
-    return [(int(begin), int(begin) + length) for begin in first]
 
 
 def take(data: DataSet, options: Options, most: int, seed: int) -> Sample:

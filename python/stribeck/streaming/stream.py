@@ -13,6 +13,7 @@ from stribeck.fit import QUICK, Fit
 from stribeck.fit import fit as fit_in_memory
 from stribeck.improve import improve as improve_in_memory
 from stribeck.model import Model
+from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import gather
 from stribeck.streaming.dataset import DataSet
 from stribeck.streaming.diagnosis import StreamedDiagnosis
@@ -20,7 +21,7 @@ from stribeck.streaming.fit import streamed_fit
 from stribeck.streaming.improvement import StreamedImprovement
 from stribeck.streaming.passes import Told
 from stribeck.streaming.result import StreamedFit
-from stribeck.streaming.sample import SAMPLE_ROWS, Sample, take
+from stribeck.streaming.sample import Sample, take
 from stribeck.streaming.windows import WINDOW_ROWS
 
 __all__ = ["Stream", "stream"]
@@ -97,8 +98,9 @@ class Stream:
         sample = self.sample.recording
         first = fit_in_memory(spec, sample, starts=starts, seed=seed)
         found = diagnose_in_memory(
-            first, sample, least_fall=least_fall, candidates=candidates, seed=seed
-        )
+            first, sample, least_fall=least_fall, candidates=candidates, seed=seed,
+            sample_rows=sample.rows,
+        )  # fmt: skip
         return StreamedDiagnosis(
             found,
             self._on_all_rows(first, told),
@@ -124,7 +126,10 @@ class Stream:
             `least_fall`, `most_steps`, `rejected`, `candidates` and `progress` of
             `stribeck.improve`.
         """
-        found = improve_in_memory(base, self.sample.recording, starts=starts, seed=seed, **options)
+        sample = self.sample.recording
+        found = improve_in_memory(
+            base, sample, starts=starts, seed=seed, sample_rows=sample.rows, **options
+        )
         *way, last = [found.base, *(step.after for step in found.steps)]
         # Of the models on the way only the errors are wanted.
         fits = [self._on_all_rows(fit, told, QUICK.tolerance) for fit in way]

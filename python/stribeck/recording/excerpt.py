@@ -1,0 +1,65 @@
+"""Contiguous stretches of something long, taken evenly."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+
+import numpy as np
+
+from stribeck.recording.recording import Recording
+
+__all__ = ["SAMPLE_ROWS", "excerpt", "stretches"]
+
+#: Rows on which causes are looked for, unless something else is said: what they show no less than
+#: millions would, in seconds.
+SAMPLE_ROWS = 100_000
+
+#: They are taken in so many stretches: long enough for a motion, many enough for slow changes.
+STRETCHES = 40
+
+
+def stretches(rows: int, most: int, seed: int) -> list[tuple[int, int]]:
+    """First and last row (exclusive) of stretches of equal length, one in each equal share.
+
+    Where a stretch lies in its share is drawn from `seed`, so that no motion that repeats itself
+    is always met at the same place.
+
+    Examples
+    --------
+    >>> stretches(1000, 1000, seed=0)
+    [(0, 1000)]
+    >>> len(stretches(10_000_000, 200_000, seed=0))
+    40
+    """
+    if rows <= most:
+        return [(0, rows)]
+    count = min(STRETCHES, most)
+    length = most // count
+    borders = np.arange(count + 1) * rows // count
+    room = np.diff(borders) - length
+    first = borders[:-1] + np.random.default_rng(seed).integers(0, room + 1)
+    return [(int(begin), int(begin) + length) for begin in first]
+
+
+def excerpt(recording: Recording, most: int, seed: int = 0) -> Recording:
+    """At most `most` rows of a recording; itself where it has no more.
+
+    Each stretch begins a segment. Held-out blocks, runs and the filtered channels are those of the
+    whole recording.
+    """
+    size = recording.rows
+    if size <= most:
+        return recording
+    taken = stretches(size, most, seed)
+    rows = np.concatenate([np.arange(*stretch) for stretch in taken])
+    own = {}
+    for field in fields(recording):
+        value = getattr(recording, field.name)
+        if isinstance(value, np.ndarray) and value.shape == (size,):
+            own[field.name] = value[rows]
+    begins = np.cumsum([0, *(stop - start for start, stop in taken)])[:-1]
+    own["dt"][begins] = 0.0
+    changes = np.diff(own["segment"], prepend=own["segment"][:1]) != 0
+    changes[begins[1:]] = True
+    own["segment"] = np.cumsum(changes)
+    return replace(recording, **own, excerpt_of=recording)
