@@ -167,7 +167,10 @@ class Problem:
         return {**channels, **known, **delayed}
 
     def _stretch(self, start: int, stop: int, values: Array) -> dict[str, Any]:
-        """The channels of a contiguous stretch, each run in it begun as the data says."""
+        """The channels of a contiguous stretch, each run in it begun as the data says.
+
+        Behind a voltage drive each begins without tension.
+        """
         channels = self._channels_at(slice(start, stop))
         begins = self._moving_begins(start, stop) - start
         if begins.size and self.in_core:
