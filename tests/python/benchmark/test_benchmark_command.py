@@ -55,7 +55,6 @@ def test_coverage_is_printed() -> None:
     [
         (("--generator", "open_lop"), "did you mean 'open_loop'?"),
         (("--only", "gremlins"), "no case has 'gremlins' in its name"),
-        (("--seed", "-1"), "-1 is not in the range"),
     ],
 )
 def test_a_wrong_word_ends_in_one_sentence(arguments: tuple[str, str], sentence: str) -> None:

@@ -209,7 +209,6 @@ def test_command_without_data(tmp_path: Path, plain: sb.Recording) -> None:
         (("--position", "0:1", "--speed", "-1", "--acceleration", "1"), "above 0"),
         ((*COMMAND, "-o", "motion.xlsx"), ".csv or .parquet"),
         ((*COMMAND, "-o", "nowhere/motion.csv"), "does not exist"),
-        ((*COMMAND, "--seed", "-1"), "-1 is not in the range"),
     ],
 )
 def test_bad_commands(plain_file: Path, arguments: tuple[str, ...], word: str) -> None:
