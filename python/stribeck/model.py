@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any, Literal
@@ -328,7 +329,11 @@ class Model:
 
     def with_values(self, values: ArrayLike) -> Model:
         """The same model with other values."""
-        return replace(self, values=np.asarray(values, dtype=np.float64).copy())
+        # A copy keeps what has been compiled for the model.
+        made = copy(self)
+        object.__setattr__(made, "values", np.asarray(values, dtype=np.float64).copy())
+        made.__post_init__()
+        return made
 
     def with_effect(self, effect: str, constants: Mapping[str, float]) -> Model:
         """The model with one more effect; values known before are kept, new ones are NaN.

@@ -71,8 +71,10 @@ def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
             f"simulate a model without it"
         )
     taken = (*plain.rigid_body, *(e for e in plain.effects if e in RIGID_BODY_EFFECTS))
-    known = dict(zip(plain.names, plain.values, strict=True))
     left_out = tuple(effect for effect in plain.effects if effect in MEASUREMENT)
+    if not (taken or left_out):
+        return plain, ()
+    known = dict(zip(plain.names, plain.values, strict=True))
     friction = replace(
         plain,
         effects=tuple(e for e in plain.effects if e not in (*taken, *left_out)),
