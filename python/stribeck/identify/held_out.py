@@ -101,8 +101,11 @@ def held_out_prediction(
         return np.full_like(prediction, np.nan), refits
     by = by or Bounded(lower, upper)
     free = np.flatnonzero(lower < upper)
-    parts = problem.triangles(values, free, group, count)
-    jacobian = None if exact else problem.linearise(values, free)[1]
+    if exact:
+        jacobian, parts = None, problem.triangles(values, free, group, count)
+    else:
+        residual, jacobian = problem.linearise(values, free)
+        parts = triangles(jacobian, residual, group, count)
     linear = all(p.linear for p in problem.model.parameters)
     for b in range(count):
         kept = group != b

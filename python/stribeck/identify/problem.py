@@ -60,7 +60,7 @@ class Problem:
         """The measured torque on `rows`, exactly as recorded."""
         return self.recording.torque[self.rows]
 
-    @property
+    @cached_property
     def torque_norm(self) -> float:
         """Norm of the measured torque on `rows`."""
         return float(np.sqrt(np.sum(self.target**2)))
@@ -171,14 +171,14 @@ class Problem:
 
         Behind a voltage drive each begins without tension.
         """
-        channels = self._channels_at(slice(start, stop))
-        begins = self._moving_begins(start, stop) - start
-        if begins.size and self.in_core:
-            slides = _core.slides(self.model.core, self._measured(start, stop), values)
-            dt = channels["dt"].copy()
-            dt[begins] = np.where(slides, np.inf, 0.0)
-            channels["dt"] = dt
-        return channels
+        if not self.in_core or self._moving_begins(start, stop).size == 0:
+            return self._channels_at(slice(start, stop))
+        measured = self._measured(start, stop)
+        slides = _core.slides(self.model.core, measured, values)
+        channels: dict[str, Any] = measured["columns"]
+        dt = channels["dt"].copy()
+        dt[measured["begins"]] = np.where(slides, np.inf, 0.0)
+        return {**channels, "dt": dt}
 
     @property
     def in_core(self) -> bool:
