@@ -233,6 +233,9 @@ macro_rules! format {
                     };
                     check(branching::exp(x), own::exp(x), "exp");
                     check(branching::expm1(x), own::expm1(x), "expm1");
+                    let ((sin, cos), both) = (branching::sin_cos(x), own::sin_cos(x));
+                    check(sin, both.0, "sin");
+                    check(cos, both.1, "cos");
                     for order in 0..4 {
                         check(branching::phi(order, x), own::phi(order, x), "phi");
                     }

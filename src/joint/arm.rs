@@ -196,8 +196,8 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         let before = self.posture.velocity[joint];
         let size = slope * before.abs() + self.push.motor[joint].abs();
         let root = |start: P, direction: Option<P>| {
-            Equation { start, slope, size }
-                .solve(|velocity| self.excess(joint, mean(velocity), h, direction))
+            let excess = |velocity| self.excess(joint, mean(velocity), h, direction);
+            Equation { start, value: excess(start), slope, size }.solve(excess)
         };
         match self.way(joint) {
             Way::Any => root(before, None),
@@ -250,10 +250,12 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         }
         let one = P::one();
         let start = P::from_f64(0.5);
-        let share = Equation { start, slope: one, size: P::from_f64(0.25) }.solve(|share| {
+        let overshoot = |share| {
             let share = if share > P::zero() { share } else { return -one };
             self.overshoot(self.velocities(left * if share < one { share } else { one }))
-        });
+        };
+        let size = P::from_f64(0.25);
+        let share = Equation { start, value: overshoot(start), slope: one, size }.solve(overshoot);
         let h = left * if share < one { share } else { one };
         let mean = self.velocities(h);
         let near = P::from_f64(STOPPED);

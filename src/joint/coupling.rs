@@ -92,8 +92,8 @@ struct Course<'a, P: Scalar + PartialOrd, B> {
 enum Piece<P> {
     /// Friction holds the joint.
     Held,
-    /// It moves at this mean velocity to the end of the step.
-    Slides(P),
+    /// It moves to the end of the step, with these means.
+    Slides(Sample<P>),
     /// It comes to rest, after this time.
     Stops(P),
 }
@@ -101,33 +101,32 @@ enum Piece<P> {
 impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
     /// Mean friction torque over a piece, from the present state.
     fn friction(&self, sample: &Sample<P>, h: P) -> P {
-        let mut state = *self.state;
-        friction_over(self.model, &mut state, sample, h)
+        if self.model.has_state() {
+            let mut state = *self.state;
+            friction_over(self.model, &mut state, sample, h)
+        } else {
+            self.model.split(sample).torque(sample.velocity.sign())
+        }
     }
 
-    /// Friction in excess of what a mean velocity over a piece asks for (T): zero where it is right.
-    fn excess(&self, velocity: P, h: P) -> P {
-        let sample = self.body.sample(velocity, h);
-        self.friction(&sample, h) - required(&sample)
+    /// Friction in excess of what the means over a piece ask for (T): zero where it is right.
+    fn excess(&self, sample: &Sample<P>, h: P) -> P {
+        self.friction(sample, h) - required(sample)
     }
 
     /// Size of what is summed in `excess` (T).
-    fn size(&self, velocity: P, h: P) -> P {
-        let sample = self.body.sample(velocity, h);
-        let momentum = self.body.inertia() * (velocity.abs() + self.body.velocity().abs()) / h;
+    fn size(&self, sample: &Sample<P>, h: P) -> P {
+        let speeds = sample.velocity.abs() + self.body.velocity().abs();
+        let momentum = self.body.inertia() * speeds / h;
         sample.motor_torque.abs() + sample.external_torque.abs() + momentum
     }
 
-    /// Least growth of `excess` with the velocity (T s/X).
-    fn slope(&self, h: P) -> P {
-        self.body.inertia() / (h * P::from_f64(0.5))
-    }
-
     fn at_once(&mut self) {
-        let (start, h) = (self.body.velocity(), self.dt);
-        let equation = Equation { start, slope: self.slope(h), size: self.size(start, h) };
-        let velocity = equation.solve(|velocity| self.excess(velocity, h));
-        self.go(velocity, h);
+        let (h, unbounded) = (self.dt, P::from_f64(f64::NEG_INFINITY));
+        let first = self.body.sample(self.body.velocity(), h);
+        let value = self.excess(&first, h);
+        let means = self.slide(P::one(), &first, value, unbounded, h).unwrap_or(first);
+        self.go(&means, h);
     }
 
     fn in_pieces(&mut self) {
@@ -137,10 +136,11 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
         }
         for _ in 0..MOST_PIECES {
             match self.piece(left) {
-                Piece::Slides(velocity) => return self.go(velocity, left),
+                Piece::Slides(means) => return self.go(&means, left),
                 Piece::Held => break,
                 Piece::Stops(after) => {
-                    self.go(self.body.velocity() * P::from_f64(0.5), after);
+                    let mean = self.body.velocity() * P::from_f64(0.5);
+                    self.go(&self.body.sample(mean, after), after);
                     self.body.rest();
                     left = left - after;
                     if left <= P::zero() {
@@ -150,60 +150,63 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
             }
         }
         // At rest friction is whatever that asks for.
-        self.go(P::zero(), left);
+        self.go(&self.body.sample(P::zero(), left), left);
     }
 
     /// What a piece that may last for `h` begins with.
     fn piece(&self, h: P) -> Piece<P> {
-        let (velocity, half) = (self.body.velocity(), P::from_f64(0.5));
+        let velocity = self.body.velocity();
         if velocity.is_zero() {
-            return match self.way_out(h) {
-                Some(direction) => Piece::Slides(self.slide(direction, P::zero(), h)),
-                None => Piece::Held,
-            };
+            return self.from_rest(h);
         }
-        let (direction, slowest) = (velocity.sign(), velocity * half);
+        let (direction, slowest) = (velocity.sign(), velocity * P::from_f64(0.5));
+        let first = self.body.sample(velocity, h);
+        let value = self.excess(&first, h);
         // Halfway to rest on average: slower than that, and it is at rest before the end.
-        if self.excess(slowest, h) * direction < P::zero() {
-            Piece::Slides(self.slide(direction, slowest, h))
-        } else {
-            Piece::Stops(self.time_to_rest(slowest, h))
+        match self.slide(direction, &first, value, slowest.abs(), h) {
+            Some(means) => Piece::Slides(means),
+            None => Piece::Stops(self.time_to_rest(slowest, h)),
         }
     }
 
-    /// Which way a joint at rest breaks loose; `None` where friction holds it.
-    fn way_out(&self, h: P) -> Option<P> {
-        let needed = required(&self.body.sample(P::zero(), h));
-        let level = |direction: P| {
-            let sample = Sample {
-                velocity: direction * P::from_f64(EDGE),
-                ..self.body.sample(P::zero(), h)
-            };
-            self.friction(&sample, h)
-        };
-        let one = P::one();
-        if needed > level(one) {
-            Some(one)
-        } else if needed < level(-one) {
-            Some(-one)
-        } else {
-            None
+    /// What a joint at rest does: it breaks loose where friction does not hold it.
+    fn from_rest(&self, h: P) -> Piece<P> {
+        let first = self.body.sample(P::zero(), h);
+        for direction in [P::one(), -P::one()] {
+            let velocity = direction * P::from_f64(EDGE);
+            let value = self.friction(&Sample { velocity, ..first }, h) - required(&first);
+            if value * direction < P::zero() {
+                let means = self.slide(direction, &first, value, P::zero(), h).unwrap_or(first);
+                return Piece::Slides(means);
+            }
         }
+        Piece::Held
     }
 
-    /// Mean velocity along `direction`, at least `slowest`.
-    fn slide(&self, direction: P, slowest: P, h: P) -> P {
-        let edge = P::from_f64(EDGE);
+    /// Means over a piece of sliding along `direction`, faster than `slowest`: from those at the
+    /// `first` velocity and the excess of friction there.
+    fn slide(
+        &self,
+        direction: P,
+        first: &Sample<P>,
+        value: P,
+        slowest: P,
+        h: P,
+    ) -> Option<Sample<P>> {
         let equation = Equation {
-            start: (slowest * direction).abs(),
-            slope: self.slope(h),
-            size: self.size(slowest, h),
+            start: first.velocity * direction,
+            value: value * direction,
+            slope: self.body.inertia() / (h * P::from_f64(0.5)),
+            size: self.size(first, h),
         };
-        let speed = equation.solve(|speed| {
-            let speed = if speed > edge { speed } else { edge };
-            self.excess(speed * direction, h) * direction
-        });
-        speed * direction
+        let mut last = *first;
+        let speed = equation.solve_above(slowest, |speed| {
+            last = self.body.sample(speed * direction, h);
+            self.excess(&last, h) * direction
+        })?;
+        let velocity = speed * direction;
+        // Where the search ends has nearly always been looked at last.
+        Some(if velocity == last.velocity { last } else { self.body.sample(velocity, h) })
     }
 
     /// How long a joint takes to rest, at half its velocity on average, if that is within `h`.
@@ -220,18 +223,28 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
                 h
             }
         };
-        let equation =
-            Equation { start: speed / h, slope: self.body.inertia(), size: self.size(mean, h) };
-        time(equation.solve(|deceleration| -(self.excess(mean, time(deceleration)) * direction)))
+        let lack = |sample: &Sample<P>, h: P| -(self.excess(sample, h) * direction);
+        let first = self.body.sample(mean, h);
+        let equation = Equation {
+            start: speed / h,
+            value: lack(&first, h),
+            slope: self.body.inertia(),
+            size: self.size(&first, h),
+        };
+        time(equation.solve(|deceleration| {
+            let h = time(deceleration);
+            lack(&self.body.sample(mean, h), h)
+        }))
     }
 
-    /// Goes through a piece: friction is what it asks for, and that is what the model gives, to
+    /// Goes through a piece: friction is what its means ask for, and that is what the model gives, to
     /// rounding, or between both sides where friction jumps with the load.
-    fn go(&mut self, velocity: P, h: P) {
-        let sample = self.body.sample(velocity, h);
-        friction_over(self.model, self.state, &sample, h);
-        self.taken.add(&sample, required(&sample), h, self.dt);
-        self.body.advance(velocity, h);
+    fn go(&mut self, means: &Sample<P>, h: P) {
+        if self.model.has_state() {
+            friction_over(self.model, self.state, means, h);
+        }
+        self.taken.add(means, required(means), h, self.dt);
+        self.body.advance(means.velocity, h);
     }
 }
 

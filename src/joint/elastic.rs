@@ -138,9 +138,10 @@ impl<P: Scalar + PartialOrd> MovingApart<'_, P> {
     fn load_velocity(&self, motor: P, h: P) -> P {
         let start = self.load.velocity();
         let slope = self.load.inertia() / (h * P::from_f64(0.5));
-        let pull = self.between(motor, start, h).abs();
-        let size = pull + self.load.sample(start, h).external_torque.abs() + slope * start.abs();
-        Equation { start, slope, size }.solve(|velocity| {
+        let (pull, sample) = (self.between(motor, start, h), self.load.sample(start, h));
+        let value = sample.load_torque - pull;
+        let size = pull.abs() + sample.external_torque.abs() + slope * start.abs();
+        Equation { start, value, slope, size }.solve(|velocity| {
             self.load.sample(velocity, h).load_torque - self.between(motor, velocity, h)
         })
     }

@@ -23,12 +23,24 @@ impl<P: Scalar + PartialOrd> Gravity<P> {
     /// gains, exactly.
     #[must_use]
     pub fn mean(&self, position: P, way: P) -> P {
-        if self.cos.is_zero() && self.sin.is_zero() {
-            return self.constant;
-        }
-        let half = way * P::from_f64(0.5);
-        let (sin, cos) = (position + half).sin_cos();
-        self.constant + (self.cos * cos + self.sin * sin) * cardinal_sine(half)
+        self.about(position).mean(position, way)
+    }
+
+    /// Gravity seen from `position`.
+    pub(super) fn about(&self, position: P) -> GravityAbout<P> {
+        let (sin, cos) =
+            if self.is_constant() { (P::zero(), P::one()) } else { position.sin_cos() };
+        let own = Self {
+            constant: self.constant,
+            cos: self.cos * cos + self.sin * sin,
+            sin: self.sin * cos - self.cos * sin,
+        };
+        GravityAbout { position, own }
+    }
+
+    /// Whether it is the same everywhere.
+    fn is_constant(&self) -> bool {
+        self.cos.is_zero() && self.sin.is_zero()
     }
 
     /// Potential energy at `position` (J).
@@ -39,7 +51,27 @@ impl<P: Scalar + PartialOrd> Gravity<P> {
     }
 }
 
-/// `sin(x)/x`.
-fn cardinal_sine<P: Scalar + PartialOrd>(x: P) -> P {
-    if x.is_zero() { P::one() } else { x.sin() / x }
+/// Gravity with angles counted from a position: small ones along a short way, and the sine and cosine
+/// of the position taken once.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GravityAbout<P> {
+    position: P,
+    own: Gravity<P>,
+}
+
+impl<P: Scalar + PartialOrd> GravityAbout<P> {
+    /// Mean torque along a way from `position` (T).
+    pub(super) fn mean(&self, position: P, way: P) -> P {
+        let Gravity { constant, cos, sin } = self.own;
+        if self.own.is_constant() {
+            return constant;
+        }
+        let half = way * P::from_f64(0.5);
+        let (sin_half, cos_half) = half.sin_cos();
+        let before = position - self.position;
+        let (sin_middle, cos_middle) =
+            if before.is_zero() { (sin_half, cos_half) } else { (before + half).sin_cos() };
+        let cardinal_sine = if half.is_zero() { P::one() } else { sin_half / half };
+        constant + (cos * cos_middle + sin * sin_middle) * cardinal_sine
+    }
 }

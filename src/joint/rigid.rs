@@ -1,5 +1,5 @@
 use super::body::{Body, Push};
-use super::gravity::Gravity;
+use super::gravity::{Gravity, GravityAbout};
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
@@ -53,7 +53,8 @@ impl<P: Scalar + PartialOrd> Joint<P> {
     /// The joint as it goes through a step.
     #[must_use]
     pub fn moving<'a>(&'a self, posture: Posture<P>, push: &'a Push<P>) -> Moving<'a, P> {
-        Moving { joint: self, push, posture, elapsed: P::zero() }
+        let gravity = self.gravity.about(posture.position);
+        Moving { joint: self, push, gravity, posture, elapsed: P::zero() }
     }
 }
 
@@ -62,6 +63,7 @@ impl<P: Scalar + PartialOrd> Joint<P> {
 pub struct Moving<'a, P> {
     joint: &'a Joint<P>,
     push: &'a Push<P>,
+    gravity: GravityAbout<P>,
     /// Where it has come to.
     pub posture: Posture<P>,
     elapsed: P,
@@ -92,7 +94,7 @@ impl<P: Scalar + PartialOrd> Body<P> for Moving<'_, P> {
         let way = velocity * h;
         let acceleration = (velocity - self.posture.velocity) / (h * half);
         let external = self.push.external + self.tie(velocity, h);
-        let gravity = self.joint.gravity.mean(self.posture.position, way);
+        let gravity = self.gravity.mean(self.posture.position, way);
         Sample {
             velocity,
             position: self.posture.position + way * half,

@@ -1,9 +1,10 @@
-//! The scalar equation of a step, by Chandrupatla's method: inverse quadratic interpolation where it
-//! is sure to gain, else bisection (Advances in Engineering Software 28, 1997).
+//! The scalar equation of a step: secants until the root is enclosed, then Chandrupatla's method,
+//! inverse quadratic interpolation where it is sure to gain, else bisection (Advances in Engineering
+//! Software 28, 1997).
 
 use crate::scalar::Scalar;
 
-/// Evaluations while the root is being enclosed; the distance doubles each time.
+/// Evaluations while the root is being enclosed; the distance doubles where secants do not help.
 const MOST_WIDENED: usize = 80;
 /// Evaluations while the enclosure closes: bisection alone would need about this many.
 const MOST_NARROWED: usize = 120;
@@ -20,6 +21,8 @@ fn rounding<P: Scalar + PartialOrd>() -> P {
 pub(super) struct Equation<P> {
     /// Where to begin.
     pub start: P,
+    /// The function there.
+    pub value: P,
     /// A lower bound of the slope, if the function is monotone.
     pub slope: P,
     /// Size of what is summed in the function: below its rounding, zero is zero.
@@ -35,40 +38,68 @@ impl<P: Scalar + PartialOrd> Equation<P> {
 
     /// The root: exact to rounding, by a bounded number of evaluations. Where the function does not
     /// change its sign within reach, the last place looked at.
-    pub fn solve(&self, mut function: impl FnMut(P) -> P) -> P {
-        let settled = self.settled();
-        let (mut near, mut f_near) = (self.start, function(self.start));
+    pub fn solve(&self, function: impl FnMut(P) -> P) -> P {
+        self.solve_above(P::from_f64(f64::NEG_INFINITY), function).unwrap_or(self.start)
+    }
+
+    /// The root likewise, if it lies above `least`: the function is negative there.
+    pub fn solve_above(&self, least: P, mut function: impl FnMut(P) -> P) -> Option<P> {
+        let (settled, half) = (self.settled(), P::from_f64(0.5));
+        let (mut near, mut f_near) = (self.start, self.value);
         if f_near.abs() <= settled {
-            return near;
+            return Some(near);
         }
         let mut way = -f_near / self.slope;
         for _ in 0..MOST_WIDENED {
             let far = near + way;
+            let beyond = far <= least;
+            let far = if beyond { least } else { far };
             let f_far = function(far);
+            if beyond && f_far >= P::zero() {
+                return None;
+            }
             if f_far.abs() <= settled || far == near {
-                return far;
+                return Some(far);
             }
             if f_far.sign() != f_near.sign() {
-                return narrow(function, [(near, f_near), (far, f_far)], settled);
+                return Some(narrow(function, [(near, f_near), (far, f_far)], settled));
             }
+            // Further by the secant; twice as far where that has not brought it much nearer.
+            let left = f_far / f_near;
+            let brought = left > P::zero() && left < half;
+            way *= if brought { left / (P::one() - left) } else { P::from_f64(2.0) };
             (near, f_near) = (far, f_far);
-            way += way;
         }
-        near
+        Some(near)
     }
 }
 
-/// Closes an enclosure of a root.
+/// Closes an enclosure of a root, whose second end is the latest.
 fn narrow<P: Scalar + PartialOrd>(
     mut function: impl FnMut(P) -> P,
     [first, second]: [(P, P); 2],
     settled: P,
 ) -> P {
-    let half = P::from_f64(0.5);
+    let (half, one) = (P::from_f64(0.5), P::one());
     let unit = rounding::<P>();
     let (mut best, mut other) = (second, first);
-    let mut share = half;
+    let secant = best.1 / (best.1 - other.1);
+    // Beyond all numbers there is none.
+    let mut share = if secant > P::zero() && secant < one { secant } else { half };
     for _ in 0..MOST_NARROWED {
+        let nearest = if other.1.abs() < best.1.abs() { other } else { best };
+        let span = (other.0 - best.0).abs();
+        let tolerance = unit * nearest.0.abs();
+        if nearest.1.abs() <= settled || span <= tolerance {
+            return nearest.0;
+        }
+        let least = tolerance / span;
+        if share < least {
+            share = least;
+        }
+        if share > one - least {
+            share = one - least;
+        }
         let next = best.0 + share * (other.0 - best.0);
         if next == best.0 || next == other.0 {
             break;
@@ -82,20 +113,7 @@ fn narrow<P: Scalar + PartialOrd>(
             other = best;
         }
         best = tried;
-        let nearest = if other.1.abs() < best.1.abs() { other } else { best };
-        let span = (other.0 - best.0).abs();
-        let tolerance = unit * nearest.0.abs();
-        if nearest.1.abs() <= settled || span <= tolerance {
-            return nearest.0;
-        }
         share = interpolated(best, other, left).unwrap_or(half);
-        let least = tolerance / span;
-        if share < least {
-            share = least;
-        }
-        if share > P::one() - least {
-            share = P::one() - least;
-        }
     }
     if other.1.abs() < best.1.abs() { other.0 } else { best.0 }
 }

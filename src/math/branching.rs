@@ -5,7 +5,7 @@
 //! the functions without branches, whose parts these are.
 
 use super::format::Format;
-use super::{exponential, phi, power};
+use super::{exponential, phi, power, trigonometric};
 
 /// `e^x`.
 #[inline(always)]
@@ -88,4 +88,15 @@ fn any_power<F: Format>(x: F, p: F) -> F {
 #[inline(never)]
 fn rare_power<F: Format>(x: F, p: F) -> F {
     power::powf(x, p)
+}
+
+/// Sine and cosine.
+#[inline(always)]
+pub fn sin_cos<F: Format>(x: F) -> (F, F) {
+    if x.abs() < F::PHASE_USUAL { trigonometric::sin_cos_unreduced(x) } else { any_sin_cos(x) }
+}
+
+#[inline(never)]
+fn any_sin_cos<F: Format>(x: F) -> (F, F) {
+    trigonometric::sin_cos(x)
 }

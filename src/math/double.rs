@@ -18,6 +18,7 @@ impl Format for f64 {
     const EXP_USUAL: Self = 512.0;
     const EXP_FAR: Self = 1024.0;
     const EXPM1_USUAL: Self = 64.0;
+    const PHASE_USUAL: Self = 0.75;
     const TANH_ONE: Self = 20.0;
     const LARGE_EXPONENT: Self = 1e20;
     const LARGEST_PHASE: Self = 1.6e6;

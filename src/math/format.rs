@@ -24,6 +24,8 @@ pub trait Format: Bits + 'static {
     const TANH_ONE: Self;
     /// An exponent as large as this takes every base but 1 to 0 or infinity.
     const LARGE_EXPONENT: Self;
+    /// Below this `|x|` a phase is less than half a quarter turn.
+    const PHASE_USUAL: Self;
     /// Up to here a phase is reduced by `PI_HALF`.
     const LARGEST_PHASE: Self;
 

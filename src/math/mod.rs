@@ -88,6 +88,8 @@ macro_rules! elementary {
                     phi(order: u8, x: $float) -> $float, branching::phi(order, x));
                 elementary!(@ "`x` to the power `p`.",
                     powf(x: $float, p: $float) -> $float, branching::powf(x, p));
+                elementary!(@ "Sine and cosine.", sin_cos(x: $float) -> ($float, $float),
+                    branching::sin_cos(x));
             }
 
             elementary!(@ "Whether `x` is too large for [`sin_cos_fast`].",

@@ -18,6 +18,7 @@ impl Format for f32 {
     const EXP_USUAL: Self = 64.0;
     const EXP_FAR: Self = 128.0;
     const EXPM1_USUAL: Self = 32.0;
+    const PHASE_USUAL: Self = 0.75;
     const TANH_ONE: Self = 10.0;
     const LARGE_EXPONENT: Self = 1e10;
     const LARGEST_PHASE: Self = 3000.0;

@@ -31,6 +31,17 @@ pub fn sin_cos_fast<F: Format>(x: F) -> (F, F) {
     (if x == F::of(0.0) { x } else { sin }, cos)
 }
 
+/// Sine and cosine of a phase that is less than half a quarter turn: of itself.
+#[inline(always)]
+pub fn sin_cos_unreduced<F: Format>(x: F) -> (F, F) {
+    let z = x * x;
+    let half = F::of(0.5) * z;
+    let rough = F::of(1.0) - half;
+    let lost = (F::of(1.0) - rough) - half;
+    let sin = x + z * x * F::sin_series(z);
+    (if x == F::of(0.0) { x } else { sin }, rough + F::cos_beyond(lost, z))
+}
+
 /// Sine and cosine of a large phase.
 #[cold]
 fn sin_cos_with_care<F: Format>(x: F) -> (F, F) {

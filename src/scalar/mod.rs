@@ -277,7 +277,7 @@ macro_rules! primitive {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                crate::math::$float::sin_cos(self)
+                crate::math::$float::branching::sin_cos(self)
             }
 
             $(
