@@ -72,6 +72,20 @@ macro_rules! laws {
                 }
             }
 
+            /// The torque in steady sliding along `direction`: of its parts no more than that needs.
+            #[inline]
+            pub fn torque(
+                &self,
+                sample: &Sample<S::Plain>,
+                direction: S::Plain,
+                constants: &Constants<S::Plain>,
+            ) -> S {
+                match self {
+                    $(Self::$law(law) => law.split(sample, constants).torque(direction),)+
+                    Self::$own(law) => law.split(sample, constants).torque(direction),
+                }
+            }
+
             /// The bristle that its state is at this sample, where it is one.
             #[inline(always)]
             pub fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {

@@ -324,6 +324,16 @@ impl<S: Real> Composed<S> {
         altered
     }
 
+    /// The torque of a model without a state as it acts, in steady sliding (T).
+    #[inline]
+    pub(crate) fn acting_torque(&self, sample: &Sample<S::Plain>) -> S {
+        let direction = sample.velocity.sign();
+        if self.effects.is_empty() && self.own.is_none() {
+            return self.law.torque(sample, direction, &self.constants);
+        }
+        self.split(sample).torque(direction)
+    }
+
     /// The bristle that stands between dry friction and the torque, where it is one.
     #[inline(always)]
     #[must_use]

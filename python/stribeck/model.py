@@ -529,14 +529,17 @@ class Model:
         }
 
     def _known_values(self) -> Array:
-        unknown = [n for n, v in zip(self.names, self.values, strict=True) if not np.isfinite(v)]
-        if unknown:
+        known = np.isfinite(self.values)
+        if not known.all():
+            unknown = [name for name, given in zip(self.names, known, strict=True) if not given]
             raise SpecError(f"{self.spec} has no value for {', '.join(unknown)}: fit it or give it")
         return self._friction_values
 
     @property
     def _friction_values(self) -> Array:
         """Those of `values` that `core` takes."""
+        if self.drive is None:
+            return self.values
         own = {row["name"] for row in self.core.parameters()}
         return self.values[[name in own for name in self.names]]
 

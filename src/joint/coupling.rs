@@ -105,7 +105,7 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
             let mut state = *self.state;
             friction_over(self.model, &mut state, sample, h)
         } else {
-            self.model.split(sample).torque(sample.velocity.sign())
+            self.model.acting_torque(sample)
         }
     }
 

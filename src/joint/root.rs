@@ -87,19 +87,6 @@ fn narrow<P: Scalar + PartialOrd>(
     // Beyond all numbers there is none.
     let mut share = if secant > P::zero() && secant < one { secant } else { half };
     for _ in 0..MOST_NARROWED {
-        let nearest = if other.1.abs() < best.1.abs() { other } else { best };
-        let span = (other.0 - best.0).abs();
-        let tolerance = unit * nearest.0.abs();
-        if nearest.1.abs() <= settled || span <= tolerance {
-            return nearest.0;
-        }
-        let least = tolerance / span;
-        if share < least {
-            share = least;
-        }
-        if share > one - least {
-            share = one - least;
-        }
         let next = best.0 + share * (other.0 - best.0);
         if next == best.0 || next == other.0 {
             break;
@@ -113,7 +100,20 @@ fn narrow<P: Scalar + PartialOrd>(
             other = best;
         }
         best = tried;
+        let nearest = if other.1.abs() < best.1.abs() { other } else { best };
+        let span = (other.0 - best.0).abs();
+        let tolerance = unit * nearest.0.abs();
+        if nearest.1.abs() <= settled || span <= tolerance {
+            return nearest.0;
+        }
         share = interpolated(best, other, left).unwrap_or(half);
+        let least = tolerance / span;
+        if share < least {
+            share = least;
+        }
+        if share > one - least {
+            share = one - least;
+        }
     }
     if other.1.abs() < best.1.abs() { other.0 } else { best.0 }
 }

@@ -96,6 +96,8 @@ def _joint(model: Model, joint: Joint | None, known: dict[str, float]) -> Joint:
             )
         kind = "revolute" if model.position_unit == "rad" else "prismatic"
         return Joint(inertia, gravity_cos=cos, gravity_sin=sin, kind=kind)
+    if not any(effect in terms for effect in RIGID_BODY_EFFECTS):
+        return joint
     return replace(
         joint,
         inertia=joint.inertia + inertia,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -203,7 +202,7 @@ def column(name: str, values: ArrayLike, count: int) -> Array:
         raise SpecError(f"{name} has {given.size} values for {count} steps: give one a step")
     if not np.isfinite(given).all():
         raise SpecError(f"{name} is not a number everywhere")
-    return np.ascontiguousarray(np.broadcast_to(given, count))
+    return np.full(count, given) if given.ndim == 0 else np.ascontiguousarray(given)
 
 
 def _warmth(model: Model, temperature: ArrayLike | None) -> ArrayLike:
@@ -230,10 +229,10 @@ def _sizes(joint: Joint, drive: Drive) -> dict[str, float]:
 
 
 def _apart(joint: Joint) -> dict[str, float] | None:
-    return None if joint.transmission is None else asdict(joint.transmission)
+    return None if joint.transmission is None else vars(joint.transmission)
 
 
 def _gains(drive: Drive) -> dict[str, float] | None:
     if not isinstance(drive, Follow):
         return None
-    return asdict(drive.controller)
+    return vars(drive.controller)
