@@ -5,8 +5,8 @@
 //! `M+ v+ - M v`, and the second joint feels the mean of `dT/dq2`, `v+' N v dh/(2 dq2)` with
 //! `dM = N dh`: so kinetic energy changes by exactly what motors give and friction takes.
 
-use super::coupling::{Taken, friction_over, required};
-use super::gravity::Gravity;
+use super::coupling::{Taken, carry, friction_from, required};
+use super::gravity::{Gravity, GravityAbout};
 use super::root::Equation;
 use crate::composed::Composed;
 use crate::dynamics::{Memory, State};
@@ -54,6 +54,17 @@ pub struct ArmPush<P> {
     pub time: P,
 }
 
+/// Where a piece of a step begins, as the equations of the piece need it.
+#[derive(Clone, Copy)]
+struct Beginning<P> {
+    velocity: [P; 2],
+    second: P,
+    /// `h` there, and its slope seen from there.
+    coupling: P,
+    slope: GravityAbout<P>,
+    momentum: [P; 2],
+}
+
 impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
     /// `h` and its mean slope have the form of gravity's potential and torque.
     fn coupling(&self) -> Gravity<P> {
@@ -63,7 +74,10 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
     /// `M11`, `M12` and `M22` at the second angle (kg m2).
     #[must_use]
     pub fn inertia(&self, second: P) -> [P; 3] {
-        let coupling = self.coupling().potential(second);
+        self.inertia_with(self.coupling().potential(second))
+    }
+
+    fn inertia_with(&self, coupling: P) -> [P; 3] {
         let across = self.inertia_2 + coupling;
         [self.inertia_1 + across + coupling, across, self.inertia_2]
     }
@@ -71,23 +85,31 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
     /// Kinetic energy (J).
     #[must_use]
     pub fn energy(&self, posture: &ArmPosture<P>) -> P {
-        let momentum = self.momentum(posture.position[1], posture.velocity);
+        let coupling = self.coupling().potential(posture.position[1]);
+        let momentum = self.momentum(coupling, posture.velocity);
         let [first, second] = posture.velocity;
         P::from_f64(0.5) * (momentum[0] * first + momentum[1] * second)
     }
 
-    fn momentum(&self, second: P, [v1, v2]: [P; 2]) -> [P; 2] {
-        let [own, across, other] = self.inertia(second);
+    fn momentum(&self, coupling: P, [v1, v2]: [P; 2]) -> [P; 2] {
+        let [own, across, other] = self.inertia_with(coupling);
         [own * v1 + across * v2, across * v1 + other * v2]
     }
 
+    fn beginning(&self, posture: &ArmPosture<P>) -> Beginning<P> {
+        let (velocity, second) = (posture.velocity, posture.position[1]);
+        let coupling = self.coupling().potential(second);
+        let (slope, momentum) = (self.coupling().about(second), self.momentum(coupling, velocity));
+        Beginning { velocity, second, coupling, slope, momentum }
+    }
+
     /// Mean torques that the motion over a piece of length `h` needs, at these mean velocities (N m).
-    fn load(&self, posture: &ArmPosture<P>, mean: [P; 2], h: P) -> [P; 2] {
-        let (q2, before) = (posture.position[1], posture.velocity);
+    fn load(&self, from: &Beginning<P>, mean: [P; 2], h: P) -> [P; 2] {
+        let (before, start) = (from.velocity, from.momentum);
         let after = [0, 1].map(|i| mean[i] + mean[i] - before[i]);
         let way = mean[1] * h;
-        let (start, end) = (self.momentum(q2, before), self.momentum(q2 + way, after));
-        let slope = self.coupling().mean(q2, way);
+        let slope = from.slope.mean(from.second, way);
+        let end = self.momentum(from.coupling + slope * way, after);
         let [[v1, v2], [u1, u2]] = [before, after];
         let turning = (u1 * v1 + u1 * v1 + u1 * v2 + u2 * v1) * slope * P::from_f64(0.5);
         [(end[0] - start[0]) / h, (end[1] - start[1]) / h - turning]
@@ -103,8 +125,15 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
         dt: P,
     ) -> [Taken<P>; 2] {
         let elapsed = P::zero();
-        let mut course =
-            ArmCourse { arm: self, friction, states, posture: *posture, push, elapsed };
+        let mut course = ArmCourse {
+            arm: self,
+            friction,
+            states,
+            posture: *posture,
+            beginning: self.beginning(posture),
+            push,
+            elapsed,
+        };
         let mut taken = [Taken::nothing(); 2];
         for piece in 1..=MOST_PIECES {
             let left = dt - course.elapsed;
@@ -121,6 +150,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
             if h == left {
                 break;
             }
+            course.beginning = self.beginning(&course.posture);
         }
         *posture = course.posture;
         taken
@@ -144,6 +174,7 @@ struct ArmCourse<'a, P: Scalar + PartialOrd> {
     friction: [&'a Composed<P>; 2],
     states: &'a mut [State<P>; 2],
     posture: ArmPosture<P>,
+    beginning: Beginning<P>,
     push: &'a ArmPush<P>,
     elapsed: P,
 }
@@ -168,7 +199,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
             position: self.posture.position[joint] + velocity * h * half,
             acceleration: (velocity - self.posture.velocity[joint]) / (h * half),
             temperature: self.push.temperature[joint],
-            load_torque: self.arm.load(&self.posture, mean, h)[joint],
+            load_torque: self.arm.load(&self.beginning, mean, h)[joint],
             load_torque_curvature: P::zero(),
             motor_torque: self.push.motor[joint],
             external_torque: P::zero(),
@@ -185,8 +216,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
             _ => sample.velocity,
         };
         let acting = Sample { velocity, ..sample };
-        let mut state = self.states[joint];
-        friction_over(self.friction[joint], &mut state, &acting, h) - required(&sample)
+        friction_from(self.friction[joint], &self.states[joint], &acting, h) - required(&sample)
     }
 
     /// The mean velocity of a joint for which friction is right, the other's being `mean`'s or
@@ -218,7 +248,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
 
     /// Mean velocities over a piece in which no joint comes to rest.
     fn velocities(&self, h: P) -> [P; 2] {
-        let [own, across, other] = self.arm.inertia(self.posture.position[1]);
+        let [own, across, other] = self.arm.inertia_with(self.beginning.coupling);
         let per_step = P::from_f64(2.0) / h;
         let second = |first: P| self.solve(1, other * per_step, h, |second| [first, second]);
         let free = own - across * across / other;
@@ -273,7 +303,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
     fn go(&mut self, taken: &mut [Taken<P>; 2], mean: [P; 2], h: P, dt: P) {
         let samples = [0, 1].map(|joint| self.sample(joint, mean, h));
         for (joint, sample) in samples.iter().enumerate() {
-            friction_over(self.friction[joint], &mut self.states[joint], sample, h);
+            carry(self.friction[joint], &mut self.states[joint], sample, h);
             taken[joint].add(sample, required(sample), h, dt);
             self.posture.position[joint] += mean[joint] * h;
             let before = self.posture.velocity[joint];

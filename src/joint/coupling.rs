@@ -8,7 +8,7 @@
 use super::body::Body;
 use super::root::Equation;
 use crate::composed::Composed;
-use crate::dynamics::{Interval, Memory, State};
+use crate::dynamics::{Memory, State};
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
@@ -101,12 +101,7 @@ enum Piece<P> {
 impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
     /// Mean friction torque over a piece, from the present state.
     fn friction(&self, sample: &Sample<P>, h: P) -> P {
-        if self.model.has_state() {
-            let mut state = *self.state;
-            friction_over(self.model, &mut state, sample, h)
-        } else {
-            self.model.acting_torque(sample)
-        }
+        friction_from(self.model, self.state, sample, h)
     }
 
     /// Friction in excess of what the means over a piece ask for (T): zero where it is right.
@@ -240,9 +235,7 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
     /// Goes through a piece: friction is what its means ask for, and that is what the model gives, to
     /// rounding, or between both sides where friction jumps with the load.
     fn go(&mut self, means: &Sample<P>, h: P) {
-        if self.model.has_state() {
-            friction_over(self.model, self.state, means, h);
-        }
+        carry(self.model, self.state, means, h);
         self.taken.add(means, required(means), h, self.dt);
         self.body.advance(means.velocity, h);
     }
@@ -253,13 +246,29 @@ pub(super) fn required<P: Scalar + PartialOrd>(sample: &Sample<P>) -> P {
     sample.motor_torque - sample.load_torque
 }
 
-/// Mean friction torque as a sample is held for `h`; the state goes along.
-pub(super) fn friction_over<P: Scalar<Plain = P> + PartialOrd>(
+/// Mean friction torque as a sample is held for `h`, from a state that stays as it is.
+pub(super) fn friction_from<P: Scalar<Plain = P> + PartialOrd>(
+    model: &Composed<P>,
+    state: &State<P>,
+    sample: &Sample<P>,
+    h: P,
+) -> P {
+    if model.has_state() {
+        let mut state = *state;
+        model.step(&mut state, sample, h).mean_torque
+    } else {
+        model.acting_torque(sample)
+    }
+}
+
+/// Takes the state through a sample that is held for `h`.
+pub(super) fn carry<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &mut State<P>,
     sample: &Sample<P>,
     h: P,
-) -> P {
-    let interval = Interval { mean: true, ..Interval::held(*sample, h) };
-    model.over(state, &interval).mean_torque
+) {
+    if model.has_state() {
+        model.step(state, sample, h);
+    }
 }
