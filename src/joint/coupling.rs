@@ -152,7 +152,7 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
     fn piece(&self, h: P) -> Piece<P> {
         let velocity = self.body.velocity();
         if velocity.is_zero() {
-            return self.from_rest(h);
+            return self.break_away(h);
         }
         let (direction, slowest) = (velocity.sign(), velocity * P::from_f64(0.5));
         let first = self.body.sample(velocity, h);
@@ -165,7 +165,7 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
     }
 
     /// What a joint at rest does: it breaks loose where friction does not hold it.
-    fn from_rest(&self, h: P) -> Piece<P> {
+    fn break_away(&self, h: P) -> Piece<P> {
         let first = self.body.sample(P::zero(), h);
         for direction in [P::one(), -P::one()] {
             let velocity = direction * P::from_f64(EDGE);
