@@ -68,6 +68,11 @@ impl<P: Scalar + PartialOrd> Equation<P> {
             let left = f_far / f_near;
             let brought = left > P::zero() && left < half;
             way *= if brought { left / (P::one() - left) } else { P::from_f64(2.0) };
+            // Beside a jump a secant is too steep: onwards by no less than rounding.
+            let shortest = rounding::<P>() * far.abs();
+            if way.abs() < shortest {
+                way = way.sign() * shortest;
+            }
             (near, f_near) = (far, f_far);
         }
         Some(near)
@@ -86,8 +91,18 @@ fn narrow<P: Scalar + PartialOrd>(
     let secant = best.1 / (best.1 - other.1);
     // Beyond all numbers there is none.
     let mut share = if secant > P::zero() && secant < one { secant } else { half };
+    let mut nearest = nearer(best, other);
     for _ in 0..MOST_NARROWED {
-        let next = best.0 + share * (other.0 - best.0);
+        // Off both ends by no less than rounding: a flat stretch beside a jump looks like a root.
+        let span = other.0 - best.0;
+        let least = unit * nearest.0.abs() / span.abs();
+        if share < least {
+            share = least;
+        }
+        if share > one - least {
+            share = one - least;
+        }
+        let next = best.0 + share * span;
         if next == best.0 || next == other.0 {
             break;
         }
@@ -100,22 +115,18 @@ fn narrow<P: Scalar + PartialOrd>(
             other = best;
         }
         best = tried;
-        let nearest = if other.1.abs() < best.1.abs() { other } else { best };
-        let span = (other.0 - best.0).abs();
-        let tolerance = unit * nearest.0.abs();
-        if nearest.1.abs() <= settled || span <= tolerance {
-            return nearest.0;
+        nearest = nearer(best, other);
+        if nearest.1.abs() <= settled || (other.0 - best.0).abs() <= unit * nearest.0.abs() {
+            break;
         }
         share = interpolated(best, other, left).unwrap_or(half);
-        let least = tolerance / span;
-        if share < least {
-            share = least;
-        }
-        if share > one - least {
-            share = one - least;
-        }
     }
-    if other.1.abs() < best.1.abs() { other.0 } else { best.0 }
+    nearest.0
+}
+
+/// The end at which the function is smaller.
+fn nearer<P: Scalar + PartialOrd>(best: (P, P), other: (P, P)) -> (P, P) {
+    if other.1.abs() < best.1.abs() { other } else { best }
 }
 
 /// Share of the way from `a` to `b` at which the inverse quadratic through three points is zero, if
