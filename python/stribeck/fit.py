@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +20,7 @@ from stribeck.identify.held_out import Refit, held_out_prediction
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.scaling import check_channels, effect_constants, model_for
-from stribeck.identify.search import QUICK, THOROUGH, Effort, multi_start
+from stribeck.identify.search import QUICK, THOROUGH, Effort, multi_start, search_each
 from stribeck.identify.separable import minimise
 from stribeck.identify.transients import stretches, transient_rows
 from stribeck.model import Model, catalog
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from stribeck.passivity.imposed import PassiveCost
 
 __all__ = [
-    "QUICK", "THOROUGH", "Effort", "Estimate", "Fit", "evaluate", "fit", "on_recording",
+    "QUICK", "THOROUGH", "Effort", "Estimate", "Fit", "evaluate", "fit", "fit_each", "on_recording",
     "operating_box", "own_load",
 ]  # fmt: skip
 
@@ -205,14 +206,7 @@ def fit(
     choices = Choices(start or {}, bounds or {}, fix or {})
     made = choices.applied(model_for(spec, recording))
     marked = transient_rows(recording) if transient is None else transient
-    rows = np.flatnonzero(recording.moving & ~marked)
-    lower, upper, _ = scaled_bounds(made, recording)
-    fewest = int((lower < upper).sum()) + 2
-    if rows.size < fewest:
-        raise FitError(
-            f"{recording.path} has {rows.size} rows that move, {made.spec} needs at least "
-            f"{fewest}: record more motion"
-        )
+    rows = _rows_to_fit(made, recording, marked)
     made, load = _with_own_load(made, recording, rows, starts, seed, effort)
     solution = _identify(made, recording, rows, load, starts, seed, effort)
     values, load = solution.values, solution.load
@@ -221,6 +215,85 @@ def fit(
         made, recording, marked, rows, load, solution, effort, errors, time.perf_counter() - began
     )
     return _made_passive(fitted, solution, effort) if passive else fitted
+
+
+def fit_each(
+    starts: Sequence[Model],
+    recording: Recording,
+    *,
+    transient: NDArray[np.bool_],
+    effort: Effort,
+    seed: int = 0,
+) -> list[Fit | StribeckError]:
+    """Fits of one model from several starts, or why there is none.
+
+    Each start is brought to its own minimum; those that come together on fewer rows go on as one,
+    and their outcome says with which.
+
+    Parameters
+    ----------
+    starts : Models
+        One model with different values; its nonlinear parameters lie between bounds.
+    transient, effort, seed
+        As of `fit`.
+
+    Raises
+    ------
+    FitError
+        As of `fit`, where no start could be fitted.
+    """
+    began = time.perf_counter()
+    made = starts[0]
+    rows = _rows_to_fit(made, recording, transient)
+    if needs_own_load(made):
+        # Each start finds a load of its own, and with it another problem.
+        return [
+            _said(partial(fit, start, recording, starts=1, seed=seed, transient=transient,
+                          effort=effort))
+            for start in starts
+        ]  # fmt: skip
+    lower, upper, first = scaled_bounds(made, recording)
+    values = np.stack([start.values for start in starts])
+    at = np.where(np.isfinite(values), np.clip(values, lower, upper), first)
+    ends = search_each(Problem(recording, made, rows), lower, upper, at, effort)
+    ended: dict[int, Fit | StribeckError] = {}
+    fits = []
+    for k, end in enumerate(ends):
+        solution = _Solution(
+            end.search.values, None, lower, upper, 1, end.search.converged, end.search.outcome,
+            end.evaluations,
+        )  # fmt: skip
+        if end.leader == k:
+            ended[k] = _said(partial(
+                _finish, made.with_values(solution.values), recording, transient, rows, None,
+                solution, effort, "robust", time.perf_counter() - began,
+            ))  # fmt: skip
+        fitted = ended[end.leader]
+        if isinstance(fitted, Fit) and end.leader != k:
+            outcome = f"came to where start {end.leader} went on: {fitted.outcome}"
+            fitted = replace(fitted, outcome=outcome, evaluations=end.evaluations)
+        fits.append(fitted)
+    return fits
+
+
+def _said(work: Callable[[], Fit]) -> Fit | StribeckError:
+    try:
+        return work()
+    except StribeckError as error:
+        return error
+
+
+def _rows_to_fit(made: Model, recording: Recording, marked: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """The rows that move and are no transients; refuses fewer than the model needs."""
+    rows = np.flatnonzero(recording.moving & ~marked)
+    lower, upper, _ = scaled_bounds(made, recording)
+    fewest = int((lower < upper).sum()) + 2
+    if rows.size < fewest:
+        raise FitError(
+            f"{recording.path} has {rows.size} rows that move, {made.spec} needs at least "
+            f"{fewest}: record more motion"
+        )
+    return rows
 
 
 def _made_passive(free: Fit, solution: _Solution, effort: Effort) -> Fit:
@@ -362,14 +435,14 @@ def _identify(
             assert renewed is not None
             moved = rms(renewed - load) / (rms(renewed) or 1.0)
             load = renewed
-            found, count = minimise(
+            found = minimise(
                 Problem(recording, made, rows, load),
                 found.values,
                 lower,
                 upper,
                 tolerance=effort.tolerance,
             )
-            evaluations += count
+            evaluations += found.evaluations
             if moved < 1e-5:
                 break
     return _Solution(

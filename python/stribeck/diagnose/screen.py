@@ -142,4 +142,4 @@ def _steps(problem: Problem, at: Array, lower: Array, upper: Array, most: int) -
     """Searches from `at`, array [k, p]."""
     return minimise_from(
         problem, at, lower, upper, tolerance=TOLERANCE, most=most, damping=CAUTIOUS
-    )[0]
+    )

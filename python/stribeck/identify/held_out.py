@@ -59,7 +59,7 @@ class Bounded:
         others = problem.triangle(refit, free, np.ones(free.size))
         if others is not None and others.square <= square:
             return self.step(refit, others)
-        return minimise(problem, values, self.lower, self.upper, tolerance=SETTLED)[0].values
+        return minimise(problem, values, self.lower, self.upper, tolerance=SETTLED).values
 
 
 def held_out_prediction(

@@ -109,7 +109,7 @@ def multi_start(
     bounded = bool(np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])))
     rng = np.random.default_rng(seed)
     if not nonlinear.any() or effort.evaluations == 0:
-        tried, evaluations = [Search(start, np.inf, True, "")], 0
+        tried, evaluations = [Search(start, np.inf, True, "", 0)], 0
     elif bounded:
         tried, evaluations = _between_bounds(problem, space, start, moved, starts, rng, effort)
     else:
@@ -117,8 +117,8 @@ def multi_start(
     noise = rounding(problem)
     finished = []
     for search in _distinct(tried, noise)[: effort.finished]:
-        done, count = minimise(problem, search.values, lower, upper, tolerance=effort.tolerance)
-        evaluations += count
+        done = minimise(problem, search.values, lower, upper, tolerance=effort.tolerance)
+        evaluations += done.evaluations
         finished.append(done)
     return _winner(finished, noise), starts, evaluations
 
@@ -147,29 +147,88 @@ def _between_bounds(
     evaluations = 0
     tried: list[Search] = []
     for coarse in _coarse(problem, effort):
-        tried, count = minimise_from(
-            coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
-            tolerance=COARSE,
-        )  # fmt: skip
-        evaluations += count
+        tried = _searched(coarse, at, space, effort)
+        evaluations += sum(search.evaluations for search in tried)
         tried = _apart(tried, space)[: effort.finished]
         at = np.stack([search.values for search in tried])
     return tried, evaluations
 
 
+def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) -> list[Search]:
+    """Coarse searches between bounds from `at`, array [k, p]."""
+    return minimise_from(
+        coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
+        tolerance=COARSE,
+    )  # fmt: skip
+
+
 def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
     """One of each group of searches that ended in the same place, best first."""
-    kept: list[tuple[Array, Search]] = []
+    kept: list[Search] = []
     for search in sorted(tried, key=lambda search: search.square):
-        at = space.encode(search.values)
-        same = (
-            abs(search.square - other.square) <= SAME * other.square
-            and bool(np.all(np.abs(at - place) <= NEAR))
-            for place, other in kept
-        )
-        if not any(same):
-            kept.append((at, search))
-    return [search for _, search in kept]
+        if not any(_together(search, other, space) for other in kept):
+            kept.append(search)
+    return kept
+
+
+def _together(one: Search, other: Search, space: SearchSpace) -> bool:
+    """Whether two coarse searches ended in the same place."""
+    if one is other:
+        return True
+    away = np.abs(space.encode(one.values) - space.encode(other.values))
+    level = abs(one.square - other.square) <= SAME * other.square
+    return bool(level and np.all(away <= NEAR))
+
+
+@dataclass(frozen=True)
+class Ended:
+    """Where one of several starts ended.
+
+    Attributes
+    ----------
+    search
+        On all rows.
+    evaluations
+        On fewer rows, and on all rows of a start that went on itself.
+    leader
+        The start that went on for this one: itself, or an earlier one that it had come to.
+    """
+
+    search: Search
+    evaluations: int
+    leader: int
+
+
+def search_each(
+    problem: Problem, lower: Array, upper: Array, starts: Array, effort: Effort
+) -> list[Ended]:
+    """The minimum on all rows that each of `starts` leads to, array [k, p], between bounds.
+
+    Starts that a coarse search brings to the same place go on as one, the first of them: where a
+    start ends depends on those before it and on none after it.
+    """
+    space = SearchSpace(problem.model, lower, upper)
+    leader = np.arange(starts.shape[0])
+    evaluations = np.zeros(leader.size, dtype=np.int64)
+    at = starts.copy()
+    coarse = _coarse(problem, effort) if space.nonlinear.any() else []
+    for fewer in coarse:
+        own = np.unique(leader)
+        found = dict(zip(own, _searched(fewer, at[own], space, effort), strict=True))
+        for k, search in found.items():
+            at[k] = search.values
+            evaluations[k] += search.evaluations
+            same = (j for j in own if j <= k and _together(search, found[j], space))
+            leader[leader == k] = leader[next(same)]
+    own = np.unique(leader)
+    done = minimise_from(problem, at[own], lower, upper, tolerance=effort.tolerance)
+    ends = dict(zip(own, done, strict=True))
+    for k, search in ends.items():
+        evaluations[k] += search.evaluations
+    return [
+        Ended(ends[first], int(count), int(first))
+        for first, count in zip(leader, evaluations, strict=True)
+    ]
 
 
 def _without_bounds(
@@ -186,17 +245,14 @@ def _without_bounds(
     fewer = replace(effort, rows=effort.rows // FEWER, samples=effort.samples // FEWER)
     coarse = _coarse(problem, fewer)[-1]
     signed = space.nonlinear & (start != 0.0)
-    evaluations = 0
     tried: list[Search] = []
 
     def search(at: Array, logarithmic: Mask, most: int) -> None:
-        nonlocal evaluations
-        found, count = minimise_from(
+        found = minimise_from(
             coarse, at, lower, upper, most=most, damping=CAUTIOUS, logarithmic=logarithmic,
             tolerance=COARSE_WITHOUT_BOUNDS,
         )  # fmt: skip
         tried.extend(found)
-        evaluations += count
 
     # First what keeps the given signs: a formula may have the same torque at several values.
     search(start[None, :], signed, MOST_STEPS)
@@ -206,7 +262,7 @@ def _without_bounds(
         factor = SPREAD ** rng.uniform(-1.0, 1.0, size=start.size)
         drawn[moved] = np.where(signed, start * factor, factor - 1.0)[moved]
     search(np.clip(at, lower, upper), signed, effort.evaluations)
-    return tried, evaluations
+    return tried, sum(search.evaluations for search in tried)
 
 
 def _distinct(tried: list[Search], noise: float) -> list[Search]:

@@ -57,6 +57,7 @@ class Search:
     square: float
     converged: bool
     outcome: str
+    evaluations: int
 
 
 def minimise(
@@ -69,7 +70,7 @@ def minimise(
     most: int = MOST_ROUNDS,
     damping: float = 0.0,
     logarithmic: NDArray[np.bool_] | None = None,
-) -> tuple[Search, int]:
+) -> Search:
     """Bring the sum of squares down from `values` to the minimum they lead to.
 
     Parameters
@@ -87,14 +88,13 @@ def minimise(
 
     Returns
     -------
-    Search, evaluations
-        The sum of squares is infinite where the model is not finite at `values`.
+    Search
+        Its sum of squares is infinite where the model is not finite at `values`.
     """
-    found, evaluations = minimise_from(
+    return minimise_from(
         problem, values[None, :], lower, upper, tolerance=tolerance, most=most, damping=damping,
         logarithmic=logarithmic,
-    )  # fmt: skip
-    return found[0], evaluations
+    )[0]  # fmt: skip
 
 
 def minimise_from(
@@ -107,13 +107,8 @@ def minimise_from(
     most: int = MOST_ROUNDS,
     damping: float = 0.0,
     logarithmic: NDArray[np.bool_] | None = None,
-) -> tuple[list[Search], int]:
-    """`minimise` from each of several `starts`, array [k, p]; rows in memory on all threads.
-
-    Returns
-    -------
-    Searches in the order of the starts, evaluations
-    """
+) -> list[Search]:
+    """`minimise` from each of several `starts`, array [k, p]; rows in memory on all threads."""
     within = {
         "lower": lower,
         "upper": upper,
@@ -129,7 +124,7 @@ def minimise_from(
         # Steps that leave the range of numbers are taken back.
         with np.errstate(all="ignore"):
             found = [_core.search_by(problem, start, within) for start in starts]
-    return [Search(*rest) for *rest, _ in found], sum(count for *_, count in found)
+    return [Search(*one) for one in found]
 
 
 def rounding(problem: LeastSquares) -> float:

@@ -33,27 +33,24 @@ ASTRAY = 1.5
 
 def minimise_under(
     problem: Problem, values: Array, lower: Array, upper: Array, conditions: Conditions
-) -> tuple[Search, int]:
+) -> Search:
     """The least sum of squares near `values` at which the conditions hold.
 
-    Returns
-    -------
-    Search, evaluations
-        The sum of squares is infinite where no values were found that hold the conditions.
+    Its sum of squares is infinite where no values were found that hold the conditions.
     """
     free = np.flatnonzero(lower < upper)
     point = _linearised(problem, values, free)
     if point is None:
-        return Search(values, np.inf, False, "the model is not finite at the start"), 1
+        return Search(values, np.inf, False, "the model is not finite at the start", 1)
     held, damping, evaluations = conditions.hold(values), 0.0, 1
     outcome, retreated = "stopped at the largest number of steps", False
     for _ in range(MOST_STEPS):
         refit = step_under(_damped(point, damping), values, free, lower, upper, conditions)
         if refit is None:
-            return Search(values, np.inf, False, "no values hold the conditions"), evaluations
+            return Search(values, np.inf, False, "no values hold the conditions", evaluations)
         step = (refit - values)[free]
         if held and point.fall(step) <= SETTLED * point.square:
-            return Search(values, point.square, True, "converged"), evaluations
+            return Search(values, point.square, True, "converged", evaluations)
         foreseen = point.square - point.fall(step)
         limit = point.square if held else ASTRAY * foreseen
         tried = _linearised(problem, refit, free)
@@ -70,7 +67,7 @@ def minimise_under(
                 outcome = "converged (to rounding)"
                 break
     square = point.square if held else np.inf
-    return Search(values, square, outcome.startswith("converged"), outcome), evaluations
+    return Search(values, square, outcome.startswith("converged"), outcome, evaluations)
 
 
 @dataclass(frozen=True)
@@ -89,7 +86,7 @@ class Conditioned:
 
     def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
         """A damped search from `values`: under conditions one step may lead far astray."""
-        found, _ = minimise_under(problem, values, self.lower, self.upper, self.conditions)
+        found = minimise_under(problem, values, self.lower, self.upper, self.conditions)
         return found.values
 
 

@@ -112,10 +112,10 @@ def impose(
             return Passive(values, problem, conditions, converged, evaluations)
         conditions = more
         searches = [minimise_under(problem, values, lower, upper, conditions)]
-        if not np.isfinite(searches[0][0].square):
+        if not np.isfinite(searches[0].square):
             searches.append(minimise_under(problem, typical, lower, upper, conditions))
-        search = searches[-1][0]
-        evaluations += sum(count for _, count in searches)
+        search = searches[-1]
+        evaluations += sum(search.evaluations for search in searches)
         if not np.isfinite(search.square):
             raise FitError(_impossible(problem.model.spec, conditions, values))
         values, converged = search.values, search.converged

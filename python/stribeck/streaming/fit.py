@@ -125,11 +125,11 @@ def _searched(problem: StreamedProblem, values: Array, bounds: Array, tolerance:
     if all(p.linear for p in problem.model.parameters) and not needs_own_load(problem.model):
         return _solved(problem, values, bounds)
     rounds = LOAD_ROUNDS if needs_own_load(problem.model) else 1
-    found = Search(values, np.inf, False, "")
+    found = Search(values, np.inf, False, "", 0)
     for _ in range(rounds):
         if rounds > 1:
             problem.load_at = values
-        found, _ = minimise(
+        found = minimise(
             problem, values, bounds[:, 0], bounds[:, 1], tolerance=tolerance, most=MOST_PASSES
         )
         if not np.isfinite(found.square):
@@ -151,7 +151,7 @@ def _solved(problem: StreamedProblem, values: Array, bounds: Array) -> Search:
     found = values.copy()
     step = Triangle.joined(groups.parts).solve(lower - at, upper - at)
     found[free] = np.clip(at + step, lower, upper)
-    return Search(found, np.inf, True, "solved directly")
+    return Search(found, np.inf, True, "solved directly", 1)
 
 
 def _not_finite(problem: StreamedProblem) -> FitError:

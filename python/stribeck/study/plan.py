@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -85,8 +86,8 @@ class Plan:
     starts, seed
         Starts of each law, and the seed of the random ones.
     jobs
-        Every fit that can be made. A law without nonlinear parameters has one start: its
-        parameters follow from linear equations.
+        Every fit that can be made, law by law of each joint. A law without nonlinear parameters has
+        one start: its parameters follow from linear equations.
     skipped
         Laws that a recording lacks a channel for.
     notes
@@ -103,6 +104,13 @@ class Plan:
     jobs: tuple[Job, ...] = field(repr=False)
     skipped: tuple[Skipped, ...]
     notes: tuple[str, ...]
+
+    def pieces(self, todo: Collection[Job]) -> list[tuple[Job, ...]]:
+        """The fits that are made together: all starts of a law on a joint, if one is to do."""
+        together = groupby(self.jobs, key=lambda job: (job.joint, job.law))
+        pieces = [tuple(jobs) for _, jobs in together]
+        wanted = set(todo)
+        return [piece for piece in pieces if not wanted.isdisjoint(piece)]
 
     def read(self, joint: str | None) -> Recording:
         """The recording of one joint."""
@@ -153,7 +161,7 @@ def make_plan(
                 counts[law] = _useful_starts(law, recording, starts)
             except FitError as error:
                 skipped.append(Skipped(joint, law, str(error)))
-        jobs += _in_turn(joint, counts)
+        jobs += [Job(joint, law, k) for law, count in counts.items() for k in range(count)]
     if not jobs:
         raise FitError(f"{path}: no law of the study can be fitted: {skipped[0].why}")
     return Plan(
@@ -186,11 +194,3 @@ def _useful_starts(law: str, recording: Recording, starts: int) -> int:
             f"{recording.path} has fewer than {fewest} rows that move, which {law} needs at least"
         )
     return 1 if all(p.linear for p in model.parameters) else starts
-
-
-def _in_turn(joint: str | None, counts: Mapping[str, int]) -> Iterator[Job]:
-    """The fits of one joint, law after law within a start: the time left is then well guessed."""
-    for start in range(max(counts.values(), default=0)):
-        for law, count in counts.items():
-            if start < count:
-                yield Job(joint, law, start)

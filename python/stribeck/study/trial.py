@@ -1,16 +1,16 @@
-"""One fit of a study: a law on a joint from one start."""
+"""The fits of a law on a joint: one from each start."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.errors import StribeckError
-from stribeck.fit import Effort, fit
+from stribeck.fit import Effort, Fit, fit_each
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.space import SearchSpace
 from stribeck.model import Model
@@ -32,6 +32,8 @@ class Trial:
         Over the scored rows, in the unit of torque; None where the fit failed.
     parameters
         Values by name, in the units of the model.
+    seconds
+        Its part of the time that the law took on the joint: starts share much of it.
     constants, rigid_body
         The fixed numbers and the rigid-body terms that belong to the model.
     failure
@@ -79,24 +81,36 @@ def start_model(law: str, recording: Recording, start: int, seed: int) -> Model:
     return model.with_values(values)
 
 
-def run_trial(job: Job, recording: Recording, transient: NDArray[np.bool_], seed: int) -> Trial:
-    """Fit `job.law` from its start; what cannot be fitted is said, not raised.
+def run_trials(
+    jobs: Sequence[Job], recording: Recording, transient: NDArray[np.bool_], seed: int
+) -> list[Trial]:
+    """Fit a law from its starts; what cannot be fitted is said, not raised.
 
     Parameters
     ----------
+    jobs
+        Of one law on one joint, the starts from 0 on.
     transient : bool array [n]
         Rows that no start is fitted to (`stribeck.identify.transients`).
     """
     began = time.perf_counter()
+    fits: Sequence[Fit | StribeckError]
     try:
-        start = start_model(job.law, recording, job.start, seed)
-        fitted = fit(start, recording, starts=1, seed=seed, transient=transient, effort=EFFORT)
+        starts = [start_model(job.law, recording, job.start, seed) for job in jobs]
+        fits = fit_each(starts, recording, transient=transient, effort=EFFORT, seed=seed)
     except StribeckError as error:
-        return _failed(job, str(error), time.perf_counter() - began)
+        fits = [error] * len(jobs)
     except Exception as error:
         # One defect must not end the other fits of a study of hours; it is listed with them.
         sentence = f"unexpected {type(error).__name__}: {error}; please report it"
-        return _failed(job, sentence.replace("\n", " "), time.perf_counter() - began)
+        fits = [StribeckError(sentence.replace("\n", " "))] * len(jobs)
+    seconds = (time.perf_counter() - began) / len(jobs)
+    return [_trial(job, fitted, seconds) for job, fitted in zip(jobs, fits, strict=True)]
+
+
+def _trial(job: Job, fitted: Fit | StribeckError, seconds: float) -> Trial:
+    if isinstance(fitted, StribeckError):
+        return Trial(job, None, None, False, "failed", 0, seconds, {}, {}, (), str(fitted))
     return Trial(
         job=job,
         rmse=fitted.rmse,
@@ -104,12 +118,8 @@ def run_trial(job: Job, recording: Recording, transient: NDArray[np.bool_], seed
         converged=fitted.converged,
         outcome=fitted.outcome,
         evaluations=fitted.evaluations,
-        seconds=time.perf_counter() - began,
+        seconds=seconds,
         parameters={name: e.value for name, e in fitted.estimates.items()},
         constants={name: float(value) for name, value in fitted.model.constants.items()},
         rigid_body=fitted.model.rigid_body,
     )
-
-
-def _failed(job: Job, sentence: str, seconds: float) -> Trial:
-    return Trial(job, None, None, False, "failed", 0, seconds, {}, {}, (), sentence)

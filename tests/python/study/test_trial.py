@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import stribeck as sb
@@ -9,7 +11,7 @@ from stribeck.errors import FitError
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.study import trial as trial_module
 from stribeck.study.plan import Job
-from stribeck.study.trial import run_trial, start_model
+from stribeck.study.trial import EFFORT, Trial, run_trials, start_model
 from synthetic import joint, motion, record
 
 
@@ -21,8 +23,9 @@ def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
     return record(tmp_path_factory.mktemp("trial"), joint(bent, rows=1500))
 
 
-def none_marked(recording: sb.Recording) -> np.ndarray:
-    return np.zeros(recording.rows, dtype=bool)
+def run(law: str, recording: sb.Recording, starts: int) -> list[Trial]:
+    jobs = [Job(None, law, k) for k in range(starts)]
+    return run_trials(jobs, recording, np.zeros(recording.rows, dtype=bool), seed=0)
 
 
 def test_the_first_start_is_the_catalogs(recording: sb.Recording) -> None:
@@ -53,10 +56,7 @@ def test_random_starts_fill_the_bounds_and_come_from_the_seed(recording: sb.Reco
 
 
 def test_the_best_of_the_starts_is_what_fit_finds(recording: sb.Recording) -> None:
-    trials = [
-        run_trial(Job(None, "bittencourt_a", k), recording, none_marked(recording), 0)
-        for k in range(6)
-    ]
+    trials = run("bittencourt_a", recording, starts=6)
     best = min(trials, key=lambda t: t.rmse)
     fitted = sb.fit("bittencourt_a", recording, starts=6)
     assert best.rmse == pytest.approx(fitted.rmse, rel=1e-3)
@@ -66,14 +66,32 @@ def test_the_best_of_the_starts_is_what_fit_finds(recording: sb.Recording) -> No
     assert again.rmse == pytest.approx(best.rmse, rel=1e-12)
 
 
+@pytest.mark.parametrize("law", ["bittencourt_a", "lugre"])
+def test_starts_that_come_together_end_where_each_would_alone(
+    recording: sb.Recording, law: str
+) -> None:
+    together = run(law, recording, starts=12)
+    led = [trial for trial in together if "went on" in trial.outcome]
+    assert led, "no two starts came together"
+    # Where a start ends depends on none after it.
+    fewer = run(law, recording, starts=7)
+    for one, other in zip(fewer, together, strict=False):
+        assert replace(one, seconds=0.0) == replace(other, seconds=0.0)
+    for trial in led:
+        start = start_model(law, recording, trial.job.start, seed=0)
+        alone = sb.fit(start, recording, starts=1, effort=EFFORT)
+        assert trial.rmse == pytest.approx(alone.rmse, rel=1e-4)
+        assert trial.evaluations < alone.evaluations
+
+
 def test_a_fit_that_fails_is_said_and_not_raised(
     recording: sb.Recording, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*_: object, **__: object) -> None:
         raise FitError("the bristle is slack at t = 3 s")
 
-    monkeypatch.setattr(trial_module, "fit", refuse)
-    made = run_trial(Job(None, "lugre", 4), recording, none_marked(recording), 0)
+    monkeypatch.setattr(trial_module, "fit_each", refuse)
+    made = run("lugre", recording, starts=2)[1]
     assert made.rmse is None and not made.converged
     assert made.failure == "the bristle is slack at t = 3 s"
 
@@ -84,6 +102,6 @@ def test_a_defect_in_one_fit_is_listed_with_its_kind(
     def break_down(*_: object, **__: object) -> None:
         raise ZeroDivisionError("float division by zero")
 
-    monkeypatch.setattr(trial_module, "fit", break_down)
-    made = run_trial(Job(None, "lugre", 4), recording, none_marked(recording), 0)
+    monkeypatch.setattr(trial_module, "fit_each", break_down)
+    made = run("lugre", recording, starts=2)[1]
     assert "unexpected ZeroDivisionError" in made.failure and "report it" in made.failure
