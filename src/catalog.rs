@@ -88,10 +88,14 @@ macro_rules! laws {
 
             /// The bristle that its state is at this sample, where it is one.
             #[inline(always)]
-            pub fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+            pub fn bristle(
+                &self,
+                sample: &Sample<S::Plain>,
+                constants: &Constants<S::Plain>,
+            ) -> Option<Bristle<S>> {
                 match self {
-                    $(Self::$law(law) => law.bristle(sample),)+
-                    Self::$own(law) => law.bristle(sample),
+                    $(Self::$law(law) => law.bristle(sample, constants),)+
+                    Self::$own(law) => law.bristle(sample, constants),
                 }
             }
 

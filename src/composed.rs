@@ -338,7 +338,7 @@ impl<S: Real> Composed<S> {
     #[inline(always)]
     #[must_use]
     pub fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
-        self.bristle.or_else(|| self.law.bristle(sample))
+        self.bristle.or_else(|| self.law.bristle(sample, &self.constants))
     }
 
     /// The deflection that stands between dry friction and the torque, where its state is a single

@@ -68,7 +68,7 @@ impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> FixedLaw<L, S> {
         let interval = Interval::held(*sample, dt);
         let split = self.law.split(sample, &self.constants);
         let dry = split.dry();
-        let step = match self.law.bristle(sample) {
+        let step = match self.law.bristle(sample, &self.constants) {
             Some(bristle) => bristle.over(&mut state.bristle, dry, &split, &interval),
             None => self.law.step(state, dry, &split, &interval, &self.constants),
         };

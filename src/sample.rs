@@ -248,3 +248,10 @@ pub fn stribeck_curve<S: Real>(
     let argument = S::choose(velocity.at_zero(), S::zero(), ratio.powf(exponent));
     StribeckCurve::of(argument, exponent)
 }
+
+/// `(2/pi) atan(k v)`: the sign of the velocity, smoothed over `1/k`.
+#[inline]
+#[must_use]
+pub fn arctangent_sign<S: Real>(velocity: S::Plain, steepness: S) -> S {
+    steepness.scale(velocity).atan().scale(S::Plain::from_f64(core::f64::consts::FRAC_2_PI))
+}

@@ -14,7 +14,7 @@ fn split(dry: f64) -> Split<f64> {
 fn two_half_steps_are_one_step() {
     for stiffness in [1.0, 1e3, 1e6] {
         for velocity in [-2.0, 1e-3, 0.4] {
-            let bristle = Bristle { stiffness, damping: 0.7 };
+            let bristle = Bristle::new(stiffness, 0.7);
             let (mut once, mut twice) = (BristleState { z: 1e-4 }, BristleState { z: 1e-4 });
             let whole = bristle.step(&mut once, &split(3.0), velocity, 0.02);
             let first = bristle.step(&mut twice, &split(3.0), velocity, 0.01);
@@ -28,7 +28,7 @@ fn two_half_steps_are_one_step() {
 
 #[test]
 fn agrees_with_many_small_explicit_steps() {
-    let bristle = Bristle { stiffness: 500.0, damping: 2.0 };
+    let bristle = Bristle::new(500.0, 2.0);
     let (dry, velocity, dt, z0) = (3.0, 0.3_f64, 0.05, -4e-3);
     let n = 400_000;
     let h = dt / f64::from(n);
@@ -51,7 +51,7 @@ fn agrees_with_many_small_explicit_steps() {
 fn deflection_stays_bounded_and_finite() {
     let magnitudes = [0.0, 1e-300, 1e-12, 0.5, 4.0];
     for stiffness in [1.0, 1e5, 1e12] {
-        let bristle = Bristle { stiffness, damping: 1.0 };
+        let bristle = Bristle::new(stiffness, 1.0);
         let mut state = BristleState::default();
         for i in 0..2000_u32 {
             let velocity = f64::from((i * 7919) % 401) / 50.0 - 4.0;
@@ -65,7 +65,7 @@ fn deflection_stays_bounded_and_finite() {
 
 #[test]
 fn rest_keeps_the_deflection() {
-    let bristle = Bristle { stiffness: 1e4, damping: 5.0 };
+    let bristle = Bristle::new(1e4, 5.0);
     let mut state = BristleState { z: 1e-4 };
     for dry in [0.0, 2.0] {
         assert_eq!(bristle.step(&mut state, &split(dry), 0.0, 1.0).torque, 1.0);
@@ -75,7 +75,7 @@ fn rest_keeps_the_deflection() {
 
 #[test]
 fn without_a_step_the_state_is_kept() {
-    let bristle = Bristle { stiffness: 1e4, damping: 5.0 };
+    let bristle = Bristle::new(1e4, 5.0);
     let mut state = BristleState { z: 1e-4 };
     let step = bristle.step(&mut state, &split(2.0), 0.1, 0.0);
     assert_eq!(state.z, 1e-4);
@@ -85,7 +85,7 @@ fn without_a_step_the_state_is_kept() {
 #[test]
 fn work_of_a_cycle_is_never_gained() {
     // Held velocities, exact mean torque: stored plus dissipated energy equals the work.
-    let bristle = Bristle { stiffness: 2e3, damping: 0.5 };
+    let bristle = Bristle::new(2e3, 0.5);
     let mut state = BristleState::default();
     let (mut work, dt) = (0.0, 0.004);
     for i in 0..5000_i32 {

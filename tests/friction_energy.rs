@@ -92,7 +92,7 @@ fn over_random_steps<P: Scalar<Plain = P> + PartialOrd>(
     let (mut largest, mut least) = (0.0_f64, 0.0_f64);
     let mut state = BristleState { z: P::zero() };
     let stiffness = P::from_f64(3e4).value();
-    let bristle = Bristle { stiffness: P::from_f64(stiffness), damping: P::from_f64(damping) };
+    let bristle = Bristle::new(P::from_f64(stiffness), P::from_f64(damping));
     let damping = bristle.damping.value();
     for _ in 0..steps {
         let hold = Hold::draw(&mut random, stiffness).rounded::<P>();

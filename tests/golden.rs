@@ -276,7 +276,7 @@ fn lugre_of_the_1995_paper() {
 
 #[test]
 fn bristle_approaches_the_static_law() {
-    let bristle = Bristle { stiffness: 1e4, damping: 30.0 };
+    let bristle = Bristle::new(1e4, 30.0);
     let split = Split {
         coulomb: 2.0,
         height: 1.0,

@@ -167,7 +167,7 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
             };
             let course = bristle.course(dry, velocity, step);
             let shift = match mean {
-                Some(_) => bristle.shift(&course, dry, end, velocity),
+                Some(_) => bristle.shift(&course, [dry, end], [velocity, sample.velocity]),
                 None => Recorded::Known(0.0),
             };
             let settled = if purpose.settles {

@@ -4,9 +4,12 @@
 //! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution goes the share
 //! `1 - e^-x` of the way to `sgn(v) D/s0`: stable and free of overshoot for every stiffness and
 //! step. Share and target do not depend on `z`, so they are found for many rows side by side.
+//!
+//! With a smoothed sign `S(v)` it is `dz/dt = S^2 v - s0 S v/D z` (Indri et al. 2020): the share with
+//! `x |S|` of the way to `S D/s0`.
 
 use super::{Approach, Deflection, Interval, SATURATED, Step, following};
-use crate::sample::{Sample, Split};
+use crate::sample::{Sample, Split, arctangent_sign};
 use crate::scalar::{Mask, Real, Scalar};
 
 /// A bristle that settles faster than this (s) has settled in any step.
@@ -22,6 +25,8 @@ pub struct Bristle<S> {
     pub stiffness: S,
     /// Damping `s1` (T s/X).
     pub damping: S,
+    /// Steepness of the smoothed sign (s/X); none: the sign jumps.
+    pub sign_steepness: Option<S>,
 }
 
 /// The dry magnitude (T) below which nothing is left of the way after a step of this length (s), and
@@ -50,6 +55,32 @@ impl<S: Real> Default for BristleState<S> {
 }
 
 impl<S: Real> Bristle<S> {
+    /// A bristle of this stiffness (T/X) and damping (T s/X).
+    #[inline(always)]
+    #[must_use]
+    pub const fn new(stiffness: S, damping: S) -> Self {
+        Self { stiffness, damping, sign_steepness: None }
+    }
+
+    /// `S(v)`, where the sign is smoothed.
+    #[inline(always)]
+    fn smoothed_sign(&self, velocity: S::Plain) -> Option<S> {
+        self.sign_steepness.map(|steepness| arctangent_sign(velocity, steepness))
+    }
+
+    /// What pulls the deflection to where it tends to, over a way `|v|` (T/s) or `|v| dt` (T).
+    #[inline(always)]
+    fn pull(&self, velocity: S::Plain, way: S::Plain) -> S {
+        let pull = self.stiffness.scale(way);
+        self.smoothed_sign(velocity).map_or(pull, |sign| pull * sign.abs())
+    }
+
+    /// `x` with the sign of the velocity.
+    #[inline(always)]
+    fn along(&self, velocity: S::Plain, x: S) -> S {
+        self.smoothed_sign(velocity).map_or_else(|| x.scale(velocity.sign()), |sign| x * sign)
+    }
+
     /// What a held velocity does to the deflection over `dt` (s); with `dt <= 0` nothing.
     ///
     /// At rest the deflection is kept. A magnitude `D <= 0` has no bristle; the limit
@@ -58,7 +89,7 @@ impl<S: Real> Bristle<S> {
     pub fn course(&self, dry: S, velocity: S::Plain, dt: S::Plain) -> Course<S> {
         let lasts = dt.is_positive();
         let dt = S::Plain::choose(lasts, dt, S::Plain::zero());
-        let pull = self.stiffness.scale(velocity.abs());
+        let pull = self.pull(velocity, velocity.abs());
         let (lowest, settled) = settling(pull, dry, dt);
         let pace = pull / S::choose(settled, S::from_plain(lowest), dry);
         let pace = S::choose(settled.and(lasts.not()), S::zero(), pace);
@@ -71,14 +102,27 @@ impl<S: Real> Bristle<S> {
     /// Where the deflection tends to (X).
     #[inline(always)]
     pub fn target(&self, dry: S, velocity: S::Plain) -> S {
-        (dry / self.stiffness).scale(velocity.sign())
+        self.along(velocity, dry / self.stiffness)
     }
 
-    /// How far the deflection moves where the dry magnitude changes from the one that was held to
-    /// `end`, at the end of a step with the mean velocity `velocity` (X).
+    /// How far the deflection moves at the end of a step (X): dry magnitude and velocity change there
+    /// from those that were held to those of the end.
     #[inline(always)]
-    pub fn shift(&self, course: &Course<S>, dry: S, end: S, velocity: S::Plain) -> S {
-        ((end - dry) / self.stiffness).scale(velocity.sign()) * course.following()
+    pub fn shift(
+        &self,
+        course: &Course<S>,
+        [dry, end]: [S; 2],
+        [velocity, last]: [S::Plain; 2],
+    ) -> S {
+        let moved = match self.sign_steepness {
+            None => ((end - dry) / self.stiffness).scale(velocity.sign()),
+            Some(_) => {
+                // The size of the sign changes, and not which way the joint moves.
+                let along = velocity.sign() * last.sign();
+                self.target(end, last).scale(along) - course.target
+            }
+        };
+        moved * course.following()
     }
 
     /// Torque at the deflection `z` that slips at `rate` (X/s).
@@ -90,9 +134,13 @@ impl<S: Real> Bristle<S> {
     /// `dz/dt` at `z`; 0 of a bristle that has settled at once.
     #[inline(always)]
     pub fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
-        let pull = self.stiffness.scale(velocity.abs());
+        let pull = self.pull(velocity, velocity.abs());
         let (_, settled) = settling(pull, dry, S::Plain::zero());
-        S::choose(settled, S::zero(), (-(pull / dry * z)).shift(velocity))
+        let rate = match self.sign_steepness {
+            None => (-(pull / dry * z)).shift(velocity),
+            Some(_) => pull / dry * (self.target(dry, velocity) - z),
+        };
+        S::choose(settled, S::zero(), rate)
     }
 }
 
@@ -105,7 +153,9 @@ impl<S: Real> Bristle<S> {
         S: Scalar,
     {
         let drag = self.damping.scale(velocity.abs());
-        Deflection { stiffness: self.stiffness, drag, approach: Approach::Linear }
+        let approach =
+            self.smoothed_sign(velocity).map_or(Approach::Linear, |s| Approach::Smoothed(s.abs()));
+        Deflection { stiffness: self.stiffness, drag, approach }
     }
 
     /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
@@ -124,8 +174,9 @@ impl<S: Real> Bristle<S> {
         state.z = course.end(before);
         let rate = if interval.mean_velocity.is_some() {
             let end = split.dry();
-            state.z += self.shift(&course, dry, end, velocity);
-            self.rate(state.z, end, interval.sample.velocity)
+            let last = interval.sample.velocity;
+            state.z += self.shift(&course, [dry, end], [velocity, last]);
+            self.rate(state.z, end, last)
         } else {
             course.end_rate(before)
         };
@@ -133,8 +184,8 @@ impl<S: Real> Bristle<S> {
         if !interval.mean {
             return Step::same(torque);
         }
-        let travel = self.stiffness.scale(interval.travel());
-        let mean_torque = self.mean_torque(before, &course, dry / travel, split, interval.dt);
+        let pull = self.pull(velocity, interval.travel());
+        let mean_torque = self.mean_torque(before, &course, dry / pull, split, interval.dt);
         Step { torque, mean_torque }
     }
 

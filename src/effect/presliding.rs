@@ -29,6 +29,6 @@ impl<S: Real> FrictionEffect<S> for Presliding<S> {
 
     #[inline]
     fn bristle(&self) -> Option<Bristle<S>> {
-        Some(Bristle { stiffness: self.presliding_stiffness, damping: self.presliding_damping })
+        Some(Bristle::new(self.presliding_stiffness, self.presliding_damping))
     }
 }

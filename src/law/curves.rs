@@ -18,12 +18,6 @@ pub fn signed_root<P: Real>(velocity: P) -> P {
     velocity.abs().sqrt() * velocity.sign()
 }
 
-/// `(2/pi) atan(k v)`: the sign of the velocity, smoothed over `1/k`.
-#[inline]
-pub fn arctangent_sign<S: Real>(velocity: S::Plain, steepness: S) -> S {
-    steepness.scale(velocity).atan().scale(S::Plain::from_f64(core::f64::consts::FRAC_2_PI))
-}
-
 /// `1/(1 + exp(-x))`, without overflow on either side.
 #[inline]
 pub fn logistic<S: Real>(x: S) -> S {

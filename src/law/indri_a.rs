@@ -1,7 +1,6 @@
 use super::FrictionLaw;
-use super::curves::arctangent_sign;
 use crate::constants::Constants;
-use crate::sample::{Sample, Split};
+use crate::sample::{Sample, Split, arctangent_sign};
 use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 

@@ -1,10 +1,12 @@
 use super::FrictionLaw;
-use super::curves::arctangent_sign;
 use crate::constants::Constants;
-use crate::dynamics::{Approach, Deflection, Interval, Relaxation, State, Step};
-use crate::sample::{Sample, Split};
-use crate::scalar::{Mask, Real, Scalar};
+use crate::dynamics::Bristle;
+use crate::sample::{Sample, Split, arctangent_sign};
+use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
+
+/// The speed at which the damping grows no more towards rest (X/s).
+const SLOWEST: f64 = 1e-30;
 
 parameters! {
     /// A bristle with a smoothed sign, whose damping falls with speed and acceleration.
@@ -39,32 +41,19 @@ impl<S: Real> IndriB<S> {
         arctangent_sign(velocity, self.sign_steepness)
     }
 
-    /// The bristle along the travel: `dz/d(|v| t)` relaxes to `S0 g/a1` at the rate `a1 |S0|/g`.
+    /// `f`; where it is beyond any use next to rest, nothing slips.
     #[inline]
-    fn relaxation(&self, velocity: S::Plain, hold: S) -> Relaxation<S> {
-        let sign = self.smooth_sign(velocity);
-        Relaxation {
-            target: sign * hold / self.bristle_stiffness,
-            pull: self.bristle_stiffness * sign.abs(),
-            hold,
-        }
-    }
-
-    /// `f |v|`: finite at rest, where `f` is not.
-    #[inline]
-    fn damping(
-        &self,
-        speed: S::Plain,
-        acceleration: S::Plain,
-        constants: &Constants<S::Plain>,
-    ) -> S {
-        let scaled = acceleration * (constants.largest_velocity / constants.largest_acceleration);
-        let ratio = scaled.abs() / speed;
+    fn damping(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> S {
+        let unit = constants.largest_velocity / constants.largest_acceleration;
+        let speed = sample.velocity.abs();
+        let slowest = S::Plain::from_f64(SLOWEST);
+        let speed = S::Plain::choose(speed.is_above(slowest.plain()), speed, slowest);
+        let ratio = (sample.acceleration * unit).abs() / speed;
         // Beyond this ratio the square overflows in single precision and the term is nothing.
         let most = S::Plain::from_f64(1e15);
         let ratio = S::Plain::choose(ratio.is_below(most.plain()), ratio, most);
         let fall = self.acceleration_weight.scale(ratio * ratio).shift(S::Plain::one()).sqrt();
-        self.damping_torque / fall + self.bristle_damping.scale(speed)
+        self.damping_torque / fall.scale(speed) + self.bristle_damping
     }
 }
 
@@ -98,54 +87,16 @@ impl<S: Real> FrictionLaw<S> for IndriB<S> {
     }
 
     #[inline]
-    fn deflection(
+    fn bristle(
         &self,
         sample: &Sample<S::Plain>,
         constants: &Constants<S::Plain>,
-    ) -> Option<Deflection<S>>
-    where
-        S: Scalar,
-    {
-        Some(Deflection {
+    ) -> Option<Bristle<S>> {
+        Some(Bristle {
             stiffness: self.bristle_stiffness,
-            drag: self.damping(sample.velocity.abs(), sample.acceleration, constants),
-            approach: Approach::Smoothed(self.smooth_sign(sample.velocity).abs()),
+            damping: self.damping(sample, constants),
+            sign_steepness: Some(self.sign_steepness),
         })
-    }
-
-    #[inline]
-    fn step(
-        &self,
-        state: &mut State<S>,
-        dry: S,
-        split: &Split<S>,
-        interval: &Interval<S::Plain>,
-        constants: &Constants<S::Plain>,
-    ) -> Step<S> {
-        let (velocity, travel) = (interval.velocity(), interval.travel());
-        let own = interval.sample.velocity;
-        let damping = |v: S::Plain| self.damping(v.abs(), interval.sample.acceleration, constants);
-        let before = state.bristle.z;
-        let relaxation = self.relaxation(velocity, dry);
-        let relaxed = relaxation.over(before, travel);
-        let mut z = relaxed.end;
-        let mut reading = relaxation;
-        if interval.mean_velocity.is_some() {
-            reading = self.relaxation(own, split.dry());
-            let along = velocity.sign() * own.sign();
-            z += (reading.target.scale(along) - relaxation.target) * relaxed.following();
-        }
-        state.bristle.z = z;
-
-        let mut torque = self.bristle_stiffness * z + split.rate + split.additive;
-        torque += own.at_zero().either(S::zero, || damping(own) * reading.slope(z));
-        if !interval.mean {
-            return Step::same(torque);
-        }
-        let mut mean_torque = self.bristle_stiffness * relaxed.mean + split.rate + split.additive;
-        let slides = || damping(velocity) * (z - before).scale(S::Plain::one() / travel);
-        mean_torque += travel.is_positive().either(slides, S::zero);
-        Step { torque, mean_torque }
     }
 }
 

@@ -50,7 +50,7 @@ impl<S: Real> FrictionLaw<S> for Lugre<S> {
     }
 
     #[inline]
-    fn bristle(&self, _: &Sample<S::Plain>) -> Option<Bristle<S>> {
-        Some(Bristle { stiffness: self.bristle_stiffness, damping: self.bristle_damping })
+    fn bristle(&self, _: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Option<Bristle<S>> {
+        Some(Bristle::new(self.bristle_stiffness, self.bristle_damping))
     }
 }

@@ -95,7 +95,11 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
 
     /// The bristle that its state is at this sample, where it is one.
     #[inline]
-    fn bristle(&self, _sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+    fn bristle(
+        &self,
+        _sample: &Sample<S::Plain>,
+        _constants: &Constants<S::Plain>,
+    ) -> Option<Bristle<S>> {
         None
     }
 
@@ -104,12 +108,12 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
     fn deflection(
         &self,
         sample: &Sample<S::Plain>,
-        _constants: &Constants<S::Plain>,
+        constants: &Constants<S::Plain>,
     ) -> Option<Deflection<S>>
     where
         S: Scalar,
     {
-        Some(self.bristle(sample)?.deflection(sample.velocity))
+        Some(self.bristle(sample, constants)?.deflection(sample.velocity))
     }
 
     /// Steps over an interval over which the dry magnitude `dry` is held. `split` is that of the

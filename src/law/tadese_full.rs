@@ -184,7 +184,7 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
     }
 
     #[inline]
-    fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
-        Some(Bristle { stiffness: self.bristle_stiffness, damping: self.damping(sample.velocity) })
+    fn bristle(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Option<Bristle<S>> {
+        Some(Bristle::new(self.bristle_stiffness, self.damping(sample.velocity)))
     }
 }
