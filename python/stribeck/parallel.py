@@ -155,6 +155,8 @@ def _begin(begin: Callable[..., None] | None, arguments: tuple[Any, ...]) -> Non
     """Ready a process of the pool."""
     # Libraries such as LAPACK complain on stdout, where the command's one answer goes.
     os.dup2(2, 1)
+    # A process of a pool has a core to itself; threads that wait for work spin.
+    threadpool_limits(1, user_api="blas")
     if begin is not None:
         begin(*arguments)
 

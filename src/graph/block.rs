@@ -152,29 +152,47 @@ pub fn binary(out: &mut [f64], operation: Binary, x: Numbers<'_>, y: Numbers<'_>
 /// Of an exponent that all rows share the special cases are looked at once.
 #[inline(always)]
 fn power(out: &mut [f64], x: Numbers<'_>, p: Numbers<'_>) {
-    match p {
-        Numbers::Same(1.0) => map(out, x, |x| elementary::powf(x, 1.0)),
-        Numbers::Same(2.0) => map(out, x, |x| elementary::powf(x, 2.0)),
-        Numbers::Same(p) if elementary::is_plain_exponent(p) => plain_power(out, x, p),
-        p => zip(out, x, p, elementary::powf),
+    let plain = elementary::is_plain_exponent;
+    match (x, p) {
+        (x, Numbers::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
+        (x, Numbers::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
+        (Numbers::Each(x), Numbers::Same(p)) if plain(p) => {
+            let (mut high, mut low) = ([0.0; BLOCK], [0.0; BLOCK]);
+            logarithms(x, &mut high, &mut low);
+            for (((out, &x), high), low) in out.iter_mut().zip(x).zip(high).zip(low) {
+                *out = elementary::powf_fast(x, (high, low), p);
+            }
+            mend_powers(out, x, |_| p);
+        }
+        (Numbers::Each(x), Numbers::Each(p)) => {
+            let (mut high, mut low) = ([0.0; BLOCK], [0.0; BLOCK]);
+            logarithms(x, &mut high, &mut low);
+            let rows = x.iter().zip(p).zip(high).zip(low);
+            for (out, (((&x, &p), high), low)) in out.iter_mut().zip(rows) {
+                let power = elementary::powf_fast(x, (high, low), p);
+                *out = if plain(p) { power } else { f64::NAN };
+            }
+            mend_powers(out, x, |row| p[row]);
+        }
+        (x, p) => zip(out, x, p, elementary::powf),
     }
 }
 
-/// Two loops keep more rows under way than one; the few bases that need care are mended.
+/// Two loops keep more rows under way than one.
 #[inline(always)]
-fn plain_power(out: &mut [f64], x: Numbers<'_>, p: f64) {
-    let Numbers::Each(x) = x else { return map(out, x, |x| elementary::powf(x, p)) };
-    let (mut high, mut low) = ([0.0; BLOCK], [0.0; BLOCK]);
-    for ((&x, high), low) in x.iter().zip(&mut high).zip(&mut low) {
+fn logarithms(x: &[f64], high: &mut [f64; BLOCK], low: &mut [f64; BLOCK]) {
+    for ((&x, high), low) in x.iter().zip(high).zip(low) {
         (*high, *low) = elementary::log2_fast(x);
     }
-    for (((out, &x), high), low) in out.iter_mut().zip(x).zip(high).zip(low) {
-        *out = elementary::powf_fast(x, (high, low), p);
-    }
+}
+
+/// The few bases and exponents that need care.
+#[inline(always)]
+fn mend_powers(out: &mut [f64], x: &[f64], p: impl Fn(usize) -> f64) {
     if out.iter().fold(false, |any, out| any | out.is_nan()) {
-        for (out, &x) in out.iter_mut().zip(x) {
+        for (row, (out, &x)) in out.iter_mut().zip(x).enumerate() {
             if out.is_nan() {
-                *out = elementary::powf(x, p);
+                *out = elementary::powf(x, p(row));
             }
         }
     }

@@ -176,7 +176,8 @@ impl<'r> Rules<'r, '_> {
             Binary::Add => Some(factor),
             Binary::Subtract => Some(-factor),
             Binary::Multiply => Some(self.times(x, factor)),
-            Binary::Divide => Some(-self.times(value / y, factor)),
+            // By the inverse, which the other operand's factor needs too.
+            Binary::Divide => Some(-self.times(value * (Recorded::Known(1.0) / y), factor)),
             Binary::Power => {
                 let slope = Recorded::choose(x.at_zero(), Recorded::Known(0.0), value * x.ln());
                 Some(self.times(slope, factor))
