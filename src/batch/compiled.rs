@@ -77,8 +77,10 @@ impl Compiled {
 
     fn anew(purpose: &Purpose) -> Self {
         let recorder = Recorder::default();
-        let torque = recorder.id(torque(purpose, &recorder));
-        let slopes = graph::derivatives(&recorder, &[torque], &purpose.wanted);
+        let (torque, dry) = torque(purpose, &recorder);
+        let torque = recorder.id(torque);
+        let narrows: Vec<_> = dry.map(|dry| recorder.id(dry)).into_iter().collect();
+        let slopes = graph::derivatives(&recorder, &[torque], &narrows, &purpose.wanted);
         let mut outputs = vec![torque];
         outputs.extend(slopes.iter().flatten().map(|&slope| recorder.id(slope)));
         let schedule = Schedule::of(&recorder.operations(), &outputs);
@@ -103,7 +105,7 @@ impl Compiled {
             let slopes = &mut slopes[first * width..][..count * width];
             for (k, slope) in outputs[1..].iter().enumerate() {
                 // Turns -0 into 0: which of them it is depends on what else is wanted.
-                slope.each(count, |row, slope| slopes[row * width + k] = slope + 0.0);
+                slope.add_to_each(0.0, slopes[k..].iter_mut().step_by(width));
             }
         });
         (torque, slopes)
@@ -140,12 +142,13 @@ impl Compiled {
     }
 }
 
-/// What the model does in numbers that write it down.
-fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
+/// What the model does in numbers that write it down: the torque, and the dry magnitude that a
+/// bristle's course depends on in several places.
+fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> (Recorded<'r>, Option<Recorded<'r>>) {
     let spec = &purpose.spec;
     let column = |index| recorder.number(Operation::Column(index));
     let Ok((model, sample)) = graph::model(recorder, spec) else {
-        return Recorded::Known(f64::NAN);
+        return (Recorded::Known(f64::NAN), None);
     };
     match model.bristle(&sample) {
         Some(bristle) if model.has_state() => {
@@ -180,8 +183,8 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> Recorded<'r> {
                 Some(_) => bristle.rate(after, end, sample.velocity),
                 None => course.end_rate(before),
             };
-            model.measured(bristle.torque(after, rate, &split), &sample)
+            (model.measured(bristle.torque(after, rate, &split), &sample), Some(end))
         }
-        _ => model.static_torque(&sample),
+        _ => (model.static_torque(&sample), None),
     }
 }

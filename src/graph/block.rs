@@ -60,12 +60,12 @@ impl Numbers<'_> {
         }
     }
 
-    /// Hands each of the first `count` over with its row.
+    /// Puts sums with a number into places, one a row.
     #[inline(always)]
-    pub fn each(&self, count: usize, mut to: impl FnMut(usize, f64)) {
+    pub fn add_to_each<'o>(&self, number: f64, out: impl Iterator<Item = &'o mut f64>) {
         match self {
-            Self::Same(x) => (0..count).for_each(|row| to(row, *x)),
-            Self::Each(rows) => rows[..count].iter().enumerate().for_each(|(row, &x)| to(row, x)),
+            Self::Same(x) => out.for_each(|out| *out = x + number),
+            Self::Each(rows) => out.zip(*rows).for_each(|(out, x)| *out = x + number),
         }
     }
 }
@@ -145,7 +145,7 @@ pub fn binary(out: &mut [f64], operation: Binary, x: Numbers<'_>, y: Numbers<'_>
         Binary::Above => zip(out, x, y, |x, y| mask(x > y)),
         Binary::Equal => zip(out, x, y, |x, y| mask(x == y)),
         Binary::Or => zip(out, x, y, |x, y| if x > y { x } else { y }),
-        Binary::Chain => zip(out, x, y, chain),
+        Binary::Chain => chain_all(out, x, y),
     }
 }
 
@@ -189,13 +189,27 @@ fn logarithms(x: &[f64], high: &mut [f64; BLOCK], low: &mut [f64; BLOCK]) {
 /// The few bases and exponents that need care.
 #[inline(always)]
 fn mend_powers(out: &mut [f64], x: &[f64], p: impl Fn(usize) -> f64) {
-    if out.iter().fold(false, |any, out| any | out.is_nan()) {
+    if any_nan(out) {
         for (row, (out, &x)) in out.iter_mut().zip(x).enumerate() {
             if out.is_nan() {
                 *out = elementary::powf(x, p(row));
             }
         }
     }
+}
+
+/// Products; the few that are no numbers are mended.
+#[inline(always)]
+fn chain_all(out: &mut [f64], slope: Numbers<'_>, by: Numbers<'_>) {
+    zip(out, slope, by, |slope, by| slope * by);
+    if any_nan(out) {
+        zip(out, slope, by, chain);
+    }
+}
+
+#[inline(always)]
+fn any_nan(numbers: &[f64]) -> bool {
+    numbers.iter().fold(false, |any, x| any | x.is_nan())
 }
 
 /// A slope times a derivative; nothing where one of them is nothing.

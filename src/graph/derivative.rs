@@ -15,10 +15,12 @@ use super::recorder::Recorder;
 use crate::scalar::Real;
 
 /// The derivatives of each output by each of the `wanted` parameters; what does not depend on a
-/// parameter is known to be 0.
+/// parameter is known to be 0. A node in `narrows` lies on the way from many parameters to several
+/// outputs or states: what leads to it is differentiated once.
 pub fn derivatives<'r>(
     recorder: &'r Recorder,
     outputs: &[Id],
+    narrows: &[Id],
     wanted: &[usize],
 ) -> Vec<Vec<Recorded<'r>>> {
     let operations = recorder.operations();
@@ -33,6 +35,9 @@ pub fn derivatives<'r>(
     let zero = Recorded::Known(0.0);
     let numbers =
         |slopes: Vec<Slope<'r>>| slopes.into_iter().map(|by| by.unwrap_or(zero)).collect();
+    for &narrow in narrows {
+        rules.of(narrow);
+    }
     outputs.iter().map(|&output| numbers(rules.of(output))).collect()
 }
 

@@ -13,10 +13,13 @@ use super::operation::{Operation, Relaxing, Start};
 use super::schedule::{Place, Schedule, Task};
 
 /// Derivatives of a state that run together.
-const MOST_TOGETHER: usize = 4;
+const MOST_TOGETHER: usize = 8;
 
 /// Where operands of states that run together are spread out if all rows share them.
 type Scratch = [[[f64; BLOCK]; MOST_TOGETHER]; 4];
+
+/// A number that all rows share, and that is often nothing.
+const NOTHING: &[f64; BLOCK] = &[0.0; BLOCK];
 
 /// What a graph is carried out on.
 pub struct Given<'a> {
@@ -102,7 +105,8 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
                     buffers[task.to] = out;
                     continue;
                 }
-                let mut outs = [out, vec![], vec![], vec![]];
+                let mut outs = from_fn(|_| vec![]);
+                outs[0] = out;
                 for (out, task) in outs.iter_mut().zip(now).skip(1) {
                     *out = take(&mut buffers[task.to]);
                 }
@@ -110,7 +114,11 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
                 match now.len() {
                     2 => moment.relax_alike::<2>(now, &mut outs, rows, &mut memories, &mut scratch),
                     3 => moment.relax_alike::<3>(now, &mut outs, rows, &mut memories, &mut scratch),
-                    _ => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories, &mut scratch),
+                    4 => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories, &mut scratch),
+                    5 => moment.relax_alike::<5>(now, &mut outs, rows, &mut memories, &mut scratch),
+                    6 => moment.relax_alike::<6>(now, &mut outs, rows, &mut memories, &mut scratch),
+                    7 => moment.relax_alike::<7>(now, &mut outs, rows, &mut memories, &mut scratch),
+                    _ => moment.relax_alike::<8>(now, &mut outs, rows, &mut memories, &mut scratch),
                 }
                 for (out, task) in outs.into_iter().zip(now) {
                     buffers[task.to] = out;
@@ -274,27 +282,31 @@ impl Moment<'_> {
             let [target, extra, shift] =
                 [target, extra, shift].map(|all| all.map(|all| &all[rows.clone()][..length]));
             let outs = outs.each_mut().map(|out| &mut out[rows.clone()][..length]);
+            // By value: in registers.
+            let mut at = *states;
             macro_rules! step {
                 ($row:ident, $k:ident => $state:expr) => {
                     for $row in 0..length {
                         for $k in 0..K {
-                            states[$k] = $state;
-                            outs[$k][$row] = states[$k];
+                            at[$k] = $state;
+                            outs[$k][$row] = at[$k];
                         }
                     }
                 };
             }
             match (no_target, no_extra, no_shift) {
+                // Sum and product do not wait for each other.
                 (true, _, true) => {
-                    step!(i, k => extra[k][i] + (states[k] - share[i] * states[k]));
+                    step!(i, k => (at[k] + extra[k][i]) - share[i] * at[k]);
                 }
                 (_, true, true) => {
-                    step!(i, k => states[k] + share[i] * (target[k][i] - states[k]));
+                    step!(i, k => at[k] + share[i] * (target[k][i] - at[k]));
                 }
                 _ => step!(i, k => {
-                    (states[k] + extra[k][i]) + share[i] * (target[k][i] - states[k]) + shift[k][i]
+                    (at[k] + extra[k][i]) + share[i] * (target[k][i] - at[k]) + shift[k][i]
                 }),
             }
+            *states = at;
         }
     }
 
@@ -346,6 +358,7 @@ impl Moment<'_> {
 fn as_slice<'a>(from: Numbers<'a>, scratch: &'a mut [f64; BLOCK], count: usize) -> &'a [f64] {
     match from {
         Numbers::Each(rows) => rows,
+        Numbers::Same(0.0) => &NOTHING[..count],
         Numbers::Same(x) => {
             let scratch = &mut scratch[..count];
             scratch.fill(x);

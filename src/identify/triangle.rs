@@ -1,3 +1,4 @@
+use core::array::from_fn;
 use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
@@ -317,7 +318,10 @@ fn dot(x: &[f64; BLOCK], y: &[f64; BLOCK]) -> f64 {
             sums[lane] += x[lane] * y[lane];
         }
     }
-    sums.iter().sum()
+    // Pairs of sums first: few of the additions wait for another.
+    let eight: [f64; LANES / 2] = from_fn(|lane| sums[lane] + sums[lane + LANES / 2]);
+    let four: [f64; LANES / 4] = from_fn(|lane| eight[lane] + eight[lane + LANES / 4]);
+    (four[0] + four[2]) + (four[1] + four[3])
 }
 
 /// The largest magnitude.

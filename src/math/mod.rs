@@ -37,6 +37,7 @@ mod phase;
 mod phi;
 mod polynomial;
 mod power;
+mod root;
 mod single;
 mod trigonometric;
 
@@ -45,7 +46,8 @@ macro_rules! elementary {
         /// Elementary functions on one primitive type.
         pub mod $float {
             use super::{
-                arctangent, exponential, hyperbolic, listing, logarithm, phi, power, trigonometric,
+                arctangent, exponential, hyperbolic, listing, logarithm, phi, power, root,
+                trigonometric,
             };
 
             /// Each constant behind these functions, and each polynomial's coefficients, by name:
@@ -70,7 +72,7 @@ macro_rules! elementary {
                 is_plain_exponent(p: $float) -> bool, power::is_plain_exponent(p));
             elementary!(@ "Hyperbolic tangent.", tanh(x: $float) -> $float, hyperbolic::tanh(x));
             elementary!(@ "Arc tangent.", atan(x: $float) -> $float, arctangent::atan(x));
-            elementary!(@ "Square root.", sqrt(x: $float) -> $float, libm::$sqrt(x));
+            elementary!(@ "Square root.", sqrt(x: $float) -> $float, root::$sqrt(x));
             elementary!(@ "Real, odd cube root.", cbrt(x: $float) -> $float, libm::$cbrt(x));
             elementary!(@ "Sine.", sin(x: $float) -> $float, sin_cos(x).0);
             elementary!(@ "Cosine.", cos(x: $float) -> $float, sin_cos(x).1);
