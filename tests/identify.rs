@@ -169,7 +169,17 @@ fn problem<'a>(
 ) -> Problem<'a> {
     let channels = Channels { velocity, ..Channels::default() };
     let columns = Columns { dt: TimeStep::Uniform(0.002), channels, ..Columns::default() };
-    Problem { spec, columns, target, group, groups: 2, begins, moving, torque_norm: 1.0 }
+    Problem {
+        spec,
+        columns,
+        target,
+        group,
+        groups: 2,
+        begins,
+        moving,
+        torque_norm: 1.0,
+        threads: 1,
+    }
 }
 
 #[test]
@@ -201,6 +211,36 @@ fn a_model_is_linearised_without_a_jacobian() {
                     assert!((sum - same).abs() <= 1e-11 * size, "{text}: {a}, {b}");
                 }
             }
+        }
+    }
+}
+
+#[test]
+fn many_rows_that_stand_by_themselves_are_one_problem() {
+    const ROWS: usize = 150_000;
+    let spec = Spec::parse("bittencourt_a").unwrap();
+    let values = [2.0, 1.0, 0.05, 1.4, 0.6];
+    let velocity = motion(ROWS);
+    let target: Vec<f64> = velocity.iter().map(|v| 2.5 * v.signum() + v).collect();
+    let group: Vec<u32> = (0..ROWS).map(|i| [0, 1, NOT_SUMMED][(i / 50_000) % 3]).collect();
+    let moving = vec![true; ROWS];
+    let own = problem(&spec, &velocity, &target, &group, &[], &moving);
+    let wanted = [0, 1, 2, 3, 4];
+    let on = |threads| {
+        let own = Problem { threads, ..own };
+        own.triangles(&values, &wanted, &[1.0; 5]).unwrap().unwrap()
+    };
+    let one = on(1);
+    assert_eq!(one, on(4), "the same bits on any number of threads");
+    let (torque, jacobian) = batch::gradient(&spec, &values, &own.columns, None).unwrap();
+    let entry =
+        |i: usize, k: usize| if k < 5 { jacobian[i * 5 + k] } else { target[i] - torque[i] };
+    for (rows, triangle) in [0..50_000, 50_000..100_000].into_iter().zip(&one) {
+        for (a, b) in [(0, 0), (1, 3), (2, 5), (5, 5)] {
+            let sum: f64 = rows.clone().map(|i| entry(i, a) * entry(i, b)).sum();
+            let same: f64 = (0..6).map(|r| triangle.row(r)[a] * triangle.row(r)[b]).sum();
+            let size: f64 = rows.clone().map(|i| (entry(i, a) * entry(i, b)).abs()).sum();
+            assert!((sum - same).abs() <= 1e-11 * size, "{a}, {b}");
         }
     }
 }

@@ -33,7 +33,6 @@ def search(
     measured: Mapping[str, Any],
     starts: ArrayLike,
     within: Mapping[str, Any],
-    threads: int,
 ) -> list[tuple[NDArray[np.float64], float, bool, str, int]]: ...
 def search_by(
     problem: object, start: ArrayLike, within: Mapping[str, Any]

@@ -1,16 +1,21 @@
+use core::ops::Range;
 use std::borrow::Cow;
 use std::vec;
 use std::vec::Vec;
 
 use super::separable::LeastSquares;
-use super::triangle::{Triangle, factored};
+use super::threads::side_by_side;
+use super::triangle::{Triangle, factored, joined};
 use crate::batch::{self, BatchError, Columns, TimeStep};
+use crate::catalog::EffectId;
 use crate::composed::Spec;
 
 /// The group of a row whose residual is not summed. A state runs through it all the same.
 pub const NOT_SUMMED: u32 = u32::MAX;
 /// How many rows of a run tell how it began.
 const FIRST_ROWS: usize = 500;
+/// Rows of a piece, where rows stand by themselves: pieces are gone through side by side.
+const PIECE: usize = 1 << 16;
 
 /// A model against a measured torque, over columns in memory.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +36,8 @@ pub struct Problem<'a> {
     pub moving: &'a [bool],
     /// Norm of the measured torque.
     pub torque_norm: f64,
+    /// On how many threads rows are gone through, where they stand by themselves.
+    pub threads: usize,
 }
 
 impl Problem<'_> {
@@ -91,8 +98,45 @@ impl Problem<'_> {
             }
             columns.dt = TimeStep::Each(&steps);
         }
-        let made = factored(wanted.len() + 1, self.groups, |into| {
-            batch::blocks(self.spec, values, &columns, wanted, |block, outputs| {
+        let whole = Problem { columns, ..*self };
+        let made = if self.stands_row_by_row() && self.target.len() > PIECE {
+            let rows = |piece: usize| piece * PIECE..((piece + 1) * PIECE).min(self.target.len());
+            let pieces = self.target.len().div_ceil(PIECE);
+            let parts = side_by_side(pieces, self.threads, |piece| {
+                whole.part(&rows(piece)).factored(values, wanted, slope)
+            })?;
+            joined(wanted.len() + 1, self.groups, &parts)?
+        } else {
+            whole.factored(values, wanted, slope)?
+        };
+        Ok(made.iter().all(Triangle::is_finite).then_some(made))
+    }
+
+    /// Whether no row depends on another one.
+    fn stands_row_by_row(&self) -> bool {
+        !self.spec.has_state() && !self.spec.effects().contains(EffectId::Delay)
+    }
+
+    /// Some rows that stand by themselves.
+    fn part(&self, rows: &Range<usize>) -> Self {
+        Self {
+            columns: self.columns.part(rows),
+            target: &self.target[rows.clone()],
+            group: &self.group[rows.clone()],
+            moving: &self.moving[rows.clone()],
+            begins: &[],
+            ..*self
+        }
+    }
+
+    fn factored(
+        &self,
+        values: &[f64],
+        wanted: &[usize],
+        slope: &[f64],
+    ) -> Result<Vec<Triangle>, BatchError> {
+        factored(wanted.len() + 1, self.groups, |into| {
+            batch::blocks(self.spec, values, &self.columns, wanted, |block, outputs| {
                 let own = &self.group[block.clone()];
                 let mut from = 0;
                 for alike in own.chunk_by(|x, y| x == y) {
@@ -110,8 +154,7 @@ impl Problem<'_> {
                     });
                 }
             })
-        })?;
-        Ok(made.iter().all(Triangle::is_finite).then_some(made))
+        })
     }
 
     /// One step a row.

@@ -157,6 +157,29 @@ pub fn triangles(
     })
 }
 
+/// Factors of all rows, from those of some of them: each part has one a group.
+///
+/// # Errors
+/// More groups than fit into memory.
+pub fn joined(
+    width: usize,
+    groups: usize,
+    parts: &[Vec<Triangle>],
+) -> Result<Vec<Triangle>, BatchError> {
+    factored(width, groups, |into| {
+        for part in parts {
+            for (group, triangle) in (0..).zip(part) {
+                into.take(group, width, |column, taken, out| {
+                    for (row, x) in (taken..).zip(out) {
+                        *x = triangle.row(row)[column];
+                    }
+                });
+            }
+        }
+        Ok(())
+    })
+}
+
 /// Rows on their way into triangles.
 pub struct Factoring {
     scale: Vec<f64>,

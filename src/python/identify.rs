@@ -1,6 +1,3 @@
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
-use std::vec;
 use std::vec::Vec;
 
 use numpy::ndarray::Array3;
@@ -24,6 +21,8 @@ pub struct Measured<'py> {
     begins: Vec<usize>,
     moving: PyArrayLike1<'py, bool, AllowTypeChange>,
     torque_norm: f64,
+    /// On how many threads to go through starts and rows.
+    threads: usize,
 }
 
 impl Measured<'_> {
@@ -33,6 +32,7 @@ impl Measured<'_> {
         py: Python<'_>,
         model: &Model,
         groups: usize,
+        threads: usize,
         work: impl Fn(&Problem<'_>) -> Result<T, BatchError> + Send + Sync,
     ) -> PyResult<T> {
         let target = contiguous(&self.target);
@@ -49,6 +49,7 @@ impl Measured<'_> {
                 begins,
                 moving: &moving,
                 torque_norm,
+                threads,
             })
         })?;
         done.map_err(refuse)
@@ -119,8 +120,9 @@ pub fn triangles_of<'py>(
     if slope.len() != wanted.len() {
         return Err(ModelError::new_err("'wanted' and 'slope' are of unequal length"));
     }
-    let made = measured
-        .detached(py, model, groups, |problem| problem.triangles(&values, &wanted, &slope))?;
+    let made = measured.detached(py, model, groups, measured.threads, |problem| {
+        problem.triangles(&values, &wanted, &slope)
+    })?;
     made.map(|made| stacked(py, &made, wanted.len() + 1)).transpose()
 }
 
@@ -144,7 +146,7 @@ pub fn slides<'py>(
     values: Array<'py>,
 ) -> PyResult<Vec<bool>> {
     let values = contiguous(&values);
-    measured.detached(py, model, 1, |problem| problem.slides(&values))
+    measured.detached(py, model, 1, 1, |problem| problem.slides(&values))
 }
 
 /// Values, their sum of squares, whether the search converged, how it ended, evaluations.
@@ -170,51 +172,19 @@ pub fn search<'py>(
     measured: Measured<'py>,
     starts: PyArrayLike2<'py, f64, AllowTypeChange>,
     within: Within<'py>,
-    threads: usize,
 ) -> PyResult<Vec<Found<'py>>> {
     let starts = starts.as_array();
     let size = starts.ncols();
     let starts: Vec<Vec<f64>> = starts.rows().into_iter().map(|row| row.to_vec()).collect();
+    let threads = measured.threads;
     let ended = within.with(size, |bounds, steps| {
-        measured.detached(py, model, 1, |problem| {
-            side_by_side(&starts, threads, |start| {
-                identify::minimise(problem, start, bounds, steps)
+        measured.detached(py, model, 1, threads / starts.len().max(1), |problem| {
+            identify::side_by_side(starts.len(), threads, |start| {
+                identify::minimise(problem, &starts[start], bounds, steps)
             })
         })
     })??;
     Ok(ended.into_iter().map(|search| found(py, search)).collect())
-}
-
-/// The work on each start, in their order, on some threads.
-fn side_by_side<T: Send, E: Send>(
-    starts: &[Vec<f64>],
-    threads: usize,
-    work: impl Fn(&[f64]) -> Result<T, E> + Sync,
-) -> Result<Vec<T>, E> {
-    let next = AtomicUsize::new(0);
-    let some = || {
-        let mut done = vec![];
-        while let Some((k, start)) = {
-            let k = next.fetch_add(1, Ordering::Relaxed);
-            starts.get(k).map(|start| (k, start))
-        } {
-            done.push((k, work(start)));
-        }
-        done
-    };
-    let mut done = thread::scope(|scope| {
-        let others: Vec<_> = (1..threads.min(starts.len())).map(|_| scope.spawn(some)).collect();
-        let mut done = some();
-        for other in others {
-            match other.join() {
-                Ok(more) => done.extend(more),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-        done
-    });
-    done.sort_by_key(|(k, _)| *k);
-    done.into_iter().map(|(_, result)| result).collect()
 }
 
 /// As `search`, from one start, of any object with `triangle` and `torque_norm`.

@@ -196,6 +196,7 @@ class Problem:
                 "begins": [],
                 "moving": np.ones(self.rows.size, dtype=bool),
                 "torque_norm": self.torque_norm,
+                "threads": threads(),
             }
         return self._measured(*(self.span or (0, self.recording.time.size)))
 
@@ -211,6 +212,7 @@ class Problem:
             "begins": (self._moving_begins(start, stop) - start).tolist(),
             "moving": r.moving[start:stop],
             "torque_norm": self.torque_norm,
+            "threads": threads(),
         }
 
     def _moving_begins(self, start: int, stop: int) -> NDArray[np.intp]:
@@ -321,7 +323,7 @@ class Problem:
     def search(self, starts: Array, within: dict[str, Any]) -> list[tuple[Any, ...]]:
         """The core's searches from `starts` [k, p], on all threads."""
         with self._said():
-            return _core.search(self.model.core, self._own, starts, within, threads())
+            return _core.search(self.model.core, self._own, starts, within)
 
     @contextmanager
     def _said(self) -> Iterator[None]:
