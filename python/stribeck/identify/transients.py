@@ -7,6 +7,8 @@ figures keep them, since the rows scored are the same for every model.
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,8 +28,8 @@ WILD_SLOW, WILD_RAW = 4.0, 3.0
 STRETCHES = 3
 
 
-def flexible_columns(recording: Recording) -> Array:
-    """Columns of a deliberately flexible friction model, array [n, k].
+def flexible_columns(recording: Recording) -> list[Array]:
+    """Columns of a deliberately flexible friction model, arrays [n].
 
     Smooth curves of speed in either direction, position and temperature, and the rigid body.
     """
@@ -52,7 +54,7 @@ def flexible_columns(recording: Recording) -> Array:
     tl = recording.load_torque
     if tl is not None:
         columns += [sign * np.abs(tl), tl]
-    return np.column_stack(columns)
+    return columns
 
 
 def transient_rows(recording: Recording) -> NDArray[np.bool_]:
@@ -61,9 +63,7 @@ def transient_rows(recording: Recording) -> NDArray[np.bool_]:
     moving = recording.moving
     if recording.averaged or moving.sum() < 20 * WINDOWS:
         return none
-    columns = flexible_columns(recording)
-    size = np.sqrt((columns[moving] ** 2).mean(axis=0))
-    columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
+    columns = _of_one_size(flexible_columns(recording), moving)
     target = recording.torque - recording.known_torque
     window = np.minimum(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
@@ -89,6 +89,22 @@ def transient_rows(recording: Recording) -> NDArray[np.bool_]:
     return marked
 
 
+def _of_one_size(columns: list[Array], moving: NDArray[np.bool_]) -> Array:
+    """Columns with a mean square of 1 over the `moving` rows, array [n, k]; none that is nothing.
+
+    Long recordings fill the memory with them: each is let go as soon as it is in place.
+    """
+    made = np.empty((moving.size, len(columns)))
+    used = 0
+    for _ in range(len(columns)):
+        column = columns.pop(0)
+        size = np.sqrt((column[moving] ** 2).mean())
+        if size > 0:
+            np.divide(column, size, out=made[:, used])
+            used += 1
+    return made[:, :used]
+
+
 def _left_out(
     columns: Array,
     target: Array,
@@ -97,14 +113,16 @@ def _left_out(
     kept: NDArray[np.bool_],
 ) -> Array:
     """Residual of each window by the fit to the other windows' `kept` rows; 0 at rest."""
-    sums = NormalEquations.of(columns[kept], target[kept], window[kept], WINDOWS)
-    matrix, vector = sums.total()
+    # What is not kept is summed apart: no copy of the others is made.
+    sums = NormalEquations.of(columns, target, np.where(kept, window, WINDOWS), WINDOWS + 1)
+    matrix, vector = sums.matrix[:WINDOWS].sum(axis=0), sums.vector[:WINDOWS].sum(axis=0)
     ridge = 1e-6 * kept.sum() * np.eye(columns.shape[1])
     residual = np.zeros_like(target)
-    for w in range(WINDOWS):
-        rows = moving & (window == w)
+    first = np.searchsorted(window, np.arange(WINDOWS + 1))
+    for w, (start, stop) in enumerate(itertools.pairwise(first)):
         left = np.linalg.solve(matrix - sums.matrix[w] + ridge, vector - sums.vector[w])
-        residual[rows] = target[rows] - columns[rows] @ left
+        rows = slice(start, stop)
+        residual[rows] = np.where(moving[rows], target[rows] - columns[rows] @ left, 0.0)
     return residual
 
 
