@@ -22,6 +22,7 @@ from stribeck.fit import Fit, fit, on_recording
 from stribeck.formula_law import is_formula
 from stribeck.identify.transients import transient_rows
 from stribeck.model import Model, check_effect
+from stribeck.parallel import on_threads
 from stribeck.recording import Recording
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.walk import MOST_STEPS, Step, Way, walk
@@ -198,9 +199,11 @@ def _on_all_rows(way: Way, recording: Recording, progress: Callable[[str], None]
     transient = transient_rows(recording)
     rows = way.start.recording.rows
     *on_the_way, last = [way.start, *(step.after for step in way.steps)]
-    # Of the models on the way only the errors are wanted.
-    fits = [on_all_rows(found, recording, transient) for found in on_the_way]
-    fits.append(noted(on_all_rows(last, recording, transient, NEAR), rows))
+    with on_threads() as pool:
+        longest = pool.submit(on_all_rows, last, recording, transient, NEAR)
+        # Of the models on the way only the errors are wanted.
+        fits = list(pool.map(lambda found: on_all_rows(found, recording, transient), on_the_way))
+        fits.append(noted(longest.result(), rows))
     steps = [
         Step(recounted(step.finding, before, after, way.last.noise_floor), before, after)
         for step, (before, after) in zip(way.steps, itertools.pairwise(fits), strict=True)

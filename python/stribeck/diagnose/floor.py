@@ -16,6 +16,7 @@ from scipy.spatial import cKDTree
 from stribeck.diagnose.shape import displacement_since_reversal
 from stribeck.fit import Fit
 from stribeck.identify.covariance import correlation_length
+from stribeck.parallel import threads
 
 Array = NDArray[np.float64]
 
@@ -62,7 +63,7 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     index = np.arange(0, residual.size, step)
     apart = max(4.0 * lasting, 20.0) / step
     tree = cKDTree(features[index])
-    distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1)
+    distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1, workers=threads())
     far = np.abs(neighbour - np.arange(index.size)[:, None]) > apart
     first = np.argmax(far, axis=1)
     found = far[np.arange(index.size), first]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -30,8 +30,8 @@ NAMES = {
 COLUMNS = 5
 
 
-def _figure(width: float, height: float) -> Figure:
-    figure = Figure(figsize=(width, height), dpi=DPI, layout="constrained")
+def _figure(width: float, height: float, layout: Literal["constrained"] | None) -> Figure:
+    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
     FigureCanvasAgg(figure)
     return figure
 
@@ -66,7 +66,7 @@ def error_figure(study: Study, joint: str | None) -> Figure:
     rows = _of_joint(study, joint)
     data = study.joints[joint]
     quantity = torque_name(data.torque_unit)
-    figure = _figure(10.5, 2.2 + 0.27 * len(rows))
+    figure = _figure(10.5, 2.2 + 0.27 * len(rows), layout="constrained")
     both: Any = figure.subplots(1, 2, sharey=True)
     slow = f"|v| < {plain(data.low_speed, 2)} {data.velocity_unit}"
     spreads = [
@@ -137,8 +137,14 @@ def friction_figure(study: Study, joint: str | None) -> Figure:
     unit = data.torque_unit
     columns = min(COLUMNS, len(rows))
     lines = -(-len(rows) // columns)
-    figure = _figure(max(2.5 * columns, 5.0), 1.3 + 2.0 * lines)
+    width, height = max(2.5 * columns, 5.0), 1.3 + 2.0 * lines
+    figure = _figure(width, height, layout=None)
     grid: Any = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
+    # Set by hand: with so many panels, finding room for all their labels takes longer than to draw.
+    figure.subplots_adjust(
+        left=0.72 / width, right=1.0 - 0.1 / width, bottom=0.6 / height, top=1.0 - 0.85 / height,
+        wspace=0.08, hspace=0.22,
+    )  # fmt: skip
     dots = {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "rasterized": True}
     for axes in grid.flat[len(rows) :]:
         axes.set_visible(False)
@@ -153,13 +159,13 @@ def friction_figure(study: Study, joint: str | None) -> Figure:
     grid[0, 0].set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low))
     for axes in grid.flat[max(len(rows) - columns, 0) : len(rows)]:
         axes.tick_params(labelbottom=True)
-    figure.supxlabel(f"velocity [{data.velocity_unit}]", fontsize=10)
-    figure.supylabel(f"friction {torque_name(unit)} [{unit}]", fontsize=10)
+    figure.supxlabel(f"velocity [{data.velocity_unit}]", fontsize=10, y=0.08 / height)
+    figure.supylabel(f"friction {torque_name(unit)} [{unit}]", fontsize=10, x=0.08 / width)
     used = [group for group in COLOURS if any(group == g for g, _, _ in rows)]
     handles = [_dot("#b0b0b0", "measured")]
     handles += [_dot(COLOURS[group], f"modelled, {NAMES[group]}") for group in used]
     figure.legend(
-        handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, fontsize=9,
+        handles=handles, loc="upper center", ncols=len(handles), frameon=False, fontsize=9,
         title=f"Friction against velocity{_name(study, joint)} (law: RMS error)",
     )  # fmt: skip
     return figure
