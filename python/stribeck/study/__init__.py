@@ -8,13 +8,14 @@ within 0.1 rad/s, and of the motors' electrical energy.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from stribeck.errors import FitError, SpecError
 from stribeck.identify.scaling import model_for
 from stribeck.model_file import write_whole
-from stribeck.parallel import Stopped, worker_count
+from stribeck.parallel import Stopped, in_processes, worker_count
 from stribeck.report.files import save_figure
 from stribeck.study.assess import Entry, assess
 from stribeck.study.plan import LOW_SPEED, REVIEW, STARTS, Group, Job, Plan, group_of, make_plan
@@ -92,7 +93,7 @@ def study(
     finally:
         store.close()
     result = _result(plan, store, low_speed)
-    _write(result)
+    _write(result, worker_count(workers))
     return result
 
 
@@ -126,18 +127,30 @@ def _result(plan: Plan, store: Store, low_speed: float | None) -> Study:
     return Study(plan, store.folder, joints, tables, failed, store.frame())
 
 
-def _write(result: Study) -> None:
+def _write(result: Study, workers: int) -> None:
     """Tables and pictures into the study's folder."""
-    from stribeck.study.figures import error_figure, friction_figure
-
     folder = result.folder
     write_whole(folder / "tables.csv", result.to_frame().write_csv())
     write_whole(folder / "tables.txt", repr(result) + "\n")
-    for joint in result.joints:
-        if any(joint in row.entries for table in result.tables for row in table.rows):
-            name = "" if joint is None else f"_{_plain_name(joint)}"
-            save_figure(error_figure(result, joint), str(folder / f"errors{name}.png"))
-            save_figure(friction_figure(result, joint), str(folder / f"friction{name}.png"))
+    drawn = [
+        joint for joint in result.joints
+        if any(joint in row.entries for table in result.tables for row in table.rows)
+    ]  # fmt: skip
+    draw = partial(_draw, result)
+    if min(workers, len(drawn)) <= 1:
+        for joint in drawn:
+            draw(joint)
+    else:
+        in_processes(draw, drawn, lambda _: None, workers, what="the study")
+
+
+def _draw(result: Study, joint: str | None) -> None:
+    """The pictures of one joint."""
+    from stribeck.study.figures import error_figure, friction_figure
+
+    name = "" if joint is None else f"_{_plain_name(joint)}"
+    save_figure(error_figure(result, joint), str(result.folder / f"errors{name}.png"))
+    save_figure(friction_figure(result, joint), str(result.folder / f"friction{name}.png"))
 
 
 def _plain_name(joint: str) -> str:

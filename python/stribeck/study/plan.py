@@ -86,8 +86,8 @@ class Plan:
     starts, seed
         Starts of each law, and the seed of the random ones.
     jobs
-        Every fit that can be made, law by law of each joint. A law without nonlinear parameters has
-        one start: its parameters follow from linear equations.
+        Every fit that can be made, law by law of each joint, dynamic ones first. A law without
+        nonlinear parameters has one start: its parameters follow from linear equations.
     skipped
         Laws that a recording lacks a channel for.
     notes
@@ -161,7 +161,9 @@ def make_plan(
                 counts[law] = _useful_starts(law, recording, starts)
             except FitError as error:
                 skipped.append(Skipped(joint, law, str(error)))
-        jobs += [Job(joint, law, k) for law, count in counts.items() for k in range(count)]
+        # What takes longest begins: no process waits for the last of them.
+        in_turn = sorted(counts, key=lambda law: not model_for(law, recording).has_state)
+        jobs += [Job(joint, law, k) for law in in_turn for k in range(counts[law])]
     if not jobs:
         raise FitError(f"{path}: no law of the study can be fitted: {skipped[0].why}")
     return Plan(
