@@ -20,7 +20,7 @@ from stribeck.identify.held_out import Refit, held_out_prediction
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.scaling import check_channels, effect_constants, model_for
-from stribeck.identify.search import QUICK, THOROUGH, Effort, multi_start, search_each
+from stribeck.identify.search import QUICK, THOROUGH, Effort, Ended, multi_start, search_each
 from stribeck.identify.separable import minimise
 from stribeck.identify.transients import stretches, transient_rows
 from stribeck.model import Model, catalog
@@ -217,6 +217,26 @@ def fit(
     return _made_passive(fitted, solution, effort) if passive else fitted
 
 
+@dataclass(frozen=True)
+class FittedStart:
+    """Where one of several starts ended; its errors as in `Fit`."""
+
+    model: Model
+    rmse: float
+    rmse_held_out: float | None
+    converged: bool
+    outcome: str
+    evaluations: int
+
+    @classmethod
+    def of(cls, fitted: Fit) -> FittedStart:
+        """The same of a fit by itself."""
+        return cls(
+            fitted.model, fitted.rmse, fitted.rmse_held_out, fitted.converged, fitted.outcome,
+            fitted.evaluations,
+        )  # fmt: skip
+
+
 def fit_each(
     starts: Sequence[Model],
     recording: Recording,
@@ -224,8 +244,8 @@ def fit_each(
     transient: NDArray[np.bool_],
     effort: Effort,
     seed: int = 0,
-) -> list[Fit | StribeckError]:
-    """Fits of one model from several starts, or why there is none.
+) -> list[FittedStart | StribeckError]:
+    """Where several starts of one model end, or why there is no fit.
 
     Each start is brought to its own minimum; those that come together on fewer rows go on as one,
     and their outcome says with which.
@@ -242,41 +262,44 @@ def fit_each(
     FitError
         As of `fit`, where no start could be fitted.
     """
-    began = time.perf_counter()
     made = starts[0]
     rows = _rows_to_fit(made, recording, transient)
     if needs_own_load(made):
         # Each start finds a load of its own, and with it another problem.
-        return [
-            _said(partial(fit, start, recording, starts=1, seed=seed, transient=transient,
-                          effort=effort))
-            for start in starts
-        ]  # fmt: skip
+        def alone(start: Model) -> FittedStart:
+            return FittedStart.of(
+                fit(start, recording, starts=1, seed=seed, transient=transient, effort=effort)
+            )
+
+        return [_said(partial(alone, start)) for start in starts]
     lower, upper, first = scaled_bounds(made, recording)
     values = np.stack([start.values for start in starts])
     at = np.where(np.isfinite(values), np.clip(values, lower, upper), first)
     ends = search_each(Problem(recording, made, rows), lower, upper, at, effort)
-    ended: dict[int, Fit | StribeckError] = {}
-    fits = []
-    for k, end in enumerate(ends):
-        solution = _Solution(
-            end.search.values, None, lower, upper, 1, end.search.converged, end.search.outcome,
+
+    def reached(end: Ended) -> FittedStart:
+        values, search = end.search.values, end.search
+        model = made.with_values(values)
+        found = _Errors.of(Problem(recording, model, rows), values, lower, upper, effort)
+        return FittedStart(
+            model, found.rmse, found.rmse_held_out, search.converged, search.outcome,
             end.evaluations,
         )  # fmt: skip
+
+    ended: dict[int, FittedStart | StribeckError] = {}
+    fits = []
+    for k, end in enumerate(ends):
         if end.leader == k:
-            ended[k] = _said(partial(
-                _finish, made.with_values(solution.values), recording, transient, rows, None,
-                solution, effort, "robust", time.perf_counter() - began,
-            ))  # fmt: skip
+            ended[k] = _said(partial(reached, end))
         fitted = ended[end.leader]
-        if isinstance(fitted, Fit) and end.leader != k:
+        if isinstance(fitted, FittedStart) and end.leader != k:
             outcome = f"came to where start {end.leader} went on: {fitted.outcome}"
             fitted = replace(fitted, outcome=outcome, evaluations=end.evaluations)
         fits.append(fitted)
     return fits
 
 
-def _said(work: Callable[[], Fit]) -> Fit | StribeckError:
+def _said(work: Callable[[], FittedStart]) -> FittedStart | StribeckError:
     try:
         return work()
     except StribeckError as error:
@@ -527,16 +550,7 @@ def _finish(
     problem = Problem(recording, made, rows, load)
     values = made.values
     lower, upper = solution.lower, solution.upper
-    prediction = problem.predict(values)
-    _refuse_infinite(problem, prediction)
-    if made.has("presliding"):
-        _refuse_slack_bristle(problem)
-    held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact, by=by)
-    moving = recording.moving
-    residual = recording.torque - held_out
-    blocks = np.unique(recording.block[moving]).size
-    has_held_out = blocks >= 2 and bool(np.all(np.isfinite(residual[moving])))
-    counted = moving if recording.counted is None else moving & recording.counted
+    found = _Errors.of(problem, values, lower, upper, effort, by)
     notes: tuple[str, ...] = ()
     if marked.any():
         spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, marked))
@@ -560,11 +574,13 @@ def _finish(
         ).with_values(values),
         recording=recording,
         estimates=estimates(problem, values, lower, upper, errors),
-        prediction=prediction,
-        held_out=held_out,
-        rmse=rms((recording.torque - prediction)[moving]),
-        rmse_held_out=rms(residual[counted]) if has_held_out else None,
-        relative_residual=relative_residual(recording, residual) if has_held_out else None,
+        prediction=found.prediction,
+        held_out=found.held_out,
+        rmse=found.rmse,
+        rmse_held_out=found.rmse_held_out,
+        relative_residual=None
+        if found.rmse_held_out is None
+        else relative_residual(recording, recording.torque - found.held_out),
         starts=solution.starts,
         converged=solution.converged,
         outcome=solution.outcome,
@@ -575,6 +591,41 @@ def _finish(
         notes=notes,
         errors=errors,
     )
+
+
+@dataclass(frozen=True)
+class _Errors:
+    """What a model predicts, seen and unseen, and how far off that is."""
+
+    prediction: Array
+    held_out: Array
+    rmse: float
+    rmse_held_out: float | None
+
+    @classmethod
+    def of(
+        cls,
+        problem: Problem,
+        values: Array,
+        lower: Array,
+        upper: Array,
+        effort: Effort,
+        by: Refit | None = None,
+    ) -> _Errors:
+        """Refuses a model without a finite torque, and a bristle around nothing."""
+        recording = problem.recording
+        prediction = problem.predict(values)
+        _refuse_infinite(problem, prediction)
+        if problem.model.has("presliding"):
+            _refuse_slack_bristle(problem)
+        held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact, by=by)
+        moving = recording.moving
+        residual = recording.torque - held_out
+        blocks = np.unique(recording.block[moving]).size
+        has_held_out = blocks >= 2 and bool(np.all(np.isfinite(residual[moving])))
+        counted = moving if recording.counted is None else moving & recording.counted
+        rmse = rms((recording.torque - prediction)[moving])
+        return cls(prediction, held_out, rmse, rms(residual[counted]) if has_held_out else None)
 
 
 def _refuse_infinite(problem: Problem, prediction: Array) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.errors import StribeckError
-from stribeck.fit import Effort, Fit, fit_each
+from stribeck.fit import Effort, FittedStart, fit_each
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.space import SearchSpace
 from stribeck.model import Model
@@ -94,7 +94,7 @@ def run_trials(
         Rows that no start is fitted to (`stribeck.identify.transients`).
     """
     began = time.perf_counter()
-    fits: Sequence[Fit | StribeckError]
+    fits: Sequence[FittedStart | StribeckError]
     try:
         starts = [start_model(job.law, recording, job.start, seed) for job in jobs]
         fits = fit_each(starts, recording, transient=transient, effort=EFFORT, seed=seed)
@@ -108,7 +108,7 @@ def run_trials(
     return [_trial(job, fitted, seconds) for job, fitted in zip(jobs, fits, strict=True)]
 
 
-def _trial(job: Job, fitted: Fit | StribeckError, seconds: float) -> Trial:
+def _trial(job: Job, fitted: FittedStart | StribeckError, seconds: float) -> Trial:
     if isinstance(fitted, StribeckError):
         return Trial(job, None, None, False, "failed", 0, seconds, {}, {}, (), str(fitted))
     return Trial(
@@ -119,7 +119,9 @@ def _trial(job: Job, fitted: Fit | StribeckError, seconds: float) -> Trial:
         outcome=fitted.outcome,
         evaluations=fitted.evaluations,
         seconds=seconds,
-        parameters={name: e.value for name, e in fitted.estimates.items()},
+        parameters={
+            n: float(x) for n, x in zip(fitted.model.names, fitted.model.values, strict=True)
+        },
         constants={name: float(value) for name, value in fitted.model.constants.items()},
         rigid_body=fitted.model.rigid_body,
     )
