@@ -6,6 +6,8 @@ use crate::scalar::Real;
 /// Directions with a singular value below this share of the largest, all columns brought to length
 /// one, are not shown by the data.
 const UNSEEN: f64 = 1e-10;
+/// Where every pivot is at least this share of the largest, all directions are shown.
+const PLAIN: f64 = 1e-5;
 /// Rotations end when all pairs of columns are so nearly orthogonal, or after so many rounds.
 const ORTHOGONAL: f64 = 1e-15;
 const MOST_ROUNDS: usize = 40;
@@ -180,11 +182,52 @@ impl Bounded<'_> {
         let own = (0..self.x.len()).filter(|&k| free[k]);
         let columns: Vec<Vec<f64>> = own.clone().map(|k| self.columns[k].clone()).collect();
         let mut best = self.x.clone();
-        for (k, x) in own.zip(shortest(columns, &left)) {
+        let solved = plain(columns.clone(), &left).unwrap_or_else(|| shortest(columns, &left));
+        for (k, x) in own.zip(solved) {
             best[k] = x;
         }
         best
     }
+}
+
+/// The best solution by reflections, the longest column first (Golub and Van Loan, section 5.4.2);
+/// none where some direction is hardly shown.
+fn plain(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
+    let (count, mut right) = (columns.len(), right.to_vec());
+    let mut order: Vec<usize> = (0..count).collect();
+    let mut largest = 0.0_f64;
+    for k in 0..count {
+        let square = |column: &[f64]| column.get(k..).map_or(0.0, |below| dot(below, below));
+        let longest = (k..count).fold((k, -1.0), |most, j| {
+            let own = square(&columns[j]);
+            if own > most.1 { (j, own) } else { most }
+        });
+        columns.swap(k, longest.0);
+        order.swap(k, longest.0);
+        let norm = Real::sqrt(longest.1);
+        largest = largest.max(norm);
+        if norm.is_nan() || norm <= PLAIN * largest {
+            return None;
+        }
+        let (done, rest) = columns.split_at_mut(k + 1);
+        let own = &mut done[k][k..];
+        let diagonal = if own[0] > 0.0 { -norm } else { norm };
+        own[0] -= diagonal;
+        let scale = 1.0 / (diagonal * own[0]);
+        for column in rest.iter_mut().map(|column| &mut column[k..]).chain([&mut right[k..]]) {
+            let product = dot(own, column) * scale;
+            for (x, entry) in column.iter_mut().zip(own.iter()) {
+                *x += entry * product;
+            }
+        }
+        own[0] = diagonal;
+    }
+    let mut x = vec![0.0; count];
+    for k in (0..count).rev() {
+        let known: f64 = (k + 1..count).map(|j| columns[j][k] * x[order[j]]).sum();
+        x[order[k]] = (right[k] - known) / columns[k][k];
+    }
+    Some(x)
 }
 
 /// The shortest of the best solutions, by singular values: columns are rotated in pairs until they
