@@ -1,4 +1,3 @@
-use core::array::from_fn;
 use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
@@ -341,10 +340,7 @@ fn dot(x: &[f64; BLOCK], y: &[f64; BLOCK]) -> f64 {
             sums[lane] += x[lane] * y[lane];
         }
     }
-    // Pairs of sums first: few of the additions wait for another.
-    let eight: [f64; LANES / 2] = from_fn(|lane| sums[lane] + sums[lane + LANES / 2]);
-    let four: [f64; LANES / 4] = from_fn(|lane| eight[lane] + eight[lane + LANES / 4]);
-    (four[0] + four[2]) + (four[1] + four[3])
+    sums.iter().sum()
 }
 
 /// The largest magnitude.
