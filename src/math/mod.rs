@@ -16,6 +16,7 @@
 //! | `branching` | some of them again for one number at a time |
 //! | `double`, `single`, `format` | constants and minimax polynomials of a format |
 //! | `phase` | quarter turns in a large phase |
+//! | `root` | square roots, as IEEE 754 has them |
 //! | `bits` | powers of two, whole numbers and signs |
 //! | `polynomial` | Estrin's scheme |
 //! | `listing` | all constants by name |
