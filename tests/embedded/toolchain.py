@@ -12,6 +12,8 @@ BUILD = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "embedded"
 # A compiler beside rustup's, with the sources of its core.
 RUSTC = Path("/usr/bin/rustc")
 LIBRARY = Path("/usr/lib/rustlib/src/rust/library")
+# Its core is built as sources are laid out since then; lists of packages may know older ones alone.
+OLDEST = (1, 89)
 # Headers of C's library.
 NEWLIB = Path("/usr/lib/arm-none-eabi/include")
 PACKAGES = (
@@ -56,7 +58,15 @@ class Unavailable(Exception):
 def missing() -> list[str]:
     """Programs and files that are not there."""
     names = [name for name in PROGRAMS if shutil.which(name) is None]
-    return names + [str(path) for path in (RUSTC, LIBRARY, NEWLIB) if not path.exists()]
+    names += [str(path) for path in (RUSTC, LIBRARY, NEWLIB) if not path.exists()]
+    if RUSTC.exists() and tuple(map(int, version().split(".")[:2])) < OLDEST:
+        names.append(f"a {RUSTC} newer than {version()}")
+    return names
+
+
+def version() -> str:
+    """Of the compiler beside rustup's."""
+    return subprocess.check_output([RUSTC, "--version"], text=True).split()[1]
 
 
 def install() -> None:
@@ -78,8 +88,7 @@ def install() -> None:
 
 def sysroot(target: str) -> Path:
     """A folder with Rust's core for a target and nothing else: no alloc, no std."""
-    version = subprocess.check_output([RUSTC, "--version"], text=True).split()[1]
-    root = BUILD / f"core-{version}" / target
+    root = BUILD / f"core-{version()}" / target
     done = root / "done"
     if done.exists():
         return root
