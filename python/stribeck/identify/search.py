@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -164,20 +165,22 @@ def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) ->
 
 def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
     """One of each group of searches that ended in the same place, best first."""
-    kept: list[Search] = []
-    for search in sorted(tried, key=lambda search: search.square):
-        if not any(_together(search, other, space) for other in kept):
-            kept.append(search)
-    return kept
+    ranked = sorted(tried, key=lambda search: search.square)
+    return [ranked[k] for k in np.unique(_leaders(ranked, space))]
 
 
-def _together(one: Search, other: Search, space: SearchSpace) -> bool:
-    """Whether two coarse searches ended in the same place."""
-    if one is other:
-        return True
-    away = np.abs(space.encode(one.values) - space.encode(other.values))
-    level = abs(one.square - other.square) <= SAME * other.square
-    return bool(level and np.all(away <= NEAR))
+def _leaders(ended: Sequence[Search], space: SearchSpace) -> NDArray[np.intp]:
+    """For each coarse search the first one that ended in the same place: itself or an earlier one."""
+    places = space.encode(np.stack([search.values for search in ended]))
+    squares = np.array([search.square for search in ended])
+    leaders = np.arange(squares.size)
+    for k in leaders[1:]:
+        own = np.unique(leaders[:k])
+        with np.errstate(invalid="ignore"):  # Where the model is not finite a square is infinite.
+            level = np.abs(squares[k] - squares[own]) <= SAME * squares[own]
+        near = np.all(np.abs(places[k] - places[own]) <= NEAR, axis=1)
+        leaders[k] = next(iter(own[level & near]), k)
+    return leaders
 
 
 @dataclass(frozen=True)
@@ -214,12 +217,11 @@ def search_each(
     coarse = _coarse(problem, effort) if space.nonlinear.any() else []
     for fewer in coarse:
         own = np.unique(leader)
-        found = dict(zip(own, _searched(fewer, at[own], space, effort), strict=True))
-        for k, search in found.items():
+        found = _searched(fewer, at[own], space, effort)
+        for k, search in zip(own, found, strict=True):
             at[k] = search.values
             evaluations[k] += search.evaluations
-            same = (j for j in own if j <= k and _together(search, found[j], space))
-            leader[leader == k] = leader[next(same)]
+        leader = own[_leaders(found, space)][np.searchsorted(own, leader)]
     own = np.unique(leader)
     done = minimise_from(problem, at[own], lower, upper, tolerance=effort.tolerance)
     ends = dict(zip(own, done, strict=True))

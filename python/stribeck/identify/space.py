@@ -30,9 +30,9 @@ class SearchSpace:
         self._log = self._low > 0
 
     def encode(self, values: Array) -> Array:
-        """Search coordinates of the nonlinear ones among `values` [p]."""
+        """Search coordinates of the nonlinear ones among `values` [..., p]."""
         low, high = self._low, self._high
-        x = np.clip(values[self.nonlinear], low, high)
+        x = np.clip(values[..., self.nonlinear], low, high)
         with np.errstate(divide="ignore", invalid="ignore"):
             logarithmic = np.log(x / low) / np.log(high / low)
         return np.where(self._log, logarithmic, (x - low) / (high - low))

@@ -16,6 +16,9 @@ import pytest
 import stribeck as sb
 from fleet_logs import answers, command
 
+#: So many that a run lasts for seconds, and what befalls it comes before its end.
+STARTS = 1500
+
 
 def test_json_and_files_that_cannot_be_used(logs: list[Path], tmp_path: Path) -> None:
     robot = tmp_path / "r1"
@@ -105,7 +108,7 @@ def start(logs: list[Path], folder: Path) -> subprocess.Popen[str]:
     """A run of two processes in a group of its own, once its first part is on disk."""
     process = subprocess.Popen(
         [sys.executable, "-m", "stribeck", "fleet", *map(str, logs), "--model", "bittencourt_a",
-         "--starts", "8", "--workers", "2", "-o", str(folder), "--json"],
+         "--starts", str(STARTS), "--workers", "2", "-o", str(folder), "--json"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
     )  # fmt: skip
     deadline = time.monotonic() + 120.0
@@ -139,8 +142,9 @@ def test_a_process_that_is_killed_costs_only_its_task(logs: list[Path], tmp_path
     assert (said["done"], said["failed"]) == (48, 0)
     assert workers_of(process.pid) == []
     done = command(
-        *logs, "--model", "bittencourt_a", "--starts", 8, "--workers", 1, "-o", tmp_path / "alone"
-    )
+        *logs, "--model", "bittencourt_a", "--starts", STARTS, "--workers", 1,
+        "-o", tmp_path / "alone",
+    )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert answers(tmp_path / "killed").equals(answers(tmp_path / "alone"))
 
@@ -156,5 +160,5 @@ def test_an_interrupt_keeps_what_is_done(logs: list[Path], tmp_path: Path) -> No
     assert "stopped after" in error and "Traceback" not in error
     kept = answers(tmp_path / "fleet").height
     assert 0 < kept < 48
-    again = sb.fleet(logs, tmp_path / "fleet", "bittencourt_a", starts=8, workers=2)
+    again = sb.fleet(logs, tmp_path / "fleet", "bittencourt_a", starts=STARTS, workers=2)
     assert again.new == 48 - kept and again.rows.height == 48
