@@ -170,7 +170,7 @@ def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
 
 
 def _leaders(ended: Sequence[Search], space: SearchSpace) -> NDArray[np.intp]:
-    """For each coarse search the first one that ended in the same place: itself or an earlier one."""
+    """Of each coarse search the first that ended in the same place: itself or an earlier one."""
     places = space.encode(np.stack([search.values for search in ended]))
     squares = np.array([search.square for search in ended])
     leaders = np.arange(squares.size)

@@ -22,7 +22,7 @@ from .rows import (
     segment_rows,
     segment_slices,
 )
-from .table import Prepared, channel_values, labels
+from .table import Prepared, channel_values, labels, numbered
 
 __all__ = [
     "BANDS", "Channels", "build", "make_column", "measured_torque", "require", "rigid_body_load",
@@ -216,12 +216,8 @@ def _runs(data: Channels) -> tuple[tuple[str, ...], Ints]:
                 f"{data.path}: --average run needs a run column: say which with --map run=COLUMN"
             )
         return ("",), np.zeros(len(data.rows), dtype=np.int64)
-    names = labels(data.prepared.table[data.rows], choice.source)
-    number: dict[str, int] = {}
-    codes = np.fromiter(
-        (number.setdefault(n, len(number)) for n in names), dtype=np.int64, count=len(names)
-    )
-    return tuple(number), codes
+    names, number = numbered(labels(data.prepared.table[data.rows], choice.source))
+    return tuple(names), number
 
 
 def _drop_missing(data: Channels, run: Ints) -> None:

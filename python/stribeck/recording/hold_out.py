@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..errors import RecordingError, nearest
 from .recording import Recording
-from .table import Prepared, labels
+from .table import Prepared, labels, numbered
 
 __all__ = ["with_hold_out"]
 
@@ -38,24 +38,22 @@ def with_hold_out(
     if column not in table.columns:
         hint = nearest(column, table.columns) or f"; the file has {', '.join(table.columns)}"
         raise RecordingError(f"{path}: --hold-out {said}: there is no column '{column}'{hint}")
-    names = labels(table[rows], column)
-    number = {name: k for k, name in enumerate(dict.fromkeys(names))}
-    if len(number) < 2:
+    names, block = numbered(labels(table[rows], column))
+    if len(names) < 2:
         raise RecordingError(
             f"{path}: --hold-out {said}: every row has {column} {names[0]}: hold out by a column "
             "with several values"
         )
-    if mark and value not in number:
+    if mark and value not in names:
         raise RecordingError(
             f"{path}: --hold-out {said}: no row has {column} {value}; there are "
-            f"{', '.join(list(number)[:20])}"
+            f"{', '.join(names[:20])}"
         )
-    block = np.array([number[name] for name in names], dtype=np.int64)
-    counted = block == number[value] if mark else np.ones(block.size, dtype=bool)
+    counted = block == names.index(value) if mark else np.ones(block.size, dtype=bool)
     block.flags.writeable = counted.flags.writeable = False
     return replace(
-        recording, block=block, block_count=len(number), counted=counted,
-        notes=(*recording.notes, _note(column, value, list(number))),
+        recording, block=block, block_count=len(names), counted=counted,
+        notes=(*recording.notes, _note(column, value, names)),
     )  # fmt: skip
 
 

@@ -143,7 +143,7 @@ def _of_joint(prepared: Prepared, joint: str | None) -> Prepared:
     whole = prepared.source.table
     if options.joints and choice is not None and choice.source in whole.columns:
         # Of the whole file: --where may have left some joints out.
-        there = list(dict.fromkeys(labels(whole, choice.source)))
+        there = labels(whole, choice.source).unique(maintain_order=True).to_list()
         for name in options.joints:
             if name not in there:
                 raise RecordingError(

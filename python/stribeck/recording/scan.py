@@ -22,6 +22,7 @@ from .table import (
     column_numbers,
     joints_of,
     labels,
+    numbered,
     prepare,
 )
 from .units import SI
@@ -193,13 +194,13 @@ def _pace(prepared: Prepared) -> tuple[int, float | None, int | None]:
         return 1, None, None
     if choices["time"].unit is not None:
         time = time * choices["time"].unit.factor
-    keys = [labels(prepared.table, choices[c].source) for c in ("joint", "run") if c in choices]
-    number: dict[tuple[str, ...], int] = {}
-    rows = zip(*keys, strict=True) if keys else (("",) for _ in range(len(time)))
-    code = np.fromiter(
-        (number.setdefault(k, len(number)) for k in rows), dtype=np.int64, count=len(time)
-    )
+    code = np.zeros(len(time), dtype=np.int64)
+    for channel in ("joint", "run"):
+        if channel in choices:
+            names, number = numbered(labels(prepared.table, choices[channel].source))
+            code = code * len(names) + number
     order = np.argsort(code, kind="stable")
     segment, _, typical = segment_rows(time[order], code[order], prepared.row[order])
-    gaps = int(segment[-1]) + 1 - len(number)
-    return len(number), 1.0 / typical if typical > 0.0 else None, gaps
+    runs = np.unique(code).size
+    gaps = int(segment[-1]) + 1 - runs
+    return runs, 1.0 / typical if typical > 0.0 else None, gaps

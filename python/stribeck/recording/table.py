@@ -171,15 +171,26 @@ def _run(
 # -------------------------------------------------------------------------------------- values
 
 
-def labels(table: pl.DataFrame, column: str) -> list[str]:
+def labels(table: pl.DataFrame, column: str) -> pl.Series:
     """Return the names of the joints or runs of each row, whole numbers without a decimal point."""
     series = table[column]
     if series.dtype.is_float():
-        return [
-            "" if v is None else str(int(v)) if float(v).is_integer() else str(v)
-            for v in series.to_list()
-        ]
-    return ["" if v is None else v for v in series.cast(pl.String).to_list()]
+        values = series.unique()
+        return series.replace_strict(values, list(map(_label, values)), return_dtype=pl.String)
+    return series.cast(pl.String).fill_null("")
+
+
+def _label(value: float | None) -> str:
+    if value is None:
+        return ""
+    return str(int(value)) if value.is_integer() else str(value)
+
+
+def numbered(names: pl.Series) -> tuple[list[str], Ints]:
+    """Return the different names in order of appearance, and which of them stands in each row."""
+    different = names.unique(maintain_order=True)
+    number = np.arange(len(different), dtype=np.int64)
+    return different.to_list(), names.replace_strict(different, number).to_numpy()
 
 
 def joints_of(prepared: Prepared) -> list[str]:
@@ -187,7 +198,7 @@ def joints_of(prepared: Prepared) -> list[str]:
     choice = prepared.choices.get("joint")
     if choice is None:
         return []
-    return list(dict.fromkeys(labels(prepared.table, choice.source)))
+    return labels(prepared.table, choice.source).unique(maintain_order=True).to_list()
 
 
 def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]:
@@ -219,7 +230,7 @@ def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]
         raise RecordingError(
             f"{path}: there is no joint '{joint}'{hint or '; there are ' + ', '.join(joints)}"
         )
-    names = np.asarray(labels(prepared.table, prepared.choices["joint"].source), dtype=object)
+    names = labels(prepared.table, prepared.choices["joint"].source)
     return joint, np.flatnonzero(names == joint)
 
 
