@@ -15,6 +15,7 @@ from concurrent.futures import (
     wait,
 )
 from concurrent.futures.process import BrokenProcessPool
+from types import TracebackType
 from typing import Any, TypeVar
 
 from threadpoolctl import threadpool_limits
@@ -63,19 +64,16 @@ def in_processes(
     do: Callable[[Work], Result],
     pieces: Iterable[Work],
     finished: Callable[[Result], None],
-    workers: int,
+    pool: LocalPool,
     *,
-    begin: Callable[..., None] | None = None,
-    arguments: tuple[Any, ...] = (),
     what: str = "the work",
 ) -> None:
     """Do every piece, and hand each result over as it is ready, in any order.
 
     Parameters
     ----------
-    do, begin
-        Functions of a module: new processes find them by name. Each process first calls `begin`
-        with `arguments`.
+    do
+        A function of a module: new processes find it by name.
     what
         Named in the error when a process dies: "the study".
 
@@ -87,7 +85,6 @@ def in_processes(
         A process was ended from outside.
     """
     todo = iter(pieces)
-    pool = LocalPool(workers, begin, arguments)
     pending: set[Future[Result]] = set()
 
     def hand_out(count: int) -> None:
@@ -95,14 +92,13 @@ def in_processes(
             pending.add(pool.submit(do, piece))
 
     try:
-        hand_out(AHEAD * workers)
+        hand_out(AHEAD * pool.workers)
         while pending:
             done, rest = wait(pending, return_when=FIRST_COMPLETED)
             pending = set(rest)
             for future in done:
                 finished(future.result())
             hand_out(len(done))
-        pool.shutdown()
     except BrokenProcessPool:
         raise StribeckError(
             f"a process of {what} was ended from outside, most likely for want of memory: use "
@@ -116,12 +112,14 @@ def in_processes(
 class LocalPool(ProcessPoolExecutor):
     """Processes of this machine that do not hear Ctrl-C and can be ended at once.
 
+    As a context, an exception ends them.
+
     Parameters
     ----------
     workers
         How many processes.
     begin, arguments
-        Each process first calls `begin` with `arguments`.
+        Each process first calls `begin` with `arguments`: a function of a module.
     """
 
     def __init__(
@@ -130,6 +128,7 @@ class LocalPool(ProcessPoolExecutor):
         begin: Callable[..., None] | None = None,
         arguments: tuple[Any, ...] = (),
     ) -> None:
+        self.workers = workers
         self._others = set(multiprocessing.active_children())
         # Not forked: polars has threads, and a fork copies their locks without the threads.
         super().__init__(
@@ -149,6 +148,17 @@ class LocalPool(ProcessPoolExecutor):
         self.shutdown(wait=False, cancel_futures=True)
         for process in set(multiprocessing.active_children()) - self._others:
             process.terminate()
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if error is None:
+            self.shutdown()
+        else:
+            self.end()
 
 
 def _begin(begin: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:

@@ -12,7 +12,7 @@ from stribeck.benchmark.score import Score, score
 from stribeck.benchmark.store import Store, frame
 from stribeck.benchmark.text import score_text
 from stribeck.model_file import write_whole
-from stribeck.parallel import Stopped, in_processes, worker_count
+from stribeck.parallel import LocalPool, Stopped, in_processes, worker_count
 from stribeck.report.files import png_bytes, write_bytes_whole
 
 
@@ -67,7 +67,8 @@ def run(
 
 def _answer_all(todo: Sequence[Case], finished: Callable[[Answer], None], workers: int) -> None:
     if workers > 1:
-        in_processes(answer, todo, finished, workers, what="the benchmark")
+        with LocalPool(workers) as pool:
+            in_processes(answer, todo, finished, pool, what="the benchmark")
         return
     try:
         for case in todo:

@@ -173,8 +173,8 @@ class Dask:
     """A Dask cluster, by the address of its scheduler (``tcp://10.0.0.7:8786``).
 
     Dask moves what a lost worker did to another one, and says of a piece that has ended several
-    workers that it is killing them. Its log of this process is silenced: what goes wrong is said
-    in a sentence, not by tracebacks.
+    workers that it is killing them. Its log of this process is silenced, and that of what it stands
+    on: what goes wrong is said in a sentence, not by tracebacks.
 
     Raises
     ------
@@ -193,7 +193,7 @@ class Dask:
             raise StribeckError(
                 "--scheduler needs Dask, which is not installed: pip install stribeck[fleet]"
             ) from None
-        _silence("distributed")
+        _silence("distributed", "tornado", "asyncio")
         self._loss = distributed.KilledWorker
         self._address = address
         try:
@@ -250,10 +250,10 @@ def _knock(address: str, seconds: float) -> None:
         socket.create_connection((host.strip("[]"), int(port)), seconds).close()
 
 
-def _silence(package: str) -> None:
-    """Let a package log nothing but what ends it; some of its loggers have levels of their own."""
-    for name in [package, *logging.root.manager.loggerDict]:
-        if name.partition(".")[0] == package:
+def _silence(*packages: str) -> None:
+    """Let packages log nothing but what ends them; some of their loggers have their own levels."""
+    for name in [*packages, *logging.root.manager.loggerDict]:
+        if name.partition(".")[0] in packages:
             logging.getLogger(name).setLevel(logging.CRITICAL)
 
 

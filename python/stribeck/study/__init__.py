@@ -8,21 +8,19 @@ within 0.1 rad/s, and of the motors' electrical energy.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 from stribeck.errors import FitError, SpecError
-from stribeck.identify.scaling import model_for
 from stribeck.model_file import write_whole
-from stribeck.parallel import Stopped, in_processes, worker_count
+from stribeck.parallel import Stopped, worker_count
 from stribeck.report.files import save_figure
-from stribeck.study.assess import Entry, assess
-from stribeck.study.plan import LOW_SPEED, REVIEW, STARTS, Group, Job, Plan, group_of, make_plan
-from stribeck.study.result import JointData, Study, Table, make_tables
-from stribeck.study.run import run
+from stribeck.study.assess import Assessed, JointTrials, assess_joint
+from stribeck.study.crew import Crew, Desk
+from stribeck.study.plan import REVIEW, STARTS, Job, Plan, make_plan
+from stribeck.study.result import Study, Table, make_tables
 from stribeck.study.store import Store
-from stribeck.study.trial import Trial
+from stribeck.study.trial import Trial, fit_trials
 
 #: Told after each fit: fits made now and before, and all there are.
 Progress = Callable[[int, int], None]
@@ -80,74 +78,75 @@ def study(
         for sentence in plan.notes:
             note(sentence)
     store = Store(Path(output), plan)
-    todo = [job for job in plan.jobs if job not in store.trials]
-
-    def finished(trial: Trial) -> None:
-        store.add(trial)
-        if progress is not None:
-            progress(len(store.trials), len(plan.jobs))
-
-    try:
-        if todo:
-            run(plan, todo, finished, worker_count(workers))
-    finally:
-        store.close()
-    result = _result(plan, store, low_speed)
-    _write(result, worker_count(workers))
+    with Crew(plan, worker_count(workers)) as crew:
+        _fit(plan, store, crew, progress)
+        result = _result(plan, store, low_speed, crew)
+        _write(result, crew)
     return result
 
 
-def _result(plan: Plan, store: Store, low_speed: float | None) -> Study:
+def _fit(plan: Plan, store: Store, crew: Crew, progress: Progress | None) -> None:
+    """Make the fits that are not in the store.
+
+    The starts of a law on a joint are fitted together, and again if one of them is missing: so the
+    results are the same on any number of processes, and of a study that was stopped.
+    """
+    missing = {job for job in plan.jobs if job not in store.trials}
+
+    def made(trials: list[Trial]) -> None:
+        for trial in trials:
+            if trial.job in missing:
+                store.add(trial)
+                if progress is not None:
+                    progress(len(store.trials), len(plan.jobs))
+
+    try:
+        crew.each(fit_trials, plan.pieces(missing), made)
+    finally:
+        store.close()
+
+
+def _result(plan: Plan, store: Store, low_speed: float | None, crew: Crew) -> Study:
     """Figures of the best starts, joint by joint."""
-    by_law: dict[tuple[str | None, str], list[Trial]] = {}
-    for trial in store.ordered():
-        by_law.setdefault((trial.job.joint, trial.job.law), []).append(trial)
-    groups: dict[str, Group] = {}
-    entries: dict[str, dict[str | None, Entry]] = {law: {} for law in plan.laws}
-    joints: dict[str | None, JointData] = {}
-    for joint in plan.joints:
-        recording = plan.read(joint)
-        slow = LOW_SPEED[recording.joint_kind] if low_speed is None else low_speed
-        joints[joint] = JointData(
-            recording.rows, recording.scored(), recording.torque_unit,
-            f"{recording.position_unit}/s", slow,
-        )  # fmt: skip
-        for law in plan.laws:
-            trials = by_law.get((joint, law))
-            if trials is None:
-                continue
-            groups[law] = group_of(model_for(law, recording))
-            entry = assess(trials, recording, slow)
-            if entry is not None:
-                entries[law][joint] = entry
-    failed = tuple(t for t in store.ordered() if t.failure)
-    tables = make_tables(groups, entries)
+    trials = store.ordered()
+    of_joint: dict[str | None, dict[str, list[Trial]]] = {joint: {} for joint in plan.joints}
+    for trial in trials:
+        of_joint[trial.job.joint].setdefault(trial.job.law, []).append(trial)
+    pieces = [JointTrials(joint, laws, low_speed) for joint, laws in of_joint.items()]
+    found: dict[str | None, Assessed] = {}
+    crew.each(assess_joint, pieces, lambda assessed: found.update({assessed.joint: assessed}))
+    assessed = {joint: found[joint] for joint in plan.joints}
+    failed = tuple(trial for trial in trials if trial.failure)
+    tables = make_tables(
+        {law: group for joint in assessed.values() for law, group in joint.groups.items()},
+        {
+            law: {name: of.entries[law] for name, of in assessed.items() if law in of.entries}
+            for law in plan.laws
+        },
+    )
     if not tables:
         raise FitError(f"{plan.path}: no fit could be made, the first says: {failed[0].failure}")
+    joints = {name: of.data for name, of in assessed.items()}
     return Study(plan, store.folder, joints, tables, failed, store.frame())
 
 
-def _write(result: Study, workers: int) -> None:
+def _write(result: Study, crew: Crew) -> None:
     """Tables and pictures into the study's folder."""
     folder = result.folder
     write_whole(folder / "tables.csv", result.to_frame().write_csv())
     write_whole(folder / "tables.txt", repr(result) + "\n")
     drawn = [
-        joint for joint in result.joints
+        (result, joint) for joint in result.joints
         if any(joint in row.entries for table in result.tables for row in table.rows)
     ]  # fmt: skip
-    draw = partial(_draw, result)
-    if min(workers, len(drawn)) <= 1:
-        for joint in drawn:
-            draw(joint)
-    else:
-        in_processes(draw, drawn, lambda _: None, workers, what="the study")
+    crew.each(_draw, drawn, lambda _: None)
 
 
-def _draw(result: Study, joint: str | None) -> None:
+def _draw(_: Desk, of: tuple[Study, str | None]) -> None:
     """The pictures of one joint."""
     from stribeck.study.figures import error_figure, friction_figure
 
+    result, joint = of
     name = "" if joint is None else f"_{_plain_name(joint)}"
     save_figure(error_figure(result, joint), str(result.folder / f"errors{name}.png"))
     save_figure(friction_figure(result, joint), str(result.folder / f"friction{name}.png"))

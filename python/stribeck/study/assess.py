@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 
 from stribeck.energy import Energy, electrical_energy
 from stribeck.fit import evaluate
+from stribeck.identify.scaling import model_for
 from stribeck.recording import Recording
+from stribeck.study.crew import Desk
+from stribeck.study.plan import LOW_SPEED, Group, group_of
 from stribeck.study.trial import Trial
 
 Array = NDArray[np.float64]
@@ -108,6 +111,56 @@ class Entry:
             "evaluations": self.best.evaluations,
             "parameters": dict(self.best.parameters),
         }
+
+
+@dataclass(frozen=True)
+class JointData:
+    """What was scored of a joint.
+
+    Attributes
+    ----------
+    low_speed
+        What counts as low speed, in the unit of velocity.
+    """
+
+    rows: int
+    scored: Mapping[str, float]
+    torque_unit: str
+    velocity_unit: str
+    low_speed: float
+
+
+@dataclass(frozen=True)
+class JointTrials:
+    """The fits of a joint by law, and what counts as low speed (None: what suits the joint)."""
+
+    joint: str | None
+    trials: Mapping[str, Sequence[Trial]]
+    low_speed: float | None
+
+
+@dataclass(frozen=True)
+class Assessed:
+    """Figures of a joint: the table of each law, and the laws that could be fitted."""
+
+    joint: str | None
+    data: JointData
+    groups: Mapping[str, Group]
+    entries: Mapping[str, Entry]
+
+
+def assess_joint(desk: Desk, of: JointTrials) -> Assessed:
+    """Figures of every law on a joint."""
+    recording = desk.recording(of.joint)
+    low_speed = LOW_SPEED[recording.joint_kind] if of.low_speed is None else of.low_speed
+    data = JointData(
+        recording.rows, recording.scored(), recording.torque_unit,
+        f"{recording.position_unit}/s", low_speed,
+    )  # fmt: skip
+    groups = {law: group_of(model_for(law, recording)) for law in of.trials}
+    found = {law: assess(trials, recording, low_speed) for law, trials in of.trials.items()}
+    entries = {law: entry for law, entry in found.items() if entry is not None}
+    return Assessed(of.joint, data, groups, entries)
 
 
 def best_trial(trials: Sequence[Trial]) -> Trial | None:

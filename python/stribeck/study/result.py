@@ -11,26 +11,9 @@ import numpy as np
 import polars as pl
 
 from stribeck.energy import Energy, total_energy
-from stribeck.study.assess import Entry
+from stribeck.study.assess import Entry, JointData
 from stribeck.study.plan import GROUPS, Group, Plan, Skipped
 from stribeck.study.trial import Trial
-
-
-@dataclass(frozen=True)
-class JointData:
-    """What was scored of a joint.
-
-    Attributes
-    ----------
-    low_speed
-        What counts as low speed, in the unit of velocity.
-    """
-
-    rows: int
-    scored: Mapping[str, float]
-    torque_unit: str
-    velocity_unit: str
-    low_speed: float
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.space import SearchSpace
 from stribeck.model import Model
 from stribeck.recording import Recording
+from stribeck.study.crew import Desk
 from stribeck.study.plan import Job
 
 #: Each start is brought to its own minimum on all rows. Held-out blocks are predicted by the
@@ -79,6 +80,12 @@ def start_model(law: str, recording: Recording, start: int, seed: int) -> Model:
         rng = np.random.default_rng([seed, start])
         values[search.nonlinear] = search.decode(rng.uniform(size=int(search.nonlinear.sum())))
     return model.with_values(values)
+
+
+def fit_trials(desk: Desk, jobs: Sequence[Job]) -> list[Trial]:
+    """The fits of a law on a joint, whose starts are all there or none."""
+    joint = jobs[0].joint
+    return run_trials(jobs, desk.recording(joint), desk.transient(joint), desk.seed)
 
 
 def run_trials(

@@ -1,0 +1,119 @@
+"""Who works on a study: this process, or several that stay to its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from types import TracebackType
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.identify.transients import transient_rows
+from stribeck.parallel import LocalPool, Stopped, in_processes
+from stribeck.recording import Recording, read
+from stribeck.study.plan import Plan
+
+Work = TypeVar("Work")
+Result = TypeVar("Result")
+
+
+class Desk:
+    """What a process has at hand: the joint it read last, as pieces of work come joint by joint.
+
+    Parameters
+    ----------
+    path, reading, seed
+        Those of the plan.
+    """
+
+    def __init__(self, path: str, reading: Mapping[str, Any], seed: int) -> None:
+        self.seed = seed
+        self._path, self._reading = path, reading
+        self._recording: tuple[str | None, Recording] | None = None
+        self._transient: NDArray[np.bool_] | None = None
+
+    def recording(self, joint: str | None) -> Recording:
+        """The recording of a joint."""
+        if self._recording is None or self._recording[0] != joint:
+            self._recording = self._transient = None
+            self._recording = joint, read(self._path, **{**self._reading, "joint": joint})
+        return self._recording[1]
+
+    def transient(self, joint: str | None) -> NDArray[np.bool_]:
+        """Rows of a joint that nothing is fitted to (`stribeck.identify.transients`)."""
+        recording = self.recording(joint)
+        if self._transient is None:
+            self._transient = transient_rows(recording)
+        return self._transient
+
+
+class Crew:
+    """Does pieces of work of a study, each at a desk.
+
+    Parameters
+    ----------
+    workers
+        Processes; 1: this one.
+    """
+
+    def __init__(self, plan: Plan, workers: int) -> None:
+        desk = (plan.path, plan.reading, plan.seed)
+        self._desk = Desk(*desk)
+        self._pool = LocalPool(workers, _begin, desk) if workers > 1 else None
+
+    def each(
+        self,
+        do: Callable[[Desk, Work], Result],
+        pieces: Iterable[Work],
+        finished: Callable[[Result], None],
+    ) -> None:
+        """Do every piece, and hand each result over as it is ready, in any order.
+
+        Parameters
+        ----------
+        do
+            A function of a module: processes find it by name.
+
+        Raises
+        ------
+        Stopped
+            On Ctrl-C. Work under way is dropped at once.
+        """
+        if self._pool is not None:
+            calls = ((do, piece) for piece in pieces)
+            in_processes(_at_desk, calls, finished, self._pool, what="the study")
+            return
+        try:
+            for piece in pieces:
+                finished(do(self._desk, piece))
+        except KeyboardInterrupt:
+            raise Stopped from None
+
+    def __enter__(self) -> Crew:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self._pool is not None:
+            self._pool.__exit__(kind, error, traceback)
+
+
+_desk: Desk | None = None
+
+
+def _begin(path: str, reading: Mapping[str, Any], seed: int) -> None:
+    """Ready a process of the pool for its study."""
+    global _desk
+    _desk = Desk(path, reading, seed)
+
+
+def _at_desk(call: tuple[Callable[[Desk, Work], Result], Work]) -> Result:
+    """A piece of work in a process of the pool."""
+    assert _desk is not None
+    do, piece = call
+    return do(_desk, piece)
