@@ -31,13 +31,15 @@ def install() -> None:
         return
     if shutil.which("apt-get") is None or os.geteuid() != 0:
         raise Unavailable("valgrind is missing and apt-get cannot install it here")
-    command = ["apt-get", "install", "--yes", "--quiet", "--no-install-recommends",
-               "valgrind", "libc6-dbg"]  # fmt: skip
+    # A mirror that does not answer would be waited for.
+    apt = ["timeout", "600", "apt-get", "--yes", "--quiet"]
+    install = [*apt, "install", "--no-install-recommends", "valgrind", "libc6-dbg"]
     environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for first in ([], ["apt-get", "update", "--quiet"]):
-        if first:
-            subprocess.run(first, capture_output=True, check=False)
-        subprocess.run(command, env=environment, capture_output=True, check=False)
+    for commands in ([install], [[*apt, "update"], install]):
+        for command in commands:
+            subprocess.run(
+                command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False
+            )
         if shutil.which("valgrind") is not None:
             return
     raise Unavailable("apt-get could not install valgrind")

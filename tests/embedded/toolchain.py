@@ -75,12 +75,15 @@ def install() -> None:
         return
     if shutil.which("apt-get") is None or os.geteuid() != 0:
         raise Unavailable(f"{missing()[0]} is missing and apt-get cannot install it here")
-    command = ["apt-get", "install", "--yes", "--quiet", "--no-install-recommends", *PACKAGES]
+    # A mirror that does not answer would be waited for.
+    apt = ["timeout", "600", "apt-get", "--yes", "--quiet"]
+    install = [*apt, "install", "--no-install-recommends", *PACKAGES]
     environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for first in ([], ["apt-get", "update", "--quiet"]):
-        if first:
-            subprocess.run(first, capture_output=True, check=False)
-        subprocess.run(command, env=environment, capture_output=True, check=False)
+    for commands in ([install], [[*apt, "update"], install]):
+        for command in commands:
+            subprocess.run(
+                command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False
+            )
         if not missing():
             return
     raise Unavailable(f"apt-get could not install {' '.join(PACKAGES)}: {missing()[0]} is missing")

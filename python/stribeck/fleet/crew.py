@@ -205,9 +205,7 @@ class Dask:
                 f"`dask scheduler`, which says its address"
             ) from None
         self._executor: Executor = self._client.get_executor(pure=False)
-        self._threads, self._counted = 1, -float("inf")
-        if not self._client.nthreads():
-            note(f"no worker has joined {address} yet; start one with `dask worker {address}`")
+        self._note, self._threads, self._counted = note, 1, -float("inf")
 
     def executor(self) -> Executor:
         return self._executor
@@ -216,9 +214,14 @@ class Dask:
         """A piece for each thread of the cluster, which may grow and shrink meanwhile."""
         now = time.monotonic()
         if now - self._counted > BETWEEN_COUNTS:
-            self._threads = max(sum(self._client.nthreads().values()), 1)
+            before, self._threads = self._threads, sum(self._client.nthreads().values())
             self._counted = now
-        return self._threads
+            if before and not self._threads:
+                self._note(
+                    f"{self._address} has no worker: the run waits for one; start it with "
+                    f"`dask worker {self._address}`"
+                )
+        return max(self._threads, 1)
 
     def is_loss(self, error: BaseException) -> bool:
         return isinstance(error, self._loss)

@@ -22,17 +22,25 @@ FLAGS = (
 CREEP = "creep = creep_torque*tanh(v/creep_speed) + exp(-abs(q))*creep_bias"
 
 
-@cache
 def needs(tool: str) -> str:
     """The path of a tool, installed where that can be; else a skip that says what is missing."""
-    if shutil.which(tool) is None and shutil.which("apt-get") and os.geteuid() == 0:
-        command = ["apt-get", "install", "--yes", "--quiet", "--no-install-recommends", tool]
-        environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-        subprocess.run(command, env=environment, capture_output=True, check=False)
-    path = shutil.which(tool)
+    path = _installed(tool)
     if path is None:
         pytest.skip(f"{tool} is not installed (Debian: apt-get install {tool})")
     return path
+
+
+@cache
+def _installed(tool: str) -> str | None:
+    if shutil.which(tool) is None and shutil.which("apt-get") and os.geteuid() == 0:
+        # Another process of the tests may be at it; a mirror may never answer.
+        command = ["timeout", "300", "apt-get", "-o", "DPkg::Lock::Timeout=240", "--yes"]
+        command += ["install", "--no-install-recommends", tool]
+        environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+        subprocess.run(
+            command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False
+        )
+    return shutil.which(tool)
 
 
 def valued(model: sb.Model, rng: np.random.Generator) -> sb.Model:

@@ -44,9 +44,12 @@ class Cluster:
         self._start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard")
         self.scheduler = self._processes[0]
         self.address = self._wait_for(r"Scheduler at:\s*(tcp://\S+)")
-        words = ("worker", self.address, "--nthreads", "1", "--no-dashboard")
+        self.workers = [self.hire(nanny=nanny) for _ in range(2)]
+
+    def hire(self, *, nanny: bool = False) -> subprocess.Popen[bytes]:
+        """One worker more."""
         watched = "--nanny" if nanny else "--no-nanny"
-        self.workers = [self._start(*words, watched) for _ in range(2)]
+        return self._start("worker", self.address, "--nthreads", "1", "--no-dashboard", watched)
 
     def _start(self, *words: str) -> subprocess.Popen[bytes]:
         with (self._folder / f"{len(self._processes)}.log").open("wb") as log:
@@ -96,6 +99,26 @@ def test_a_piece_that_ends_its_workers_is_given_up_alone(tmp_path: Path) -> None
         cluster.close()
     assert sorted(done) == [n * n for n in range(8) if n != 3]
     assert given_up == [3]
+
+
+def test_a_cluster_that_has_lost_all_workers_is_waited_for(cluster: Cluster) -> None:
+    done: list[int] = []
+    said: list[str] = []
+
+    def note(sentence: str) -> None:
+        said.append(sentence)
+        cluster.hire()
+
+    for worker in cluster.workers:
+        worker.kill()
+        worker.wait(timeout=10)
+    crew = Dask(cluster.address, note)
+    try:
+        run(square_unless_three, range(3), crew, done.append, lambda piece: None)
+    finally:
+        crew.close()
+    assert sorted(done) == [0, 1, 4]
+    assert len(said) == 1 and f"{cluster.address} has no worker" in said[0]
 
 
 def test_a_killed_worker_costs_no_answer(
