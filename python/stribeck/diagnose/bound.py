@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from stribeck.diagnose.floor import state_features
 from stribeck.fit import Fit
 from stribeck.identify.figures import rms
+from stribeck.parallel import threads
 
 Array = NDArray[np.float64]
 
@@ -87,7 +88,11 @@ def _held_out(features: Array, residual: Array, block: NDArray[np.intp]) -> Arra
     blocks = np.unique(block)
     for fold in np.array_split(blocks, min(FOLDS, blocks.size)):
         unseen = np.isin(block, fold)
-        trees = ExtraTreesRegressor(TREES, min_samples_leaf=LEAF, random_state=0)
+        trees = ExtraTreesRegressor(
+            TREES, min_samples_leaf=LEAF, random_state=0, n_jobs=threads()
+        )  # fmt: skip
         trees.fit(features[~unseen], residual[~unseen])
+        # On several threads their answers would be summed in any order.
+        trees.set_params(n_jobs=1)
         predicted[unseen] = trees.predict(features[unseen])
     return predicted

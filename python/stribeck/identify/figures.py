@@ -9,6 +9,9 @@ from stribeck.recording import Recording
 
 Array = NDArray[np.float64]
 
+#: Segments of so many rows are too short to be filtered.
+SHORTEST = 30
+
 
 def rms(values: Array) -> float:
     """Root mean square; NaN of nothing."""
@@ -37,10 +40,12 @@ def zero_phase(recording: Recording, values: Array) -> Array:
 
     filtered = values.copy()
     sos = butter(4, cutoff, fs=recording.rate_hz, output="sos")
-    edges = np.flatnonzero(np.diff(recording.segment)) + 1
-    for piece in np.split(np.arange(values.size), edges):
-        if piece.size > 30:
-            filtered[piece] = sosfiltfilt(sos, values[piece])
+    first = np.flatnonzero(np.diff(recording.segment, prepend=-1))
+    length = np.diff(first, append=values.size)
+    # Segments of one length go through the filter together.
+    for size in np.unique(length[length > SHORTEST]):
+        rows = first[length == size][:, None] + np.arange(size)
+        filtered[rows] = sosfiltfilt(sos, values[rows])
     return filtered
 
 

@@ -112,8 +112,16 @@ def effect_constants(
     if effect == "ripple":
         stroke = effect_constants("spring", recording)
         return {**stroke, "ripple_period": ripple_period(recording, residual)} if stroke else {}
-    if recording.excerpt_of is not None and (effect != "load" or load is None):
-        recording = recording.excerpt_of
+    if effect == "load" and load is not None:
+        return _constants(effect, recording, load)
+    recording = recording if recording.excerpt_of is None else recording.excerpt_of
+    name = f"constants of {effect}"
+    if name not in recording.remembered:
+        recording.remembered[name] = _constants(effect, recording)
+    return dict(recording.remembered[name])
+
+
+def _constants(effect: str, recording: Recording, load: Array | None = None) -> dict[str, float]:
     moving = recording.moving
     if effect in ("temperature_viscous", "temperature_dry"):
         if recording.temperature is None:

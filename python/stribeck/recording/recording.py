@@ -170,6 +170,11 @@ class Recording:
         return {}
 
     @cached_property
+    def remembered(self) -> dict[str, Any]:
+        """What was found of this recording at some cost and is asked for again, by name."""
+        return {}
+
+    @cached_property
     def elapsed(self) -> Floats:
         """Time since the first row, s, [n]; a run that sets its clock back goes on from before."""
         step = np.diff(self.time, prepend=self.time[:1])

@@ -102,12 +102,14 @@ def _differences(time: Floats, value: Floats, slices: list[slice], order: int) -
         n = len(t) - order
         if n <= 0:
             continue
+        lag = [t[k:] - t[: t.size - k] for k in range(order + 1)]
         weights = np.empty((order + 1, n))
         for j in range(order + 1):
-            product = np.ones(n)
+            product = np.full(n, (-1.0) ** (order - j))
             for m in range(order + 1):
                 if m != j:
-                    product *= t[j : j + n] - t[m : m + n]
+                    first = min(j, m)
+                    product *= lag[abs(j - m)][first : first + n]
             weights[j] = 1.0 / product
         weights /= np.sqrt((weights**2).sum(axis=0))
         windows = np.stack([x[j : j + n] for j in range(order + 1)])
