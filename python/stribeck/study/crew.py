@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.identify.transients import transient_rows
 from stribeck.parallel import LocalPool, Stopped, in_processes
-from stribeck.recording import Recording, read
+from stribeck.recording import Recording
 from stribeck.study.plan import Plan
 
 Work = TypeVar("Work")
@@ -19,17 +19,10 @@ Result = TypeVar("Result")
 
 
 class Desk:
-    """What a process has at hand: the joint it read last, as pieces of work come joint by joint.
+    """What a process has at hand: the joint it read last, as pieces of work come joint by joint."""
 
-    Parameters
-    ----------
-    path, reading, seed
-        Those of the plan.
-    """
-
-    def __init__(self, path: str, reading: Mapping[str, Any], seed: int) -> None:
-        self.seed = seed
-        self._path, self._reading = path, reading
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
         self._recording: tuple[str | None, Recording] | None = None
         self._transient: NDArray[np.bool_] | None = None
 
@@ -37,7 +30,7 @@ class Desk:
         """The recording of a joint."""
         if self._recording is None or self._recording[0] != joint:
             self._recording = self._transient = None
-            self._recording = joint, read(self._path, **{**self._reading, "joint": joint})
+            self._recording = joint, self.plan.read(joint)
         return self._recording[1]
 
     def transient(self, joint: str | None) -> NDArray[np.bool_]:
@@ -58,9 +51,8 @@ class Crew:
     """
 
     def __init__(self, plan: Plan, workers: int) -> None:
-        desk = (plan.path, plan.reading, plan.seed)
-        self._desk = Desk(*desk)
-        self._pool = LocalPool(workers, _begin, desk) if workers > 1 else None
+        self._desk = Desk(plan)
+        self._pool = LocalPool(workers, _begin, (plan,)) if workers > 1 else None
 
     def each(
         self,
@@ -106,10 +98,10 @@ class Crew:
 _desk: Desk | None = None
 
 
-def _begin(path: str, reading: Mapping[str, Any], seed: int) -> None:
+def _begin(plan: Plan) -> None:
     """Ready a process of the pool for its study."""
     global _desk
-    _desk = Desk(path, reading, seed)
+    _desk = Desk(plan)
 
 
 def _at_desk(call: tuple[Callable[[Desk, Work], Result], Work]) -> Result:

@@ -85,7 +85,7 @@ def start_model(law: str, recording: Recording, start: int, seed: int) -> Model:
 def fit_trials(desk: Desk, jobs: Sequence[Job]) -> list[Trial]:
     """The fits of a law on a joint, whose starts are all there or none."""
     joint = jobs[0].joint
-    return run_trials(jobs, desk.recording(joint), desk.transient(joint), desk.seed)
+    return run_trials(jobs, desk.recording(joint), desk.transient(joint), desk.plan.seed)
 
 
 def run_trials(
