@@ -223,15 +223,20 @@ def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]
         if len(joints) == 1:
             return joints[0], everything
         raise RecordingError(
-            f"{path}: holds {len(joints)} joints: name one with --joint ({', '.join(joints)})"
+            f"{path}: holds {len(joints)} joints: name one with --joint ({_listed(joints)})"
         )
     if joint not in joints:
         hint = nearest(joint, joints)
         raise RecordingError(
-            f"{path}: there is no joint '{joint}'{hint or '; there are ' + ', '.join(joints)}"
+            f"{path}: there is no joint '{joint}'{hint or '; there are ' + _listed(joints)}"
         )
     names = labels(prepared.table, prepared.choices["joint"].source)
     return joint, np.flatnonzero(names == joint)
+
+
+def _listed(names: list[str]) -> str:
+    """Names as they are typed; rows may have none."""
+    return ", ".join(name or "''" for name in names)
 
 
 def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) -> Floats:

@@ -239,6 +239,12 @@ def test_load_torque(write, frame):
     assert any("friction was measured directly" in note for note in direct.notes)
 
 
+def test_rows_without_a_joint(write, frame):
+    with_gaps = pl.concat([frame.with_columns(joint=pl.lit(n)) for n in ("a", None)])
+    with pytest.raises(RecordingError, match=r"name one with --joint \(a, ''\)"):
+        read(write(with_gaps))
+
+
 def test_several_joints(write, frame):
     two = pl.concat(
         [
