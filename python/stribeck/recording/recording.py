@@ -154,20 +154,17 @@ class Recording:
         The smoothed channel where it differs by noise alone, the measured one elsewhere; where a
         channel has no smoothed form, itself. Found once.
         """
-        if channel not in self._denoised:
+        name = f"{channel} without noise"
+        if name not in self.remembered:
             measured = getattr(self, channel)
             smooth = getattr(self, f"{channel}_smooth", None)
             if smooth is None or smooth is measured:
-                self._denoised[channel] = measured
+                self.remembered[name] = measured
             else:
                 sigma = noise_level(self.time, measured, self.segment)
                 near = np.abs(smooth - measured) <= SIGMAS * sigma
-                self._denoised[channel] = np.where(near, smooth, measured)
-        return self._denoised[channel]
-
-    @cached_property
-    def _denoised(self) -> dict[str, Floats]:
-        return {}
+                self.remembered[name] = np.where(near, smooth, measured)
+        return self.remembered[name]
 
     @cached_property
     def remembered(self) -> dict[str, Any]:

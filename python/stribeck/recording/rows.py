@@ -102,7 +102,7 @@ def _differences(time: Floats, value: Floats, slices: list[slice], order: int) -
         n = len(t) - order
         if n <= 0:
             continue
-        lag = [t[k:] - t[: t.size - k] for k in range(order + 1)]
+        lag = {k: t[k:] - t[:-k] for k in range(1, order + 1)}
         weights = np.empty((order + 1, n))
         for j in range(order + 1):
             product = np.full(n, (-1.0) ** (order - j))

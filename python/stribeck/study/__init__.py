@@ -16,7 +16,7 @@ from stribeck.model_file import write_whole
 from stribeck.parallel import Stopped, worker_count
 from stribeck.report.files import save_figure
 from stribeck.study.assess import Assessed, JointTrials, assess_joint
-from stribeck.study.crew import Crew, Desk
+from stribeck.study.crew import Crew, Desk, crew_of
 from stribeck.study.plan import REVIEW, STARTS, Job, Plan, make_plan
 from stribeck.study.result import Study, Table, make_tables
 from stribeck.study.store import Store
@@ -78,7 +78,7 @@ def study(
         for sentence in plan.notes:
             note(sentence)
     store = Store(Path(output), plan)
-    with Crew(plan, worker_count(workers)) as crew:
+    with crew_of(plan, worker_count(workers)) as crew:
         _fit(plan, store, crew, progress)
         result = _result(plan, store, low_speed, crew)
         _write(result, crew)

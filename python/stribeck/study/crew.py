@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from types import TracebackType
+import contextlib
+from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
 import numpy as np
@@ -41,18 +41,27 @@ class Desk:
         return self._transient
 
 
+@contextlib.contextmanager
+def crew_of(plan: Plan, workers: int) -> Iterator[Crew]:
+    """So many processes, to the end of the context; 1: this one."""
+    if workers <= 1:
+        yield Crew(plan, None)
+        return
+    with LocalPool(workers, _begin, (plan,)) as pool:
+        yield Crew(plan, pool)
+
+
 class Crew:
     """Does pieces of work of a study, each at a desk.
 
     Parameters
     ----------
-    workers
-        Processes; 1: this one.
+    pool
+        Processes with a desk each; None: here.
     """
 
-    def __init__(self, plan: Plan, workers: int) -> None:
-        self._desk = Desk(plan)
-        self._pool = LocalPool(workers, _begin, (plan,)) if workers > 1 else None
+    def __init__(self, plan: Plan, pool: LocalPool | None) -> None:
+        self._desk, self._pool = Desk(plan), pool
 
     def each(
         self,
@@ -81,18 +90,6 @@ class Crew:
                 finished(do(self._desk, piece))
         except KeyboardInterrupt:
             raise Stopped from None
-
-    def __enter__(self) -> Crew:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        if self._pool is not None:
-            self._pool.__exit__(kind, error, traceback)
 
 
 _desk: Desk | None = None
