@@ -26,6 +26,9 @@ Mask = NDArray[np.bool_]
 SAME = 1e-4
 #: Searches have ended in the same place where their search coordinates agree to this as well.
 NEAR = 0.01
+#: A coarse search with so many times the sum of squares of the best one is not gone on with: more
+#: rows will not make up for an error a fifth larger.
+HOPELESS = 1.5
 #: Sums of squares that agree to this share are one minimum, or equal ones.
 TIE = 1e-9
 #: Without bounds, random starts lie within this factor of the given one, either way.
@@ -150,7 +153,8 @@ def _between_bounds(
     for coarse in _coarse(problem, effort):
         tried = _searched(coarse, at, space, effort)
         evaluations += sum(search.evaluations for search in tried)
-        tried = _apart(tried, space)[: effort.finished]
+        tried = [search for search in _apart(tried, space) if not _is_hopeless(search, tried)]
+        tried = tried[: effort.finished]
         at = np.stack([search.values for search in tried])
     return tried, evaluations
 
@@ -159,7 +163,7 @@ def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) ->
     """Coarse searches between bounds from `at`, array [k, p]."""
     return minimise_from(
         coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
-        tolerance=COARSE,
+        logarithmic=space.logarithmic, tolerance=COARSE,
     )  # fmt: skip
 
 
@@ -167,6 +171,10 @@ def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
     """One of each group of searches that ended in the same place, best first."""
     ranked = sorted(tried, key=lambda search: search.square)
     return [ranked[k] for k in np.unique(_leaders(ranked, space))]
+
+
+def _is_hopeless(search: Search, tried: list[Search]) -> bool:
+    return search.square > HOPELESS * min(other.square for other in tried)
 
 
 def _leaders(ended: Sequence[Search], space: SearchSpace) -> NDArray[np.intp]:

@@ -20,12 +20,20 @@ class SearchSpace:
     ----------
     lower, upper : arrays [p]
         Bounds of all parameters of `model`.
+
+    Attributes
+    ----------
+    nonlinear, logarithmic : bool arrays [p]
+        Which parameters have a coordinate, and in the logarithm of which a search steps: in that
+        of the stiffness of bristles. A step that suits a soft one is nothing to a stiff one.
     """
 
     def __init__(self, model: Model, lower: Array, upper: Array) -> None:
         linear = np.array([p.linear for p in model.parameters], dtype=bool)
         self.lower, self.upper = lower, upper
         self.nonlinear = ~linear & (lower < upper)
+        stiffness = np.array([p.scale == "stiffness" for p in model.parameters], dtype=bool)
+        self.logarithmic = self.nonlinear & stiffness & (lower > 0.0)
         self._low, self._high = lower[self.nonlinear], upper[self.nonlinear]
         self._log = self._low > 0
 
