@@ -139,7 +139,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
 
     /// Damped steps until the next one would change nothing.
     fn descend(&mut self, start: Vec<f64>, steps: Steps) -> Result<Search, P::Error> {
-        let Some(mut point) = self.at(start.clone())? else {
+        let Some(mut point) = self.at(start.clone(), f64::INFINITY)? else {
             return Ok(self.ended(start, f64::INFINITY, Outcome::NotFinite));
         };
         // Below this a fall cannot be told from the rounding of the torque itself.
@@ -163,9 +163,10 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
                 _ => self.step(&point, Some((Real::sqrt(damping), &scale))),
             };
             let foreseen = point.triangle.fall(&step);
-            let tried = self.at(self.moved(&point.values, &step))?;
-            match tried.map(|tried| (square - tried.triangle.square(), tried)) {
-                Some((fall, tried)) if fall >= -noise * Real::sqrt(square) => {
+            let most = square + noise * Real::sqrt(square);
+            match self.at(self.moved(&point.values, &step), most)? {
+                Some(tried) if tried.triangle.square() <= most => {
+                    let fall = square - tried.triangle.square();
                     let share =
                         if foreseen > 0.0 { (fall / foreseen).clamp(0.0, 1.0) } else { 0.0 };
                     let apart = 2.0 * share - 1.0;
@@ -192,8 +193,9 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         Search { values, square, outcome, evaluations: self.evaluations }
     }
 
-    /// The point with the nonlinear parameters of `values`; none where it is not finite.
-    fn at(&mut self, values: Vec<f64>) -> Result<Option<Point>, P::Error> {
+    /// The point with the nonlinear parameters of `values`; none where it is not finite. Columns are
+    /// not computed anew where the sum of squares is above `most`: the point is not gone on from.
+    fn at(&mut self, values: Vec<f64>, most: f64) -> Result<Option<Point>, P::Error> {
         let mut found = self.linearised(values)?;
         for _ in 0..2 {
             let Some(point) = found else { return Ok(None) };
@@ -202,7 +204,8 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
             }
             let square = point.triangle.square();
             let solved = self.with_linear_solved(point);
-            if square - solved.triangle.square() <= BENT * square {
+            let left = solved.triangle.square();
+            if left > most || square - left <= BENT * square {
                 return Ok(Some(solved));
             }
             found = self.linearised(solved.values)?;
