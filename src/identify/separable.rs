@@ -18,6 +18,12 @@ const LEAST_RETREAT: f64 = 5e-4;
 const MOST_DAMPING: f64 = 1e20;
 /// A damping below which there is none.
 const NO_DAMPING: f64 = 1e-12;
+/// Lengths of columns that a step was scaled by are remembered, and fade by this share with each
+/// step: a column that was once very long would hold its parameter for good.
+const FADING: f64 = 0.5;
+/// After so many steps in a row that lower the sum of squares by less than the tolerance a search is
+/// over: in the bend of a model that has one, the undamped step never foresees so little.
+const MOST_IDLE: usize = 3;
 /// A linear step that lowers the sum of squares by more than this share bends the columns of the
 /// nonlinear parameters: they are computed anew.
 const BENT: f64 = 1e-3;
@@ -62,7 +68,8 @@ pub struct Bounds<'a> {
 /// How a search goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steps {
-    /// The search ends when the undamped step foresees a smaller relative fall.
+    /// The search ends when the undamped step foresees a smaller relative fall, or some damped ones
+    /// bring a smaller one.
     pub tolerance: f64,
     /// Most steps, those that are taken back included.
     pub most: usize,
@@ -73,7 +80,7 @@ pub struct Steps {
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// The next step would change nothing.
+    /// Another step would change nothing.
     Converged,
     /// No step can be told from rounding.
     ToRounding,
@@ -147,16 +154,18 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         let mut damping = steps.damping;
         let mut scale = vec![0.0; self.order.len()];
         let mut growth = 2.0;
+        let mut idle = 0;
         let mut outcome = Outcome::Stopped;
         for _ in 0..steps.most {
             let square = point.triangle.square();
             let full = self.step(&point, None);
-            if point.triangle.fall(&full) <= (steps.tolerance * square).max(noise * noise) {
+            let least = (steps.tolerance * square).max(noise * noise);
+            if idle == MOST_IDLE || point.triangle.fall(&full) <= least {
                 outcome = Outcome::Converged;
                 break;
             }
             for (scale, length) in scale.iter_mut().zip(self.lengths(&point.triangle)) {
-                *scale = f64::max(*scale, length);
+                *scale = f64::max(FADING * *scale, length);
             }
             let step = match damping {
                 0.0 => full,
@@ -167,6 +176,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
             match self.at(self.moved(&point.values, &step), most)? {
                 Some(tried) if tried.triangle.square() <= most => {
                     let fall = square - tried.triangle.square();
+                    idle = if fall > least { 0 } else { idle + 1 };
                     let share =
                         if foreseen > 0.0 { (fall / foreseen).clamp(0.0, 1.0) } else { 0.0 };
                     let apart = 2.0 * share - 1.0;
