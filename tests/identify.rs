@@ -151,6 +151,55 @@ fn bounds_hold_and_equal_ones_hold_a_parameter() {
     assert_eq!(infinite.unwrap().outcome, Outcome::NotFinite);
 }
 
+#[test]
+fn a_search_says_what_it_has_become_blind_to() {
+    // With an amplitude above zero the best is none, and then no decay is better than another.
+    let decay = Decay::new(-3.0, 1.7, -0.4);
+    let bounds = Bounds {
+        lower: &[0.0, 0.1, -9.0],
+        upper: &[9.0, 5.0, 9.0],
+        linear: &[true, false, true],
+        logarithmic: &[false; 3],
+    };
+    let found = minimise(&decay, &[1.0, 1.0, 0.0], &bounds, CAUTIOUS).unwrap();
+    assert_eq!((found.values[0], found.blind), (0.0, vec![1]));
+    let seen = minimise(&Decay::new(3.0, 1.7, -0.4), &[1.0, 1.0, 0.0], &bounds, CAUTIOUS).unwrap();
+    assert!(seen.blind.is_empty());
+}
+
+/// y = 1 + |x - 0.3| + x / 4, which is bent where it is least, measured as zero.
+struct Bend;
+
+impl LeastSquares for Bend {
+    type Error = BatchError;
+
+    fn triangle(
+        &self,
+        values: &[f64],
+        wanted: &[usize],
+        slope: &[f64],
+    ) -> Result<Option<Triangle>, BatchError> {
+        let apart = values[0] - 0.3;
+        let by_x: Vec<f64> =
+            wanted.iter().zip(slope).map(|(_, slope)| (apart.signum() + 0.25) * slope).collect();
+        let residual = [-(1.0 + apart.abs() + 0.25 * values[0])];
+        Ok(triangles(&by_x, wanted.len(), &residual, &[0], 1)?.pop())
+    }
+
+    fn torque_norm(&self) -> Result<f64, BatchError> {
+        Ok(1.0)
+    }
+}
+
+#[test]
+fn a_search_ends_in_a_bend() {
+    let bounds = Bounds { lower: &[-9.0], upper: &[9.0], linear: &[false], logarithmic: &[false] };
+    let steps = Steps { tolerance: 1e-6, most: 200, damping: 1e-2 };
+    let found = minimise(&Bend, &[2.0], &bounds, steps).unwrap();
+    assert_eq!(found.outcome, Outcome::Converged);
+    close(found.values[0], 0.3, 1e-5);
+}
+
 fn motion(rows: usize) -> Vec<f64> {
     (0..rows)
         .map(|i| 0.3 * (0.02 * i as f64 + 0.4).sin() + 0.05 * (0.11 * i as f64).sin())

@@ -99,6 +99,8 @@ pub struct Search {
     pub square: f64,
     /// How it ended.
     pub outcome: Outcome,
+    /// Nonlinear parameters on which the torque does not depend there: no step changes them.
+    pub blind: Vec<usize>,
     /// How often the problem was linearised.
     pub evaluations: usize,
 }
@@ -147,7 +149,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
     /// Damped steps until the next one would change nothing.
     fn descend(&mut self, start: Vec<f64>, steps: Steps) -> Result<Search, P::Error> {
         let Some(mut point) = self.at(start.clone(), f64::INFINITY)? else {
-            return Ok(self.ended(start, f64::INFINITY, Outcome::NotFinite));
+            return Ok(self.ended(start, None, Outcome::NotFinite));
         };
         // Below this a fall cannot be told from the rounding of the torque itself.
         let noise = 4.0 * f64::EPSILON * self.problem.torque_norm()?;
@@ -195,12 +197,20 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
                 }
             }
         }
-        let square = point.triangle.square();
-        Ok(self.ended(point.values, square, outcome))
+        Ok(self.ended(point.values, Some(&point.triangle), outcome))
     }
 
-    fn ended(&self, values: Vec<f64>, square: f64, outcome: Outcome) -> Search {
-        Search { values, square, outcome, evaluations: self.evaluations }
+    fn ended(&self, values: Vec<f64>, there: Option<&Triangle>, outcome: Outcome) -> Search {
+        let square = there.map_or(f64::INFINITY, Triangle::square);
+        let blind = there.map_or(vec![], |triangle| self.blind(triangle));
+        Search { values, square, outcome, blind, evaluations: self.evaluations }
+    }
+
+    /// The nonlinear parameters whose columns are nothing.
+    fn blind(&self, triangle: &Triangle) -> Vec<usize> {
+        let count = self.order.len();
+        let nothing = |&k: &usize| (0..count).all(|row| triangle.row(row)[k] == 0.0);
+        (self.linear..count).filter(nothing).map(|k| self.order[k]).collect()
     }
 
     /// The point with the nonlinear parameters of `values`; none where it is not finite. Columns are

@@ -149,8 +149,9 @@ pub fn slides<'py>(
     measured.detached(py, model, 1, 1, |problem| problem.slides(&values))
 }
 
-/// Values, their sum of squares, whether the search converged, how it ended, evaluations.
-type Found<'py> = (Bound<'py, PyArray1<f64>>, f64, bool, &'static str, usize);
+/// Values, their sum of squares, whether the search converged, how it ended, evaluations, and the
+/// parameters that it was blind to at its end.
+type Found<'py> = (Bound<'py, PyArray1<f64>>, f64, bool, &'static str, usize, Vec<usize>);
 
 fn found(py: Python<'_>, search: Search) -> Found<'_> {
     let (converged, outcome) = match search.outcome {
@@ -159,11 +160,12 @@ fn found(py: Python<'_>, search: Search) -> Found<'_> {
         Outcome::Stopped => (false, "stopped at the largest number of steps"),
         Outcome::NotFinite => (false, "the model is not finite at the start"),
     };
-    (search.values.into_pyarray(py), search.square, converged, outcome, search.evaluations)
+    let Search { values, square, blind, evaluations, .. } = search;
+    (values.into_pyarray(py), square, converged, outcome, evaluations, blind)
 }
 
 /// Searches from each of `starts`, array `[k, p]`, on as many threads: which one runs where
-/// changes nothing. List of values, sum of squares, whether it converged, how it ended, evaluations.
+/// changes nothing.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn search<'py>(

@@ -29,6 +29,8 @@ NEAR = 0.01
 #: A coarse search with so many times the sum of squares of the best one is not gone on with: more
 #: rows will not make up for an error a fifth larger.
 HOPELESS = 1.5
+#: How often a coarse search that ends blind to a parameter begins anew at most.
+ANEW = 3
 #: Sums of squares that agree to this share are one minimum, or equal ones.
 TIE = 1e-9
 #: Without bounds, random starts lie within this factor of the given one, either way.
@@ -160,11 +162,43 @@ def _between_bounds(
 
 
 def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) -> list[Search]:
-    """Coarse searches between bounds from `at`, array [k, p]."""
-    return minimise_from(
-        coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
-        logarithmic=space.logarithmic, tolerance=COARSE,
-    )  # fmt: skip
+    """Coarse searches between bounds from `at`, array [k, p].
+
+    Where the height of a curve comes to zero, nothing leads back to a better one. A search that
+    ends so begins anew further on, if a parameter that it is blind to is seen by one before it.
+    """
+
+    def searched(at: Array) -> list[Search]:
+        return minimise_from(
+            coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
+            logarithmic=space.logarithmic, tolerance=COARSE,
+        )  # fmt: skip
+
+    found = searched(at)
+    at = at.copy()
+    for _ in range(ANEW):
+        lost = _lost(found, space)
+        if not lost:
+            break
+        for k in lost:
+            at[k] = space.further(at[k], found[k].blind)
+        for k, again in zip(lost, searched(at[list(lost)]), strict=True):
+            evaluations = found[k].evaluations + again.evaluations
+            better = again if again.square < found[k].square else found[k]
+            found[k] = replace(better, evaluations=evaluations)
+    return found
+
+
+def _lost(found: list[Search], space: SearchSpace) -> list[int]:
+    """The searches that are blind to a parameter at their end which one before them sees."""
+    seen: set[int] = set()
+    lost = []
+    for k, search in enumerate(found):
+        if seen.intersection(search.blind):
+            lost.append(k)
+        if np.isfinite(search.square):
+            seen.update(set(np.flatnonzero(space.nonlinear).tolist()).difference(search.blind))
+    return lost
 
 
 def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:

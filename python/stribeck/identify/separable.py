@@ -7,6 +7,7 @@ held.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -51,13 +52,20 @@ class LeastSquares(Protocol):
 
 @dataclass
 class Search:
-    """Where one search ended."""
+    """Where one search ended.
+
+    Attributes
+    ----------
+    blind
+        Places of the nonlinear parameters on which the torque does not depend there.
+    """
 
     values: Array
     square: float
     converged: bool
     outcome: str
     evaluations: int
+    blind: Sequence[int] = ()
 
 
 def minimise(
@@ -78,7 +86,8 @@ def minimise(
     values, lower, upper : arrays [p]
         Start and bounds; infinite bounds are none, equal ones hold a parameter.
     tolerance : float
-        The search ends when the undamped step foresees a smaller relative fall.
+        The search ends when the undamped step foresees a smaller relative fall, or some damped ones
+        bring a smaller one.
     most : int
         Most steps, those that are taken back included.
     damping : float

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.model import Model
 
 Array = NDArray[np.float64]
+
+#: The golden section.
+GOLDEN = (5.0**0.5 - 1.0) / 2.0
 
 
 class SearchSpace:
@@ -52,6 +57,17 @@ class SearchSpace:
             logarithmic = low * (high / low) ** u
         x = np.where(self._log, logarithmic, low + u * (high - low))
         return np.clip(x, low, high)
+
+    def further(self, values: Array, parameters: Sequence[int]) -> Array:
+        """`values` [p] with some nonlinear parameters by the golden section of their range further.
+
+        Beyond its end it begins anew: never the same place twice, and everywhere in few steps.
+        """
+        which = np.isin(np.flatnonzero(self.nonlinear), parameters)
+        u = self.encode(values)
+        moved = values.copy()
+        moved[self.nonlinear] = self.decode(np.where(which, (u + GOLDEN) % 1.0, u))
+        return moved
 
     def drawn(self, start: Array, random: np.random.Generator) -> Array:
         """`start` [p] with nonlinear parameters at random, even over the search coordinates."""
