@@ -18,8 +18,9 @@ const LEAST_RETREAT: f64 = 5e-4;
 const MOST_DAMPING: f64 = 1e20;
 /// A damping below which there is none.
 const NO_DAMPING: f64 = 1e-12;
-/// Lengths of columns that a step was scaled by are remembered, and fade by this share with each
-/// step: a column that was once very long would hold its parameter for good.
+/// The longest that a column has been scales its damping, or its parameter might run away where
+/// nothing depends on it (Moré 1978). One between bounds cannot, and would be held for good by a
+/// column that was once very long: its length fades, to this share with each step.
 const FADING: f64 = 0.5;
 /// After so many steps in a row that lower the sum of squares by less than the tolerance a search is
 /// over: in the bend of a model that has one, the undamped step never foresees so little.
@@ -63,6 +64,12 @@ pub struct Bounds<'a> {
     pub linear: &'a [bool],
     /// Nonlinear parameters whose logarithm is stepped in; they keep their sign.
     pub logarithmic: &'a [bool],
+}
+
+impl Bounds<'_> {
+    fn enclose(&self, k: usize) -> bool {
+        self.lower[k].is_finite() && self.upper[k].is_finite()
+    }
 }
 
 /// How a search goes.
@@ -166,8 +173,10 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
                 outcome = Outcome::Converged;
                 break;
             }
-            for (scale, length) in scale.iter_mut().zip(self.lengths(&point.triangle)) {
-                *scale = f64::max(FADING * *scale, length);
+            let lengths = self.lengths(&point.triangle);
+            for (scale, (&k, length)) in scale.iter_mut().zip(self.order.iter().zip(lengths)) {
+                let kept = if self.bounds.enclose(k) { FADING * *scale } else { *scale };
+                *scale = f64::max(kept, length);
             }
             let step = match damping {
                 0.0 => full,
