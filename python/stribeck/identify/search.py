@@ -155,7 +155,8 @@ def _between_bounds(
     for coarse in _coarse(problem, effort):
         tried = _searched(coarse, at, space, effort)
         evaluations += sum(search.evaluations for search in tried)
-        tried = [search for search in _apart(tried, space) if not _is_hopeless(search, tried)]
+        apart = _apart(tried, space)
+        tried = [search for search in apart if search.square <= HOPELESS * apart[0].square]
         tried = tried[: effort.finished]
         at = np.stack([search.values for search in tried])
     return tried, evaluations
@@ -191,13 +192,14 @@ def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) ->
 
 def _lost(found: list[Search], space: SearchSpace) -> list[int]:
     """The searches that are blind to a parameter at their end which one before them sees."""
+    everything = set(np.flatnonzero(space.nonlinear).tolist())
     seen: set[int] = set()
     lost = []
     for k, search in enumerate(found):
         if seen.intersection(search.blind):
             lost.append(k)
         if np.isfinite(search.square):
-            seen.update(set(np.flatnonzero(space.nonlinear).tolist()).difference(search.blind))
+            seen |= everything.difference(search.blind)
     return lost
 
 
@@ -205,10 +207,6 @@ def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
     """One of each group of searches that ended in the same place, best first."""
     ranked = sorted(tried, key=lambda search: search.square)
     return [ranked[k] for k in np.unique(_leaders(ranked, space))]
-
-
-def _is_hopeless(search: Search, tried: list[Search]) -> bool:
-    return search.square > HOPELESS * min(other.square for other in tried)
 
 
 def _leaders(ended: Sequence[Search], space: SearchSpace) -> NDArray[np.intp]:
