@@ -1,5 +1,6 @@
 //! The loops over a block of rows, one an operation.
 
+use core::cell::Cell;
 use core::ops::Range;
 
 use super::operation::{Binary, Unary};
@@ -8,6 +9,17 @@ use crate::scalar::Real;
 
 /// Numbers of a block: what all operations leave stays in the first cache.
 pub const BLOCK: usize = 256;
+
+/// Room for a block. It begins with a line of the cache: a vector as long as a line that lay across
+/// two of them would be read and written twice.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub struct Buffer(pub [f64; BLOCK]);
+
+impl Buffer {
+    /// Of zeros.
+    pub const ZERO: Self = Self([0.0; BLOCK]);
+}
 
 /// Numbers of a block: one a row, or the same for all.
 #[derive(Clone, Copy, Debug)]
@@ -157,17 +169,17 @@ fn power(out: &mut [f64], x: Numbers<'_>, p: Numbers<'_>) {
         (x, Numbers::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
         (x, Numbers::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
         (Numbers::Each(x), Numbers::Same(p)) if plain(p) => {
-            let (mut high, mut low) = ([0.0; BLOCK], [0.0; BLOCK]);
-            logarithms(x, &mut high, &mut low);
-            for (((out, &x), high), low) in out.iter_mut().zip(x).zip(high).zip(low) {
+            let (mut high, mut low) = (Buffer::ZERO, Buffer::ZERO);
+            logarithms(x, &mut high.0, &mut low.0);
+            for (((out, &x), high), low) in out.iter_mut().zip(x).zip(high.0).zip(low.0) {
                 *out = elementary::powf_fast(x, (high, low), p);
             }
             mend_powers(out, x, |_| p);
         }
         (Numbers::Each(x), Numbers::Each(p)) => {
-            let (mut high, mut low) = ([0.0; BLOCK], [0.0; BLOCK]);
-            logarithms(x, &mut high, &mut low);
-            let rows = x.iter().zip(p).zip(high).zip(low);
+            let (mut high, mut low) = (Buffer::ZERO, Buffer::ZERO);
+            logarithms(x, &mut high.0, &mut low.0);
+            let rows = x.iter().zip(p).zip(high.0).zip(low.0);
             for (out, (((&x, &p), high), low)) in out.iter_mut().zip(rows) {
                 let power = elementary::powf_fast(x, (high, low), p);
                 *out = if plain(p) { power } else { f64::NAN };
@@ -201,8 +213,13 @@ fn mend_powers(out: &mut [f64], x: &[f64], p: impl Fn(usize) -> f64) {
 /// Products; the few that are no numbers are mended.
 #[inline(always)]
 fn chain_all(out: &mut [f64], slope: Numbers<'_>, by: Numbers<'_>) {
-    zip(out, slope, by, |slope, by| slope * by);
-    if any_nan(out) {
+    let nan = Cell::new(false);
+    zip(out, slope, by, |slope, by| {
+        let product = slope * by;
+        nan.set(nan.get() | product.is_nan());
+        product
+    });
+    if nan.get() {
         zip(out, slope, by, chain);
     }
 }

@@ -85,7 +85,7 @@ impl<'r> Rules<'r, '_> {
         let last = sum.iter().map(|&(id, _)| id).max().unwrap_or(0);
         let mut factors: Vec<Slope<'r>> = vec![None; last + 1];
         for &(id, factor) in sum.iter().filter(|&&(id, _)| self.depends[id]) {
-            factors[id] = plus(factors[id], Some(factor));
+            factors[id] = self.plus(factors[id], Some(factor));
         }
         let mut slopes = vec![None; self.wanted.len()];
         for id in (0..=last).rev() {
@@ -94,12 +94,12 @@ impl<'r> Rules<'r, '_> {
             let ends = matches!(operation, Operation::Parameter(_)) || operation.has_memory();
             if ends || self.known.contains_key(&id) {
                 for (sum, by) in slopes.iter_mut().zip(self.of(id)) {
-                    *sum = plus(*sum, by.map(|by| self.times(factor, by)));
+                    *sum = self.plus(*sum, by.map(|by| self.times(factor, by)));
                 }
                 continue;
             }
             for (operand, own) in self.shares(id, operation, factor) {
-                factors[operand] = plus(factors[operand], Some(own));
+                factors[operand] = self.plus(factors[operand], Some(own));
             }
         }
         slopes
@@ -134,8 +134,9 @@ impl<'r> Rules<'r, '_> {
             }
             Operation::Choose(mask, x, y) => {
                 let zero = Recorded::Known(0.0);
-                share(x, &|| Some(self.choose(mask, factor, zero)));
-                share(y, &|| Some(self.choose(mask, zero, factor)));
+                let (negative, factor) = self.sign_apart(factor);
+                share(x, &|| Some(signed(negative, self.choose(mask, factor, zero))));
+                share(y, &|| Some(signed(negative, self.choose(mask, zero, factor))));
             }
             Operation::Constant(_)
             | Operation::Parameter(_)
@@ -191,6 +192,27 @@ impl<'r> Rules<'r, '_> {
         }
     }
 
+    /// A number without the sign that was put before it, and whether one was: signs are handed
+    /// through to where a sum takes them up as a difference.
+    fn sign_apart(&self, x: Recorded<'r>) -> (bool, Recorded<'r>) {
+        if let Recorded::Node(recorder, id) = x
+            && let Operation::Unary(Unary::Negate, inner) = recorder.operation(id)
+        {
+            (true, self.number(inner))
+        } else {
+            (false, x)
+        }
+    }
+
+    fn plus(&self, x: Slope<'r>, y: Slope<'r>) -> Slope<'r> {
+        let (Some(x), Some(y)) = (x, y) else { return x.or(y) };
+        Some(match (self.sign_apart(x), self.sign_apart(y)) {
+            ((_, _), (true, y)) => x - y,
+            ((true, x), (false, y)) => y - x,
+            ((false, x), (false, y)) => x + y,
+        })
+    }
+
     fn choose(&self, mask: Id, yes: Recorded<'r>, no: Recorded<'r>) -> Recorded<'r> {
         let (yes, no) = (self.recorder.id(yes), self.recorder.id(no));
         self.recorder.number(Operation::Choose(mask, yes, no))
@@ -198,13 +220,15 @@ impl<'r> Rules<'r, '_> {
 
     /// A product, which is nothing where one of both is nothing and the other one infinite.
     fn times(&self, slope: Recorded<'r>, by: Recorded<'r>) -> Recorded<'r> {
-        if slope.is(1.0) {
+        let ((one, slope), (other, by)) = (self.sign_apart(slope), self.sign_apart(by));
+        let product = if slope.is(1.0) {
             by
         } else if by.is(1.0) {
             slope
         } else {
             self.recorder.binary(Binary::Chain, self.recorder.id(slope), self.recorder.id(by))
-        }
+        };
+        signed(one != other, product)
     }
 
     fn previous(&self, by: Recorded<'r>) -> Recorded<'r> {
@@ -258,11 +282,15 @@ impl<'r> Rules<'r, '_> {
     }
 
     fn number(&self, id: Id) -> Recorded<'r> {
-        match self.operations[id] {
+        match self.recorder.operation(id) {
             Operation::Constant(bits) => Recorded::Known(f64::from_bits(bits)),
             _ => Recorded::Node(self.recorder, id),
         }
     }
+}
+
+fn signed(negative: bool, x: Recorded<'_>) -> Recorded<'_> {
+    if negative { -x } else { x }
 }
 
 /// The slope of a function at `x`, where it has one.
@@ -295,11 +323,4 @@ fn slope<'r>(unary: Unary, value: Recorded<'r>, x: Recorded<'r>) -> Slope<'r> {
         // phi_k' = phi_k - k phi_(k+1)
         Unary::Phi(order) => value - Recorded::Known(f64::from(order)) * x.phi(order + 1),
     })
-}
-
-fn plus<'r>(x: Slope<'r>, y: Slope<'r>) -> Slope<'r> {
-    match (x, y) {
-        (Some(x), Some(y)) => Some(x + y),
-        (x, y) => x.or(y),
-    }
 }

@@ -8,7 +8,7 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::block::{BLOCK, Numbers, binary, binary_once, choose, unary, unary_once};
+use super::block::{BLOCK, Buffer, Numbers, binary, binary_once, choose, unary, unary_once};
 use super::operation::{Operation, Relaxing, Start};
 use super::schedule::{Place, Schedule, Task};
 
@@ -16,10 +16,10 @@ use super::schedule::{Place, Schedule, Task};
 const MOST_TOGETHER: usize = 8;
 
 /// Where operands of states that run together are spread out if all rows share them.
-type Scratch = [[[f64; BLOCK]; MOST_TOGETHER]; 4];
+type Scratch = [[Buffer; MOST_TOGETHER]; 4];
 
 /// A number that all rows share, and that is often nothing.
-const NOTHING: &[f64; BLOCK] = &[0.0; BLOCK];
+const NOTHING: &Buffer = &Buffer::ZERO;
 
 /// What a graph is carried out on.
 pub struct Given<'a> {
@@ -72,10 +72,10 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
     fn all(mut self) {
         let schedule = self.schedule;
         let uniforms = once(schedule, self.given.parameters);
-        let mut buffers: Vec<Vec<f64>> = vec![vec![0.0; BLOCK]; schedule.buffers];
+        let mut buffers: Vec<Vec<Buffer>> = vec![vec![Buffer::ZERO]; schedule.buffers];
         let mut memories = vec![0.0; schedule.memories];
         let mut starts = self.given.starts;
-        let mut scratch: Scratch = [[[0.0; BLOCK]; MOST_TOGETHER]; 4];
+        let mut scratch: Scratch = [[Buffer::ZERO; MOST_TOGETHER]; 4];
         for first in (0..self.given.rows).step_by(BLOCK) {
             let count = BLOCK.min(self.given.rows - first);
             let (own, later) = starts.split_at(starts.partition_point(|s| s.0 < first + count));
@@ -87,7 +87,7 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
                         Place::Column(i) => {
                             Numbers::Each(&self.given.columns[i][first..first + count])
                         }
-                        Place::Buffer(i) => Numbers::Each(&$buffers[i][..count]),
+                        Place::Buffer(i) => Numbers::Each(&$buffers[i][0].0[..count]),
                     }
                 };
             }
@@ -101,7 +101,7 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
                 if now.len() == 1 {
                     let rows = reader!(buffers);
                     let memory = memories.get_mut(task.memory);
-                    moment.carry_out(task, &mut out[..count], rows, memory, &mut scratch);
+                    moment.carry_out(task, &mut out[0].0[..count], rows, memory, &mut scratch);
                     buffers[task.to] = out;
                     continue;
                 }
@@ -315,7 +315,7 @@ impl Moment<'_> {
     fn relax_alike<'b, const K: usize>(
         &self,
         tasks: &[Task],
-        outs: &mut [Vec<f64>; MOST_TOGETHER],
+        outs: &mut [Vec<Buffer>; MOST_TOGETHER],
         rows: impl Fn(Place) -> Numbers<'b>,
         memories: &mut [f64],
         scratch: &mut Scratch,
@@ -324,7 +324,7 @@ impl Moment<'_> {
         let mut states: [f64; K] = from_fn(|own| memories[tasks[own].memory]);
         let mut outs = outs.iter_mut();
         let mut outs: [&mut [f64]; K] = from_fn(|_| match outs.next() {
-            Some(out) => &mut out[..self.count],
+            Some(out) => &mut out[0].0[..self.count],
             None => &mut [],
         });
         self.relax(&mut outs, given, Start::Zero, &mut states, scratch);
@@ -355,12 +355,12 @@ impl Moment<'_> {
 
 /// One number a row, also of what all share.
 #[inline(always)]
-fn as_slice<'a>(from: Numbers<'a>, scratch: &'a mut [f64; BLOCK], count: usize) -> &'a [f64] {
+fn as_slice<'a>(from: Numbers<'a>, scratch: &'a mut Buffer, count: usize) -> &'a [f64] {
     match from {
         Numbers::Each(rows) => rows,
-        Numbers::Same(0.0) => &NOTHING[..count],
+        Numbers::Same(0.0) => &NOTHING.0[..count],
         Numbers::Same(x) => {
-            let scratch = &mut scratch[..count];
+            let scratch = &mut scratch.0[..count];
             scratch.fill(x);
             scratch
         }
@@ -371,7 +371,7 @@ fn as_slice<'a>(from: Numbers<'a>, scratch: &'a mut [f64; BLOCK], count: usize) 
 #[inline(always)]
 fn slices<'a, const K: usize>(
     from: [Numbers<'a>; K],
-    scratch: &'a mut [[f64; BLOCK]],
+    scratch: &'a mut [Buffer],
     count: usize,
 ) -> [&'a [f64]; K] {
     let mut scratch = scratch.iter_mut();
