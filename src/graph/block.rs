@@ -1,7 +1,6 @@
-//! The loops over a block of rows, one an operation.
+//! The loops over a block of rows, one an operation. All blocks are of one length: no loop has a rest.
 
 use core::cell::Cell;
-use core::ops::Range;
 
 use super::operation::{Binary, Unary};
 use crate::math::f64 as elementary;
@@ -14,23 +13,23 @@ pub const BLOCK: usize = 256;
 /// two of them would be read and written twice.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub struct Buffer(pub [f64; BLOCK]);
+pub struct Buffer<const N: usize = BLOCK>(pub [f64; N]);
 
-impl Buffer {
+impl<const N: usize> Buffer<N> {
     /// Of zeros.
-    pub const ZERO: Self = Self([0.0; BLOCK]);
+    pub const ZERO: Self = Self([0.0; N]);
 }
 
-/// Numbers of a block: one a row, or the same for all.
+/// What an operation takes: one number a row, or the same for all.
 #[derive(Clone, Copy, Debug)]
-pub enum Numbers<'a> {
+pub enum Operand<'a, const N: usize = BLOCK> {
     /// The same.
     Same(f64),
     /// One a row.
-    Each(&'a [f64]),
+    Each(&'a [f64; N]),
 }
 
-impl Numbers<'_> {
+impl<const N: usize> Operand<'_, N> {
     /// That of one row.
     #[inline(always)]
     #[must_use]
@@ -40,46 +39,6 @@ impl Numbers<'_> {
             Self::Each(rows) => rows[row],
         }
     }
-
-    /// Those of some rows.
-    #[inline(always)]
-    #[must_use]
-    pub fn part(&self, rows: &Range<usize>) -> Self {
-        match *self {
-            Self::Same(x) => Self::Same(x),
-            Self::Each(all) => Self::Each(&all[rows.clone()]),
-        }
-    }
-
-    /// Products with a factor.
-    #[inline(always)]
-    pub fn times(&self, factor: f64, out: &mut [f64]) {
-        map(out, *self, |x| x * factor);
-    }
-
-    /// Differences to other numbers.
-    #[inline(always)]
-    pub fn subtracted_from(&self, others: &[f64], out: &mut [f64]) {
-        zip(out, Numbers::Each(others), *self, |other, x| other - x);
-    }
-
-    /// Copies them.
-    #[inline(always)]
-    pub fn copy_to(&self, out: &mut [f64]) {
-        match self {
-            Self::Same(x) => out.fill(*x),
-            Self::Each(rows) => out.copy_from_slice(rows),
-        }
-    }
-
-    /// Puts sums with a number into places, one a row.
-    #[inline(always)]
-    pub fn add_to_each<'o>(&self, number: f64, out: impl Iterator<Item = &'o mut f64>) {
-        match self {
-            Self::Same(x) => out.for_each(|out| *out = x + number),
-            Self::Each(rows) => out.zip(*rows).for_each(|(out, x)| *out = x + number),
-        }
-    }
 }
 
 const fn mask(yes: bool) -> f64 {
@@ -87,10 +46,10 @@ const fn mask(yes: bool) -> f64 {
 }
 
 #[inline(always)]
-fn map(out: &mut [f64], x: Numbers<'_>, f: impl Fn(f64) -> f64) {
+fn map<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, f: impl Fn(f64) -> f64) {
     match x {
-        Numbers::Same(x) => out.fill(f(x)),
-        Numbers::Each(x) => {
+        Operand::Same(x) => out.fill(f(x)),
+        Operand::Each(x) => {
             for (out, &x) in out.iter_mut().zip(x) {
                 *out = f(x);
             }
@@ -99,11 +58,11 @@ fn map(out: &mut [f64], x: Numbers<'_>, f: impl Fn(f64) -> f64) {
 }
 
 #[inline(always)]
-fn zip(out: &mut [f64], x: Numbers<'_>, y: Numbers<'_>, f: impl Fn(f64, f64) -> f64) {
+fn zip<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, y: Operand<'_, N>, f: impl Fn(f64, f64) -> f64) {
     match (x, y) {
-        (Numbers::Same(x), y) => map(out, y, |y| f(x, y)),
-        (x, Numbers::Same(y)) => map(out, x, |x| f(x, y)),
-        (Numbers::Each(x), Numbers::Each(y)) => {
+        (Operand::Same(x), y) => map(out, y, |y| f(x, y)),
+        (x, Operand::Same(y)) => map(out, x, |x| f(x, y)),
+        (Operand::Each(x), Operand::Each(y)) => {
             for ((out, &x), &y) in out.iter_mut().zip(x).zip(y) {
                 *out = f(x, y);
             }
@@ -113,7 +72,7 @@ fn zip(out: &mut [f64], x: Numbers<'_>, y: Numbers<'_>, f: impl Fn(f64, f64) -> 
 
 /// An operation on one number of each row.
 #[inline(always)]
-pub fn unary(out: &mut [f64], operation: Unary, x: Numbers<'_>) {
+pub fn unary<const N: usize>(out: &mut [f64; N], operation: Unary, x: Operand<'_, N>) {
     match operation {
         Unary::Negate => map(out, x, |x| -x),
         Unary::Abs => map(out, x, f64::abs),
@@ -135,7 +94,7 @@ pub fn unary(out: &mut [f64], operation: Unary, x: Numbers<'_>) {
 
 /// Sine or cosine: the few phases that need care are mended.
 #[inline(always)]
-fn wave(out: &mut [f64], x: Numbers<'_>, of: impl Fn((f64, f64)) -> f64) {
+fn wave<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, of: impl Fn((f64, f64)) -> f64) {
     map(out, x, |x| of(elementary::sin_cos_fast(x)));
     for (row, out) in out.iter_mut().enumerate() {
         if elementary::needs_care(x.at(row)) {
@@ -146,7 +105,7 @@ fn wave(out: &mut [f64], x: Numbers<'_>, of: impl Fn((f64, f64)) -> f64) {
 
 /// An operation on two numbers of each row.
 #[inline(always)]
-pub fn binary(out: &mut [f64], operation: Binary, x: Numbers<'_>, y: Numbers<'_>) {
+pub fn binary<const N: usize>(out: &mut [f64; N], operation: Binary, x: Operand<'_, N>, y: Operand<'_, N>) {
     match operation {
         Binary::Add => zip(out, x, y, |x, y| x + y),
         Binary::Subtract => zip(out, x, y, |x, y| x - y),
@@ -163,24 +122,24 @@ pub fn binary(out: &mut [f64], operation: Binary, x: Numbers<'_>, y: Numbers<'_>
 
 /// Of an exponent that all rows share the special cases are looked at once.
 #[inline(always)]
-fn power(out: &mut [f64], x: Numbers<'_>, p: Numbers<'_>) {
+fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N>) {
     let plain = elementary::is_plain_exponent;
     match (x, p) {
-        (x, Numbers::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
-        (x, Numbers::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
-        (Numbers::Each(x), Numbers::Same(p)) if plain(p) => {
+        (x, Operand::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
+        (x, Operand::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
+        (Operand::Each(x), Operand::Same(p)) if plain(p) => {
             let (mut high, mut low) = (Buffer::ZERO, Buffer::ZERO);
             logarithms(x, &mut high.0, &mut low.0);
-            for (((out, &x), high), low) in out.iter_mut().zip(x).zip(high.0).zip(low.0) {
+            for (((out, &x), &high), &low) in out.iter_mut().zip(x).zip(&high.0).zip(&low.0) {
                 *out = elementary::powf_fast(x, (high, low), p);
             }
             mend_powers(out, x, |_| p);
         }
-        (Numbers::Each(x), Numbers::Each(p)) => {
+        (Operand::Each(x), Operand::Each(p)) => {
             let (mut high, mut low) = (Buffer::ZERO, Buffer::ZERO);
             logarithms(x, &mut high.0, &mut low.0);
-            let rows = x.iter().zip(p).zip(high.0).zip(low.0);
-            for (out, (((&x, &p), high), low)) in out.iter_mut().zip(rows) {
+            let rows = x.iter().zip(p).zip(&high.0).zip(&low.0);
+            for (out, (((&x, &p), &high), &low)) in out.iter_mut().zip(rows) {
                 let power = elementary::powf_fast(x, (high, low), p);
                 *out = if plain(p) { power } else { f64::NAN };
             }
@@ -192,7 +151,7 @@ fn power(out: &mut [f64], x: Numbers<'_>, p: Numbers<'_>) {
 
 /// Two loops keep more rows under way than one.
 #[inline(always)]
-fn logarithms(x: &[f64], high: &mut [f64; BLOCK], low: &mut [f64; BLOCK]) {
+fn logarithms<const N: usize>(x: &[f64; N], high: &mut [f64; N], low: &mut [f64; N]) {
     for ((&x, high), low) in x.iter().zip(high).zip(low) {
         (*high, *low) = elementary::log2_fast(x);
     }
@@ -200,7 +159,7 @@ fn logarithms(x: &[f64], high: &mut [f64; BLOCK], low: &mut [f64; BLOCK]) {
 
 /// The few bases and exponents that need care.
 #[inline(always)]
-fn mend_powers(out: &mut [f64], x: &[f64], p: impl Fn(usize) -> f64) {
+fn mend_powers<const N: usize>(out: &mut [f64; N], x: &[f64; N], p: impl Fn(usize) -> f64) {
     if any_nan(out) {
         for (row, (out, &x)) in out.iter_mut().zip(x).enumerate() {
             if out.is_nan() {
@@ -212,7 +171,7 @@ fn mend_powers(out: &mut [f64], x: &[f64], p: impl Fn(usize) -> f64) {
 
 /// Products; the few that are no numbers are mended.
 #[inline(always)]
-fn chain_all(out: &mut [f64], slope: Numbers<'_>, by: Numbers<'_>) {
+fn chain_all<const N: usize>(out: &mut [f64; N], slope: Operand<'_, N>, by: Operand<'_, N>) {
     let nan = Cell::new(false);
     zip(out, slope, by, |slope, by| {
         let product = slope * by;
@@ -225,7 +184,7 @@ fn chain_all(out: &mut [f64], slope: Numbers<'_>, by: Numbers<'_>) {
 }
 
 #[inline(always)]
-fn any_nan(numbers: &[f64]) -> bool {
+fn any_nan<const N: usize>(numbers: &[f64; N]) -> bool {
     numbers.iter().fold(false, |any, x| any | x.is_nan())
 }
 
@@ -238,16 +197,16 @@ fn chain(slope: f64, by: f64) -> f64 {
 
 /// The second where the mask holds, else the third.
 #[inline(always)]
-pub fn choose(out: &mut [f64], mask: Numbers<'_>, yes: Numbers<'_>, no: Numbers<'_>) {
+pub fn choose<const N: usize>(out: &mut [f64; N], mask: Operand<'_, N>, yes: Operand<'_, N>, no: Operand<'_, N>) {
     match (mask, yes, no) {
-        (Numbers::Same(mask), yes, no) => map(out, if mask == 0.0 { no } else { yes }, |x| x),
-        (mask, Numbers::Same(yes), no) => {
+        (Operand::Same(mask), yes, no) => map(out, if mask == 0.0 { no } else { yes }, |x| x),
+        (mask, Operand::Same(yes), no) => {
             zip(out, mask, no, |mask, no| if mask == 0.0 { no } else { yes });
         }
-        (mask, yes, Numbers::Same(no)) => {
+        (mask, yes, Operand::Same(no)) => {
             zip(out, mask, yes, |mask, yes| if mask == 0.0 { no } else { yes });
         }
-        (Numbers::Each(mask), Numbers::Each(yes), Numbers::Each(no)) => {
+        (Operand::Each(mask), Operand::Each(yes), Operand::Each(no)) => {
             for (((out, &mask), &yes), &no) in out.iter_mut().zip(mask).zip(yes).zip(no) {
                 *out = if mask == 0.0 { no } else { yes };
             }
@@ -258,13 +217,13 @@ pub fn choose(out: &mut [f64], mask: Numbers<'_>, yes: Numbers<'_>, no: Numbers<
 /// The same operation on single numbers.
 pub fn unary_once(operation: Unary, x: f64) -> f64 {
     let mut out = [0.0];
-    unary(&mut out, operation, Numbers::Same(x));
+    unary(&mut out, operation, Operand::Same(x));
     out[0]
 }
 
 /// The same operation on single numbers.
 pub fn binary_once(operation: Binary, x: f64, y: f64) -> f64 {
     let mut out = [0.0];
-    binary(&mut out, operation, Numbers::Same(x), Numbers::Same(y));
+    binary(&mut out, operation, Operand::Same(x), Operand::Same(y));
     out[0]
 }

@@ -9,15 +9,16 @@
 mod block;
 mod derivative;
 mod model;
+mod numbers;
 mod operation;
 mod recorded;
 mod recorder;
 mod run;
 mod schedule;
 
-pub use block::Numbers;
 pub use derivative::derivatives;
 pub use model::model;
+pub use numbers::Numbers;
 pub use operation::{Binary, Id, Operation, Unary};
 pub use recorded::{Format, Recorded};
 pub use recorder::Recorder;

@@ -1,19 +1,17 @@
 //! Carries out a graph on rows.
 
 use core::array::from_fn;
-use core::mem::take;
+use core::mem::swap;
 use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::block::{BLOCK, Buffer, Numbers, binary, binary_once, choose, unary, unary_once};
+use super::block::{BLOCK, Buffer, Operand, binary, binary_once, choose, unary, unary_once};
+use super::numbers::Numbers;
 use super::operation::{Operation, Relaxing, Start};
-use super::schedule::{Place, Schedule, Task};
-
-/// Derivatives of a state that run together.
-const MOST_TOGETHER: usize = 8;
+use super::schedule::{MOST_TOGETHER, Place, Schedule, Task};
 
 /// Where operands of states that run together are spread out if all rows share them.
 type Scratch = [[Buffer; MOST_TOGETHER]; 4];
@@ -72,7 +70,10 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
     fn all(mut self) {
         let schedule = self.schedule;
         let uniforms = once(schedule, self.given.parameters);
-        let mut buffers: Vec<Vec<Buffer>> = vec![vec![Buffer::ZERO]; schedule.buffers];
+        let mut room = vec![Buffer::ZERO; schedule.buffers + MOST_TOGETHER];
+        let mut buffers: Vec<&mut Buffer> = room.iter_mut().collect();
+        // An operation writes into a spare buffer, which then changes places with its own.
+        let mut spare = buffers.split_off(schedule.buffers);
         let mut memories = vec![0.0; schedule.memories];
         let mut starts = self.given.starts;
         let mut scratch: Scratch = [[Buffer::ZERO; MOST_TOGETHER]; 4];
@@ -80,52 +81,40 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
             let count = BLOCK.min(self.given.rows - first);
             let (own, later) = starts.split_at(starts.partition_point(|s| s.0 < first + count));
             starts = later;
-            macro_rules! reader {
-                ($buffers:expr) => {
-                    |place| match place {
-                        Place::Uniform(i) => Numbers::Same(uniforms[i]),
-                        Place::Column(i) => {
-                            Numbers::Each(&self.given.columns[i][first..first + count])
-                        }
-                        Place::Buffer(i) => Numbers::Each(&$buffers[i][0].0[..count]),
-                    }
-                };
-            }
-            let moment = Moment { first, count, starts: own, given: self.given.start };
+            let moment = Moment { given: self.given, first, count, starts: own };
             let mut tasks = &schedule.each[..];
             while let Some(task) = tasks.first() {
-                let together = relaxing_alike(tasks);
-                let (now, later) = tasks.split_at(together);
+                let (now, later) = tasks.split_at(task.together);
                 tasks = later;
-                let mut out = take(&mut buffers[task.to]);
-                if now.len() == 1 {
-                    let rows = reader!(buffers);
-                    let memory = memories.get_mut(task.memory);
-                    moment.carry_out(task, &mut out[0].0[..count], rows, memory, &mut scratch);
-                    buffers[task.to] = out;
-                    continue;
+                let operand = |place| match place {
+                    Place::Uniform(i) => Operand::Same(uniforms[i]),
+                    Place::Buffer(i) => Operand::Each(&buffers[i].0),
+                };
+                macro_rules! alike {
+                    ($($count:literal),+) => {
+                        match now.len() {
+                            $($count => moment.relax_alike::<$count>(
+                                now, &mut spare, operand, &mut memories, &mut scratch,
+                            ),)+
+                            _ => {
+                                let memory = memories.get_mut(task.memory);
+                                moment.carry_out(
+                                    task, &mut spare[0].0, operand, memory, &mut scratch,
+                                );
+                            }
+                        }
+                    };
                 }
-                let mut outs = from_fn(|_| vec![]);
-                outs[0] = out;
-                for (out, task) in outs.iter_mut().zip(now).skip(1) {
-                    *out = take(&mut buffers[task.to]);
-                }
-                let rows = reader!(buffers);
-                match now.len() {
-                    2 => moment.relax_alike::<2>(now, &mut outs, rows, &mut memories, &mut scratch),
-                    3 => moment.relax_alike::<3>(now, &mut outs, rows, &mut memories, &mut scratch),
-                    4 => moment.relax_alike::<4>(now, &mut outs, rows, &mut memories, &mut scratch),
-                    5 => moment.relax_alike::<5>(now, &mut outs, rows, &mut memories, &mut scratch),
-                    6 => moment.relax_alike::<6>(now, &mut outs, rows, &mut memories, &mut scratch),
-                    7 => moment.relax_alike::<7>(now, &mut outs, rows, &mut memories, &mut scratch),
-                    _ => moment.relax_alike::<8>(now, &mut outs, rows, &mut memories, &mut scratch),
-                }
-                for (out, task) in outs.into_iter().zip(now) {
-                    buffers[task.to] = out;
+                alike!(2, 3, 4, 5, 6, 7, 8);
+                for (spare, task) in spare.iter_mut().zip(now) {
+                    swap(spare, &mut buffers[task.to]);
                 }
             }
-            let outputs: Vec<Numbers<'_>> =
-                schedule.outputs.iter().map(|&place| reader!(buffers)(place)).collect();
+            let numbers = |&place: &Place| match place {
+                Place::Uniform(i) => Numbers::Same(uniforms[i]),
+                Place::Buffer(i) => Numbers::Each(&buffers[i].0[..count]),
+            };
+            let outputs: Vec<Numbers<'_>> = schedule.outputs.iter().map(numbers).collect();
             (self.sink)(first..first + count, &outputs);
         }
     }
@@ -137,7 +126,7 @@ fn once(schedule: &Schedule, parameters: &[f64]) -> Vec<f64> {
     for task in &schedule.once {
         let at = |k: usize| match task.from[k] {
             Place::Uniform(i) => shared[i],
-            Place::Column(_) | Place::Buffer(_) => f64::NAN,
+            Place::Buffer(_) => f64::NAN,
         };
         shared[task.to] = match task.operation {
             Operation::Constant(bits) => f64::from_bits(bits),
@@ -160,25 +149,15 @@ fn once(schedule: &Schedule, parameters: &[f64]) -> Vec<f64> {
     shared
 }
 
-/// How many tasks from the first on are derivatives of one state, as far as they run together.
-fn relaxing_alike(tasks: &[Task]) -> usize {
-    let alike = |task: &&Task| match (tasks[0].operation, task.operation) {
-        (Operation::Relax(first), Operation::Relax(own)) => {
-            first.start == Start::Zero && own.start == Start::Zero && first.share == own.share
-        }
-        _ => false,
-    };
-    tasks.iter().take(MOST_TOGETHER).take_while(alike).count().max(1)
-}
-
-/// What the operations with a memory need to know about a block.
+/// What operations need to know about a block.
 struct Moment<'a> {
+    given: &'a Given<'a>,
+    /// Its first row.
     first: usize,
+    /// How many rows it has; what is computed beyond them, nobody reads.
     count: usize,
     /// The starts of segments in this block.
     starts: &'a [(usize, Beginning)],
-    /// What a state is where a segment starts.
-    given: f64,
 }
 
 impl Moment<'_> {
@@ -186,8 +165,8 @@ impl Moment<'_> {
     fn carry_out<'b>(
         &self,
         task: &Task,
-        out: &mut [f64],
-        rows: impl Fn(Place) -> Numbers<'b>,
+        out: &mut [f64; BLOCK],
+        rows: impl Fn(Place) -> Operand<'b>,
         memory: Option<&mut f64>,
         scratch: &mut Scratch,
     ) {
@@ -195,6 +174,7 @@ impl Moment<'_> {
         match (task.operation, memory) {
             (Operation::Unary(operation, _), _) => unary(out, operation, rows(a)),
             (Operation::Binary(operation, _, _), _) => binary(out, operation, rows(a), rows(b)),
+            (Operation::Column(column), _) => self.column(out, column),
             (Operation::Choose(..), _) => choose(out, rows(a), rows(b), rows(c)),
             (Operation::Previous(_), Some(memory)) => self.previous(out, rows(a), memory),
             (Operation::Relax(Relaxing { start, .. }), Some(memory)) => {
@@ -208,6 +188,15 @@ impl Moment<'_> {
             }
             _ => {}
         }
+    }
+
+    /// Rows that are missing in the last block are as its last one: numbers of the usual size.
+    #[inline(always)]
+    fn column(&self, out: &mut [f64; BLOCK], column: usize) {
+        let rows = &self.given.columns[column][self.first..][..self.count];
+        let (own, rest) = out.split_at_mut(self.count);
+        own.copy_from_slice(rows);
+        rest.fill(rows[self.count - 1]);
     }
 
     /// The rows of the block in stretches without a start, and how their first one starts.
@@ -236,13 +225,13 @@ impl Moment<'_> {
         match how {
             None => state,
             Some(Beginning::Settled) => settled(),
-            Some(Beginning::Fresh) if start == Start::Given => self.given,
+            Some(Beginning::Fresh) if start == Start::Given => self.given.start,
             Some(Beginning::Fresh) => 0.0,
         }
     }
 
     #[inline(always)]
-    fn previous(&self, out: &mut [f64], x: Numbers<'_>, memory: &mut f64) {
+    fn previous(&self, out: &mut [f64; BLOCK], x: Operand<'_>, memory: &mut f64) {
         for (how, rows) in self.stretches() {
             let first = rows.start;
             out[first] = if how.is_none() { *memory } else { x.at(first) };
@@ -257,20 +246,20 @@ impl Moment<'_> {
     #[inline(always)]
     fn relax<const K: usize>(
         &self,
-        outs: &mut [&mut [f64]; K],
-        [share, target, extra, shift, settled]: [[Numbers<'_>; K]; 5],
+        outs: &mut [&mut [f64; BLOCK]; K],
+        [share, target, extra, shift, settled]: [[Operand<'_>; K]; 5],
         start: Start,
         states: &mut [f64; K],
         scratch: &mut Scratch,
     ) {
         let nothing =
-            |rows: &[Numbers<'_>; K]| rows.iter().all(|rows| matches!(rows, Numbers::Same(0.0)));
+            |rows: &[Operand<'_>; K]| rows.iter().all(|rows| matches!(rows, Operand::Same(0.0)));
         let (no_target, no_extra) = (nothing(&target), nothing(&extra));
         let no_shift = nothing(&shift);
         let [a, b, c, d] = scratch;
-        let share = as_slice(share[0], &mut a[0], self.count);
-        let target = slices(target, b, self.count);
-        let (extra, shift) = (slices(extra, c, self.count), slices(shift, d, self.count));
+        let share = each(share[0], &mut a[0]);
+        let target = each_of(target, b);
+        let (extra, shift) = (each_of(extra, c), each_of(shift, d));
         for (how, rows) in self.stretches() {
             let first = rows.start;
             for (state, settled) in states.iter_mut().zip(settled) {
@@ -315,18 +304,15 @@ impl Moment<'_> {
     fn relax_alike<'b, const K: usize>(
         &self,
         tasks: &[Task],
-        outs: &mut [Vec<Buffer>; MOST_TOGETHER],
-        rows: impl Fn(Place) -> Numbers<'b>,
+        spare: &mut [&mut Buffer],
+        rows: impl Fn(Place) -> Operand<'b>,
         memories: &mut [f64],
         scratch: &mut Scratch,
     ) {
         let given = from_fn(|part| from_fn(|own| rows(tasks[own].from[part])));
         let mut states: [f64; K] = from_fn(|own| memories[tasks[own].memory]);
-        let mut outs = outs.iter_mut();
-        let mut outs: [&mut [f64]; K] = from_fn(|_| match outs.next() {
-            Some(out) => &mut out[0].0[..self.count],
-            None => &mut [],
-        });
+        let Some((outs, _)) = spare.split_first_chunk_mut::<K>() else { return };
+        let mut outs = outs.each_mut().map(|out| &mut out.0);
         self.relax(&mut outs, given, Start::Zero, &mut states, scratch);
         for (task, state) in tasks.iter().zip(states) {
             memories[task.memory] = state;
@@ -336,9 +322,9 @@ impl Moment<'_> {
     #[inline(always)]
     fn before(
         &self,
-        out: &mut [f64],
-        state: Numbers<'_>,
-        settled: Numbers<'_>,
+        out: &mut [f64; BLOCK],
+        state: Operand<'_>,
+        settled: Operand<'_>,
         start: Start,
         memory: &mut f64,
     ) {
@@ -355,28 +341,23 @@ impl Moment<'_> {
 
 /// One number a row, also of what all share.
 #[inline(always)]
-fn as_slice<'a>(from: Numbers<'a>, scratch: &'a mut Buffer, count: usize) -> &'a [f64] {
+fn each<'a>(from: Operand<'a>, scratch: &'a mut Buffer) -> &'a [f64; BLOCK] {
     match from {
-        Numbers::Each(rows) => rows,
-        Numbers::Same(0.0) => &NOTHING.0[..count],
-        Numbers::Same(x) => {
-            let scratch = &mut scratch.0[..count];
-            scratch.fill(x);
-            scratch
+        Operand::Each(rows) => rows,
+        Operand::Same(0.0) => &NOTHING.0,
+        Operand::Same(x) => {
+            scratch.0.fill(x);
+            &scratch.0
         }
     }
 }
 
 /// The same of several.
 #[inline(always)]
-fn slices<'a, const K: usize>(
-    from: [Numbers<'a>; K],
-    scratch: &'a mut [Buffer],
-    count: usize,
-) -> [&'a [f64]; K] {
+fn each_of<'a, const K: usize>(
+    from: [Operand<'a>; K],
+    scratch: &'a mut [Buffer; MOST_TOGETHER],
+) -> [&'a [f64; BLOCK]; K] {
     let mut scratch = scratch.iter_mut();
-    from.map(|from| match scratch.next() {
-        Some(scratch) => as_slice(from, scratch, count),
-        None => &[],
-    })
+    from.map(|from| scratch.next().map_or(&NOTHING.0, |scratch| each(from, scratch)))
 }

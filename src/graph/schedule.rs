@@ -10,8 +10,6 @@ use super::operation::{Id, Operation, Relaxing, Start};
 pub enum Place {
     /// The same for all rows.
     Uniform(usize),
-    /// A column that is given.
-    Column(usize),
     /// A buffer, one number a row of the block.
     Buffer(usize),
 }
@@ -27,7 +25,12 @@ pub struct Task {
     pub to: usize,
     /// Where what it remembers stands, of an operation with a memory.
     pub memory: usize,
+    /// How many operations from this one on run together: derivatives of one state.
+    pub together: usize,
 }
+
+/// Derivatives of a state that run together.
+pub const MOST_TOGETHER: usize = 8;
 
 /// The operations behind some outputs.
 #[derive(Clone, Debug)]
@@ -82,10 +85,7 @@ impl Schedule {
             let from: Vec<Place> = operands.iter().filter_map(|&own| places[own]).collect();
             let shared = from.iter().all(|place| matches!(place, Place::Uniform(_)));
             let place = match operation {
-                Operation::Column(column) => {
-                    places[id] = Some(Place::Column(column));
-                    continue;
-                }
+                Operation::Column(_) => Place::Buffer(layout.take()),
                 operation if shared && !operation.has_memory() => {
                     schedule.uniforms += 1;
                     Place::Uniform(schedule.uniforms - 1)
@@ -97,23 +97,24 @@ impl Schedule {
             five[..from.len()].copy_from_slice(&from);
             let memory = schedule.memories;
             schedule.memories += usize::from(operation.has_memory());
+            let task = |to| Task { operation, from: five, to, memory, together: 1 };
             match place {
-                Place::Uniform(to) => {
-                    schedule.once.push(Task { operation, from: five, to, memory });
-                }
+                Place::Uniform(to) => schedule.once.push(task(to)),
                 Place::Buffer(to) => {
-                    schedule.each.push(Task { operation, from: five, to, memory });
+                    schedule.each.push(task(to));
                     for &id in &ended[now] {
                         if let Some(Place::Buffer(free)) = places[id] {
                             layout.give_back(free);
                         }
                     }
                 }
-                Place::Column(_) => {}
             }
         }
         schedule.outputs = outputs.iter().filter_map(|&output| places[output]).collect();
         schedule.buffers = layout.count;
+        for first in 0..schedule.each.len() {
+            schedule.each[first].together = relaxing_alike(&schedule.each[first..]);
+        }
         schedule
     }
 }
@@ -147,6 +148,17 @@ fn order(operations: &[Operation], outputs: &[Id]) -> Vec<Id> {
 /// Whether an operation is the derivative of a state.
 fn is_slope(operation: Operation) -> bool {
     matches!(operation, Operation::Relax(Relaxing { start: Start::Zero, .. }))
+}
+
+/// How many tasks from the first on are derivatives of one state, as far as they run together.
+fn relaxing_alike(tasks: &[Task]) -> usize {
+    let alike = |task: &&Task| match (tasks[0].operation, task.operation) {
+        (Operation::Relax(first), Operation::Relax(own)) => {
+            first.start == Start::Zero && own.start == Start::Zero && first.share == own.share
+        }
+        _ => false,
+    };
+    tasks.iter().take(MOST_TOGETHER).take_while(alike).count().max(1)
 }
 
 /// Buffers that are free again are used again.
