@@ -3,6 +3,8 @@ use std::borrow::Cow;
 use std::vec;
 use std::vec::Vec;
 
+use pulp::Arch;
+
 use super::BatchError;
 use super::balance::Balance;
 use crate::catalog::EffectId;
@@ -248,7 +250,11 @@ fn whole(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchE
         return Err(BatchError::Length { column, length: values.len(), rows });
     }
     // All are looked at, without a way out: several at once.
-    if values.iter().fold(true, |all, x| all & x.is_finite()) {
+    let finite = Arch::new().dispatch(
+        #[inline(always)]
+        || values.iter().fold(true, |all, x| all & x.is_finite()),
+    );
+    if finite {
         return Ok(());
     }
     let row = values.iter().position(|x| !x.is_finite()).unwrap_or(0);

@@ -95,18 +95,19 @@ impl Compiled {
         channels: Channels<'_>,
         columns: &Columns<'_>,
     ) -> (Vec<f64>, Vec<f64>) {
-        let mut torque = vec![0.0; rows.count()];
-        let mut slopes = vec![0.0; rows.count() * self.width];
         let width = self.width;
+        let mut torque = Vec::with_capacity(rows.count());
+        let mut slopes = Vec::with_capacity(rows.count() * width);
+        let mut turned = vec![];
         self.each_block(values, rows, channels, columns, |block, outputs| {
-            let count = block.len();
-            let first = block.start;
-            outputs[0].copy_to(&mut torque[block]);
-            let slopes = &mut slopes[first * width..][..count * width];
+            outputs[0].append_to(&mut torque, block.len());
+            // Where they are still in the first cache.
+            turned.resize(block.len() * width, 0.0);
             for (k, slope) in outputs[1..].iter().enumerate() {
                 // Turns -0 into 0: which of them it is depends on what else is wanted.
-                slope.add_to_each(0.0, slopes[k..].iter_mut().step_by(width));
+                slope.add_to_each(0.0, turned[k..].iter_mut().step_by(width));
             }
+            slopes.extend_from_slice(&turned);
         });
         (torque, slopes)
     }

@@ -128,19 +128,16 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
         (x, Operand::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
         (x, Operand::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
         (Operand::Each(x), Operand::Same(p)) if plain(p) => {
-            let (mut high, mut low) = (Buffer::ZERO, Buffer::ZERO);
-            logarithms(x, &mut high.0, &mut low.0);
-            for (((out, &x), &high), &low) in out.iter_mut().zip(x).zip(&high.0).zip(&low.0) {
-                *out = elementary::powf_fast(x, (high, low), p);
+            let low = logarithms(x, out);
+            for ((out, &x), &low) in out.iter_mut().zip(x).zip(&low.0) {
+                *out = elementary::powf_fast(x, (*out, low), p);
             }
             mend_powers(out, x, |_| p);
         }
         (Operand::Each(x), Operand::Each(p)) => {
-            let (mut high, mut low) = (Buffer::ZERO, Buffer::ZERO);
-            logarithms(x, &mut high.0, &mut low.0);
-            let rows = x.iter().zip(p).zip(&high.0).zip(&low.0);
-            for (out, (((&x, &p), &high), &low)) in out.iter_mut().zip(rows) {
-                let power = elementary::powf_fast(x, (high, low), p);
+            let low = logarithms(x, out);
+            for ((out, &x), (&p, &low)) in out.iter_mut().zip(x).zip(p.iter().zip(&low.0)) {
+                let power = elementary::powf_fast(x, (*out, low), p);
                 *out = if plain(p) { power } else { f64::NAN };
             }
             mend_powers(out, x, |row| p[row]);
@@ -149,12 +146,14 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
     }
 }
 
-/// Two loops keep more rows under way than one.
+/// High parts and, returned, low parts. Two loops keep more rows under way than one.
 #[inline(always)]
-fn logarithms<const N: usize>(x: &[f64; N], high: &mut [f64; N], low: &mut [f64; N]) {
-    for ((&x, high), low) in x.iter().zip(high).zip(low) {
+fn logarithms<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {
+    let mut lows = Buffer::ZERO;
+    for ((&x, high), low) in x.iter().zip(high).zip(&mut lows.0) {
         (*high, *low) = elementary::log2_fast(x);
     }
+    lows
 }
 
 /// The few bases and exponents that need care.

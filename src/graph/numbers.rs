@@ -1,6 +1,7 @@
 //! What a graph hands over of a block of rows.
 
 use core::ops::Range;
+use std::vec::Vec;
 
 /// Numbers of a block: one a row, or the same for all.
 #[derive(Clone, Copy, Debug)]
@@ -45,12 +46,12 @@ impl Numbers<'_> {
         }
     }
 
-    /// Copies them.
+    /// Appends those of that many rows.
     #[inline(always)]
-    pub fn copy_to(&self, out: &mut [f64]) {
+    pub fn append_to(&self, out: &mut Vec<f64>, count: usize) {
         match self {
-            Self::Same(x) => out.fill(*x),
-            Self::Each(rows) => out.copy_from_slice(rows),
+            Self::Same(x) => out.resize(out.len() + count, *x),
+            Self::Each(rows) => out.extend_from_slice(rows),
         }
     }
 
