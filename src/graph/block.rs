@@ -1,6 +1,7 @@
 //! The loops over a block of rows, one an operation. All blocks are of one length: no loop has a rest.
 
 use core::cell::Cell;
+use core::hint::select_unpredictable;
 
 use super::operation::{Binary, Unary};
 use crate::math::f64 as elementary;
@@ -58,7 +59,12 @@ fn map<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, f: impl Fn(f64) ->
 }
 
 #[inline(always)]
-fn zip<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, y: Operand<'_, N>, f: impl Fn(f64, f64) -> f64) {
+fn zip<const N: usize>(
+    out: &mut [f64; N],
+    x: Operand<'_, N>,
+    y: Operand<'_, N>,
+    f: impl Fn(f64, f64) -> f64,
+) {
     match (x, y) {
         (Operand::Same(x), y) => map(out, y, |y| f(x, y)),
         (x, Operand::Same(y)) => map(out, x, |x| f(x, y)),
@@ -105,7 +111,12 @@ fn wave<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, of: impl Fn((f64,
 
 /// An operation on two numbers of each row.
 #[inline(always)]
-pub fn binary<const N: usize>(out: &mut [f64; N], operation: Binary, x: Operand<'_, N>, y: Operand<'_, N>) {
+pub fn binary<const N: usize>(
+    out: &mut [f64; N],
+    operation: Binary,
+    x: Operand<'_, N>,
+    y: Operand<'_, N>,
+) {
     match operation {
         Binary::Add => zip(out, x, y, |x, y| x + y),
         Binary::Subtract => zip(out, x, y, |x, y| x - y),
@@ -196,7 +207,12 @@ fn chain(slope: f64, by: f64) -> f64 {
 
 /// The second where the mask holds, else the third.
 #[inline(always)]
-pub fn choose<const N: usize>(out: &mut [f64; N], mask: Operand<'_, N>, yes: Operand<'_, N>, no: Operand<'_, N>) {
+pub fn choose<const N: usize>(
+    out: &mut [f64; N],
+    mask: Operand<'_, N>,
+    yes: Operand<'_, N>,
+    no: Operand<'_, N>,
+) {
     match (mask, yes, no) {
         (Operand::Same(mask), yes, no) => map(out, if mask == 0.0 { no } else { yes }, |x| x),
         (mask, Operand::Same(yes), no) => {
@@ -207,7 +223,8 @@ pub fn choose<const N: usize>(out: &mut [f64; N], mask: Operand<'_, N>, yes: Ope
         }
         (Operand::Each(mask), Operand::Each(yes), Operand::Each(no)) => {
             for (((out, &mask), &yes), &no) in out.iter_mut().zip(mask).zip(yes).zip(no) {
-                *out = if mask == 0.0 { no } else { yes };
+                // An `if` would be made a choice of the place to read from, row by row.
+                *out = select_unpredictable(mask == 0.0, no, yes);
             }
         }
     }
