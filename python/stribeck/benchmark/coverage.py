@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import polars as pl
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from stribeck.benchmark.draws import log_uniform
 from stribeck.benchmark.open_loop.joint import Joint, draw_joint
@@ -128,7 +128,7 @@ def _autoregressive(rng: np.random.Generator, n: int, correlation: float) -> Arr
     """Unit noise in which each row keeps a share of the row before; stationary from the start."""
     warm = 2000
     innovation = math.sqrt(1 - correlation**2) * rng.standard_normal(n + warm)
-    return np.asarray(lfilter([1.0], [1.0, -correlation], innovation))[warm:]
+    return np.asarray(scipy.signal.lfilter([1.0], [1.0, -correlation], innovation))[warm:]
 
 
 def _ordinary_intervals(

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import polars as pl
-from scipy.stats import binomtest
+import scipy
 
 from stribeck.benchmark.answer import Answer
 from stribeck.benchmark.cases import CORRELATIONS, SIZES
@@ -55,7 +55,7 @@ class Share:
         """95 % interval of the share."""
         if not self.total:
             return (0.0, 1.0)
-        ci = binomtest(self.count, self.total).proportion_ci(method="wilson")
+        ci = scipy.stats.binomtest(self.count, self.total).proportion_ci(method="wilson")
         return (float(ci.low), float(ci.high))
 
     def to_dict(self) -> dict[str, Any]:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import differential_evolution
 
 from stribeck.design.information import Wanted, least_information
 from stribeck.design.motion import Family, Motion
@@ -43,7 +43,7 @@ def search(
             value = least_information(wanted, setting, family.motion(design, coarse), coarse)
             return -value if np.isfinite(value) else SHOWS_NOTHING
 
-        best = differential_evolution(
+        best = scipy.optimize.differential_evolution(
             cost, [(0.0, 1.0)] * family.variables, maxiter=GENERATIONS, init=first, seed=rng,
             polish=False, tol=1e-4,
         )  # fmt: skip

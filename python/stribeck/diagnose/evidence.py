@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import fdtrc
 
 from stribeck.fit import Fit
 from stribeck.identify.covariance import batches, correlation_length
@@ -93,7 +93,9 @@ def added_torque_test(added: Array, residual: Array, parameters: int) -> float:
     variance = float(np.sum((scores - scores.mean()) ** 2)) * count / (count - 1)
     if variance <= 0:
         return 0.0
-    return float(fdtrc(parameters, count - parameters, size**2 / variance / parameters))
+    return float(
+        scipy.special.fdtrc(parameters, count - parameters, size**2 / variance / parameters)
+    )
 
 
 @dataclass(frozen=True)

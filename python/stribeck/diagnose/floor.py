@@ -10,8 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from stribeck.diagnose.shape import displacement_since_reversal
 from stribeck.fit import Fit
@@ -62,7 +62,7 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     step = -(-residual.size // 20000)
     index = np.arange(0, residual.size, step)
     apart = max(4.0 * lasting, 20.0) / step
-    tree = cKDTree(features[index])
+    tree = scipy.spatial.cKDTree(features[index])
     distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1, workers=threads())
     far = np.abs(neighbour - np.arange(index.size)[:, None]) > apart
     first = np.argmax(far, axis=1)
@@ -92,10 +92,7 @@ def _at_zero(gap: Array, gamma: Array) -> float:
     mean = float(gamma.mean())
     if np.ptp(gap) == 0:
         return mean
-    # Takes as long to load as all the rest: only where it is needed.
-    from scipy.stats import linregress
-
-    line = linregress(gap, gamma)
+    line = scipy.stats.linregress(gap, gamma)
     if line.slope > 3.0 * line.stderr and line.intercept > 0:
         return float(line.intercept)
     return mean

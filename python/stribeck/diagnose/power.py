@@ -10,9 +10,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
-from scipy.special import fdtri, ncfdtr, ndtri
 
 from stribeck.diagnose.leverage import FITTED, HeldOut
 from stribeck.identify.covariance import batches, correlation_length
@@ -162,7 +161,7 @@ def needed_factor(
     # Held-out squares fall by f^2 gained, give or take 2 f spread, less what estimating costs.
     fall = 1.0 / (1.0 - need.least_fall) ** 2 - 1.0
     due = fall * noise.square + MARGIN * held_out.cost * variance / square + loss
-    slack, gained = float(ndtri(POWER)) * spread, held_out.gain * square
+    slack, gained = float(scipy.special.ndtri(POWER)) * spread, held_out.gain * square
     fell = (slack + np.sqrt(slack**2 + gained * due)) / gained
     return float(max(tested, fell))
 
@@ -176,9 +175,9 @@ def noncentrality(count: int, freedom: int, significance: float) -> float:
     >>> round(noncentrality(1, 100_000, 0.05), 1)  # (1.96 + 1.645)^2
     13.0
     """
-    critical = float(fdtri(count, freedom, 1.0 - significance))
+    critical = float(scipy.special.fdtri(count, freedom, 1.0 - significance))
     highest = 4.0
-    while ncfdtr(count, freedom, highest, critical) > 1.0 - POWER:
+    while scipy.special.ncfdtr(count, freedom, highest, critical) > 1.0 - POWER:
         highest *= 2.0
-    miss = lambda x: float(ncfdtr(count, freedom, x, critical)) - (1.0 - POWER)  # noqa: E731
-    return float(brentq(miss, 1e-9, highest, rtol=1e-6))
+    miss = lambda x: float(scipy.special.ncfdtr(count, freedom, x, critical)) - (1.0 - POWER)  # noqa: E731
+    return float(scipy.optimize.brentq(miss, 1e-9, highest, rtol=1e-6))

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from stribeck.fit import Fit
@@ -59,10 +60,7 @@ def swings(fit: Fit, *, suspected: bool = False) -> Swings:
     forward, backward = means[0][seen], means[1][seen]
     if forward.size < FEWEST_STRETCHES or np.ptp(forward) == 0.0 or np.ptp(backward) == 0.0:
         return Swings(0.0)
-    # Takes as long to load as all the rest: only where it is needed.
-    from scipy.stats import pearsonr
-
-    agreement = pearsonr(forward, backward, alternative="greater")
+    agreement = scipy.stats.pearsonr(forward, backward, alternative="greater")
     if agreement.pvalue > (SUSPECTED if suspected else SIGNIFICANCE):
         return Swings(0.0)
     return Swings(float(np.sqrt(np.cov(forward, backward)[0, 1])))

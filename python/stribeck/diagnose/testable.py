@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from stribeck.identify.periodogram import FEWEST_PERIODS, most_periods
@@ -318,10 +319,9 @@ def _drift(f: _Facts) -> Answer:
         )
     if _spread(temperature) < DRIFT_TEMPERATURE:
         return None
-    # Takes as long to load as all the rest: only where it is needed.
-    from scipy.stats import spearmanr
-
-    follows = float(spearmanr(f.recording.elapsed[f.recording.moving], temperature).statistic)
+    follows = float(
+        scipy.stats.spearmanr(f.recording.elapsed[f.recording.moving], temperature).statistic
+    )
     if abs(follows) > DRIFT_FOLLOWS:
         way = "warms up" if follows > 0 else "cools down"
         return (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr
+import scipy
 
 from stribeck.diagnose.evidence import Evidence, difference, evidence
 from stribeck.diagnose.screen import STARTS, Screened, screened, widened
@@ -200,7 +200,7 @@ def tie_statistic(best: Trial, other: Trial) -> float:
 
 def tie_weight(statistic: float) -> float:
     """Two-sided probability of a difference at least this large by chance."""
-    return float(2.0 * ndtr(-abs(statistic)))
+    return float(2.0 * scipy.special.ndtr(-abs(statistic)))
 
 
 def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:

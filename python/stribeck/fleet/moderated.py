@@ -13,9 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
-from scipy.special import digamma, polygamma, stdtr
 
 Array = NDArray[np.float64]
 
@@ -86,13 +85,13 @@ def common_scatter(differences: Sequence[Difference]) -> Scatter:
     if len(known) < FEWEST_JOINTS:
         return _scatter_of_changes(differences)
     half = np.array([0.5 * d.freedom for d in known])
-    logs = np.log([d.ratio for d in known]) - digamma(half) + np.log(half)
+    logs = np.log([d.ratio for d in known]) - scipy.special.digamma(half) + np.log(half)
     mean = float(logs.mean())
-    excess = float(np.var(logs, ddof=1) - np.mean(polygamma(1, half)))
+    excess = float(np.var(logs, ddof=1) - np.mean(scipy.special.polygamma(1, half)))
     if excess <= 0.0:
         return Scatter(math.exp(mean), math.inf)
     freedom = 2.0 * _inverse_trigamma(excess)
-    ratio = math.exp(mean + float(digamma(0.5 * freedom)) - math.log(0.5 * freedom))
+    ratio = math.exp(mean + float(scipy.special.digamma(0.5 * freedom)) - math.log(0.5 * freedom))
     return Scatter(ratio, freedom)
 
 
@@ -124,7 +123,7 @@ def two_sided(change: float, stderr: float, freedom: float) -> float:
     """Probability that chance alone gives a change at least as large either way."""
     if stderr <= 0.0:
         return 1.0 if change == 0.0 else 0.0
-    return float(2.0 * stdtr(min(freedom, 1e9), -abs(change) / stderr))
+    return float(2.0 * scipy.special.stdtr(min(freedom, 1e9), -abs(change) / stderr))
 
 
 def false_discovery(p_values: Sequence[float]) -> list[float]:
@@ -142,5 +141,9 @@ def _inverse_trigamma(value: float) -> float:
     # trigamma lies between 1/x and 1/x + 1/x^2.
     high = 0.5 / value + math.sqrt(0.25 / value**2 + 1.0 / value)
     return float(
-        brentq(lambda x: float(polygamma(1, x)) - value, 1.0 / value * 0.999, high * 1.001)
+        scipy.optimize.brentq(
+            lambda x: float(scipy.special.polygamma(1, x)) - value,
+            1.0 / value * 0.999,
+            high * 1.001,
+        )
     )

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import polars as pl
+import scipy
 from numpy.typing import NDArray
 
 from stribeck.errors import SpecError
@@ -151,10 +152,7 @@ def generate(
     level = noise * joint.coulomb
     drive = math.sqrt(1.0 - NOISE_MEMORY**2)
     torque_noise = level * drive * rng.standard_normal(n + 200)
-    # Loads statistics with it: only where it is needed.
-    from scipy.signal import lfilter
-
-    torque_noise = lfilter([1.0], [1.0, -NOISE_MEMORY], torque_noise)[200:]
+    torque_noise = scipy.signal.lfilter([1.0], [1.0, -NOISE_MEMORY], torque_noise)[200:]
     sigma = VELOCITY_NOISE * joint.speed
     frame = pl.DataFrame(
         {

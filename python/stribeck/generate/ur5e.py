@@ -28,6 +28,7 @@ from typing import Any
 
 import numpy as np
 import polars as pl
+import scipy
 from numpy.typing import NDArray
 
 from stribeck.energy import Motor, electrical_power
@@ -369,7 +370,4 @@ def _current_noise(rng: np.random.Generator, level: float, count: int) -> Array:
     """Noise of RMS `level`, correlated over a few samples."""
     drive = level * math.sqrt(1.0 - NOISE_MEMORY**2)
     white = drive * rng.standard_normal(count + 50)
-    # Loads statistics with it: only where it is needed.
-    from scipy.signal import lfilter
-
-    return np.asarray(lfilter([1.0], [1.0, -NOISE_MEMORY], white)[50:])
+    return np.asarray(scipy.signal.lfilter([1.0], [1.0, -NOISE_MEMORY], white)[50:])

@@ -7,8 +7,8 @@ than the residual's memory (batch means; Ibragimov and Mueller 2010 for the t qu
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.fft import next_fast_len
 
 from stribeck.identify.triangle import UNSEEN, Triangle
 
@@ -28,7 +28,7 @@ def correlation_length(residual: Array) -> float:
     length = 1.0
     limit = min(size // 4, 20000)
     # Zeros enough that no lag up to the limit wraps around, to a length that the transform likes.
-    padded = next_fast_len(size + limit, real=True)
+    padded = scipy.fft.next_fast_len(size + limit, real=True)
     spectrum = np.fft.rfft(x, padded)
     correlation = np.fft.irfft(np.abs(spectrum) ** 2, padded)[: limit + 1] / power
     for lag in range(1, limit + 1):

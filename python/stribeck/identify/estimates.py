@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import stdtrit
 
 from stribeck.identify.confounded import partners, reason
 from stribeck.identify.covariance import (
@@ -121,7 +121,7 @@ def estimates_by_rows(
     else:
         freedom = max(int(batch.max()), 1)
         covariance = sandwich(jacobian, residual, batch, free)
-    quantile = float(stdtrit(freedom, 0.975))
+    quantile = float(scipy.special.stdtrit(freedom, 0.975))
     names = model.names
     made = {}
     for k, p in enumerate(model.parameters):

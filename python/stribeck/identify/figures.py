@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from stribeck.recording import Recording
@@ -35,17 +36,14 @@ def zero_phase(recording: Recording, values: Array) -> Array:
     cutoff = torque_cutoff(recording)
     if cutoff is None:
         return values.copy()
-    # Loads statistics with it: only where it is needed.
-    from scipy.signal import butter, sosfiltfilt
-
     filtered = values.copy()
-    sos = butter(4, cutoff, fs=recording.rate_hz, output="sos")
+    sos = scipy.signal.butter(4, cutoff, fs=recording.rate_hz, output="sos")
     first = np.flatnonzero(np.diff(recording.segment, prepend=-1))
     length = np.diff(first, append=values.size)
     # Segments of one length go through the filter together.
     for size in np.unique(length[length > SHORTEST]):
         rows = first[length == size][:, None] + np.arange(size)
-        filtered[rows] = sosfiltfilt(sos, values[rows])
+        filtered[rows] = scipy.signal.sosfiltfilt(sos, values[rows])
     return filtered
 
 

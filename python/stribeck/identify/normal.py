@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
 from stribeck import _core
 
@@ -69,5 +69,7 @@ def solve_bounded(matrix: Array, vector: Array, lower: Array, upper: Array) -> A
     free = np.linalg.lstsq(root, right, rcond=None)[0] / scale
     if np.all(free >= lower) and np.all(free <= upper):
         return free
-    bounded = lsq_linear(root, right, bounds=(lower * scale, upper * scale), method="bvls")
+    bounded = scipy.optimize.lsq_linear(
+        root, right, bounds=(lower * scale, upper * scale), method="bvls"
+    )
     return np.clip(bounded.x / scale, lower, upper)

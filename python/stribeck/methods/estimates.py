@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.special import ndtri
 
 from stribeck.fit import Estimate
 from stribeck.model import Model
@@ -36,7 +36,7 @@ def estimates(
     at_bound, shown : bool array [p]
         Which values lie on a bound, and which the data can show.
     """
-    reach = float(ndtri(0.975))
+    reach = float(scipy.special.ndtri(0.975))
     made = {}
     for k, p in enumerate(model.parameters):
         value = float(model.values[k])

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import linprog
-from scipy.sparse import csc_matrix, eye, hstack
 
 from stribeck.errors import FitError
 
@@ -61,11 +60,14 @@ def least_absolute(columns: Array, target: Array, lower: Array, upper: Array) ->
     size = np.abs(columns).max(axis=0)
     size[size == 0.0] = 1.0
     scale = float(np.abs(target).max()) or 1.0
-    either = hstack([csc_matrix(columns / size), eye(rows), -eye(rows)], format="csc")
+    either = scipy.sparse.hstack(
+        [scipy.sparse.csc_matrix(columns / size), scipy.sparse.eye(rows), -scipy.sparse.eye(rows)],
+        format="csc",
+    )
     cost = np.concatenate([np.zeros(count), np.ones(2 * rows)])
     low = np.concatenate([lower * size / scale, np.zeros(2 * rows)])
     high = np.concatenate([upper * size / scale, np.full(2 * rows, np.inf)])
-    solved = linprog(
+    solved = scipy.optimize.linprog(
         cost, A_eq=either, b_eq=target / scale, bounds=np.column_stack([low, high]), method="highs"
     )
     if solved.x is None:

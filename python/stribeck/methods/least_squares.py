@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from stribeck.errors import FitError
 from stribeck.identify.problem import Problem
@@ -82,7 +82,7 @@ class BoundedLeastSquares:
 
         if not np.all(np.isfinite(residual(values[free]))):
             return np.inf, values
-        found = least_squares(
+        found = scipy.optimize.least_squares(
             residual, values[free], slope, x_scale="jac",
             bounds=(self.lower[free], self.upper[free]),
         )  # fmt: skip

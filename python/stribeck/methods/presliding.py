@@ -12,8 +12,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 from stribeck.errors import FitError
 from stribeck.identify.figures import rms
@@ -138,7 +138,7 @@ class Presliding:
             return miss / swing if np.isfinite(miss) else 1e30
 
         simplex = np.vstack([np.zeros(3), np.diag([DECADES, DECADES, SHARE])])
-        found = minimize(
+        found = scipy.optimize.minimize(
             error,
             np.zeros(3),
             method="Nelder-Mead",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from .rows import segment_slices
@@ -53,8 +54,6 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
     float or None
         Cut-off [Hz], or None when there is no noise to remove or too little data to see it.
     """
-    from scipy.signal import get_window
-
     slices = [s for s in segment_slices(segment) if s.stop - s.start >= 32]
     if not slices:
         return None
@@ -67,7 +66,7 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
     length = int(2 ** np.round(np.log2(np.clip(4.0 * rate, 64, 4096))))
     while length > 32 and length > longest - differences:
         length //= 2
-    window = get_window("hann", length)
+    window = scipy.signal.get_window("hann", length)
     scale = 1.0 / (rate * float((window**2).sum()))
     spectrum = np.zeros(length // 2 + 1)
     windows = 0
@@ -134,13 +133,13 @@ def jumps(value: Floats) -> Bools:
 
     They stand out from the steps around them by many times what steps usually change by.
     """
-    from scipy.ndimage import median_filter
-
     step = np.diff(value)
     if len(step) < 2:
         return np.zeros(len(step), dtype=bool)
     usual = float(np.quantile(np.abs(np.diff(step)), 0.99))
-    return np.asarray(np.abs(step - median_filter(step, 5, mode="nearest")) > _JUMP * usual)
+    return np.asarray(
+        np.abs(step - scipy.ndimage.median_filter(step, 5, mode="nearest")) > _JUMP * usual
+    )
 
 
 def _smooth(density: Floats) -> Floats:
@@ -209,8 +208,6 @@ class Smoother:
 
         Segments too short for the filter are differentiated as they are.
         """
-        from scipy.signal import butter, sosfiltfilt
-
         out = np.empty_like(value)
         sections: dict[float, Floats] = {}
         for part in segment_slices(self.segment):
@@ -240,9 +237,9 @@ class Smoother:
                 assert self.cutoff is not None
                 key = round(rate, 6)
                 if key not in sections:
-                    sections[key] = butter(_ORDER, self.cutoff, fs=rate, output="sos")
+                    sections[key] = scipy.signal.butter(_ORDER, self.cutoff, fs=rate, output="sos")
                 pad = min(len(y) - 1, int(3.0 * rate / self.cutoff))
-                y = sosfiltfilt(sections[key], y, padlen=pad)
+                y = scipy.signal.sosfiltfilt(sections[key], y, padlen=pad)
             for _ in range(derivative):
                 y = _slope(y, 1.0 / rate)
             if not short:

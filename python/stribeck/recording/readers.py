@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import polars as pl
+import scipy
 
 from ..errors import RecordingError
 
@@ -296,10 +297,9 @@ def _read_mat(name: str, data: bytes) -> pl.DataFrame:
         or data[:4] == b"\x89HDF"
     ):
         return _read_mat73(name, data)
-    from scipy.io import loadmat
 
     try:
-        loaded = loadmat(io.BytesIO(data))
+        loaded = scipy.io.loadmat(io.BytesIO(data))
     except Exception as error:  # scipy raises many kinds on damaged files
         reason = str(error).splitlines()[0][:100] if str(error) else type(error).__name__
         raise RecordingError(

@@ -50,6 +50,16 @@ def model_file(tmp_path_factory: pytest.TempPathFactory, plain_file: Path) -> Pa
     return path
 
 
+def test_help_waits_for_no_library_that_it_does_not_use() -> None:
+    slow = ("scipy.special", "scipy.optimize", "scipy.stats", "sklearn", "matplotlib", "distributed")
+    said = subprocess.run(
+        [sys.executable, "-X", "importtime", "-m", "stribeck", "--help"],
+        capture_output=True, text=True, check=True,
+    ).stderr  # fmt: skip
+    loaded = {line.rsplit("|", 1)[-1].strip() for line in said.splitlines()}
+    assert "stribeck.cli" in loaded and not loaded & set(slow)
+
+
 def test_fit(plain_file: Path) -> None:
     made = answer("fit", plain_file, "--model", "coulomb+offset")
     assert {"model", "parameters", "rmse", "rmse_held_out", "relative_residual", "starts",

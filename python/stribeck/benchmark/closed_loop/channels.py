@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from stribeck.benchmark.closed_loop.machine import STEP, Machine
 from stribeck.benchmark.closed_loop.simulation import Course
@@ -50,7 +50,7 @@ def low_pass(values: Array, machine: Machine) -> Array:
     share = 1 - math.exp(-machine.cutoff * STEP)
     once = values - values[0]
     for _ in range(2):
-        once = np.asarray(lfilter([share], [1.0, share - 1.0], once))
+        once = np.asarray(scipy.signal.lfilter([share], [1.0, share - 1.0], once))
     return once + values[0]
 
 

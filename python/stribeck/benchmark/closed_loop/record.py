@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 import polars as pl
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
-from scipy.signal import lfilter
 
 from stribeck.benchmark.closed_loop.actuator import Actuator
 from stribeck.benchmark.closed_loop.channels import Channels, channels
@@ -93,7 +92,7 @@ class _Session:
         r = self.reference
         steps = rng.permutation(np.resize(PAYLOADS, r.dwells.size + 1))
         payload = steps[np.searchsorted(r.dwells, r.time)]
-        self.payload = np.asarray(uniform_filter1d(payload, round(TAKEN_OVER / STEP)))
+        self.payload = np.asarray(scipy.ndimage.uniform_filter1d(payload, round(TAKEN_OVER / STEP)))
         self.temperature = draw_temperature(rng, r.time, limit)
         loads = m.inertia * r.acceleration + m.gravity_torque(r.position, self.payload)
         shapes = draw_shapes(rng, m, loads, self.temperature, r.dwells, float(r.time[-1]))
@@ -314,6 +313,7 @@ def _current_noise(rng: np.random.Generator, rate: int, rows: int) -> Array:
     """Unit noise of the current: white, and a share that wanders over tens of milliseconds."""
     memory = math.exp(-1 / (rate * float(rng.uniform(0.005, 0.05))))
     share = float(rng.uniform(0.0, 0.6))
-    slow = lfilter([math.sqrt(1 - memory**2)], [1, -memory], rng.standard_normal(rows + 300))[300:]
+    drive = rng.standard_normal(rows + 300)
+    slow = scipy.signal.lfilter([math.sqrt(1 - memory**2)], [1, -memory], drive)[300:]
     noise = math.sqrt(share) * slow + math.sqrt(1 - share) * rng.standard_normal(rows)
     return np.asarray(noise / root_mean_square(noise))

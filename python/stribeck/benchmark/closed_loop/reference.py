@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
 
 from stribeck.benchmark.closed_loop.machine import STEP, Machine
 from stribeck.benchmark.draws import log_uniform
@@ -115,7 +115,9 @@ class _Pulses:
         """Everything up to `steps`, shaped."""
         pulses = np.concatenate(self.speeds)
         for seconds in (self.machine.ramp, 0.5 * self.machine.ramp):
-            pulses = np.asarray(uniform_filter1d(pulses, round(seconds / STEP), mode="nearest"))
+            pulses = np.asarray(
+                scipy.ndimage.uniform_filter1d(pulses, round(seconds / STEP), mode="nearest")
+            )
         q = self.machine.centre + np.cumsum(pulses) * STEP
         for start, wave in self.waves:
             at = round(start / STEP)

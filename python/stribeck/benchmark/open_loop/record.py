@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import polars as pl
+import scipy
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 from stribeck.benchmark.draws import log_uniform, size_beyond
 from stribeck.benchmark.open_loop.amplitude import find_amplitudes
@@ -104,7 +104,8 @@ def sample(
 def coloured_noise(rng: np.random.Generator, n: int) -> Array:
     """Unit noise: an AR(1) part with random correlation plus a white part."""
     rho, share = rng.uniform(0.0, 0.95), rng.uniform(0.2, 0.9)
-    red = lfilter([math.sqrt(1 - rho * rho)], [1, -rho], rng.standard_normal(n + 500))[500:]
+    drive = rng.standard_normal(n + 500)
+    red = scipy.signal.lfilter([math.sqrt(1 - rho * rho)], [1, -rho], drive)[500:]
     white = rng.standard_normal(n)
     return np.asarray(math.sqrt(share) * np.asarray(red) + math.sqrt(1 - share) * white)
 

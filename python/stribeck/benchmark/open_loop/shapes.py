@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from stribeck.benchmark.draws import log_uniform
 from stribeck.benchmark.open_loop.joint import Joint
@@ -72,7 +72,7 @@ def _falls_with_speed(vs: float, jitter: Array) -> list[Shape]:
 
 
 def _table(x: Sequence[float], y: Sequence[float]) -> Shape:
-    curve = PchipInterpolator(x, y)
+    curve = scipy.interpolate.PchipInterpolator(x, y)
     last, value = x[-1], y[-1]
     return lambda s: np.where(s < last, curve(np.minimum(s, last)), value)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.signal import lfilter
+import scipy
 
 from stribeck.benchmark.open_loop.moves import Array
 
@@ -28,8 +28,8 @@ def joint_temperature(
             t, on = t + length, not on
         tau = rng.uniform(0.09, 0.16) * duration
         k = 0.05 / tau
-        smooth = lfilter([k * 4], [1, -(1 - k * 4)], power)
-        rise = np.asarray(lfilter([k], [1, -(1 - k)], smooth))
+        smooth = scipy.signal.lfilter([k * 4], [1, -(1 - k * 4)], power)
+        rise = np.asarray(scipy.signal.lfilter([k], [1, -(1 - k)], smooth))
         rise /= rise.max()
         if abs(np.corrcoef(rise, grid)[0, 1]) < 0.6:
             return lambda t: start + span * np.interp(t, grid, rise)
