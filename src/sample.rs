@@ -244,7 +244,7 @@ pub fn stribeck_curve<S: Real>(
     stribeck_velocity: S,
     exponent: S,
 ) -> StribeckCurve<S> {
-    let ratio = stribeck_velocity.abs().divide(velocity.abs());
+    let ratio = stribeck_velocity.divide(velocity).abs();
     let argument = S::choose(velocity.at_zero(), S::zero(), ratio.powf(exponent));
     StribeckCurve::of(argument, exponent)
 }
