@@ -52,7 +52,7 @@ def by_address(program: Path, kernel: str) -> Counter[int]:
     """
     with TemporaryDirectory() as folder:
         report = Path(folder) / "callgrind.out"
-        command = [
+        command: list[str | Path] = [
             *("valgrind", "--tool=callgrind", f"--callgrind-out-file={report}"),
             *("--dump-instr=yes", "--compress-pos=no", "--compress-strings=no"),
             *("--collect-atstart=no", "--toggle-collect=*measured_run*"),

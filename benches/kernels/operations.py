@@ -48,7 +48,8 @@ def _arithmetic(program: Path) -> dict[int, list[tuple[str, int]]]:
         for kind, pattern in PATTERNS.items():
             match = pattern.fullmatch(name)
             if match:
-                found.setdefault(address, []).append((kind, _lanes(*match.groups(), operands)))
+                packed, size = match.groups()
+                found.setdefault(address, []).append((kind, _lanes(packed, size, operands)))
     return found
 
 

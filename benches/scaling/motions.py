@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 import polars as pl
@@ -17,7 +18,7 @@ NOISE = 0.3
 JOINT = JOINTS["revolute"]
 
 
-def channels(samples: int) -> dict[str, np.ndarray]:
+def channels(samples: int) -> dict[str, Any]:
     """All that a law may read, arrays [samples]."""
     time = DT * np.arange(samples)
     velocity = 0.9 * np.sin(0.7 * time) * np.cos(0.11 * time) + 0.05 * np.sin(6.1 * time)

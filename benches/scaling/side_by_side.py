@@ -13,7 +13,7 @@ from time import perf_counter
 import motions
 import stribeck as sb
 from curves import JOINTS, MIDDLE
-from stribeck.parallel import in_processes
+from stribeck.parallel import LocalPool, in_processes
 
 LAW = "lugre"
 STARTS = 20
@@ -43,7 +43,8 @@ def main() -> None:
         sb.fit(LAW, recording, starts=STARTS)
     else:
         do = counting if task == "counting" else fit_of_one
-        in_processes(do, [recording] * JOINTS, answers.append, count)
+        with LocalPool(count) as pool:
+            in_processes(do, [recording] * JOINTS, answers.append, pool)
     print(perf_counter() - begin)
 
 
