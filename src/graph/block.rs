@@ -149,7 +149,9 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
             let low = logarithms(x, out);
             for ((out, &x), (&p, &low)) in out.iter_mut().zip(x).zip(p.iter().zip(&low.0)) {
                 let power = elementary::powf_fast(x, (*out, low), p);
-                *out = if plain(p) { power } else { f64::NAN };
+                let power = if p == 2.0 { x * x } else { power };
+                let power = if p == 1.0 { x } else { power };
+                *out = if p == 0.0 { 1.0 } else { power };
             }
             mend_powers(out, x, |row| p[row]);
         }
