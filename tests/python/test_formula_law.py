@@ -44,6 +44,24 @@ def test_every_channel_reaches_the_formula() -> None:
     assert torque == 7654321.0
 
 
+def test_powers_whose_exponent_changes_from_row_to_row() -> None:
+    """Exponents with a value of their own beside others, in one block of rows and in several."""
+    bases = np.array([0.0, 5e-324, 1e-310, 1e-3, 0.5, 1.0 - 2**-53, 1.0, 1.5, 7e150, 1.7e308])
+    exponents = np.array([0.0, 0.5, 1.0, 1.0 + 2**-52, 2.0, 3.0, 17.3, 1e19, 2e20, 1e300])
+    base, exponent = (grid.ravel() for grid in np.meshgrid(bases, exponents))
+    base, exponent = np.tile(base, 3), np.tile(exponent, 3)
+    own = sb.law("c*abs(q)^abs(a)", c=1.0)
+    with np.errstate(over="ignore", under="ignore"):
+        expected = base**exponent
+    finite = np.isfinite(expected)
+    torque = own.torque(0.0 * base, position=base, acceleration=exponent)
+    np.testing.assert_allclose(torque[finite], expected[finite], rtol=1e-15, atol=5e-324)
+    for row in range(bases.size * exponents.size):
+        one = slice(row, row + 1)
+        alone = own.torque(0.0 * base[one], position=base[one], acceleration=exponent[one])
+        np.testing.assert_array_equal(torque[one], alone)
+
+
 def test_units_follow_from_the_formula() -> None:
     """A torque, plain arguments, and the channels' units fix what they can."""
     cases = {
