@@ -91,21 +91,30 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
                     Place::Buffer(i) => Operand::Each(&buffers[i].0),
                 };
                 macro_rules! alike {
-                    ($($count:literal),+) => {
-                        match now.len() {
-                            $($count => moment.relax_alike::<$count>(
-                                now, &mut spare, operand, &mut memories, &mut scratch,
-                            ),)+
-                            _ => {
-                                let memory = memories.get_mut(task.memory);
-                                moment.carry_out(
-                                    task, &mut spare[0].0, operand, memory, &mut scratch,
-                                );
-                            }
-                        }
+                    ($count:expr) => {
+                        moment.relax_alike::<{ $count }>(
+                            now,
+                            &mut spare,
+                            operand,
+                            &mut memories,
+                            &mut scratch,
+                        )
                     };
                 }
-                alike!(2, 3, 4, 5, 6, 7, 8);
+                match now.len() {
+                    1 => {
+                        let memory = memories.get_mut(task.memory);
+                        let out = &mut spare[0].0;
+                        moment.carry_out(task, out, operand, memory, &mut scratch);
+                    }
+                    2 => alike!(2),
+                    3 => alike!(3),
+                    4 => alike!(4),
+                    5 => alike!(5),
+                    6 => alike!(6),
+                    7 => alike!(7),
+                    _ => alike!(MOST_TOGETHER),
+                }
                 for (spare, task) in spare.iter_mut().zip(now) {
                     swap(spare, &mut buffers[task.to]);
                 }
