@@ -4,6 +4,34 @@ from typing import Any, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "Formula",
+    "Model",
+    "ModelError",
+    "Requirement",
+    "bounded_least_squares",
+    "catalog",
+    "compensate",
+    "elementary",
+    "elementary_constants",
+    "fourier",
+    "largest_factor",
+    "margins",
+    "missed",
+    "normal_equations",
+    "passivity",
+    "requirements",
+    "search",
+    "search_by",
+    "simulate",
+    "simulate_arm",
+    "slides",
+    "stroke",
+    "triangle",
+    "triangles_of",
+    "work",
+]
+
 _Desired: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 class ModelError(ValueError): ...
