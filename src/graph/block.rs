@@ -149,9 +149,7 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
             let low = logarithms(x, out);
             for ((out, &x), (&p, &low)) in out.iter_mut().zip(x).zip(p.iter().zip(&low.0)) {
                 let power = elementary::powf_fast(x, (*out, low), p);
-                let power = if p == 2.0 { x * x } else { power };
-                let power = if p == 1.0 { x } else { power };
-                *out = if p == 0.0 { 1.0 } else { power };
+                *out = elementary::power_without_logarithm(power, x, p);
             }
             mend_powers(out, x, |row| p[row]);
         }

@@ -84,13 +84,12 @@ impl Schedule {
             let operands = operation.operands();
             let from: Vec<Place> = operands.iter().filter_map(|&own| places[own]).collect();
             let shared = from.iter().all(|place| matches!(place, Place::Uniform(_)));
-            let place = match operation {
-                Operation::Column(_) => Place::Buffer(layout.take()),
-                operation if shared && !operation.has_memory() => {
-                    schedule.uniforms += 1;
-                    Place::Uniform(schedule.uniforms - 1)
-                }
-                _ => Place::Buffer(layout.take()),
+            let by_row = matches!(operation, Operation::Column(_)) || operation.has_memory();
+            let place = if shared && !by_row {
+                schedule.uniforms += 1;
+                Place::Uniform(schedule.uniforms - 1)
+            } else {
+                Place::Buffer(layout.take())
             };
             places[id] = Some(place);
             let mut five = [Place::Uniform(0); 5];

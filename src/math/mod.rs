@@ -69,6 +69,9 @@ macro_rules! elementary {
             elementary!(@ "The power from the [logarithm](log2_fast), or NaN where [`powf`] is to be asked.",
                 powf_fast(x: $float, logarithm: ($float, $float), p: $float) -> $float,
                 power::powf_fast(x, logarithm, p));
+            elementary!(@ "The power by an exponent of 0, 1 or 2, which [`powf_fast`] does not take; else `value`.",
+                power_without_logarithm(value: $float, x: $float, p: $float) -> $float,
+                power::without_logarithm(value, x, p));
             elementary!(@ "Whether [`powf_fast`] takes this exponent.",
                 is_plain_exponent(p: $float) -> bool, power::is_plain_exponent(p));
             elementary!(@ "Hyperbolic tangent.", tanh(x: $float) -> $float, hyperbolic::tanh(x));

@@ -22,9 +22,17 @@ pub fn powf<F: Format>(x: F, p: F) -> F {
     let value = if odd { value.copysign(x) } else { value };
     let value = if (x < zero) & !whole & (size < F::INFINITY) { F::NAN } else { value };
     let value = if x.is_nan() { x } else { value };
+    let value = if x == one { one } else { value };
+    without_logarithm(value, x, p)
+}
+
+/// The power where an exponent of 0, 1 or 2 asks for no logarithm, elsewhere a value as it is.
+#[inline(always)]
+pub fn without_logarithm<F: Format>(value: F, x: F, p: F) -> F {
+    let (zero, one) = (F::of(0.0), F::of(1.0));
     let value = if p == F::of(2.0) { x * x } else { value };
     let value = if p == one { x } else { value };
-    if (p == zero) | (x == one) { one } else { value }
+    if p == zero { one } else { value }
 }
 
 /// The binary logarithm of a normal, positive number, high and low part: the first half of
