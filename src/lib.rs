@@ -69,3 +69,5 @@ mod python;
 pub mod sample;
 pub mod scalar;
 pub mod table;
+#[cfg(feature = "python")]
+mod units;

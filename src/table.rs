@@ -49,6 +49,20 @@ impl Channel {
             Self::Time => "time",
         }
     }
+
+    /// Unit in terms of T, X, s and degC.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Velocity => "X/s",
+            Self::Position => "X",
+            Self::Acceleration => "X/s2",
+            Self::Temperature => "degC",
+            Self::LoadTorque | Self::MotorTorque | Self::ExternalTorque => "T",
+            Self::LoadTorqueCurvature => "T/s2",
+            Self::Time => "s",
+        }
+    }
 }
 
 impl fmt::Display for Channel {

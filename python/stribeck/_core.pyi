@@ -9,6 +9,7 @@ __all__ = [
     "Model",
     "ModelError",
     "Requirement",
+    "__version__",
     "bounded_least_squares",
     "catalog",
     "compensate",
@@ -29,10 +30,13 @@ __all__ = [
     "stroke",
     "triangle",
     "triangles_of",
+    "units",
     "work",
 ]
 
 _Desired: TypeAlias = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+
+__version__: str
 
 class ModelError(ValueError): ...
 
@@ -41,6 +45,7 @@ def elementary(
 ) -> list[float]: ...
 def elementary_constants(*, single: bool = False) -> dict[str, list[float]]: ...
 def catalog() -> dict[str, list[dict[str, Any]]]: ...
+def units() -> dict[str, list[dict[str, Any]]]: ...
 def normal_equations(
     jacobian: ArrayLike, residual: ArrayLike, group: ArrayLike, groups: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...

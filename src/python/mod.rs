@@ -11,6 +11,7 @@ mod joint;
 mod model;
 mod normal;
 mod passivity;
+mod units;
 
 use std::string::ToString;
 
@@ -55,4 +56,11 @@ mod _core {
     use super::normal::normal_equations;
     #[pymodule_export]
     use super::passivity::{Requirement, margins, missed, passivity, requirements, work};
+    #[pymodule_export]
+    use super::units::units;
+
+    /// Version of the extension module, which is that of the crate.
+    #[pymodule_export]
+    #[allow(non_upper_case_globals)]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }
