@@ -6,7 +6,9 @@ import mujoco
 import numpy as np
 import stribeck as sb
 from mujoco import rollout
-from stribeck.simulate import Joint, Torque, simulate
+from stribeck.motion.simulate.drive import Torque
+from stribeck.motion.simulate.joint import Joint
+from stribeck.motion.simulate.run import simulate
 from timing import line
 
 STEP = 1e-3

@@ -16,7 +16,10 @@ from types import ModuleType
 
 import numpy as np
 import stribeck as sb
-from stribeck.simulate import Controller, Follow, Joint, Simulation, simulate
+from stribeck.motion.simulate.drive import Controller, Follow
+from stribeck.motion.simulate.joint import Joint
+from stribeck.motion.simulate.result import Simulation
+from stribeck.motion.simulate.run import simulate
 from timing import line, medians
 
 SERVO = "xl330"

@@ -13,7 +13,7 @@ from time import perf_counter
 
 import motions
 import stribeck as sb
-from stribeck.model import law_ids
+from stribeck.models.catalog import law_ids
 
 #: A time is the median of as many calls as fit into this, s, and at least of one.
 PATIENCE = 0.5

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import polars as pl
 import stribeck as sb
-from stribeck.generate.motion import JOINTS
-from stribeck.generate.plausible import plausible_values
+from stribeck.motion.generate.motion import JOINTS
+from stribeck.motion.generate.plausible import plausible_values
 
 DT = 0.002
 #: Standard deviation of the torque's noise, N m.

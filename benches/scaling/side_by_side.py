@@ -13,7 +13,7 @@ from time import perf_counter
 import motions
 import stribeck as sb
 from curves import JOINTS, MIDDLE
-from stribeck.parallel import LocalPool, in_processes
+from stribeck.base.pool import LocalPool, in_processes
 
 LAW = "lugre"
 STARTS = 20

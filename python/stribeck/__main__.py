@@ -1,5 +1,5 @@
 """`python -m stribeck` is the command `stribeck`."""
 
-from stribeck.cli import main
+from stribeck.cli.main import main
 
 main()

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import polars as pl
 import stribeck as sb
+from stribeck.motion.simulate.drive import Controller
+from stribeck.motion.simulate.validation import validate, validate_closed_loop
 from stribeck.report.files import save_figure
-from stribeck.simulate import Controller, validate, validate_closed_loop
 
 ROOT = Path(__file__).resolve().parents[2]
 EMPS = ROOT.parent / "shared" / "data" / "emps"

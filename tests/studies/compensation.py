@@ -2,7 +2,7 @@
 
 python tests/studies/compensation.py [FIGURE.png]
 
-The experiments of Tadese et al. 2021, section V-B, on the joint 2 of tests/python/methods/indy.py.
+The experiments of Tadese et al. 2021, section V-B, on the joint 2 of tests/python/fitting/methods/indy.py.
 Its friction is known only to what moves it: the comprehensive model is identified by three steps
 on noisy recordings of it, LuGre on noisy points without load at room temperature.
 """
@@ -18,12 +18,15 @@ from pathlib import Path
 import numpy as np
 import polars as pl
 import stribeck as sb
-from stribeck.compensate import Compensator, Factor, Guidance, Teaching, largest_factor, teach
-from stribeck.compensate import compensate as follow
-from stribeck.fit import Fit
-from stribeck.methods import three_step_fit
+from stribeck.fitting.fit import Fit
+from stribeck.fitting.methods.three_step import three_step_fit
+from stribeck.motion.compensate.factor import Factor, largest_factor
+from stribeck.motion.compensate.loop import Compensator
+from stribeck.motion.compensate.teaching import Guidance, Teaching, teach
+from stribeck.motion.compensate.tracking import compensate as follow
+from stribeck.motion.simulate.joint import Joint
+from stribeck.motion.simulate.trajectory import Quintic, Trapezoid
 from stribeck.report.files import save_figure
-from stribeck.simulate import Joint, Quintic, Trapezoid
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "python" / "methods"))
 import indy

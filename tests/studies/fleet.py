@@ -15,11 +15,11 @@ import tempfile
 from pathlib import Path
 
 import stribeck as sb
-from stribeck.fleet import Question
 from stribeck.report.files import save_figure
+from stribeck.scale.fleet.changes import Question
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/python"), str(ROOT / "tests/python/fleet")]
+sys.path[:0] = [str(ROOT / "tests/python"), str(ROOT / "tests/python/scale/fleet")]
 
 
 def main() -> None:

@@ -16,10 +16,11 @@ from pathlib import Path
 import numpy as np
 import stribeck as sb
 from numpy.typing import NDArray
-from stribeck.generate import RobotRecording, write_robot
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import ReducedProblem
 from stribeck.identify.scaling import bounds, model_for
+from stribeck.motion.generate.files import write_robot
+from stribeck.motion.generate.ur5e import RobotRecording
 from stribeck.report.figures import AFTER, BEFORE, new_figure, style, title
 from stribeck.report.files import save_figure
 

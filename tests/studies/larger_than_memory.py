@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 import polars as pl
-from stribeck.generate import generate
+from stribeck.motion.generate.hidden import generate
 
 #: Rows of one file, of the recording that is repeated, and of a row group.
 FILE_ROWS, PIECE_ROWS, GROUP_ROWS = 10_000_000, 1_000_000, 262_144

@@ -14,8 +14,8 @@ from stribeck.benchmark.oracle import held_out_rmse
 from stribeck.benchmark.sample import Sample
 
 if TYPE_CHECKING:
-    from stribeck.improve import Improvement
-    from stribeck.recording import Recording
+    from stribeck.diagnosis.improve import Improvement
+    from stribeck.recording.recording import Recording
 
 
 @dataclass(frozen=True)
@@ -110,8 +110,8 @@ def answer(case: Case) -> Answer:
 
 
 def _diagnosed(case: Case) -> Answer:
-    from stribeck.improve import improve
-    from stribeck.recording import read
+    from stribeck.diagnosis.improve import improve
+    from stribeck.recording.load import read
 
     sample = case.make()
     with tempfile.TemporaryDirectory(prefix="stribeck-benchmark-") as folder:

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from stribeck.base.errors import StribeckError, nearest
 from stribeck.benchmark.generators import GENERATORS, Generator
 from stribeck.benchmark.sample import Sample
-from stribeck.errors import StribeckError, nearest
 
 #: Size of a single effect over the noise.
 SIZES = (5.0, 1.0, 0.3)

@@ -55,8 +55,8 @@ def intervals(law: str, seed: int, correlation: float | None) -> tuple[Interval,
     correlation
         Of the noise from one row to the next.
     """
-    from stribeck.fit import fit
-    from stribeck.recording import read
+    from stribeck.fitting.fit import fit
+    from stribeck.recording.load import read
 
     frame, truth = autoregressive_recording(law, seed, correlation or 0.0)
     with tempfile.TemporaryDirectory(prefix="stribeck-benchmark-") as folder:

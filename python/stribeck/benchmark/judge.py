@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.benchmark.answer import Answer, Step
-from stribeck.model import effect_ids
+from stribeck.models.catalog import effect_ids
 
 #: Names in the confusion matrix where no effect was named.
 NONE, UNEXPLAINED, FAILED = "none", "unexplained", "failed"

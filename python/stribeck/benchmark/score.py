@@ -14,7 +14,7 @@ import scipy
 from stribeck.benchmark.answer import Answer
 from stribeck.benchmark.cases import CORRELATIONS, SIZES
 from stribeck.benchmark.judge import FAILED, NONE, UNEXPLAINED, Judgement, is_right, judge
-from stribeck.model import effect_ids
+from stribeck.models.catalog import effect_ids
 
 #: Least share right of each group, and of a single effect by its size over the noise.
 BARS = {"two": 0.90, "three": 0.75, "none": 0.97, "limited": 1.0, "outside": 0.90}

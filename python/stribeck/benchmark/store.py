@@ -15,11 +15,11 @@ from typing import Any
 
 import polars as pl
 
-import stribeck
+from stribeck.base.errors import StribeckError
+from stribeck.base.version import __version__
 from stribeck.benchmark.answer import Answer
 from stribeck.benchmark.judge import judge
-from stribeck.errors import StribeckError
-from stribeck.model_file import write_whole
+from stribeck.models.model_file import write_whole
 
 KIND = "diagnosis benchmark"
 MANIFEST, ANSWERS = "manifest.json", "answers.jsonl"
@@ -43,7 +43,7 @@ class Store:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.answers: dict[str, Answer] = {}
-        manifest = {"kind": KIND, "version": stribeck.__version__, "program": program_hash()}
+        manifest = {"kind": KIND, "version": __version__, "program": program_hash()}
         try:
             folder.mkdir(parents=True, exist_ok=True)
             if (folder / MANIFEST).exists():
@@ -90,7 +90,7 @@ class Store:
 
 def program_hash() -> str:
     """SHA-256 of everything that the answers depend on: the package's code and its core."""
-    root = Path(stribeck.__file__).parent
+    root = Path(__file__).resolve().parents[1]
     digest = hashlib.sha256()
     for path in sorted([*root.rglob("*.py"), *root.glob("_core*")]):
         digest.update(str(path.relative_to(root)).encode())

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
+from stribeck.base.pool import Stopped
 from stribeck.cli.common import echo_json, json_option, say, seed_option
 from stribeck.cli.progress import Progress
-from stribeck.parallel import Stopped
 
 
 @click.group()

@@ -7,8 +7,8 @@ from typing import Any
 import click
 
 from stribeck.cli.common import echo_json, json_option, recording_options, say, seed_option
-from stribeck.inspect import inspect as inspect_file
-from stribeck.model import catalog
+from stribeck.diagnosis.inspect import inspect as inspect_file
+from stribeck.models.catalog import catalog
 from stribeck.report.text import catalog_text, inspection_text
 
 

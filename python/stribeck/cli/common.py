@@ -11,11 +11,12 @@ from typing import Any, TypeVar
 
 import click
 
-from stribeck.diagnose import Finding
-from stribeck.errors import RecordingError
-from stribeck.fit import Fit, evaluate, fit
-from stribeck.model_file import ModelFile, read_model_file, write_whole
-from stribeck.recording import Recording, read
+from stribeck.base.errors import RecordingError
+from stribeck.diagnosis.result import Finding
+from stribeck.fitting.fit import Fit, evaluate, fit
+from stribeck.models.model_file import ModelFile, read_model_file, write_whole
+from stribeck.recording.load import read
+from stribeck.recording.recording import Recording
 
 F = TypeVar("F", bound=Callable[..., Any])
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -23,24 +24,17 @@ from stribeck.cli.motion import (
     trajectory_options,
     value_option,
 )
-from stribeck.compensate import (
-    Compensator,
-    Factor,
-    Guidance,
-    HInfinity,
-    Teaching,
-    Tracking,
-    largest_factor,
-    teach,
-)
-from stribeck.compensate import compensate as follow
-from stribeck.compensate.controller import BANDWIDTH
-from stribeck.errors import SpecError
-from stribeck.model import Model
-from stribeck.model_file import ModelFile, read_model_file
+from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile, read_model_file
+from stribeck.motion.compensate.controller import BANDWIDTH, HInfinity
+from stribeck.motion.compensate.factor import Factor, largest_factor
+from stribeck.motion.compensate.loop import Compensator
+from stribeck.motion.compensate.teaching import Guidance, Teaching, teach
+from stribeck.motion.compensate.tracking import Tracking
+from stribeck.motion.compensate.tracking import compensate as follow
+from stribeck.motion.simulate.acting import take_apart
 from stribeck.passivity.operating_box import parse_sides
 from stribeck.report.files import save_figure
-from stribeck.simulate.acting import take_apart
 
 LARGEST = "largest"
 

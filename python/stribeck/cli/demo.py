@@ -8,16 +8,17 @@ from typing import Any
 
 import click
 
+from stribeck.base.errors import StribeckError
 from stribeck.cli.common import echo_json, json_option, save_fit, say, seed_option
-from stribeck.compare import Comparison, compare
-from stribeck.diagnose import Diagnosis
-from stribeck.diagnose.words import physically
-from stribeck.errors import StribeckError
-from stribeck.fit import Fit
-from stribeck.generate import DEMO, demo_path, demo_recording
-from stribeck.improve import Improvement, improve
-from stribeck.model_file import write_whole
-from stribeck.recording import Recording, read
+from stribeck.diagnosis.compare import Comparison, compare
+from stribeck.diagnosis.improve import Improvement, improve
+from stribeck.diagnosis.result import Diagnosis
+from stribeck.diagnosis.words import physically
+from stribeck.fitting.fit import Fit
+from stribeck.models.model_file import write_whole
+from stribeck.motion.generate.demo import DEMO, demo_path, demo_recording
+from stribeck.recording.load import read
+from stribeck.recording.recording import Recording
 from stribeck.report.numbers import confidence_words, listed, plain
 from stribeck.report.text import (
     held_out_meaning,

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.pool import Stopped
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -19,9 +20,11 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.progress import Progress
-from stribeck.fleet import STRAGGLER, Fleet, Question, Stopped
-from stribeck.fleet import fleet as run_fleet
-from stribeck.fleet.identified import IMPROVE
+from stribeck.scale.fleet.changes import Question
+from stribeck.scale.fleet.fleet import STRAGGLER
+from stribeck.scale.fleet.fleet import fleet as run_fleet
+from stribeck.scale.fleet.identified import IMPROVE
+from stribeck.scale.fleet.result import Fleet
 
 
 @click.command()

@@ -9,14 +9,14 @@ from typing import Any, TypeVar
 
 import click
 
+from stribeck.base.errors import SpecError, nearest
 from stribeck.cli.common import is_model_file, say
-from stribeck.errors import SpecError, nearest
-from stribeck.fit import Fit, fit
-from stribeck.formula_law import LAW, FormulaTerms, declarations, effect_terms, is_formula
+from stribeck.fitting.fit import Fit, fit
 from stribeck.identify.choices import Choices
-from stribeck.model import Model, check_terms, law, model
-from stribeck.model_file import read_model_file
-from stribeck.recording import Recording
+from stribeck.models.formula_law import LAW, FormulaTerms, declarations, effect_terms, is_formula
+from stribeck.models.model import Model, check_terms, law, model
+from stribeck.models.model_file import read_model_file
+from stribeck.recording.recording import Recording
 
 F = TypeVar("F", bound=Callable[..., Any])
 

@@ -9,12 +9,13 @@ from typing import Any
 import click
 import polars as pl
 
+from stribeck.base.errors import SpecError
 from stribeck.cli.common import check_output, echo_json, json_option, seed_option
-from stribeck.errors import SpecError
-from stribeck.generate import JOINTS, RobotRecording, file_bytes, sidecar_text, write_robot
-from stribeck.generate import generate as make
-from stribeck.generate.ur5e import RATE, REPEATS, TESTS
-from stribeck.model_file import write_whole
+from stribeck.models.model_file import write_whole
+from stribeck.motion.generate.files import file_bytes, sidecar_text, write_robot
+from stribeck.motion.generate.hidden import generate as make
+from stribeck.motion.generate.motion import JOINTS
+from stribeck.motion.generate.ur5e import RATE, REPEATS, TESTS, RobotRecording
 from stribeck.report.files import write_bytes_whole
 from stribeck.report.numbers import listed, plain, thousands
 from stribeck.report.text import table, unit_text

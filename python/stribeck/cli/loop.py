@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -35,16 +36,16 @@ from stribeck.cli.formulas import (
 from stribeck.cli.methods import Method, method_options
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
-from stribeck.compare import compare as compare_fits
-from stribeck.diagnose import diagnose as diagnose_fit
-from stribeck.errors import SpecError
-from stribeck.fit import fit as fit_model
-from stribeck.formula_law import effect_name
+from stribeck.diagnosis.compare import compare as compare_fits
+from stribeck.diagnosis.improve import Addition
+from stribeck.diagnosis.improve import add as add_to
+from stribeck.diagnosis.improve import improve as improve_from
+from stribeck.diagnosis.run import diagnose as diagnose_fit
+from stribeck.fitting.fit import fit as fit_model
 from stribeck.identify.estimates import Errors
-from stribeck.improve import Addition
-from stribeck.improve import add as add_to
-from stribeck.improve import improve as improve_from
-from stribeck.streaming import StreamedDiagnosis, StreamedImprovement
+from stribeck.models.formula_law import effect_name
+from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
+from stribeck.scale.streaming.improvement import StreamedImprovement
 
 
 @click.command()
@@ -263,7 +264,7 @@ def improve(
 
     Of a folder of Parquet files, or with --stream, causes are looked for on stretches of it.
     """
-    from stribeck.model import check_effect
+    from stribeck.models.catalog import check_effect
 
     for path in (output, report, picture, figures):
         check_output(path)

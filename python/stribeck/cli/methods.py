@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import click
 
+from stribeck.base.errors import RecordingError, SpecError
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -18,19 +19,15 @@ from stribeck.cli.common import (
     say,
     seed_option,
 )
-from stribeck.errors import RecordingError, SpecError
-from stribeck.fit import Fit
-from stribeck.methods import (
-    Axis,
-    Search,
-    arm_fit,
-    averaged_points,
-    grid_fit,
-    segment_points,
-    three_step_fit,
-)
-from stribeck.model import Model
-from stribeck.recording import Recording
+from stribeck.fitting.fit import Fit
+from stribeck.fitting.methods.arm import arm_fit
+from stribeck.fitting.methods.averaging import averaged_points
+from stribeck.fitting.methods.grid import Axis, grid_fit
+from stribeck.fitting.methods.segments import segment_points
+from stribeck.fitting.methods.stretches import Search
+from stribeck.fitting.methods.three_step import three_step_fit
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
 
 F = TypeVar("F", bound=Callable[..., Any])
 

@@ -8,12 +8,13 @@ from typing import Any, TypeVar
 
 import click
 
+from stribeck.base.errors import SpecError
 from stribeck.cli.common import is_model_file
-from stribeck.errors import SpecError
-from stribeck.model import Model
-from stribeck.model import model as named
-from stribeck.model_file import load
-from stribeck.simulate import Fourier, Joint, Quintic, Trajectory, Trapezoid
+from stribeck.models.model import Model
+from stribeck.models.model import model as named
+from stribeck.models.model_file import load
+from stribeck.motion.simulate.joint import Joint
+from stribeck.motion.simulate.trajectory import Fourier, Quintic, Trajectory, Trapezoid
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 

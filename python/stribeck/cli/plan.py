@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -19,11 +20,10 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.formulas import Written, written_fit
-from stribeck.design import plan as make
-from stribeck.errors import SpecError
-from stribeck.fit import Fit
-from stribeck.generate import file_bytes
-from stribeck.model_file import ModelFile, read_model_file
+from stribeck.fitting.fit import Fit
+from stribeck.models.model_file import ModelFile, read_model_file
+from stribeck.motion.design.plan import plan as make
+from stribeck.motion.generate.files import file_bytes
 from stribeck.report.files import save_figure, write_bytes_whole
 
 FORMATS = (".csv", ".parquet")

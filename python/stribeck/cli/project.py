@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.errors import ProjectError
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -22,8 +23,7 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.formulas import Written, candidate_option, check_candidates
-from stribeck.errors import ProjectError
-from stribeck.project import Project
+from stribeck.projects.project import Project
 
 
 @click.group()

@@ -9,6 +9,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -24,21 +25,13 @@ from stribeck.cli.motion import (
     trajectory_options,
     value_option,
 )
-from stribeck.errors import SpecError
-from stribeck.generate import file_bytes
-from stribeck.model_file import write_whole
+from stribeck.models.model_file import write_whole
+from stribeck.motion.generate.files import file_bytes
+from stribeck.motion.simulate.acting import take_apart
+from stribeck.motion.simulate.drive import Controller, Drive, Follow, Pull, Torque
+from stribeck.motion.simulate.joint import Joint, Transmission
+from stribeck.motion.simulate.run import simulate as move
 from stribeck.report.files import save_figure, write_bytes_whole
-from stribeck.simulate import (
-    Controller,
-    Drive,
-    Follow,
-    Joint,
-    Pull,
-    Torque,
-    Transmission,
-)
-from stribeck.simulate import simulate as move
-from stribeck.simulate.acting import take_apart
 
 FORMATS = (".csv", ".parquet")
 #: Of the closed loop of inertia and controller, Hz.

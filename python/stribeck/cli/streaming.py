@@ -9,17 +9,14 @@ from typing import Any, TypeVar
 
 import click
 
+from stribeck.base.errors import SpecError
 from stribeck.cli.common import echo_json, say
-from stribeck.errors import SpecError
 from stribeck.recording.excerpt import SAMPLE_ROWS
-from stribeck.streaming import (
-    Stream,
-    StreamedDiagnosis,
-    StreamedFit,
-    StreamedImprovement,
-    is_data_set,
-    stream,
-)
+from stribeck.scale.streaming.dataset import is_data_set
+from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
+from stribeck.scale.streaming.improvement import StreamedImprovement
+from stribeck.scale.streaming.result import StreamedFit
+from stribeck.scale.streaming.stream import Stream, stream
 
 F = TypeVar("F", bound=Callable[..., Any])
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.pool import Stopped
 from stribeck.cli.common import (
     echo_json,
     json_option,
@@ -17,8 +18,8 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.progress import Progress
-from stribeck.study import REVIEW, Stopped
-from stribeck.study import study as make_study
+from stribeck.scale.study.plan import REVIEW
+from stribeck.scale.study.study import study as make_study
 
 
 @click.command()

@@ -17,9 +17,9 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.motion.simulate.joint import Joint
+from stribeck.motion.simulate.validation import validate as drive
 from stribeck.report.files import save_figure
-from stribeck.simulate import Joint
-from stribeck.simulate import validate as drive
 
 
 @click.command()

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from stribeck.errors import SpecError, nearest
-from stribeck.formula_law import number
-from stribeck.model import Model
+from stribeck.base.errors import SpecError, nearest
+from stribeck.models.formula_law import number
+from stribeck.models.model import Model
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from stribeck.identify.covariance import (
     seen,
 )
 from stribeck.identify.problem import Problem
-from stribeck.model import Model
+from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.recording import Recording
+from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.recording import Recording
+from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 

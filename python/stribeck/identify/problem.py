@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
-from stribeck.errors import FitError
+from stribeck.base.errors import FitError
+from stribeck.base.pool import threads
 from stribeck.identify.triangle import Triangle, triangles
-from stribeck.model import Model
-from stribeck.parallel import threads
-from stribeck.recording import Recording
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 

@@ -12,15 +12,16 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.dimensions import CHANNELS, natural_size
-from stribeck.errors import FitError
-from stribeck.formula_law import is_formula
+from stribeck.base.dimensions import CHANNELS, natural_size
+from stribeck.base.errors import FitError
+from stribeck.identify.drive_scaling import drive_scales, known_constants
 from stribeck.identify.periodogram import ripple_period
 from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
-from stribeck.model import RIGID_BODY_EFFECTS, Model, Parameter, law_row, model
-from stribeck.model import law as formula_law
-from stribeck.recording import Recording
-from stribeck.servo.scaling import drive_scales, known_constants
+from stribeck.models.catalog import law_row
+from stribeck.models.formula_law import is_formula
+from stribeck.models.model import RIGID_BODY_EFFECTS, Model, Parameter, model
+from stribeck.models.model import law as formula_law
+from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 

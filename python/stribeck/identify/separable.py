@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from stribeck import _core
 from stribeck.identify.problem import Problem
 from stribeck.identify.triangle import Triangle
-from stribeck.model import Model
+from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.model import Model
+from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 

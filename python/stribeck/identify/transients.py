@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from stribeck.identify.figures import zero_phase
 from stribeck.identify.normal import NormalEquations
-from stribeck.recording import Recording
+from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 

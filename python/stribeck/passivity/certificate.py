@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from stribeck import _core
-from stribeck.model import Model
+from stribeck.models.model import Model
 
 
 @dataclass(frozen=True)

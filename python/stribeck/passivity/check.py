@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from stribeck import _core
-from stribeck.errors import SpecError
-from stribeck.fit import Fit
-from stribeck.model import Model
-from stribeck.model_file import ModelFile
+from stribeck.base.errors import SpecError
+from stribeck.fitting.fit import Fit
+from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile
 from stribeck.passivity.certificate import Certificate, Counterexample, Margin
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
@@ -52,7 +52,7 @@ def check(model: Model | ModelFile | Fit, box: Box | None = None) -> Certificate
 
     Examples
     --------
-    >>> from stribeck.model import model
+    >>> from stribeck.models.model import model
     >>> friction = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
     >>> check(friction, {"velocity": (-3.0, 3.0)}).passive
     True

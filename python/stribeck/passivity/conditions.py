@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
-from stribeck.model import Model
+from stribeck.models.model import Model
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box
 

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from stribeck.model import Model, catalog
+from stribeck.models.catalog import catalog
+from stribeck.models.model import Model
 
 
 def friction_part(model: Model) -> tuple[Model, tuple[str, ...]]:

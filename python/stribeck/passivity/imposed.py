@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
-from stribeck.errors import FitError, SpecError
+from stribeck.base.errors import FitError, SpecError
 from stribeck.identify.problem import Problem
-from stribeck.model import Model
+from stribeck.models.model import Model
 from stribeck.passivity.check import BUDGET
 from stribeck.passivity.conditions import Conditions, FrictionOf
 from stribeck.passivity.constrained import minimise_under

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from stribeck.errors import SpecError, nearest
-from stribeck.model import Model
+from stribeck.base.errors import SpecError, nearest
+from stribeck.models.model import Model
 
 Box = Mapping[str, tuple[float, float]]
 

@@ -9,12 +9,12 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from ..errors import RecordingError
-from .derive import Smoother, choose_cutoff, motion_band
-from .drive import natural_unit, with_drive
-from .hold_out import with_hold_out
-from .recording import Column, Recording
-from .rows import (
+from stribeck.base.errors import RecordingError
+from stribeck.recording.derive import Smoother, choose_cutoff, motion_band
+from stribeck.recording.drive import natural_unit, with_drive
+from stribeck.recording.hold_out import with_hold_out
+from stribeck.recording.recording import Column, Recording
+from stribeck.recording.rows import (
     SIGMAS,
     held_out_blocks,
     noise_level,
@@ -22,7 +22,7 @@ from .rows import (
     segment_rows,
     segment_slices,
 )
-from .table import Prepared, channel_values, labels, numbered
+from stribeck.recording.table import Prepared, channel_values, labels, numbered
 
 __all__ = [
     "BANDS", "Channels", "build", "make_column", "measured_torque", "require", "rigid_body_load",

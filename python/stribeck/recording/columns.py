@@ -6,8 +6,8 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from ..errors import RecordingError, nearest
-from .units import SI, Unit, find_unit, parse_unit
+from stribeck.base.errors import RecordingError, nearest
+from stribeck.recording.units import SI, Unit, find_unit, parse_unit
 
 __all__ = [
     "CHANNELS",

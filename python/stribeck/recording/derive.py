@@ -8,7 +8,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from .rows import segment_slices
+from stribeck.recording.rows import segment_slices
 
 __all__ = ["Smoother", "choose_cutoff", "jumps", "motion_band"]
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import RecordingError
-from .recording import Recording
-from .table import Prepared
+from stribeck.base.errors import RecordingError
+from stribeck.recording.recording import Recording
+from stribeck.recording.table import Prepared
 
 __all__ = ["natural_unit", "with_drive"]
 

@@ -14,7 +14,7 @@ from typing import NoReturn
 
 import polars as pl
 
-from ..errors import RecordingError, nearest
+from stribeck.base.errors import RecordingError, nearest
 
 __all__ = ["Formula", "compile_formula"]
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import RecordingError, nearest
-from .recording import Recording
-from .table import Prepared, labels, numbered
+from stribeck.base.errors import RecordingError, nearest
+from stribeck.recording.recording import Recording
+from stribeck.recording.table import Prepared, labels, numbered
 
 __all__ = ["with_hold_out"]
 

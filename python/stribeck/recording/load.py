@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from ..errors import RecordingError, nearest
-from .assemble import build
-from .options import Pairs, gather
-from .recording import Recording
-from .table import Prepared, joint_rows, joints_of, labels, prepare
+from stribeck.base.errors import RecordingError, nearest
+from stribeck.recording.assemble import build
+from stribeck.recording.options import Pairs, gather
+from stribeck.recording.recording import Recording
+from stribeck.recording.table import Prepared, joint_rows, joints_of, labels, prepare
 
 __all__ = ["read", "read_all"]
 

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ..errors import RecordingError, nearest
-from .columns import CHANNELS
-from .sidecar import Sidecar, find_sidecar, read_sidecar
+from stribeck.base.errors import RecordingError, nearest
+from stribeck.recording.columns import CHANNELS
+from stribeck.recording.sidecar import Sidecar, find_sidecar, read_sidecar
 
 __all__ = ["DRIVES", "Mechanics", "Options", "gather"]
 

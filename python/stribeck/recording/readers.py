@@ -15,7 +15,7 @@ import numpy as np
 import polars as pl
 import scipy
 
-from ..errors import RecordingError
+from stribeck.base.errors import RecordingError
 
 __all__ = ["Source", "read_table"]
 
@@ -108,7 +108,7 @@ def read_table(path: str | Path) -> Source:
 
 
 def _beside(path: Path) -> str:
-    from ..errors import nearest
+    from stribeck.base.errors import nearest
 
     try:
         return nearest(path.name, [p.name for p in path.parent.iterdir() if p.is_file()])

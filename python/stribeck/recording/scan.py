@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import polars as pl
 
-from ..errors import RecordingError
-from .assemble import make_column, require
-from .columns import CHANNELS, file_unit, wide_groups
-from .options import Pairs, gather
-from .readers import read_table
-from .recording import Column
-from .rows import segment_rows
-from .table import (
+from stribeck.base.errors import RecordingError
+from stribeck.recording.assemble import make_column, require
+from stribeck.recording.columns import CHANNELS, file_unit, wide_groups
+from stribeck.recording.options import Pairs, gather
+from stribeck.recording.readers import read_table
+from stribeck.recording.recording import Column
+from stribeck.recording.rows import segment_rows
+from stribeck.recording.table import (
     Prepared,
     apply_formulas,
     channel_values,
@@ -25,7 +25,7 @@ from .table import (
     numbered,
     prepare,
 )
-from .units import SI
+from stribeck.recording.units import SI
 
 __all__ = ["FileColumn", "Table", "scan"]
 

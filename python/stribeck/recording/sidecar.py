@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..errors import RecordingError, nearest
+from stribeck.base.errors import RecordingError, nearest
 
 __all__ = ["Sidecar", "find_sidecar", "read_sidecar", "sidecar_hash"]
 

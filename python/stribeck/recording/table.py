@@ -10,12 +10,12 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from ..errors import RecordingError, nearest
-from .columns import Choice, choose_columns, file_unit, parse_name, wide_groups
-from .formula import Formula, compile_formula
-from .options import Options
-from .readers import Source, read_table
-from .units import SI
+from stribeck.base.errors import RecordingError, nearest
+from stribeck.recording.columns import Choice, choose_columns, file_unit, parse_name, wide_groups
+from stribeck.recording.formula import Formula, compile_formula
+from stribeck.recording.options import Options
+from stribeck.recording.readers import Source, read_table
+from stribeck.recording.units import SI
 
 __all__ = [
     "Prepared", "channel_values", "joint_rows", "joints_of", "labels", "prepare", "prepared_table",

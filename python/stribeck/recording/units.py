@@ -6,7 +6,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from ..errors import RecordingError, nearest
+from stribeck.base.errors import RecordingError, nearest
 
 __all__ = ["SI", "Unit", "find_unit", "known_units", "parse_unit"]
 

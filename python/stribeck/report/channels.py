@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from stribeck.identify.figures import bridged, zero_phase
 
 if TYPE_CHECKING:
-    from stribeck.fit import Fit
-    from stribeck.recording import Recording
+    from stribeck.fitting.fit import Fit
+    from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
@@ -131,7 +131,7 @@ def _position(fit: Fit) -> Channel | None:
 
 
 def _phase(fit: Fit) -> Channel | None:
-    from stribeck.diagnose.shape import ripple_period_of
+    from stribeck.diagnosis.shape import ripple_period_of
 
     r = fit.recording
     if r.position is None or "ripple" not in fit.model.effects:
@@ -202,7 +202,7 @@ def _modelled_rate(fit: Fit) -> Channel | None:
 
 
 def _reversal(fit: Fit) -> Channel | None:
-    from stribeck.diagnose.shape import displacement_since_reversal
+    from stribeck.diagnosis.shape import displacement_since_reversal
 
     r = fit.recording
     if r.averaged:

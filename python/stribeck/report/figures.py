@@ -22,9 +22,9 @@ from stribeck.report.numbers import change_text, plain
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from stribeck.fit import Fit
-    from stribeck.improve import Improvement
-    from stribeck.recording import Recording
+    from stribeck.diagnosis.improve import Improvement
+    from stribeck.fitting.fit import Fit
+    from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 

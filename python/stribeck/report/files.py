@@ -11,7 +11,7 @@ import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.errors import StribeckError
+from stribeck.base.errors import StribeckError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from stribeck.compare import REVERSAL_WINDOW, regime_rows
-from stribeck.model import catalog
+from stribeck.diagnosis.compare import REVERSAL_WINDOW, regime_rows
+from stribeck.models.catalog import catalog
 from stribeck.report.channels import channel, clock, load_of, telling
 from stribeck.report.figures import (
     AFTER,
@@ -27,8 +27,8 @@ from stribeck.report.numbers import change_text, plain
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from stribeck.diagnose import Finding
-    from stribeck.fit import Fit
+    from stribeck.diagnosis.result import Finding
+    from stribeck.fitting.fit import Fit
 
 #: How the residual is called by what it is taken along.
 ALONG = {None: "", "motion": " · sgn v", "load": " · sgn load"}

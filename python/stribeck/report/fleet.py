@@ -19,9 +19,9 @@ from stribeck.report.numbers import (
 from stribeck.report.text import paragraph, table, unit_text
 
 if TYPE_CHECKING:
-    from stribeck.fleet.changes import Change, Changes, JointChange
-    from stribeck.fleet.effects import Effects, JointEffect
-    from stribeck.fleet.result import Failure, Fleet
+    from stribeck.scale.fleet.changes import Change, Changes, JointChange
+    from stribeck.scale.fleet.effects import Effects, JointEffect
+    from stribeck.scale.fleet.result import Failure, Fleet
 
 #: Rows of a table before it says how many more there are.
 MOST_ROWS = 20

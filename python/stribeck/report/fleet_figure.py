@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from stribeck.fleet.changes import Changes
-    from stribeck.fleet.effects import Effects, JointEffect
-    from stribeck.fleet.result import Fleet
+    from stribeck.scale.fleet.changes import Changes
+    from stribeck.scale.fleet.effects import Effects, JointEffect
+    from stribeck.scale.fleet.result import Fleet
 
 #: Joints that are named beside their change, and in a cell of the table of effects.
 MOST_NAMED, MOST_IN_A_CELL = 12, 2

@@ -20,7 +20,7 @@ from stribeck.report.fleet_figure import fleet_figure
 from stribeck.report.html import picture_text, render
 
 if TYPE_CHECKING:
-    from stribeck.fleet.result import Fleet
+    from stribeck.scale.fleet.result import Fleet
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import jinja2
 import numpy as np
 
-from stribeck.diagnose.words import physically
-from stribeck.model import catalog
+from stribeck.diagnosis.words import physically
+from stribeck.models.catalog import catalog
 from stribeck.report.figures import improvement_figure
 from stribeck.report.files import png_bytes
 from stribeck.report.finding import finding_figure
@@ -41,10 +41,11 @@ from stribeck.report.text import (
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from stribeck.diagnose import Diagnosis, Finding, Untestable
-    from stribeck.fit import Fit
-    from stribeck.improve import Improvement
-    from stribeck.recording import Recording
+    from stribeck.diagnosis.improve import Improvement
+    from stribeck.diagnosis.result import Diagnosis, Finding
+    from stribeck.diagnosis.testable import Untestable
+    from stribeck.fitting.fit import Fit
+    from stribeck.recording.recording import Recording
 
 
 @lru_cache(maxsize=1)
@@ -205,6 +206,6 @@ def _page(
 
 def render(template: str, **said: Any) -> str:
     """A page from a template of this folder."""
-    from stribeck import __version__
+    from stribeck.base.version import __version__
 
     return _environment().get_template(template).render(version=__version__, **said)

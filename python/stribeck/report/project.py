@@ -6,8 +6,8 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.diagnose.trial import TIE
-from stribeck.diagnose.words import physically
+from stribeck.diagnosis.trial import TIE
+from stribeck.diagnosis.words import physically
 from stribeck.report.numbers import DASH, change_text, confidence_words, listed, plain, with_error
 from stribeck.report.text import (
     BAR,
@@ -21,11 +21,11 @@ from stribeck.report.text import (
 )
 
 if TYPE_CHECKING:
-    from stribeck.project.findings import Found
-    from stribeck.project.node import Node
-    from stribeck.project.project import Project
-    from stribeck.project.sides import Sides
-    from stribeck.project.tree import Tree
+    from stribeck.projects.findings import Found
+    from stribeck.projects.node import Node
+    from stribeck.projects.project import Project
+    from stribeck.projects.sides import Sides
+    from stribeck.projects.tree import Tree
 
 #: What marks the current node.
 HERE = "▸"

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stribeck.diagnose.words import physically
+from stribeck.diagnosis.words import physically
 from stribeck.identify.figures import torque_cutoff
 from stribeck.report.numbers import (
     DASH,
@@ -28,22 +28,18 @@ from stribeck.report.numbers import (
 )
 
 if TYPE_CHECKING:
-    from stribeck.compare import Assessment, Comparison
-    from stribeck.diagnose import (
-        Diagnosis,
-        Explainable,
-        Finding,
-        Group,
-        NoiseFloor,
-        SmallestVisible,
-        Unexplained,
-        Untestable,
-    )
-    from stribeck.fit import Estimate, Fit
-    from stribeck.improve import Improvement
-    from stribeck.inspect import Inspection
-    from stribeck.model import Model
-    from stribeck.recording import Recording
+    from stribeck.diagnosis.bound import Explainable
+    from stribeck.diagnosis.compare import Assessment, Comparison
+    from stribeck.diagnosis.floor import NoiseFloor
+    from stribeck.diagnosis.improve import Improvement
+    from stribeck.diagnosis.inspect import Inspection
+    from stribeck.diagnosis.result import Diagnosis, Finding
+    from stribeck.diagnosis.testable import Untestable
+    from stribeck.diagnosis.unexplained import Unexplained
+    from stribeck.diagnosis.visibility import Group, SmallestVisible
+    from stribeck.fitting.fit import Estimate, Fit
+    from stribeck.models.model import Model
+    from stribeck.recording.recording import Recording
 
 WIDTH = 98
 BAR = 40

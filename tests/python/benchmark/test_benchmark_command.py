@@ -8,13 +8,13 @@ from pathlib import Path
 import polars as pl
 import pytest
 from click.testing import CliRunner, Result
+from stribeck.base.errors import StribeckError
+from stribeck.base.pool import Stopped
 from stribeck.benchmark import run as running
 from stribeck.benchmark.answer import Answer, answer
 from stribeck.benchmark.cases import Case, cases
 from stribeck.benchmark.store import Store
-from stribeck.cli import cli
-from stribeck.errors import StribeckError
-from stribeck.parallel import Stopped
+from stribeck.cli.main import cli
 
 
 def ask(*arguments: str) -> Result:

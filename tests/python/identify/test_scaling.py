@@ -15,7 +15,7 @@ from stribeck.identify.scaling import (
     model_for,
     rigid_body_terms,
 )
-from stribeck.model import catalog
+from stribeck.models.catalog import catalog
 from synthetic import joint, record
 
 

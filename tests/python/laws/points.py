@@ -11,7 +11,8 @@ from zlib import crc32
 import numpy as np
 import stribeck as sb
 from mpmath import mpf
-from stribeck.model import Parameter, catalog
+from stribeck.models.catalog import catalog
+from stribeck.models.model import Parameter
 
 from laws.published import TABLE_7
 from laws.reference import LETTERS

@@ -11,7 +11,8 @@ import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
-from stribeck.model import Parameter, catalog, law_ids
+from stribeck.models.catalog import catalog, law_ids
+from stribeck.models.model import Parameter
 
 from laws import dynamics, exact_steps
 from laws.dynamics import DYNAMIC, Motion

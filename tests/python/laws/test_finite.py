@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck import _core
-from stribeck.model import law_ids
+from stribeck.models.catalog import law_ids
 
 from laws.points import LARGEST, SCALES, SPEEDS, draw_constants, generator
 

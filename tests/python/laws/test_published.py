@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from mpmath import mpf
-from stribeck.model import catalog
+from stribeck.models.catalog import catalog
 
 from laws import published
 from laws.points import Point

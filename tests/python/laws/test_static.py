@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.model import catalog, law_ids
+from stribeck.models.catalog import catalog, law_ids
 
 from laws.dual import Beyond
 from laws.points import Point, random_points, special_points

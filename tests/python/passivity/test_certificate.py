@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.errors import SpecError
+from stribeck.base.errors import SpecError
 
 LUGRE_1995 = {
     "bristle_stiffness": 1e5, "bristle_damping": np.sqrt(1e5), "viscous_friction": 0.4,

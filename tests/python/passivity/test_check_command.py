@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 import stribeck as sb
 from click.testing import CliRunner, Result
-from stribeck.cli import cli
-from stribeck.errors import SpecError
+from stribeck.base.errors import SpecError
+from stribeck.cli.main import cli
 
 
 @pytest.fixture

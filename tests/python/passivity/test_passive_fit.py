@@ -13,8 +13,8 @@ import stribeck as sb
 from click.testing import CliRunner
 from numpy.typing import NDArray
 from scipy.optimize import minimize
-from stribeck.cli import cli
-from stribeck.errors import FitError
+from stribeck.base.errors import FitError
+from stribeck.cli.main import cli
 from synthetic import motion, record
 
 Array = NDArray[np.float64]

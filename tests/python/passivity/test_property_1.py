@@ -11,7 +11,7 @@ import math
 
 import pytest
 import stribeck as sb
-from stribeck.passivity import Margin
+from stribeck.passivity.certificate import Margin
 
 STRENGTH, SPEED = 2.0, 0.01
 #: The largest s1 of (i).

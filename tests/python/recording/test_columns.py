@@ -7,9 +7,10 @@ import math
 import numpy as np
 import polars as pl
 import pytest
-from stribeck.errors import RecordingError
-from stribeck.recording import read, read_all, scan
+from stribeck.base.errors import RecordingError
 from stribeck.recording.columns import parse_name
+from stribeck.recording.load import read, read_all
+from stribeck.recording.scan import scan
 from stribeck.recording.units import parse_unit
 
 

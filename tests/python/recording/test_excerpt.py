@@ -52,7 +52,7 @@ def test_causes_found_on_stretches_are_counted_on_all_rows(recording: sb.Recordi
 
 def test_the_command_takes_the_number_of_rows(tmp_path: Path) -> None:
     from click.testing import CliRunner
-    from stribeck.cli import cli
+    from stribeck.cli.main import cli
 
     v = motion()[2]
     path = tmp_path / "made.parquet"

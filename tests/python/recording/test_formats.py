@@ -7,8 +7,8 @@ import hashlib
 import numpy as np
 import polars as pl
 import pytest
-from stribeck.errors import RecordingError, StribeckError
-from stribeck.recording import read
+from stribeck.base.errors import RecordingError, StribeckError
+from stribeck.recording.load import read
 
 
 def _save(frame, path):

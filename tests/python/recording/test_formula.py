@@ -6,7 +6,7 @@ import math
 
 import polars as pl
 import pytest
-from stribeck.errors import RecordingError
+from stribeck.base.errors import RecordingError
 from stribeck.recording.formula import compile_formula
 
 TABLE = pl.DataFrame(

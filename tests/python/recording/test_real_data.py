@@ -6,8 +6,9 @@ import json
 
 import numpy as np
 import pytest
-from stribeck.errors import RecordingError
-from stribeck.recording import read, scan
+from stribeck.base.errors import RecordingError
+from stribeck.recording.load import read
+from stribeck.recording.scan import scan
 
 from .conftest import CASES, DATA, SIDECARS
 

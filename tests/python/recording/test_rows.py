@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import polars as pl
 import pytest
-from stribeck.errors import RecordingError
-from stribeck.recording import read
+from stribeck.base.errors import RecordingError
+from stribeck.recording.load import read
 from stribeck.recording.rows import noise_level, quantisation_step
 
 from .conftest import joint

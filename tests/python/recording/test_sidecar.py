@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import polars as pl
 import pytest
-from stribeck.errors import RecordingError
-from stribeck.recording import read, read_all
+from stribeck.base.errors import RecordingError
+from stribeck.recording.load import read, read_all
 
 GOOD = """kind = "recording"
 joint_kind = "revolute"

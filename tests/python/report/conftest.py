@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import stribeck as sb
-from stribeck.generate import generate
+from stribeck.motion.generate.hidden import generate
 
 
 @pytest.fixture(scope="session")

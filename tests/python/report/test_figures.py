@@ -11,7 +11,7 @@ import pytest
 import stribeck as sb
 from matplotlib.figure import Figure
 from matplotlib.image import imread
-from stribeck.errors import StribeckError
+from stribeck.base.errors import StribeckError
 from stribeck.report import figures, files
 
 

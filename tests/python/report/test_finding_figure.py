@@ -10,9 +10,9 @@ import pytest
 import stribeck as sb
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
-from stribeck.diagnose.words import where
-from stribeck.generate import generate
-from stribeck.model import effect_ids
+from stribeck.diagnosis.words import where
+from stribeck.models.catalog import effect_ids
+from stribeck.motion.generate.hidden import generate
 from stribeck.report.channels import TELLING, channel
 from stribeck.report.figures import binned_quartiles
 from stribeck.report.finding import finding_figure

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 import stribeck as sb
-from stribeck.diagnose import Untestable
+from stribeck.diagnosis.testable import Untestable
 from stribeck.report import text
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
 

@@ -1,0 +1,95 @@
+from .base.errors import (
+    FitError,
+    ModelFileError,
+    ProjectError,
+    RecordingError,
+    SpecError,
+    StribeckError,
+)
+from .base.version import __version__
+from .diagnosis.compare import Comparison, compare
+from .diagnosis.improve import Addition, Improvement, add, improve
+from .diagnosis.result import Diagnosis, Finding
+from .diagnosis.run import diagnose
+from .exporters.export import Export, export
+from .fitting.fit import Fit, evaluate, fit
+from .identify.estimates import Estimate
+from .models.catalog import catalog, effects, laws
+from .models.model import Model, Parameter, law, model
+from .models.model_file import ModelFile, load, read_model_file
+from .motion.compensate.controller import HInfinity
+from .motion.compensate.factor import largest_factor
+from .motion.compensate.loop import Compensator
+from .motion.compensate.teaching import teach
+from .motion.compensate.tracking import Tracking, compensate
+from .motion.design.plan import plan
+from .motion.design.result import Plan
+from .motion.simulate.joint import Joint
+from .motion.simulate.result import Simulation
+from .motion.simulate.run import simulate
+from .passivity.certificate import Certificate
+from .passivity.check import check
+from .projects.project import Project, project
+from .recording.load import read
+from .recording.recording import Recording
+from .scale.fleet.fleet import fleet
+from .scale.fleet.result import Fleet
+from .scale.streaming.result import StreamedFit
+from .scale.streaming.stream import Stream, stream
+
+__all__ = [
+    "Addition",
+    "Certificate",
+    "Comparison",
+    "Compensator",
+    "Diagnosis",
+    "Estimate",
+    "Export",
+    "Finding",
+    "Fit",
+    "FitError",
+    "Fleet",
+    "HInfinity",
+    "Improvement",
+    "Joint",
+    "Model",
+    "ModelFile",
+    "ModelFileError",
+    "Parameter",
+    "Plan",
+    "Project",
+    "ProjectError",
+    "Recording",
+    "RecordingError",
+    "Simulation",
+    "SpecError",
+    "Stream",
+    "StreamedFit",
+    "StribeckError",
+    "Tracking",
+    "__version__",
+    "add",
+    "catalog",
+    "check",
+    "compare",
+    "compensate",
+    "diagnose",
+    "effects",
+    "evaluate",
+    "export",
+    "fit",
+    "fleet",
+    "improve",
+    "largest_factor",
+    "law",
+    "laws",
+    "load",
+    "model",
+    "plan",
+    "project",
+    "read",
+    "read_model_file",
+    "simulate",
+    "stream",
+    "teach",
+]

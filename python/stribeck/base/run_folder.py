@@ -1,0 +1,83 @@
+"""A folder that holds one run of a command, which goes on where it stopped.
+
+``manifest.json`` says what the run is of; the same arguments find it again, others are refused.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from stribeck.base.errors import StribeckError
+from stribeck.models.model_file import write_whole
+
+MANIFEST = "manifest.json"
+
+
+def claim(
+    folder: Path, manifest: Mapping[str, Any], identity: Mapping[str, str], what: str
+) -> None:
+    """Take a folder for a run: a new or empty one, or one that holds the same run.
+
+    Parameters
+    ----------
+    folder
+        Made where it does not exist.
+    manifest
+        What the run is of, as JSON.
+    identity
+        Keys of `manifest` that must be the same, and how to say that one is not: ``{"seed": "with
+        another seed"}``.
+    what
+        The command, as in "holds no study".
+
+    Raises
+    ------
+    StribeckError
+        The folder holds another run or other files, or cannot be written to.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        if (folder / MANIFEST).exists():
+            _check(folder, manifest, identity, what)
+        elif any(folder.iterdir()):
+            raise StribeckError(f"{folder} is not empty and holds no {what}: give another --output")
+        else:
+            write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
+    except OSError as error:
+        raise unwritable(folder, error) from None
+
+
+def unwritable(folder: Path, error: OSError) -> StribeckError:
+    """The error of a folder that cannot be written to."""
+    return StribeckError(
+        f"cannot write {folder}: {error.strerror or error}; give --output a folder that may be "
+        f"written to"
+    )
+
+
+def _check(
+    folder: Path, manifest: Mapping[str, Any], identity: Mapping[str, str], what: str
+) -> None:
+    path = folder / MANIFEST
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except ValueError:
+        raise StribeckError(
+            f"{path} is damaged: remove the folder, or give another --output"
+        ) from None
+    for key, difference in identity.items():
+        if not isinstance(found, dict) or found.get(key) != manifest[key]:
+            raise StribeckError(
+                f"{folder} holds a {what} {difference}{_differs(found, manifest, key)}: give "
+                f"another --output, or the same arguments to go on with it"
+            )
+
+
+def _differs(found: Any, manifest: Mapping[str, Any], key: str) -> str:
+    """``(3 there, 5 here)`` for numbers and versions; other things are too long to say."""
+    theirs = found.get(key) if isinstance(found, dict) else None
+    ours = manifest[key]
+    return f" ({theirs} there, {ours} here)" if isinstance(ours, int | str) else ""

@@ -1,0 +1,84 @@
+"""Free columns beside a model: what they take up, and what they leave to an effect."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.diagnosis.evidence import added_torque_test
+from stribeck.diagnosis.shape import flexible_columns
+from stribeck.diagnosis.trial import SIGNIFICANCE, Trial
+from stribeck.fitting.fit import Fit
+from stribeck.identify.normal import NormalEquations, solve_bounded
+from stribeck.identify.problem import Problem
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FreerShape:
+    """A fit whose effects may take any smooth form.
+
+    Attributes
+    ----------
+    before
+        The fit.
+    columns : array [m, k]
+        What lets its effects do so, on its rows.
+    held_out, residual : array [m]
+        What is then left, by refits without each block and of all rows.
+    """
+
+    before: Fit
+    columns: Array
+    held_out: Array
+    residual: Array
+
+    @classmethod
+    def of(cls, before: Fit) -> FreerShape | None:
+        """The freest form; None where no effect of the fit has one."""
+        columns = flexible_columns(before)
+        if columns.shape[1] == 0:
+            return None
+        return cls(before, columns, *_linear_refit(before, columns))
+
+    def explains(self, trial: Trial, tried: int, least: float) -> bool:
+        """Whether it leaves nothing to a trial among `tried` that must bring `least`."""
+        along, residual_along = _linear_refit(trial.fit, self.columns)
+        level = float(np.mean(self.held_out**2))
+        fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
+        p_value = added_torque_test(
+            self.residual - residual_along,
+            residual_along,
+            len(trial.fit.model.names) - len(self.before.model.names),
+        )
+        return fall < least / 2 or p_value * tried > SIGNIFICANCE
+
+
+def held_out_beside(fitted: Fit, extra: Array) -> Array:
+    """Held-out residual of `fitted` [m], linearised, with columns [m, k] beside it."""
+    return _linear_refit(fitted, extra)[0]
+
+
+def _linear_refit(fitted: Fit, extra: Array) -> tuple[Array, Array]:
+    """Held-out and in-sample residuals of `fitted`, linearised, with `extra` columns added."""
+    problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
+    residual, jacobian = problem.linearise(fitted.model.values)
+    columns = np.column_stack([jacobian, extra])
+    size = np.sqrt((columns**2).mean(axis=0))
+    columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
+    group = fitted.recording.block[fitted.rows].astype(np.uint32)
+    sums = NormalEquations.of(columns, residual, group)
+    matrix, vector = sums.total()
+    free = np.full(columns.shape[1], np.inf)
+    # A trace of ridge keeps columns that only one block shows from running away in its refit.
+    ridge = 1e-6 * residual.size * np.eye(columns.shape[1])
+    held_out = residual.copy()
+    for b in range(sums.square.size):
+        step = solve_bounded(matrix - sums.matrix[b] + ridge, vector - sums.vector[b], -free, free)
+        rows = group == b
+        held_out[rows] = residual[rows] - columns[rows] @ step
+    step = solve_bounded(matrix + ridge, vector, -free, free)
+    return held_out, residual - columns @ step

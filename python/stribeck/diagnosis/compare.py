@@ -1,0 +1,243 @@
+"""Models against measurements, and where each fails."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from stribeck.fitting.energy import electrical_energy
+from stribeck.fitting.fit import Fit, evaluate
+from stribeck.identify.figures import relative_residual, rms
+from stribeck.recording.recording import Recording
+
+Array = NDArray[np.float64]
+
+#: A row belongs to a reversal within this time of a change of direction, s.
+REVERSAL_WINDOW = 0.2
+
+
+@dataclass(frozen=True)
+class Regime:
+    """Error within one part of the data: `share` of the rows, `bias` = mean(measured - model)."""
+
+    regime: str
+    share: float
+    rmse: float
+    bias: float
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON."""
+        return {"regime": self.regime, "share": self.share, "rmse": self.rmse, "bias": self.bias}
+
+
+@dataclass(frozen=True)
+class Assessment:
+    """One model's error figures on a recording."""
+
+    model: str
+    rmse: float
+    rmse_held_out: float | None
+    relative_residual: float | None
+    mean: float
+    std: float
+    r2: float
+    rmse_low_speed: float
+    energy: dict[str, float] | None
+    regimes: tuple[Regime, ...]
+    fit: Fit
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of one model."""
+        return {
+            "model": self.model,
+            "rmse": self.rmse,
+            "rmse_held_out": self.rmse_held_out,
+            "relative_residual": self.relative_residual,
+            "mean": self.mean,
+            "std": self.std,
+            "r2": self.r2,
+            "rmse_low_speed": self.rmse_low_speed,
+            "energy": self.energy,
+            "regimes": [regime.to_dict() for regime in self.regimes],
+        }
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Several models on the same rows of one recording."""
+
+    recording: Recording
+    models: tuple[Assessment, ...]
+    noise_floor: float | None
+    noise_floor_why: str | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck compare`."""
+        made: dict[str, Any] = {
+            "data": {
+                "path": self.recording.path,
+                "joint": self.recording.joint,
+                "rows": int(self.recording.time.size),
+                "unit": self.recording.torque_unit,
+                "notes": list(self.recording.notes),
+            },
+            "models": [assessment.to_dict() for assessment in self.models],
+            "noise_floor": self.noise_floor,
+            "scored": self.recording.scored(),
+        }
+        if self.noise_floor is None:
+            made["noise_floor_why"] = self.noise_floor_why
+        return made
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row a model and regime."""
+        return pl.DataFrame(
+            [
+                {"model": a.model, "regime": r.regime, "share": r.share, "rmse": r.rmse,
+                 "bias": r.bias}
+                for a in self.models
+                for r in (Regime("all", 1.0, a.rmse, a.mean), *a.regimes)
+            ]
+        )  # fmt: skip
+
+    def plot(self) -> Any:
+        """Residual against each channel."""
+        from stribeck.report.figures import residual_figure
+
+        return residual_figure([assessment.fit for assessment in self.models])
+
+    def __repr__(self) -> str:
+        from stribeck.report.text import comparison_text
+
+        return comparison_text(self)
+
+    def _repr_html_(self) -> str:
+        return str(self.to_frame()._repr_html_())
+
+
+def regime_rows(fit: Fit) -> dict[str, NDArray[np.bool_]]:
+    """Rows of each regime, bool [n]; all but `standstill` among the scored rows."""
+    r = fit.recording
+    moving = r.moving
+    v = r.velocity
+    rows = {"reversal": _near_reversal(r) & moving}
+    speed = np.abs(v)
+    low, high = np.quantile(speed[moving], [0.25, 0.75])
+    rows["low_speed"] = moving & (speed <= low)
+    rows["high_speed"] = moving & (speed >= high)
+    rows["forward"] = moving & (v > 0)
+    rows["backward"] = moving & (v < 0)
+    power = v * r.torque
+    rows["motoring"] = moving & (power > 0)
+    rows["generating"] = moving & (power < 0)
+    if r.temperature is not None and np.ptp(r.temperature[moving]) > 0:
+        low, high = np.quantile(r.temperature[moving], [0.25, 0.75])
+        rows["cold"] = moving & (r.temperature <= low)
+        rows["hot"] = moving & (r.temperature >= high)
+    low, high = np.quantile(r.time[moving], [0.25, 0.75])
+    rows["start"] = moving & (r.time <= low)
+    rows["end"] = moving & (r.time >= high)
+    if r.enabled is not None and not r.enabled.all():
+        rows["drive_on"] = moving & r.enabled
+        rows["drive_off"] = moving & ~r.enabled
+    rows["standstill"] = ~moving
+    return rows
+
+
+def _near_reversal(r: Recording) -> NDArray[np.bool_]:
+    """Rows within `REVERSAL_WINDOW` of a change of direction in the same segment."""
+    near = np.zeros(r.time.size, dtype=bool)
+    moving = np.flatnonzero(r.moving)
+    if moving.size < 2 or r.averaged:
+        return near
+    left, right = moving[:-1], moving[1:]
+    turned = np.sign(r.velocity[right]) != np.sign(r.velocity[left])
+    turned &= r.segment[right] == r.segment[left]
+    for segment in np.unique(r.segment[left[turned]]):
+        here = np.flatnonzero(r.segment == segment)
+        mine = turned & (r.segment[left] == segment)
+        # A change of direction lasts from the last row before rest to the first after it.
+        ends = np.sort(np.concatenate([r.time[left[mine]], r.time[right[mine]]]))
+        at = np.searchsorted(ends, r.time[here])
+        before = r.time[here] - ends[np.maximum(at - 1, 0)]
+        after = ends[np.minimum(at, ends.size - 1)] - r.time[here]
+        near[here] = np.minimum(np.abs(before), np.abs(after)) <= REVERSAL_WINDOW
+    return near
+
+
+def compare(
+    fits: Sequence[Fit],
+    recording: Recording,
+    *,
+    floor: bool = True,
+) -> Comparison:
+    """Error figures of `fits` over the scored rows of `recording`, all and by regime.
+
+    A fit made on another recording is not refitted: its error here is a held-out one.
+    """
+    from stribeck.diagnosis.floor import noise_floor
+
+    fits = [
+        f
+        if f.recording is recording
+        else evaluate(f.model, recording, fitted_on=f.recording.sha256)
+        for f in fits
+    ]
+    best = min(fits, key=lambda f: f.rmse)
+    estimate = noise_floor(best) if floor else None
+    return Comparison(
+        recording,
+        tuple(assess(f) for f in fits),
+        None if estimate is None else estimate.value,
+        None if estimate is None else estimate.why,
+    )
+
+
+def assess(fit: Fit) -> Assessment:
+    """One model's error figures."""
+    r = fit.recording
+    moving = r.moving
+    residual = fit.residual
+    at = residual[moving]
+    torque = r.torque[moving]
+    spread = float(np.sum((torque - torque.mean()) ** 2))
+    regimes = []
+    for name, rows in regime_rows(fit).items():
+        if rows.any():
+            regimes.append(
+                Regime(
+                    name,
+                    float(rows.mean() if name == "standstill" else rows.sum() / moving.sum()),
+                    rms(residual[rows]),
+                    float(residual[rows].mean()),
+                )
+            )
+    low = next(g for g in regimes if g.regime == "low_speed")
+    return Assessment(
+        model=fit.model.spec,
+        rmse=rms(at),
+        rmse_held_out=fit.rmse_held_out,
+        relative_residual=(
+            fit.relative_residual
+            if fit.rmse_held_out is not None
+            else relative_residual(r, residual)
+        ),
+        mean=float(at.mean()),
+        std=float(at.std()),
+        r2=1.0 - float(np.sum(at**2)) / spread if spread > 0 else float("nan"),
+        rmse_low_speed=low.rmse,
+        energy=_energy(fit),
+        regimes=tuple(regimes),
+        fit=fit,
+    )
+
+
+def _energy(fit: Fit) -> dict[str, float] | None:
+    """Electrical energy over the scored rows, measured and modelled; None where not known."""
+    energy = electrical_energy(fit.recording, fit.prediction)
+    return None if energy is None else energy.to_dict()

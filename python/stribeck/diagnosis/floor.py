@@ -1,0 +1,118 @@
+"""Noise floor: what no function of the recorded channels explains.
+
+Nearest neighbours in state space, far apart in time (so that correlated noise is independent),
+differ by twice the noise variance plus what the function changes between them; the latter is
+extrapolated to zero distance (the Gamma test, Stefansson, Koncar and Jones 1997).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from stribeck.base.pool import threads
+from stribeck.diagnosis.shape import displacement_since_reversal
+from stribeck.fitting.fit import Fit
+from stribeck.identify.covariance import correlation_length
+
+Array = NDArray[np.float64]
+
+NEIGHBOURS = 40
+FEWEST_PAIRS = 300
+#: An error of so many times the noise floor is more than noise.
+REACHED = 1.5
+#: Samples over which a residual must last to be smooth in time.
+SMOOTH = 10.0
+#: Strokes of travel below which hardly a position is passed twice.
+ONCE = 1.5
+
+
+@dataclass(frozen=True)
+class NoiseFloor:
+    """An estimate in the unit of torque, or None and why."""
+
+    value: float | None
+    why: str | None = None
+
+    def is_reached_by(self, rmse: float) -> bool:
+        """Whether an error may be noise: repeats of the same state differ by hardly less."""
+        return self.value is not None and rmse <= REACHED * self.value
+
+
+def noise_floor(fit: Fit) -> NoiseFloor:
+    """Estimate the noise floor from the residual of `fit`, the best model at hand.
+
+    The model takes out most of what varies, so that neighbours need not be very near.
+    """
+    rows = fit.rows
+    residual = fit.residual[rows]
+    if residual.size < FEWEST_PAIRS:
+        return NoiseFloor(None, f"too few moving rows ({residual.size}) to compare repeats")
+    lasting = correlation_length(residual)
+    if lasting > SMOOTH and _passes_once(fit):
+        why = (
+            "what is left is smooth in time and the joint passes no position twice, so that slow "
+            "noise cannot be told from a torque that varies along the stroke"
+        )
+        return NoiseFloor(None, why)
+    features = state_features(fit, rows)
+    step = -(-residual.size // 20000)
+    index = np.arange(0, residual.size, step)
+    apart = max(4.0 * lasting, 20.0) / step
+    tree = scipy.spatial.cKDTree(features[index])
+    distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1, workers=threads())
+    far = np.abs(neighbour - np.arange(index.size)[:, None]) > apart
+    first = np.argmax(far, axis=1)
+    found = far[np.arange(index.size), first]
+    if found.sum() < FEWEST_PAIRS:
+        return NoiseFloor(None, "the motion does not pass the same state twice")
+    pick = np.flatnonzero(found)
+    gap = distance[pick, first[pick]] ** 2
+    other = index[neighbour[pick, first[pick]]]
+    gamma = (residual[index[pick]] - residual[other]) ** 2 / 2.0
+    # The nearest half tells most about zero distance.
+    near = gap <= np.median(gap)
+    return NoiseFloor(float(min(np.sqrt(_at_zero(gap[near], gamma[near])), fit.rmse)))
+
+
+def _passes_once(fit: Fit) -> bool:
+    """Whether the joint only moves on, or there and half the way back."""
+    r = fit.recording
+    if r.position is None:
+        return False
+    travel = float(np.sum(np.abs(r.velocity[r.moving]) * r.dt[r.moving]))
+    return travel < ONCE * float(np.ptp(r.position[r.moving]))
+
+
+def _at_zero(gap: Array, gamma: Array) -> float:
+    """`gamma` at zero gap: by a line where it clearly rises with the gap, else its mean."""
+    mean = float(gamma.mean())
+    if np.ptp(gap) == 0:
+        return mean
+    line = scipy.stats.linregress(gap, gamma)
+    if line.slope > 3.0 * line.stderr and line.intercept > 0:
+        return float(line.intercept)
+    return mean
+
+
+def state_features(fit: Fit, rows: NDArray[np.intp]) -> Array:
+    """What the friction may depend on, each channel scaled to unit spread, array [m, k]."""
+    r = fit.recording
+    v = r.velocity[rows]
+    load = r.load_torque if r.load_torque is not None else fit.load
+    travel = displacement_since_reversal(r)[rows]
+    channels: list[Array | None] = [
+        v,
+        r.position[rows] if r.position is not None else None,
+        r.acceleration[rows] if r.acceleration is not None else None,
+        r.temperature[rows] if r.temperature is not None else None,
+        load[rows] if load is not None else None,
+        np.sqrt(travel),
+    ]
+    scaled = [(c - c.mean()) / c.std() for c in channels if c is not None and c.std() > 1e-12]
+    # Opposite directions are different states however slow.
+    scaled.append(3.0 * np.sign(v))
+    return np.column_stack(scaled)

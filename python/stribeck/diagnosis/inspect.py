@@ -1,0 +1,116 @@
+"""What is in a file, and which effects it can show."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from stribeck.diagnosis.testable import Untestable, untestable
+from stribeck.fitting.fit import fit, own_load
+from stribeck.identify.scaling import rigid_body_terms
+from stribeck.models.catalog import effect_ids
+from stribeck.recording.load import read
+from stribeck.recording.recording import Recording
+from stribeck.recording.scan import Table, scan
+
+
+@dataclass(frozen=True)
+class Inspection:
+    """A file's columns, and what each of its joints can show.
+
+    Attributes
+    ----------
+    recordings
+        The joint that was read, or every joint of the file; empty where the file cannot be read
+        as a recording yet (`problem` says what is missing).
+    untestable
+        Effects that no joint read can show, by id.
+    """
+
+    table: Table
+    recordings: tuple[Recording, ...]
+    untestable: dict[str, Untestable]
+    problem: str | None
+
+    @property
+    def testable(self) -> tuple[str, ...]:
+        """Effects that the data can show."""
+        if not self.recordings:
+            return ()
+        return tuple(effect for effect in effect_ids() if effect not in self.untestable)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """How the columns were understood."""
+        notes = [note for r in self.recordings for note in r.notes]
+        return tuple(dict.fromkeys([*self.table.notes, *notes]))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON."""
+        columns = {
+            name: {
+                "from": column.source,
+                "unit": column.unit,
+                "min": column.minimum,
+                "max": column.maximum,
+            }
+            for name, column in self.table.channels.items()
+        }
+        for r in self.recordings[:1]:
+            for name, column in r.columns.items():
+                columns.setdefault(
+                    name,
+                    {
+                        "from": column.source,
+                        "unit": column.unit,
+                        "min": column.minimum,
+                        "max": column.maximum,
+                    },
+                )
+        made: dict[str, Any] = {
+            "rows": self.table.rows,
+            "joints": list(self.table.joints),
+            "runs": self.table.runs,
+            "columns": columns,
+            "rate_hz": self.table.rate_hz,
+            "gaps": self.table.gaps,
+            "testable": list(self.testable),
+            "untestable": [row.to_dict() for row in self.untestable.values()],
+            "notes": list(self.notes),
+        }
+        if len(self.recordings) == 1:
+            made["scored"] = self.recordings[0].scored()
+        if self.problem is not None:
+            made["problem"] = self.problem
+        return made
+
+
+def inspect(path: str, *, joint: str | None = None, **options: Any) -> Inspection:
+    """Look at a file: columns, units, rate, gaps, ranges, and which effects it can show.
+
+    Parameters
+    ----------
+    joint : str
+        One joint of a file that holds several; default: all.
+    **options
+        As of `stribeck.read`.
+    """
+    table = scan(path, joint=joint, **options)
+    if table.problem is not None:
+        return Inspection(table, (), {}, table.problem)
+    names: list[str | None] = [joint] if joint is not None else [*table.joints] or [None]
+    recordings = tuple(read(path, joint=name, **options) for name in names)
+    answers = [untestable(r, _load(r)) for r in recordings]
+    common = {
+        effect: answers[0][effect]
+        for effect in answers[0]
+        if all(effect in answer for answer in answers)
+    }
+    return Inspection(table, recordings, common, None)
+
+
+def _load(recording: Recording) -> Any:
+    """Load torque of the rigid body, identified where the recording does not give it."""
+    if not rigid_body_terms(recording, ()):
+        return None
+    return own_load(fit("coulomb", recording).model, recording)

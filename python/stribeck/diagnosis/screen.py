@@ -1,0 +1,145 @@
+"""Which effects are worth a fit: a few steps on a few rows.
+
+Most effects of the catalog bring nothing on a given recording, and a fit to all rows says so no
+better than some thousands of rows do. Each effect gets the tangent of the wider model, projected
+off the base by a step of Gauss and Newton, from several starts of its nonlinear parameters; those
+that promise something go on from where the best start led.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base.errors import StribeckError
+from stribeck.diagnosis.widen import widening
+from stribeck.fitting.fit import Fit, own_load
+from stribeck.identify.figures import rms
+from stribeck.identify.held_out import held_out_residual
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.separable import CAUTIOUS, Search, minimise_from
+from stribeck.identify.space import SearchSpace
+from stribeck.models.model import Model
+
+Array = NDArray[np.float64]
+
+#: Starts of an effect's nonlinear parameters; the others start from the fit before.
+STARTS = 6
+#: The same where every start runs a memory over the whole recording.
+STARTS_ON_ALL_ROWS = 3
+#: Rows of a memoryless model, and samples of the stretch over which a new memory is tried.
+ROWS, SAMPLES = 3000, 6000
+#: Steps from each start, and from the best of them.
+FIRST_STEPS, FURTHER_STEPS = 3, 20
+#: The latter on all rows: a fit that is worth it goes on from there.
+FURTHER_STEPS_ON_ALL_ROWS = 4
+#: A step that foresees a smaller relative fall of the squared error ends a search.
+TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class Screened:
+    """An effect after a few steps.
+
+    Attributes
+    ----------
+    effect : str
+        An id, or ``"NAME = FORMULA"``.
+    model : Model
+        The wider model with the values that were found.
+    fall : float
+        Relative fall of the RMSE on the rows looked at: held out, where they are from all blocks.
+    """
+
+    effect: str
+    model: Model
+    fall: float
+
+
+def widened(before: Fit, effect: str) -> Model:
+    """`before`'s model with `effect` added, and the simpler effect that it contains.
+
+    Raises
+    ------
+    SpecError
+        The effect is unknown, or in the model already.
+    """
+    load = own_load(before.model, before.recording)
+    return widening(before.model, effect, before.recording, load, before.residual)[-1]
+
+
+def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
+    """Try `effect` on few rows; None where the model cannot take it."""
+    try:
+        model = model_for(widened(before, effect), before.recording)
+        load = before.load if before.load is not None else own_load(before.model, before.recording)
+        problem = _few_rows(Problem(before.recording, model, before.rows, load), before.model)
+        lower, upper, first = bounds(model, before.recording)
+        found = _search(problem, lower, upper, first, seed)
+        if not np.isfinite(found.square):
+            return None
+        fall = _fall(before, problem, found, lower, upper)
+    except StribeckError:
+        return None
+    return Screened(effect, model.with_values(found.values), fall)
+
+
+def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Array) -> float:
+    """Relative fall of the RMSE; on a single stretch, of both models fitted to that alone."""
+    if problem.span is None:
+        level = rms(before.held_out_residual[problem.rows])
+        left = rms(held_out_residual(problem, found.values, lower, upper))
+    else:
+        base = replace(problem, model=before.model)
+        least, most, _ = bounds(before.model, before.recording)
+        level = np.sqrt(
+            _steps(base, before.model.values[None, :], least, most, FIRST_STEPS)[0].square
+        )
+        left = np.sqrt(found.square)
+    return 1.0 - float(left / level) if level > 0.0 else 0.0
+
+
+def _few_rows(problem: Problem, base: Model) -> Problem:
+    """Few rows where each stands by itself; of a new memory, the stretch that turns most.
+
+    Where the base has a memory already, what is missing may show anywhere: all rows.
+    """
+    if problem.model.memoryless:
+        return problem.thinned(ROWS)
+    return problem.window(SAMPLES) if base.memoryless else problem
+
+
+def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: int) -> Search:
+    """The best of searches from the known values, with several starts of the unknown ones."""
+    known = problem.model.values
+    unknown = ~np.isfinite(known)
+    start = np.where(unknown, first, np.clip(known, lower, upper))
+    space = SearchSpace(problem.model, lower, upper)
+    nonlinear = space.nonlinear
+    # Behind a bristle a search finds the amplitudes of dry friction from anywhere.
+    amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
+    varied = unknown & nonlinear & ~amplitude
+    if not np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])):
+        varied = np.zeros_like(varied)
+    random = np.random.default_rng(seed)
+    few = problem.model.memoryless or problem.rows.size <= SAMPLES
+    starts = STARTS if few else STARTS_ON_ALL_ROWS
+    at = np.tile(start, (starts if varied.any() else 1, 1))
+    for drawn in at[1:]:
+        drawn[varied] = space.drawn(start, random)[varied]
+    tried = _steps(problem, at, lower, upper, FIRST_STEPS)
+    best = min(tried, key=lambda search: search.square)
+    if not nonlinear.any():
+        return best
+    further = FURTHER_STEPS if few else FURTHER_STEPS_ON_ALL_ROWS
+    return _steps(problem, best.values[None, :], lower, upper, further)[0]
+
+
+def _steps(problem: Problem, at: Array, lower: Array, upper: Array, most: int) -> list[Search]:
+    """Searches from `at`, array [k, p]."""
+    return minimise_from(
+        problem, at, lower, upper, tolerance=TOLERANCE, most=most, damping=CAUTIOUS
+    )

@@ -1,0 +1,209 @@
+"""Try one effect: refit with it, and weigh the evidence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from stribeck.base.errors import StribeckError
+from stribeck.diagnosis.evidence import Evidence, difference, evidence
+from stribeck.diagnosis.screen import STARTS, Screened, screened, widened
+from stribeck.diagnosis.tangent import MOST_ROWS, orthonormal, rest
+from stribeck.fitting.fit import QUICK, Fit, fit
+from stribeck.identify.problem import Problem
+from stribeck.models.catalog import catalog
+from stribeck.models.formula_law import effect_name
+
+#: An effect promises something from this share of the fall that it must bring.
+PROMISE = 0.5
+#: A finding's probability of being chance, over all effects tried together.
+SIGNIFICANCE = 0.01
+#: Of effects whose held-out errors differ by less than one standard error the simplest is named.
+SIMPLEST = 1.0
+#: Held-out errors within so many standard errors of their difference may be one.
+TIE = 2.0
+#: Cosine of the angle between two torques from which one may be tried in place of the other.
+RESEMBLING = 0.7
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One effect added to a model and fitted, and what speaks for it."""
+
+    effect: str
+    fit: Fit
+    evidence: Evidence
+
+    @property
+    def parameters(self) -> int:
+        """Number of parameters of the wider model."""
+        return len(self.fit.model.names)
+
+    @property
+    def rank(self) -> float:
+        """What trials are ordered by, smallest first: the error left, raw and in the motion's band.
+
+        The sum of both logarithms: in white noise they agree; where vibration fills the raw
+        error, a cause that only follows the vibration does not outrank one that moves the joint.
+        """
+        falls = np.array([self.evidence.fall, self.evidence.fall_in_band])
+        return float(np.sum(np.log(np.maximum(1.0 - falls, 1e-12))))
+
+    @property
+    def is_implausible(self) -> bool:
+        """Whether the effect's size lies at the edge of what is plausible.
+
+        Its first parameter is its size (a height, a slope, a stiffness, a delay); at a bound the
+        fit has used the effect as a stand-in for something else.
+        """
+        own = self.fit.model.formula(self.effect)
+        row = catalog()["effects"].get(self.effect, {})
+        size = row["parameters"][0]["name"] if own is None else own.names[0]
+        return size in self.fit.estimates and self.fit.estimates[size].at_bound
+
+    @property
+    def square(self) -> float:
+        """Held-out sum of squares on the rows fitted to."""
+        return float(np.sum(self.fit.held_out_residual[self.fit.rows] ** 2))
+
+
+def add_effect(
+    before: Fit,
+    effect: str,
+    *,
+    starts: int = STARTS,
+    seed: int = 0,
+) -> Fit:
+    """Refit `before`'s model with `effect` added, starting from what is known.
+
+    Raises
+    ------
+    SpecError, FitError
+        The effect is in the model already, or needs a channel that is not there.
+    """
+    return fit(
+        widened(before, effect),
+        before.recording,
+        starts=starts,
+        seed=seed,
+        transient=before.transient,
+    )
+
+
+def promises(found: Screened, least: float) -> bool:
+    """Whether an effect that was tried on few rows may bring `least` on all of them."""
+    return found.fall >= PROMISE * least
+
+
+def try_effect(before: Fit, promising: Screened) -> Trial | None:
+    """Fit an effect to all rows from what few of them showed; None where that is impossible."""
+    try:
+        after = fit(
+            promising.model, before.recording, transient=before.transient, effort=QUICK, starts=1
+        )
+    except StribeckError:
+        return None
+    if after.rmse_held_out is None or before.rmse_held_out is None:
+        return None
+    return Trial(effect_name(promising.effect), after, evidence(before, after))
+
+
+def try_beyond(
+    simpler: Trial, effect: str, before: Fit, least: float, *, seed: int = 0
+) -> tuple[Trial, Trial] | None:
+    """Try `effect` on top of the simpler one that it contains.
+
+    Returns
+    -------
+    What it adds beyond the simpler one, and what both together add to `before`; None where that is
+    nothing, or the model cannot take it.
+    """
+    beyond = _try_more(simpler.fit, effect, least, seed)
+    if beyond is None:
+        return None
+    return beyond, Trial(effect, beyond.fit, evidence(before, beyond.fit))
+
+
+def instead_of(
+    beyond: Trial, simpler: Trial, others: list[Trial], before: Fit, least: float, seed: int
+) -> Trial | None:
+    """One of `others` that with `simpler` does what `beyond`, which contains `simpler`, does.
+
+    With fewer parameters, and within a standard error of its held-out error: a load dependence that
+    differs between motoring and generating, say, equals one that does not and a wrong torque
+    constant.
+    """
+    other = _most_like(beyond, simpler, others, before)
+    if other is None:
+        return None
+    effect = other.fit.model.written(other.effect)
+    if len(widened(simpler.fit, effect).names) >= beyond.parameters:
+        return None
+    both = _try_more(simpler.fit, effect, least, seed)
+    return other if both is not None and tie_statistic(beyond, both) <= SIMPLEST else None
+
+
+def _most_like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> Trial | None:
+    """The one of `others` whose torque, beside `simpler`, is most like what `beyond` adds there."""
+    if not others:
+        return None
+    fit = simpler.fit
+    rows = fit.rows[:: -(-fit.rows.size // MOST_ROWS)]
+    _, tangent = Problem(fit.recording, fit.model, rows, fit.load).linearise(fit.model.values)
+    basis = orthonormal(tangent)
+    torques = [beyond.fit.prediction - fit.prediction]
+    torques += [other.fit.prediction - before.prediction for other in others]
+    left = rest(basis, np.column_stack([torque[rows] for torque in torques]))
+    size = np.sqrt(np.sum(left**2, axis=0))
+    cosines = np.abs(left.T @ left[:, 0])[1:] / np.maximum(size[1:] * size[0], 1e-300)
+    best = int(np.argmax(cosines))
+    return others[best] if cosines[best] > RESEMBLING else None
+
+
+def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
+    """Try an effect if it promises something."""
+    found = screened(before, effect, seed=seed)
+    return try_effect(before, found) if found is not None and promises(found, least) else None
+
+
+def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
+    """The same trial fitted thoroughly, from where it stands."""
+    after = fit(
+        trial.fit.model,
+        trial.fit.recording,
+        starts=1,
+        seed=seed,
+        transient=trial.fit.transient,
+    )
+    return Trial(trial.effect, after, evidence(before, after))
+
+
+def passes(trial: Trial, tried: int, least: float) -> bool:
+    """Whether a trial counts: it matters, not only once, and is not chance among `tried`."""
+    e = trial.evidence
+    counts = e.fall >= least and e.everywhere and e.fall_in_band > 0
+    return counts and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
+
+
+def reported_fall(before: Fit, trial: Trial) -> bool:
+    """The error over all scored rows must fall too, transients included."""
+    assert before.rmse_held_out is not None and trial.fit.rmse_held_out is not None
+    return trial.fit.rmse_held_out < before.rmse_held_out
+
+
+def tie_statistic(best: Trial, other: Trial) -> float:
+    """Standard errors by which `other`'s held-out error exceeds `best`'s."""
+    return difference(other.fit, best.fit).statistic
+
+
+def tie_weight(statistic: float) -> float:
+    """Two-sided probability of a difference at least this large by chance."""
+    return float(2.0 * scipy.special.ndtr(-abs(statistic)))
+
+
+def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:
+    """Whether `other`'s effect explains something that `first`'s, once in the model, does not."""
+    again = _try_more(first.fit, other.fit.model.written(other.effect), least, seed)
+    return again is not None and passes(again, tried, least)

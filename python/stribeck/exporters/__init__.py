@@ -1,0 +1,1 @@
+"""Export: a fitted model as a program for the joint's controller."""

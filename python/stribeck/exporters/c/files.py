@@ -1,0 +1,185 @@
+"""The files of an export to C."""
+
+from __future__ import annotations
+
+import re
+import textwrap
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from stribeck.exporters.about import About
+from stribeck.exporters.c import elementary
+from stribeck.exporters.c.number import FORMATS, Format, Precision
+from stribeck.exporters.c.statements import Statements
+from stribeck.exporters.program import Program
+from stribeck.exporters.templates import template
+from stribeck.exporters.vectors import Vectors
+from stribeck.models.model import Model
+
+#: Words of C and C++ that no member can have.
+_KEYWORDS = frozenset(
+    """alignas alignof and asm auto bool break case catch char class const constexpr continue
+    default delete do double else enum explicit export extern false float for friend goto if inline
+    int long mutable namespace new not operator or private protected public register restrict return
+    short signed sizeof static struct switch template this throw true try typedef typename union
+    unsigned using virtual void volatile while xor""".split()
+)
+
+_CHANNEL_UNITS = {
+    "velocity": "X/s", "position": "X", "acceleration": "X/s2", "temperature": "degC",
+    "load_torque": "T", "load_torque_curvature": "T/s2", "motor_torque": "T",
+    "external_torque": "T", "time": "s",
+}  # fmt: skip
+
+#: Functions of math.h, by operation.
+_LIBM = {
+    "abs": "fabs", "exp": "exp", "expm1": "expm1", "ln": "log", "sqrt": "sqrt", "cbrt": "cbrt",
+    "sin": "sin", "cos": "cos", "tanh": "tanh", "atan": "atan", "power": "pow",
+}  # fmt: skip
+
+#: By how much a torque may differ from its test vector where the platform's functions are used,
+#: relative to the largest torque.
+_LIBM_TOLERANCE = {"f64": 1e-9, "f32": 1e-3}
+
+
+@dataclass(frozen=True)
+class Member:
+    """A member of a struct."""
+
+    name: str
+    unit: str
+    what: str = ""
+    symbol: str = ""
+    value: float = 0.0
+
+    @property
+    def description(self) -> str:
+        """What it is, as a comment holds it."""
+        return self.what.replace("*/", "* /")
+
+
+def c_files(
+    about: About,
+    program: Program,
+    vectors: Vectors,
+    *,
+    name: str,
+    precision: Precision,
+    libm: bool,
+) -> Mapping[str, str]:
+    """Header, source, test vectors and self-test, by file name.
+
+    Parameters
+    ----------
+    name
+        A C identifier: files, types and functions begin with it.
+    libm
+        Use the platform's ``math.h`` in place of own functions: smaller, but with its bits.
+    """
+    form = FORMATS[precision]
+    model = about.model
+    parameters = tuple(_parameters(model))
+    shared = {
+        "name": name,
+        "title": model.spec,
+        "real": form.real,
+        "lit": form.literal,
+        "libm": libm,
+        "parameters": parameters,
+        "channels": channel_members(model, program),
+        "states": [Member(s.name, _unit(model, s.unit), s.what) for s in program.states],
+        "torque_unit": model.torque_unit,
+    }
+    body = Statements(program, form, tuple(p.name for p in parameters), _functions(form, libm))
+    scale = max(abs(x) for x in vectors.torque) or 1.0
+
+    def render(file: str, **more: object) -> str:
+        return template("c", file).render({**shared, **more})
+
+    return {
+        f"{name}.h": render("model.h.j2", about=list(wrapped(about.lines()))),
+        f"{name}.c": render(
+            "model.c.j2",
+            elementary=_elementary(program, form, libm),
+            statements=str(body),
+            unused_arguments=list(_unused(program)),
+        ),
+        f"{name}_vectors.h": render("vectors.h.j2", rows=_Rows(vectors.rows, form)),
+        f"{name}_test.c": render(
+            "test.c.j2", tolerance=form.literal(_LIBM_TOLERANCE[precision] * scale)
+        ),
+    }
+
+
+def identifier(text: str) -> str:
+    """A C identifier made of a text.
+
+    Examples
+    --------
+    >>> identifier("coulomb+load")
+    'coulomb_load'
+    """
+    word = re.sub(r"\W+", "_", text, flags=re.ASCII).strip("_") or "model"
+    word = f"m_{word}" if word[0].isdigit() else word
+    return f"{word}_" if word in _KEYWORDS else word
+
+
+def channel_members(model: Model, program: Program) -> list[Member]:
+    """The channels that a program reads, with their units."""
+    return [Member(c, _unit(model, _CHANNEL_UNITS[c])) for c in program.channels]
+
+
+def _parameters(model: Model) -> Iterator[Member]:
+    for p, value in zip(model.parameters, model.values, strict=True):
+        yield Member(identifier(p.name), p.unit, p.description, p.symbol, float(value))
+
+
+def _unit(model: Model, unit: str) -> str:
+    return model._unit(unit)
+
+
+def _functions(form: Format, libm: bool) -> dict[str, str]:
+    own = {name: f"elementary_{name}" for name in (*elementary.PARTS, "abs", "sign")}
+    own["is_finite"] = "is_finite"
+    if libm:
+        own |= {name: f"{called}{'f' if form.single else ''}" for name, called in _LIBM.items()}
+    return own
+
+
+def _elementary(program: Program, form: Format, libm: bool) -> str:
+    functions = set(program.functions)
+    if any(o.name == "constant" and abs(o.said) == float("inf") for o in program.operations):
+        functions.add("infinity")
+    if libm:
+        functions -= set(_LIBM)
+    wanted = functions & {*elementary.PARTS, "abs", "sign", "is_finite", "infinity"}
+    if not wanted:
+        return ""
+    context = elementary.context(wanted, form)
+    context["libm"] = libm
+    return template("c", "elementary.c.j2").render(context)
+
+
+def _unused(program: Program) -> Iterator[str]:
+    names = program.functions
+    if "parameter" not in names:
+        yield "parameters"
+    if not program.states:
+        yield "state"
+    if not program.channels:
+        yield "sample"
+    if "time_step" not in names:
+        yield "dt"
+
+
+def wrapped(lines: Iterator[str]) -> Iterator[str]:
+    """Lines of a comment, none of which ends it."""
+    for line in lines:
+        yield from textwrap.wrap(line.replace("*/", "* /"), 96, subsequent_indent="    ") or [""]
+
+
+class _Rows(list[list[str]]):
+    """Rows of numbers as C writes them."""
+
+    def __init__(self, rows: list[list[float]], form: Format) -> None:
+        super().__init__([form.literal(x).strip("()") for x in row] for row in rows)

@@ -1,0 +1,198 @@
+"""Export of a fitted model to a controller's language."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, TypeVar, get_args
+
+from stribeck.base.errors import ModelFileError, SpecError, nearest
+from stribeck.exporters.about import About
+from stribeck.exporters.c.files import c_files, identifier
+from stribeck.exporters.c.number import Precision
+from stribeck.exporters.document import json_files
+from stribeck.exporters.fixed.files import FIXED, FixedPrecision, analyse, fixed_files
+from stribeck.exporters.program import Program
+from stribeck.exporters.rust.files import rust_files
+from stribeck.exporters.vectors import vectors
+from stribeck.fitting.fit import Fit
+from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile, write_whole
+
+Language = Literal["c", "rust", "json"]
+
+
+@dataclass(frozen=True)
+class Export:
+    """What was written.
+
+    Attributes
+    ----------
+    model
+        What was exported: the friction, and rigid-body terms that were identified with it.
+    passive
+        Whether it is proved passive over its operating box; None where neither that nor the
+        opposite is known.
+    files
+        In the order in which they are read.
+    """
+
+    model: Model
+    language: Language
+    precision: Precision | FixedPrecision
+    passive: bool | None
+    files: tuple[Path, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "model": self.model.spec,
+            "to": self.language,
+            "precision": self.precision,
+            "passive": self.passive,
+            "files": [str(path) for path in self.files],
+        }
+
+    def __repr__(self) -> str:
+        """One line a file."""
+        head = f"{self.model.spec} in {self.language}, {self.precision}"
+        return "\n".join([head, *(f"  {path}" for path in self.files)])
+
+
+def export(
+    model: Model | ModelFile | Fit,
+    to: str,
+    folder: str | os.PathLike[str],
+    *,
+    name: str | None = None,
+    precision: str = "f64",
+    libm: bool = False,
+    box: Mapping[str, tuple[float, float]] | None = None,
+    seed: int = 0,
+) -> Export:
+    """Write a model as a program for a controller, with test vectors and a self-test.
+
+    One step of the model is written down as the core carries it out, so that C, crate and Python
+    give the same bits.
+
+    Parameters
+    ----------
+    model : Model, ModelFile or Fit
+        With values for all parameters. A delay, which belongs to the recording, is left out.
+    to : {"c", "rust", "json"}
+        C99 without libraries, a Rust module for the crate, or the operations of the step as data.
+    folder
+        Where to; it is made if it does not exist. Files of the same names are replaced.
+    name
+        What files, types and functions begin with. [default: the model's spec]
+    precision : {"f64", "f32", "q31", "q15"}
+        Format of all numbers. In fixed point, of laws and effects without a memory, the header
+        states how far the torque may be off over the operating box.
+    libm
+        In C, use the platform's ``math.h``: smaller, but the bits are the platform's.
+    box : dict of (low, high)
+        Operating box in SI units and degC, for the certificate and the test vectors. What it leaves
+        out is taken from the model's own box.
+    seed
+        Of the test vectors.
+
+    Returns
+    -------
+    Export
+
+    Raises
+    ------
+    SpecError
+        A format that is unknown, or a parameter without a value.
+    ModelFileError
+        The folder cannot be written to.
+
+    Examples
+    --------
+    >>> import stribeck as sb, tempfile
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     written = export(friction, "c", folder, box={"velocity": (-3.0, 3.0)})
+    ...     [path.name for path in written.files], written.passive
+    (['coulomb.h', 'coulomb.c', 'coulomb_vectors.h', 'coulomb_test.c'], True)
+    """
+    language: Language = _choice("to", to, get_args(Language))
+    form: Precision | FixedPrecision = _choice(
+        "precision", precision, (*get_args(Precision), *FIXED)
+    )
+    if libm and (language != "c" or form in FIXED):
+        raise SpecError("libm is for C in floating point: leave it out, or give --to c")
+    asked = model if isinstance(model, Model) else model.model
+    asked._known_values()
+    friction = asked.friction
+    about = About.of(friction, _provenance(model), box or {})
+    called = identifier(name or friction.spec)
+    texts = _texts(about, language, form, called, libm, box or {}, seed)
+    certificate = about.certificate
+    return Export(
+        model=friction,
+        language=language,
+        precision=form,
+        passive=None if certificate is None else certificate.passive,
+        files=_write(texts, Path(folder)),
+    )
+
+
+def _texts(
+    about: About,
+    language: Language,
+    form: Precision | FixedPrecision,
+    name: str,
+    libm: bool,
+    box: Mapping[str, tuple[float, float]],
+    seed: int,
+) -> Mapping[str, str]:
+    if form == "q31" or form == "q15":
+        if language != "c":
+            raise SpecError(f"{form} is for C alone: give --to c, or --precision f32")
+        analysis = analyse(about, Program.of(about.model), box, form)
+        return fixed_files(about, analysis, name=name, precision=form, seed=seed)
+    program = Program.of(about.model, "single" if form == "f32" else "double")
+    rows = vectors(about.model, program, box, form, seed=seed)
+    match language:
+        case "c":
+            return c_files(about, program, rows, name=name, precision=form, libm=libm)
+        case "rust":
+            return rust_files(about, program, rows, name=name, precision=form)
+        case "json":
+            return json_files(about, program, name=name, precision=form)
+
+
+def _provenance(model: Model | ModelFile | Fit) -> Mapping[str, Any]:
+    match model:
+        case Model():
+            return {}
+        case ModelFile():
+            return model.fitted_on
+    return ModelFile.of(model).fitted_on
+
+
+_Named = TypeVar("_Named", bound=str)
+
+
+def _choice(option: str, given: str, known: tuple[_Named, ...]) -> _Named:
+    for name in known:
+        if name == given:
+            return name
+    raise SpecError(
+        f"{option} cannot be {given!r}{nearest(given, known)}; give one of {', '.join(known)}"
+    )
+
+
+def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ModelFileError(
+            f"cannot make the folder {folder}: {error.strerror or error}; give another one"
+        ) from None
+    for name, text in texts.items():
+        write_whole(folder / name, text)
+    return tuple(folder / name for name in texts)

@@ -1,0 +1,1 @@
+"""A Rust module for the crate: the model as constants, test vectors, self-test."""

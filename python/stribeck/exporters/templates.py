@@ -1,0 +1,21 @@
+"""The templates that files are written from."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import jinja2
+
+
+@cache
+def template(language: str, name: str) -> jinja2.Template:
+    """A template of ``export/LANGUAGE/templates``; what it reads has to be given."""
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("stribeck", f"exporters/{language}/templates"),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+    return environment.get_template(name)

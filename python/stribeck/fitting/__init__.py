@@ -1,0 +1,1 @@
+"""Identify a model on a recording."""

@@ -1,0 +1,140 @@
+"""Electrical energy of a joint's motor: eqs 7-11 of the review of 25 friction models (2024/25).
+
+A brushless motor is taken as the equivalent direct-current motor. Its power is what heats the
+copper plus what becomes motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from stribeck.recording.recording import Recording
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Motor:
+    """Constants of a joint's motor and gear.
+
+    Attributes
+    ----------
+    km
+        Motor constant, N m per square root of a watt (N, for a linear motor).
+    kb
+        Back-EMF constant, V s/rad.
+    kt
+        Torque constant, N m/A.
+    gear_ratio
+        Motor turns a joint turn; motor radians per metre of a joint that slides on a screw.
+    """
+
+    km: float
+    kb: float
+    kt: float
+    gear_ratio: float
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Electrical energy over the same rows, from measured and from modelled torque, J."""
+
+    measured: float
+    modelled: float
+
+    @property
+    def error(self) -> float:
+        """Measured minus modelled, J (eq 11)."""
+        return self.measured - self.modelled
+
+    @property
+    def error_percent(self) -> float:
+        """The error in per cent of the measured energy; NaN where that is zero."""
+        return 100.0 * self.error / self.measured if self.measured else float("nan")
+
+    def to_dict(self) -> dict[str, float]:
+        """The contract's JSON."""
+        return {
+            "measured_J": self.measured,
+            "model_J": self.modelled,
+            "error_J": self.error,
+            "error_percent": self.error_percent,
+        }
+
+
+def electrical_power(torque: Array, velocity: Array, motor: Motor) -> Array:
+    """Electrical power of the motor, W, array [n] (eqs 7 and 8).
+
+    Parameters
+    ----------
+    torque : array [n]
+        Of the motor at the joint side, N m or N.
+    velocity : array [n]
+        Of the joint, rad/s or m/s.
+
+    Examples
+    --------
+    >>> motor = Motor(km=0.1, kb=0.12, kt=0.12, gear_ratio=100.0)
+    >>> electrical_power(np.array([20.0]), np.array([1.5]), motor)
+    array([34.])
+    """
+    copper = (torque / (motor.gear_ratio * motor.km)) ** 2
+    return copper + motor.kb / motor.kt * velocity * torque
+
+
+def motor_of(recording: Recording) -> Motor | None:
+    """The motor of a recording's joint, or None where something of it is not known."""
+    known: Mapping[str, float] = recording.motor
+    if not all(name in known for name in ("km", "kb", "kt", "gear_ratio")):
+        return None
+    ratio = known["gear_ratio"]
+    if recording.joint_kind == "prismatic" and "screw_pitch" in known:
+        ratio *= 2.0 * np.pi / known["screw_pitch"]
+    return Motor(known["km"], known["kb"], known["kt"], ratio)
+
+
+def electrical_energy(recording: Recording, prediction: Array) -> Energy | None:
+    """Energy of the recorded and of the predicted motor torque, over the scored rows (eqs 9, 10).
+
+    At rest friction is whatever holds the joint, so no model is asked there: rows at rest are left
+    out of both sums.
+
+    Parameters
+    ----------
+    prediction : array [n]
+        Motor torque by the model, every row: load torque and friction.
+
+    Returns
+    -------
+    Energy or None
+        None where a motor constant or the gear ratio is not known, where the effort is not a torque
+        or force, where only friction was measured, and for steady-state points, which have no
+        duration.
+    """
+    motor = motor_of(recording)
+    if motor is None or recording.averaged or recording.torque_unit not in ("N m", "N"):
+        return None
+    if "friction_torque" in recording.columns:
+        return None
+    rows = recording.moving
+    step, velocity = recording.dt[rows], recording.velocity[rows]
+
+    def energy(torque: Array) -> float:
+        return float(np.sum(electrical_power(torque[rows], velocity, motor) * step))
+
+    return Energy(energy(recording.torque), energy(prediction))
+
+
+def total_energy(energies: Iterable[Energy | None]) -> Energy | None:
+    """Sum over the joints; None where one of them is not known, or there is none."""
+    parts = list(energies)
+    if not parts or any(part is None for part in parts):
+        return None
+    known = [part for part in parts if part is not None]
+    return Energy(sum(p.measured for p in known), sum(p.modelled for p in known))

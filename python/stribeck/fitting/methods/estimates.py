@@ -1,0 +1,57 @@
+"""Estimates of the methods that have standard errors of their own kind."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from stribeck.fitting.fit import Estimate
+from stribeck.models.model import Model
+
+Array = NDArray[np.float64]
+
+#: A bound counts as reached within this share of its range.
+AT_BOUND = 1e-6
+
+
+def reached_bounds(values: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
+    """Which values lie on one of their bounds, bool array [p]."""
+    span = AT_BOUND * (upper - lower)
+    return (values <= lower + span) | (values >= upper - span)
+
+
+def estimates(
+    model: Model, errors: Array, at_bound: NDArray[np.bool_], shown: NDArray[np.bool_]
+) -> dict[str, Estimate]:
+    """The model's parameters with their standard errors, by name.
+
+    Parameters
+    ----------
+    model : Model
+        With values and bounds.
+    errors : array [p]
+        Standard errors in the parameters' units; NaN where there is none. Intervals suppose that
+        the estimates scatter normally.
+    at_bound, shown : bool array [p]
+        Which values lie on a bound, and which the data can show.
+    """
+    reach = float(scipy.special.ndtri(0.975))
+    made = {}
+    for k, p in enumerate(model.parameters):
+        value = float(model.values[k])
+        error = None if np.isnan(errors[k]) else float(errors[k])
+        lower, upper = model.bounds[p.name]
+        made[p.name] = Estimate(
+            name=p.name,
+            symbol=p.symbol,
+            value=value,
+            unit=p.unit,
+            stderr=error,
+            ci95=None if error is None else (value - reach * error, value + reach * error),
+            at_bound=bool(at_bound[k]),
+            identifiable=bool(shown[k]),
+            lower=lower,
+            upper=upper,
+        )
+    return made

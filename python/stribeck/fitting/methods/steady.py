@@ -1,0 +1,159 @@
+"""Steady-state friction points: what remains of a recording when each pass becomes a number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import polars as pl
+import tomlkit
+from numpy.typing import NDArray
+
+from stribeck.identify.covariance import correlation_length
+from stribeck.models.model_file import write_whole
+from stribeck.recording.recording import Recording
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SteadyPoint:
+    """Mean friction at one constant speed.
+
+    Attributes
+    ----------
+    start, stop : float
+        Time span of the rows it was taken from, in s.
+    rows : int
+        Number of those rows.
+    velocity, velocity_stderr : float
+        In rad/s or m/s.
+    friction_torque, friction_stderr : float
+        In the recording's unit of torque.
+    load_torque, temperature : float or None
+        Means over the same rows, in the unit of torque and in degC; None where not known.
+    """
+
+    start: float
+    stop: float
+    rows: int
+    velocity: float
+    velocity_stderr: float
+    friction_torque: float
+    friction_stderr: float
+    load_torque: float | None = None
+    temperature: float | None = None
+
+
+@dataclass(frozen=True)
+class SteadyPoints:
+    """Steady-state friction points of one joint, and how they were made.
+
+    Examples
+    --------
+    >>> from stribeck.fitting.methods import segment_points
+    >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))  # doctest: +SKIP
+    >>> points.write("points.csv")  # doctest: +SKIP
+    >>> sb.fit("gantry_map", sb.read("points.csv"))  # doctest: +SKIP
+    """
+
+    points: tuple[SteadyPoint, ...]
+    recording: Recording
+    method: str
+    notes: tuple[str, ...] = field(default=())
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def _column(self, name: str) -> Array:
+        return np.array([getattr(point, name) for point in self.points], dtype=np.float64)
+
+    @property
+    def velocity(self) -> Array:
+        """Velocity of each point in rad/s or m/s, array [n]."""
+        return self._column("velocity")
+
+    @property
+    def friction_torque(self) -> Array:
+        """Friction of each point in the unit of torque, array [n]; it has the sign of velocity."""
+        return self._column("friction_torque")
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row a point, as a recording that `stribeck.read` takes with ``average="run"``.
+
+        Where the load is known, ``torque`` is friction and load together.
+        """
+        frame = pl.DataFrame([{"run": k, **vars(p)} for k, p in enumerate(self.points, 1)])
+        frame = frame.select(c for c in frame if c.null_count() == 0)
+        if "load_torque" in frame.columns:
+            frame = frame.with_columns(torque=pl.col("friction_torque") + pl.col("load_torque"))
+        return frame
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON of `stribeck points`."""
+        return {
+            "method": self.method,
+            "points": [vars(point) for point in self.points],
+            "torque_unit": self.recording.torque_unit,
+            "position_unit": self.recording.position_unit,
+            "notes": [*self.recording.notes, *self.notes],
+        }
+
+    def write(self, path: str | Path) -> None:
+        """Write the points (CSV), and beside them the sidecar that says how to read them.
+
+        Raises
+        ------
+        ModelFileError
+            Where the file cannot be written.
+        """
+        write_whole(f"{path}.sidecar.toml", self._sidecar())
+        write_whole(path, self.to_frame().write_csv())
+
+    def _sidecar(self) -> str:
+        said = {
+            "kind": "recording",
+            "joint_kind": self.recording.joint_kind,
+            "average": "run",
+            "note": f"steady-state points by {self.method} from {Path(self.recording.path).name}",
+        }
+        if self.recording.torque_unit not in ("N", "N m"):
+            said["effort_unit"] = self.recording.torque_unit
+        return tomlkit.dumps(said)
+
+    def __repr__(self) -> str:
+        from stribeck.fitting.methods.text import points_text
+
+        return points_text(self)
+
+    def _repr_html_(self) -> str:
+        return str(self.to_frame()._repr_html_())
+
+
+def mean_of(values: Array) -> tuple[float, float]:
+    """Mean and its standard error, allowing for noise that is correlated in time.
+
+    Parameters
+    ----------
+    values : array [n]
+        In the order of time.
+
+    Returns
+    -------
+    mean, standard error : float
+        In the unit of `values`.
+    """
+    scatter = float(values.std(ddof=1)) if values.size > 1 else 0.0
+    independent = max(values.size / correlation_length(values), 1.0)
+    return float(values.mean()), scatter / np.sqrt(independent)
+
+
+def checked_points(
+    points: Sequence[SteadyPoint], recording: Recording, method: str, notes: Sequence[str] = ()
+) -> SteadyPoints:
+    """The points in the order of time."""
+    ordered = sorted(points, key=lambda point: point.start)
+    return SteadyPoints(tuple(ordered), recording, method, tuple(notes))

@@ -1,0 +1,246 @@
+"""Laws and effects that a user writes as a formula: ``c1*v + c2*tanh(v/c3)*abs(load)``.
+
+The text is parsed by the core into a program that only computes: nothing of it is executed as code.
+Channels are v, q, a, T, tl, tm and te, or velocity, position, acceleration, temperature, load,
+motor_torque and external_torque; functions are sgn, abs, exp, expm1, log, log10, sqrt, cbrt, sin,
+cos, tan, atan, tanh, pow, min and max; ``pi`` is a constant; powers are written ``^`` or ``**``.
+Every other name is a parameter.
+
+The terms of the formula's sum are told apart, so that effects act on them as on any law:
+
+* dry: with the factor ``sgn(v)``; what else is in the product is the magnitude,
+* dry with a smoothed sign: with the factor ``tanh`` or ``atan`` of a multiple of v; a bristle
+  (effect ``presliding``) takes the amplitude and drops the smoothing,
+* rate: what is zero at v = 0, ``c1*v`` or ``c1*abs(v)^c2*sgn(v)``,
+* additive: the rest.
+
+A factor counts in products, not inside a bracketed sum: write a dry and a rate-dependent part as
+two terms. Parameters in which the torque is linear are found by the formula's structure.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from stribeck import _core
+from stribeck.base.dimensions import Powers, derive, unit_text
+from stribeck.base.errors import SpecError, nearest
+
+#: What a law by formula is called where it is given no name.
+LAW = "formula"
+#: The unit of a parameter that neither the formula nor the user states.
+UNSTATED = "unstated"
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_RANGE = re.compile(r"(?P<lower>[^.\s].*?)?\s*\.\.\s*(?P<upper>\S.*)?")
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """What a user says about one parameter of a formula; None where nothing is said."""
+
+    unit: str | None = None
+    lower: float = -math.inf
+    upper: float = math.inf
+    start: float | None = None
+
+
+@dataclass(frozen=True)
+class FormulaTerms:
+    """Terms of friction by formula: a law, or an effect that is added to one.
+
+    Parameters
+    ----------
+    name : str
+        What the law or effect is called in specs, files and answers.
+    text : str
+        The formula.
+    effect : bool
+        Whether it is an effect: its parameters are then called ``NAME`` where there is one, else
+        ``NAME_PARAMETER``.
+    declared : tuple of (symbol, Declaration)
+        What is said about single parameters.
+
+    Raises
+    ------
+    SpecError
+        The text is no formula (with the position), or something is said about a parameter that it
+        does not have.
+
+    Examples
+    --------
+    >>> terms = FormulaTerms("creep", "c*abs(load)*sgn(v)", effect=True)
+    >>> terms.names, terms.channels
+    (('creep',), ('velocity', 'load_torque'))
+    """
+
+    name: str
+    text: str
+    effect: bool = False
+    declared: tuple[tuple[str, Declaration], ...] = ()
+
+    def __post_init__(self) -> None:
+        if not _NAME.fullmatch(self.name):
+            raise SpecError(
+                f"{self.name!r} cannot be the name of a law or effect: use letters, digits and _, "
+                f"as in 'creep = c*abs(load)*sgn(v)'"
+            )
+        for symbol, said in self.declared:
+            if symbol not in self.symbols:
+                raise SpecError(
+                    f"the formula {self.text!r} has no parameter {symbol!r}"
+                    f"{nearest(symbol, self.symbols)}; it has {', '.join(self.symbols)}"
+                )
+            if said.lower > said.upper:
+                raise SpecError(f"the bounds of {symbol} are empty: {said.lower} .. {said.upper}")
+
+    @cached_property
+    def core(self) -> _core.Formula:
+        """The parsed formula."""
+        try:
+            return _core.Formula(self.text)
+        except _core.ModelError as error:
+            raise SpecError(
+                f"{error} of {self.text!r}" if self.text.strip() else str(error)
+            ) from None
+
+    @cached_property
+    def symbols(self) -> tuple[str, ...]:
+        """The parameters as the formula writes them."""
+        return tuple(self.core.names)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The parameters as models call them."""
+        if not self.effect:
+            return self.symbols
+        if len(self.symbols) == 1:
+            return (self.name,)
+        return tuple(f"{self.name}_{symbol}" for symbol in self.symbols)
+
+    @property
+    def channels(self) -> tuple[str, ...]:
+        """The columns it reads."""
+        return tuple(self.core.channels)
+
+    @cached_property
+    def dimensions(self) -> tuple[Powers | None, ...]:
+        """What the formula says about the unit of each parameter."""
+        return derive(self.core.operations, len(self.symbols))
+
+    @cached_property
+    def declarations(self) -> tuple[Declaration, ...]:
+        """What is said about each parameter."""
+        said = dict(self.declared)
+        return tuple(said.get(symbol, Declaration()) for symbol in self.symbols)
+
+    def units(self, torque_unit: str, position_unit: str) -> tuple[str, ...]:
+        """The unit of each parameter: as said, else as the formula implies."""
+        implied = (
+            UNSTATED if powers is None else unit_text(powers, torque_unit, position_unit)
+            for powers in self.dimensions
+        )
+        return tuple(
+            unit if said.unit is None else said.unit
+            for said, unit in zip(self.declarations, implied, strict=True)
+        )
+
+
+def law_terms(text: str, parameters: Iterable[str] = ()) -> FormulaTerms:
+    """The terms of a law by formula, ``"FORMULA"`` or ``"NAME = FORMULA"``.
+
+    Parameters
+    ----------
+    parameters
+        ``"c3: rad/s, 0.001..10, start 0.1"``: unit, bounds and start of a parameter, each of which
+        may be left out.
+    """
+    name, mark, formula = text.partition("=")
+    if not mark:
+        name, formula = LAW, text
+    return FormulaTerms(name.strip(), formula.strip(), declared=declarations(parameters))
+
+
+def effect_terms(text: str, parameters: Iterable[str] = ()) -> FormulaTerms:
+    """The terms of an effect by formula, ``"NAME = FORMULA"``.
+
+    Examples
+    --------
+    >>> effect_terms("creep = c*abs(load)*sgn(v)").name
+    'creep'
+    """
+    name, mark, formula = text.partition("=")
+    if not mark:
+        raise SpecError(f"an effect by formula is written NAME = FORMULA, not {text!r}")
+    return FormulaTerms(name.strip(), formula.strip(), True, declarations(parameters))
+
+
+def effect_name(effect: str) -> str:
+    """What an effect is called: its id, or the name in ``"NAME = FORMULA"``."""
+    return effect.partition("=")[0].strip()
+
+
+def is_formula(text: str) -> bool:
+    """Whether a text is meant as a formula rather than as a name: it computes something."""
+    return any(mark in text for mark in "*^(=")
+
+
+def declarations(texts: Iterable[str]) -> tuple[tuple[str, Declaration], ...]:
+    """Parse ``"c3: rad/s, 0.001..10, start 0.1"`` texts into symbols and what is said of them."""
+    said = [_declaration(text) for text in texts]
+    symbols = [symbol for symbol, _ in said]
+    for symbol in symbols:
+        if symbols.count(symbol) > 1:
+            raise SpecError(f"parameter {symbol} is declared twice: leave one out")
+    return tuple(said)
+
+
+def _declaration(text: str) -> tuple[str, Declaration]:
+    """Parse ``"c3: rad/s, 0.001..10, start 0.1"``."""
+    symbol, mark, rest = text.partition(":")
+    parts = [part.strip() for part in rest.split(",")]
+    if not mark or not symbol.strip() or not all(parts) or len(parts) > 3:
+        raise SpecError(
+            f"parameter {text!r}: write NAME: UNIT, LOW..HIGH, start VALUE (each part may be left "
+            f"out)"
+        )
+    unit, bounds, start = None, (-math.inf, math.inf), None
+    for part in parts:
+        limits = _RANGE.fullmatch(part)
+        if part.startswith("start "):
+            start = number(part.removeprefix("start "), f"start of {symbol.strip()}")
+        elif limits:
+            bounds = _bounds(limits["lower"], limits["upper"], symbol.strip())
+        else:
+            unit = part
+    return symbol.strip(), Declaration(unit, *bounds, start)
+
+
+def _bounds(lower: str | None, upper: str | None, symbol: str) -> tuple[float, float]:
+    low = -math.inf if lower is None else number(lower, f"lower bound of {symbol}", infinite=True)
+    high = math.inf if upper is None else number(upper, f"upper bound of {symbol}", infinite=True)
+    return low, high
+
+
+def number(text: str, what: str, *, infinite: bool = False) -> float:
+    """A number that a user wrote."""
+    try:
+        value = float(text)
+    except ValueError:
+        raise SpecError(f"{what} is {text.strip()!r}: give a number") from None
+    if math.isnan(value) or (math.isinf(value) and not infinite):
+        raise SpecError(f"{what} is {text.strip()}: give a finite number")
+    return value
+
+
+def check_names(names: Sequence[str], spec: str) -> None:
+    """Refuse a model in which two parameters have one name."""
+    for name in names:
+        if names.count(name) > 1:
+            raise SpecError(
+                f"two parameters of {spec} are called {name!r}: give that of the formula another "
+                f"name"
+            )

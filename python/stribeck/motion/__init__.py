@@ -1,0 +1,1 @@
+"""Joints in motion: simulated, compensated, planned, generated."""

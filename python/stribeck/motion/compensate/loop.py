@@ -1,0 +1,230 @@
+"""A joint in a loop with its friction compensated, step by step in the core."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stribeck import _core
+from stribeck.base.errors import SpecError
+from stribeck.fitting.fit import Fit
+from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile
+from stribeck.motion.simulate.acting import Acting, friction_of, take_apart
+from stribeck.motion.simulate.drive import Controller
+from stribeck.motion.simulate.joint import Joint
+from stribeck.motion.simulate.run import MOST_STEPS, check_positive, column
+from stribeck.motion.simulate.trajectory import Trajectory
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Compensator:
+    """What cancels friction: ``alpha`` times the torque of a model.
+
+    Attributes
+    ----------
+    model
+        With values for all parameters. It is given the joint's temperature, and gravity and
+        inertia of the desired motion as load; its memory is its own.
+    factor
+        ``alpha``, 0 to 1.
+    feedback
+        From the measured velocity; else from the desired one (feedforward).
+    name
+        In tables and pictures; the default is the model's spec.
+    """
+
+    model: Model
+    factor: float = 1.0
+    feedback: bool = True
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.factor <= 1.0:
+            raise SpecError(
+                f"the compensation factor is {self.factor:g}: give 0 to 1, more would push the "
+                f"joint harder than friction holds it"
+            )
+
+    @property
+    def label(self) -> str:
+        """How it is called."""
+        return self.name or self.model.spec
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A motion in the loop; instants are the ends of the steps.
+
+    Attributes
+    ----------
+    compensator
+        None: without.
+    position, velocity
+        At the instants ``k step``, arrays [steps + 1].
+    error
+        Desired minus actual position at the start of each step, rad or m, array [steps].
+    torque, controller_torque, compensation, observed
+        Of the motor, of the PID (or the hand), of the compensator and of the observer, held over
+        each step, N m or N, arrays [steps].
+    load_torque, friction_torque
+        Means over each step, N m or N, arrays [steps].
+    """
+
+    compensator: Compensator | None
+    position: Array
+    velocity: Array
+    error: Array
+    torque: Array
+    controller_torque: Array
+    compensation: Array
+    observed: Array
+    load_torque: Array
+    friction_torque: Array
+
+    @property
+    def name(self) -> str:
+        """How it was compensated."""
+        return "without" if self.compensator is None else self.compensator.label
+
+    @property
+    def rmse(self) -> float:
+        """RMS of the tracking error, rad or m."""
+        return float(np.sqrt(np.mean(self.error**2)))
+
+    @property
+    def largest_error(self) -> float:
+        """rad or m."""
+        return float(np.abs(self.error).max())
+
+
+@dataclass(frozen=True)
+class Bench:
+    """A joint with its true friction, what is seen of it, and what it shall do."""
+
+    acting: Acting
+    step: float
+    encoder: float
+    desired: tuple[Array, Array, Array]
+    temperature: Array
+
+    @classmethod
+    def of(
+        cls,
+        friction: Model | ModelFile | Fit,
+        joint: Joint | None,
+        trajectory: Trajectory,
+        *,
+        seconds: float | None,
+        step: float,
+        temperature: ArrayLike | None,
+        encoder: float,
+    ) -> Bench:
+        """Checked, with a row a step.
+
+        Raises
+        ------
+        SpecError
+            Something is missing, or cannot be.
+        """
+        asked = friction if isinstance(friction, Model) else friction.model
+        acting = take_apart(asked, joint)
+        if acting.joint.transmission is not None:
+            raise SpecError("compensation is of a joint of one inertia: leave the transmission out")
+        check_positive("step", step)
+        if not (math.isfinite(encoder) and encoder >= 0.0):
+            raise SpecError(f"the encoder's step is {encoder:g}: give 0 or more")
+        duration = trajectory.duration if seconds is None else seconds
+        check_positive("seconds", duration)
+        steps = duration / step
+        if not 0.5 < steps <= MOST_STEPS:
+            raise SpecError(
+                f"{duration:g} s in steps of {step:g} s are {steps:.3g} steps: "
+                f"give 1 to {MOST_STEPS}"
+            )
+        count = round(steps)
+        desired = trajectory(step * np.arange(count, dtype=np.float64))
+        warmth = default_temperature(acting.friction, temperature)
+        return cls(acting, step, encoder, desired, column("temperature", warmth, count))
+
+    def run(
+        self,
+        controller: Controller,
+        compensator: Compensator | None,
+        *,
+        bandwidth: float | None = None,
+        guided: bool = False,
+    ) -> Motion:
+        """One motion.
+
+        Parameters
+        ----------
+        controller : Controller
+            Beside inertia and gravity; `guided`: the hand that pulls the joint.
+        compensator : Compensator, optional
+        bandwidth : float, optional
+            Of an observer for the friction that is left, 1/s.
+        """
+        position, velocity, acceleration = self.desired
+        joint, friction = self.acting.joint, self.acting.friction
+        given = {
+            "position": position, "velocity": velocity, "acceleration": acceleration,
+            "temperature": self.temperature,
+        }  # fmt: skip
+        sizes = {
+            "inertia": joint.inertia, "gravity": joint.gravity, "gravity_cos": joint.gravity_cos,
+            "gravity_sin": joint.gravity_sin, "stiffness": 0.0, "damping": 0.0,
+        }  # fmt: skip
+        gains = {
+            "proportional": controller.proportional, "integral": controller.integral,
+            "derivative": controller.derivative, "velocity_weight": controller.velocity_weight,
+            "limit": controller.limit,
+        }  # fmt: skip
+        try:
+            answer = _core.compensate(
+                friction.core, friction.values, sizes, given, self.step, gains,
+                None if compensator is None else self._cancels(compensator), bandwidth, guided,
+                self.encoder,
+            )  # fmt: skip
+        except _core.ModelError as error:
+            raise SpecError(f"{friction.spec} cannot be moved: {error}") from None
+        return Motion(
+            compensator=compensator,
+            position=answer["position"],
+            velocity=answer["velocity"],
+            error=position - answer["position"][:-1],
+            torque=answer["torque"],
+            controller_torque=answer["controller_torque"],
+            compensation=answer["compensation"],
+            observed=answer["observed"],
+            load_torque=answer["load_torque"],
+            friction_torque=answer["friction_torque"],
+        )
+
+    def _cancels(self, compensator: Compensator) -> dict[str, object]:
+        model, _ = friction_of(compensator.model)
+        if model.torque_unit != self.acting.friction.torque_unit:
+            raise SpecError(
+                f"{compensator.label} is in {model.torque_unit} and cannot compensate "
+                f"{self.acting.friction.spec}, which is in {self.acting.friction.torque_unit}"
+            )
+        return {
+            "model": model.core, "values": model.values, "factor": compensator.factor,
+            "feedback": compensator.feedback,
+        }  # fmt: skip
+
+
+def default_temperature(friction: Model, temperature: ArrayLike | None) -> ArrayLike:
+    """The joint's temperature, degC: as given, else the middle of the friction's box."""
+    if temperature is not None:
+        return temperature
+    if "temperature" in friction.box:
+        return 0.5 * sum(friction.box["temperature"])
+    if "temperature" in friction.core.needs:
+        raise SpecError(f"{friction.spec} depends on the temperature: give it, in degC")
+    return 25.0

@@ -1,0 +1,1 @@
+"""Motions that show what a recording does not: optimal experiment design."""

@@ -1,0 +1,134 @@
+"""What a recording tells of effects: the criterion of a plan, and the figures that it states.
+
+D_s-optimality for the sizes of the wanted effects: of each, what of its torque neither the model
+nor the other wanted effects take up; the plan maximises the least of these (maximin).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.diagnosis.power import Demand, ExpectedNoise, Noise
+from stribeck.diagnosis.tangent import Beside, Widened, orthonormal, rest, sine
+from stribeck.diagnosis.visibility import Shown, show
+from stribeck.identify.figures import rms
+from stribeck.identify.problem import Problem
+from stribeck.motion.design.motion import Motion
+from stribeck.motion.design.setting import Setting
+
+Array = NDArray[np.float64]
+
+#: Share of the friction that a wanted effect has on the reference motion when it is weighed.
+WEIGHED = 0.1
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Effects that a plan is to show.
+
+    Attributes
+    ----------
+    widened
+        The model with each of them added, on a reference recording.
+    apart
+        Those that are to be told from each other too.
+    sizes
+        Size of each at which it weighs alike on the reference.
+    """
+
+    widened: Mapping[str, Widened]
+    apart: tuple[str, ...]
+    sizes: Mapping[str, float]
+
+    @classmethod
+    def of(
+        cls, reference: Problem, residual: Array | None, show: Sequence[str], apart: Sequence[str]
+    ) -> Wanted:
+        """Add each effect to the model of `reference`, and weigh it there."""
+        effects = dict.fromkeys((*apart, *show))
+        widened = {e: Widened.of(reference, e, residual) for e in effects}
+        level = WEIGHED * rms(reference.target - reference.known[reference.rows])
+        sizes = {}
+        for effect, one in widened.items():
+            unit = rms(typical_torque(one))
+            sizes[effect] = level / unit if unit > 0 else 1.0
+        return cls(widened, tuple(apart), sizes)
+
+    def others(self, effect: str) -> list[str]:
+        """Effects that `effect` is to be told from."""
+        return [e for e in self.apart if e != effect] if effect in self.apart else []
+
+
+def typical_torque(one: Widened) -> Array:
+    """Torque for one unit of the size, array [m]; of a bristle, with one of middling stiffness."""
+    return one.change(one.sizes(3)[1]) if one.is_curved else one.unit_torque()
+
+
+def columns_of(one: Widened) -> Array:
+    """Torques that the effect can make near its start, array [m, k]."""
+    return typical_torque(one)[:, None] if one.is_curved else one.spaces(1)[0]
+
+
+def least_information(wanted: Wanted, setting: Setting, motion: Motion, rate: float) -> float:
+    """Logarithm of the least signal of a wanted effect, squared and summed over time, in T2 s.
+
+    The same effects weigh the same on every motion; -inf where one of them does not show at all.
+    """
+    recording = setting.recording(motion, rate)
+    problem = setting.problem(recording)
+    if problem.rows.size < 50:
+        return -np.inf
+    beside = Beside(problem)
+    here = {effect: one.on(problem) for effect, one in wanted.widened.items()}
+    spaces = {effect: beside.without(columns_of(here[effect])) for effect in wanted.apart}
+    least = np.inf
+    for effect, one in here.items():
+        left = beside.without(wanted.sizes[effect] * typical_torque(one)[:, None])
+        others = [spaces[e] for e in wanted.others(effect)]
+        if one.simpler.size:
+            others.append(beside.without(one.simpler_columns()))
+        if others:
+            left = rest(orthonormal(np.column_stack(others)), left)
+        least = min(least, float(np.sum(left**2)) / rate)
+    return float(np.log(least)) if least > 0 else -np.inf
+
+
+@dataclass(frozen=True)
+class Sight:
+    """What a recording, made or planned, shows of the wanted effects.
+
+    Attributes
+    ----------
+    smallest
+        Of each effect, the smallest that is seen beside the model and told from the others.
+    cosines
+        Of each pair that is to be told apart, how alike they look beside the model, 0 to 1.
+    """
+
+    smallest: Mapping[str, Shown]
+    cosines: Mapping[tuple[str, str], float]
+
+
+def sight(wanted: Wanted, problem: Problem, noise: Noise | ExpectedNoise, demand: Demand) -> Sight:
+    """The figures of a recording, that of `problem`."""
+    base = problem.predict(problem.model.values)[problem.rows]
+    here = {effect: one.on(problem) for effect, one in wanted.widened.items()}
+    spaces = {effect: columns_of(here[effect]) for effect in wanted.apart}
+    smallest = {}
+    for effect, one in here.items():
+        others = [spaces[e] for e in wanted.others(effect)]
+        beside = Beside(problem, np.column_stack(others) if others else None)
+        smallest[effect] = show(one, [(beside, demand)], noise, base)
+    alone = Beside(problem)
+    left = {e: alone.without(typical_torque(here[e])[:, None])[:, 0] for e in wanted.apart}
+    span = {e: orthonormal(alone.without(spaces[e])) for e in wanted.apart}
+    cosines = {}
+    for k, one_ in enumerate(wanted.apart):
+        for other in wanted.apart[k + 1 :]:
+            angle = min(sine(left[one_], span[other]), sine(left[other], span[one_]))
+            cosines[one_, other] = float(np.sqrt(max(0.0, 1.0 - angle**2)))
+    return Sight(smallest, cosines)

@@ -1,0 +1,160 @@
+"""What a plan is: the motion, and what a recording of it is expected to show."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import polars as pl
+
+from stribeck.diagnosis.visibility import Shown
+from stribeck.models.model import Model
+from stribeck.motion.design.motion import Limits, Motion
+
+
+@dataclass(frozen=True)
+class Size:
+    """The smallest effect that is seen: its parameter's value, and the RMS of its torque."""
+
+    value: float | None
+    rms: float | None
+
+    @classmethod
+    def of(cls, shown: Shown) -> Size:
+        """None where no size is seen."""
+        if not np.isfinite(shown.factor):
+            return cls(None, None)
+        result = shown.result("")
+        return cls(float(result.value), float(result.rms))
+
+    def to_dict(self) -> dict[str, float | None]:
+        """As JSON."""
+        return {"value": self.value, "rms": self.rms}
+
+
+@dataclass(frozen=True)
+class Prospect:
+    """What a plan brings for one effect.
+
+    Attributes
+    ----------
+    inverse
+        Whether the effect is the smaller the larger its size.
+    before, after
+        Smallest size seen on the data at hand (None without data) and on the planned motion.
+    advice
+        What the motion cannot do for it; empty if nothing.
+    """
+
+    effect: str
+    parameter: str
+    unit: str
+    inverse: bool
+    before: Size | None
+    after: Size
+    advice: str
+
+    @property
+    def gain(self) -> float | None:
+        """How many times smaller an effect is seen; None where that is no number."""
+        before = None if self.before is None else self.before.value
+        if before is None or self.after.value is None:
+            return None
+        return self.after.value / before if self.inverse else before / self.after.value
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "effect": self.effect,
+            "parameter": self.parameter,
+            "unit": self.unit,
+            "before": None if self.before is None else self.before.to_dict(),
+            "after": self.after.to_dict(),
+            "gain": self.gain,
+            "advice": self.advice or None,
+        }
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A motion, and what a recording of it is expected to show.
+
+    Attributes
+    ----------
+    motion, rate
+        Its samples, and their number a second.
+    kind
+        Family that it was chosen from.
+    cosines
+        Of each pair to be told apart, how alike both look: on the data at hand (None without
+        data) and on the planned motion.
+    """
+
+    model: Model
+    motion: Motion
+    rate: float
+    kind: str
+    limits: Limits
+    prospects: tuple[Prospect, ...]
+    cosines: Mapping[tuple[str, str], tuple[float | None, float]]
+    source: str | None
+    seed: int
+    notes: tuple[str, ...] = ()
+
+    @property
+    def duration(self) -> float:
+        """Seconds."""
+        return float(self.motion.time[-1])
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON of `stribeck plan`."""
+        m, limits = self.motion, self.limits
+        return {
+            "model": self.model.spec,
+            "data": self.source,
+            "motion": {
+                "kind": self.kind,
+                "duration": self.duration,
+                "rate_hz": self.rate,
+                "rows": int(m.time.size),
+                "position": [float(m.position.min()), float(m.position.max())],
+                "speed": float(np.abs(m.velocity).max()),
+                "acceleration": float(np.abs(m.acceleration).max()),
+            },
+            "limits": {
+                "position": [limits.low, limits.high],
+                "speed": limits.speed,
+                "acceleration": limits.acceleration,
+            },
+            "effects": [row.to_dict() for row in self.prospects],
+            "torque_unit": self.model.torque_unit,
+            "cosines": [
+                {"effects": list(pair), "before": before, "after": after}
+                for pair, (before, after) in self.cosines.items()
+            ],
+            "seed": self.seed,
+            "notes": list(self.notes),
+        }
+
+    def to_frame(self) -> pl.DataFrame:
+        """The motion as a table: time, position, velocity, acceleration."""
+        m = self.motion
+        return pl.DataFrame(
+            {
+                name: getattr(m, name) + 0.0
+                for name in ("time", "position", "velocity", "acceleration")
+            }
+        )
+
+    def plot(self) -> Any:
+        """Position and speed over time, within their limits, as a matplotlib figure."""
+        from stribeck.motion.design.figures import plan_figure
+
+        return plan_figure(self)
+
+    def __repr__(self) -> str:
+        from stribeck.motion.design.text import plan_text
+
+        return plan_text(self)

@@ -1,0 +1,186 @@
+"""What a planned motion is run on: a model, its noise, the load and the temperature of a joint.
+
+From these and a motion follows the recording that would be made, without its torque noise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base.errors import FitError, SpecError
+from stribeck.diagnosis.power import ExpectedNoise
+from stribeck.fitting.fit import Fit, own_load
+from stribeck.identify.covariance import correlation_length
+from stribeck.identify.figures import rms
+from stribeck.identify.problem import Problem
+from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile
+from stribeck.motion.design.motion import Limits, Motion
+from stribeck.recording.recording import Column, Recording
+from stribeck.recording.rows import held_out_blocks
+
+Array = NDArray[np.float64]
+
+#: Temperature of a joint of which none is known, degC.
+ROOM = 25.0
+#: Share of the largest speed below which a motion counts as rest, where no noise is known.
+STANDSTILL = 1e-3
+#: Share of a recorded load torque that inertia and gravity of one payload must explain.
+EXPLAINED = 0.95
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A joint as a plan sees it.
+
+    Attributes
+    ----------
+    model
+        With values.
+    noise, memory
+        RMS of the torque noise, and for how long it remembers itself, s.
+    load : array [4] or None
+        Load torque on ``(a, 1, cos q, sin q)``; None: identified with the friction, or unknown.
+    temperatures
+        Temperatures in degC at each of which the motion is run.
+    slowest
+        Speed below which a row counts as rest.
+    """
+
+    model: Model
+    noise: float
+    memory: float
+    load: Array | None
+    temperatures: tuple[float, ...]
+    slowest: float
+    joint_kind: str
+    notes: tuple[str, ...] = ()
+
+    def recording(self, motion: Motion, rate: float) -> Recording:
+        """The recording that `motion` would make, one run a temperature; its torque is friction
+        by the model and the load.
+        """
+        runs = len(self.temperatures)
+        n = motion.time.size
+        q, v, a = (
+            np.tile(column, runs)
+            for column in (motion.position, motion.velocity, motion.acceleration)
+        )
+        run = np.repeat(np.arange(runs), n)
+        dt = np.tile(np.diff(motion.time, prepend=motion.time[:1]), runs)
+        load, external = None, None
+        if self.load is not None:
+            load = _regressors(self.joint_kind, q, a) @ self.load
+            external = -_regressors(self.joint_kind, q, np.zeros_like(q)) @ self.load
+        time = np.tile(motion.time, runs) + run * (motion.time[-1] + 1.0 / rate)
+        block, blocks = held_out_blocks(dt, run, run, 1.0 / rate)
+        unit, position_unit = self.model.torque_unit, self.model.position_unit
+        made = Recording(
+            path="planned motion", sha256="", joint=None, joint_kind=self.joint_kind,
+            torque_unit=unit, position_unit=position_unit, time=time, segment=run, run=run,
+            run_names=tuple(f"{t:g} degC" for t in self.temperatures), dt=dt,
+            position=q, velocity=v, acceleration=a, torque=np.zeros_like(q), load_torque=load,
+            temperature=np.repeat(self.temperatures, n),
+            position_smooth=q, velocity_smooth=v, acceleration_smooth=a, load_torque_smooth=load,
+            columns={"position": Column("position", "plan", position_unit, False)}, notes=(),
+            velocity_noise=self.slowest / 5.0, velocity_threshold=self.slowest,
+            moving=np.abs(v) > self.slowest, block=block, block_count=blocks, rate_hz=rate, gaps=0,
+            rows_dropped=0, averaged=False, cutoff_hz=None, external_torque=external,
+        )  # fmt: skip
+        if not made.moving.any():
+            return made
+        # The sign of the motor torque, which some laws read, follows from friction without it.
+        for _ in range(2 if "motor_torque" in self.model.core.needs else 1):
+            made = replace(made, torque=self.problem(made).predict(self.model.values))
+        return made
+
+    def problem(self, recording: Recording) -> Problem:
+        """The model on the rows of a planned recording that move."""
+        return Problem(
+            recording, self.model, np.flatnonzero(recording.moving), own_load(self.model, recording)
+        )
+
+    def expected_noise(self, recording: Recording) -> ExpectedNoise:
+        """The noise that the rows of a planned recording that move would have."""
+        memory = max(1.0, self.memory * recording.rate_hz)
+        return ExpectedNoise(self.noise, memory, int(recording.moving.sum()))
+
+
+def setting_of_fit(fitted: Fit) -> Setting:
+    """The joint of a recording, by a model that was fitted to it."""
+    r = fitted.recording
+    _refuse_drive(fitted.model)
+    residual = fitted.residual[fitted.rows]
+    if r.averaged or r.rate_hz <= 0:
+        raise FitError(
+            f"{r.path} holds steady-state points, which do not say how the noise of a motion is: "
+            f"give a recording of a motion, or a model file alone"
+        )
+    load, notes = _load_of(r)
+    temperature = ROOM if r.temperature is None else float(np.mean(r.temperature[r.moving]))
+    return Setting(
+        fitted.model, rms(residual), correlation_length(residual) / r.rate_hz, load,
+        (temperature,), r.velocity_threshold, r.joint_kind, notes,
+    )  # fmt: skip
+
+
+def setting_of_file(stored: ModelFile, limits: Limits, noise: float | None) -> Setting:
+    """The joint of a model file, without a recording.
+
+    Parameters
+    ----------
+    noise
+        RMS of the torque noise; default: the error with which the model was fitted.
+    """
+    model, source = stored.model, stored.fitted_on
+    _refuse_drive(model)
+    level = noise if noise is not None else source.get("rmse")
+    if level is None or not level > 0:
+        raise SpecError(
+            "nothing says how large the torque noise is: give it (--noise), or a recording"
+        )
+    memory = 0.0
+    if "time_span" in source and source.get("rows"):
+        memory = float(np.diff(source["time_span"])[0]) / float(source["rows"])
+    temperature = 0.5 * sum(model.box["temperature"]) if "temperature" in model.box else ROOM
+    kind = "revolute" if model.position_unit == "rad" else "prismatic"
+    return Setting(
+        model, float(level), memory, None, (temperature,), STANDSTILL * limits.speed, kind
+    )
+
+
+def _refuse_drive(model: Model) -> None:
+    if model.drive is not None:
+        raise SpecError(
+            f"{model.spec} predicts the {model.drive} on a motor, which a motion alone does not "
+            f"set: plan with a model of the torque (without --drive)"
+        )
+
+
+def _regressors(joint_kind: str, position: Array, acceleration: Array) -> Array:
+    """What inertia and gravity make a load torque of, array [n, 4]."""
+    one = np.ones_like(position)
+    turn = 1.0 if joint_kind == "revolute" else 0.0
+    return np.column_stack([acceleration, one, turn * np.cos(position), turn * np.sin(position)])
+
+
+def _load_of(r: Recording) -> tuple[Array | None, tuple[str, ...]]:
+    """Inertia and gravity that make up a recorded load torque, on `_regressors`."""
+    if r.load_torque is None:
+        return None, ()
+    if r.position is None:
+        raise FitError(f"{r.path} has no position, so the load of a new motion is not known")
+    columns = _regressors(r.joint_kind, r.position, r.acceleration)
+    shares: Array = np.asarray(np.linalg.lstsq(columns, r.load_torque, rcond=1e-9)[0], dtype=float)
+    left = rms(r.load_torque - columns @ shares)
+    explained = 1.0 - (left / (rms(r.load_torque) or 1.0)) ** 2
+    if explained >= EXPLAINED:
+        return shares, ()
+    note = (
+        f"inertia and gravity of one payload make up {explained:.0%} of the recorded load torque; "
+        f"the plan reckons with these alone"
+    )
+    return shares, (note,)

@@ -1,0 +1,48 @@
+"""Generated recordings as files."""
+
+from __future__ import annotations
+
+import io
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+from stribeck.motion.generate.ur5e import JOINTS, RobotRecording
+
+
+def file_bytes(frame: pl.DataFrame, suffix: str) -> bytes:
+    """A recording as a file; numbers read back with the same bits."""
+    if suffix == ".csv":
+        return frame.write_csv().encode("utf-8")
+    stream = io.BytesIO()
+    frame.write_parquet(stream, compression="zstd", compression_level=19)
+    return stream.getvalue()
+
+
+def sidecar_text(truth: dict[str, Any]) -> str:
+    """The sidecar of a generated recording: what its columns cannot say."""
+    return f'kind = "recording"\njoint_kind = "{truth["joint_kind"]}"\n'
+
+
+def write_robot(recording: RobotRecording, target: Path) -> None:
+    """Write a robot's recording as Parquet or CSV, whole or not at all.
+
+    The full Test 2 has 16 million rows. One joint at a time is in memory: each goes to a file of
+    its own first, and polars joins them as a stream.
+    """
+    with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as folder:
+        parts = []
+        for joint in JOINTS:
+            part = Path(folder) / f"{joint}.parquet"
+            recording.joint_frame(joint).write_parquet(part)
+            parts.append(part)
+        whole = Path(folder) / f"whole{target.suffix.lower()}"
+        joined = pl.scan_parquet(parts)
+        if target.suffix.lower() == ".csv":
+            joined.sink_csv(whole)
+        else:
+            joined.sink_parquet(whole, compression="zstd")
+        os.replace(whole, target)

@@ -1,0 +1,6 @@
+"""Projects: the loop driven by hand, with every branch kept in one file.
+
+The walk through it: `source` is the data and how it was read, `kept` a fitted model as it is
+stored, `findings` what a diagnosis said, `node` a model with how it came about, `tree` the nodes,
+`project` the verbs, `sides` two nodes beside each other, `write` and `read` the TOML.
+"""

@@ -1,0 +1,102 @@
+"""What a diagnosis said of a node, as far as a project remembers it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from stribeck.diagnosis.result import Diagnosis, Finding
+
+
+@dataclass(frozen=True)
+class Found:
+    """An effect that passed the test.
+
+    Attributes
+    ----------
+    confidence
+        0..1, of a diagnosis; None where a person added the effect without one.
+    rmse_held_out
+        Held-out error with the effect, in the unit of torque.
+    share
+        Of the squared error above the noise floor, 0..1; None where there is no floor.
+    where
+        One sentence: where the data shows it.
+    ties
+        Effects that this data cannot tell from it.
+    """
+
+    effect: str
+    confidence: float | None
+    rmse_held_out: float | None
+    share: float | None
+    where: str
+    ties: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, finding: Finding) -> Found:
+        """Remember a finding."""
+        return cls(
+            finding.effect, finding.confidence, finding.fit.rmse_held_out,
+            finding.share_of_unexplained, finding.where, finding.indistinguishable_from,
+        )  # fmt: skip
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON, with the names that a diagnosis uses."""
+        return {
+            "effect": self.effect,
+            "confidence": self.confidence,
+            "rmse_held_out_after": self.rmse_held_out,
+            "share_of_unexplained": self.share,
+            "where": self.where,
+            "indistinguishable_from": list(self.ties),
+        }
+
+
+@dataclass(frozen=True)
+class Remembered:
+    """A diagnosis in short.
+
+    Attributes
+    ----------
+    verdict : {"missing", "none", "unexplained"}
+    noise_floor
+        In the unit of torque; None where it cannot be estimated.
+    left, left_where
+        Share of the squared error that is structure with the best finding added, and where it
+        sits.
+    full
+        The diagnosis itself, if this session has made it.
+    """
+
+    verdict: str
+    noise_floor: float | None
+    left: float | None
+    left_where: str | None
+    findings: tuple[Found, ...]
+    full: Diagnosis | None = field(default=None, compare=False, repr=False)
+
+    @classmethod
+    def of(cls, diagnosis: Diagnosis) -> Remembered:
+        """Remember a diagnosis."""
+        return cls(
+            diagnosis.verdict,
+            diagnosis.noise_floor.value,
+            diagnosis.unexplained.share,
+            diagnosis.unexplained.where,
+            tuple(Found.of(finding) for finding in diagnosis.findings),
+            diagnosis,
+        )
+
+    def finding(self, effect: str) -> Found | None:
+        """What was found of one effect."""
+        return next((found for found in self.findings if found.effect == effect), None)
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "verdict": self.verdict,
+            "noise_floor": self.noise_floor,
+            "unexplained": {"share": self.left, "where": self.left_where},
+            "findings": [found.to_dict() for found in self.findings],
+        }

@@ -1,0 +1,73 @@
+"""A fitted model as a project keeps it: the model file's contents, and the fit behind them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from stribeck.fitting.fit import Estimate, Fit, fit
+from stribeck.identify.estimates import AT_BOUND
+from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile
+from stribeck.projects.source import Source
+
+
+class Kept:
+    """A model file's contents; the fit behind them is there at once or made when needed."""
+
+    def __init__(self, file: ModelFile, fitted: Fit | None = None) -> None:
+        self.file = file
+        self._fitted = fitted
+
+    @classmethod
+    def of(cls, fitted: Fit, source: Source) -> Kept:
+        """Keep a fit on the project's data."""
+        file = ModelFile.of(fitted)
+        return cls(replace(file, fitted_on={**file.fitted_on, "path": source.path}), fitted)
+
+    @property
+    def model(self) -> Model:
+        """The model with its values."""
+        return self.file.model
+
+    @property
+    def rmse(self) -> float:
+        """Error over the rows that count."""
+        return float(self.file.fitted_on["rmse"])
+
+    @property
+    def rmse_held_out(self) -> float | None:
+        """The same, each block predicted by a refit without it."""
+        value = self.file.fitted_on.get("rmse_held_out")
+        return None if value is None else float(value)
+
+    @property
+    def estimates(self) -> dict[str, Estimate]:
+        """The parameters with what the file says about them; it keeps no intervals."""
+        return {
+            p.name: _estimate(self.file, p.name, p.symbol, p.unit) for p in self.model.parameters
+        }
+
+    def holds(self, fitted: Fit) -> bool:
+        """Whether this very fit is kept here."""
+        return self._fitted is fitted
+
+    def fit(self, source: Source, seed: int) -> Fit:
+        """The fit, made again from the kept values where this session has not made it."""
+        if self._fitted is None:
+            self._fitted = fit(self.model, source.recording, starts=1, seed=seed)
+        return self._fitted
+
+
+def _estimate(file: ModelFile, name: str, symbol: str, unit: str) -> Estimate:
+    """One parameter: without an error it is held, at a bound, or not identifiable."""
+    value, error = file.model.value(name), file.stderr.get(name)
+    lower, upper = file.model.bounds.get(name, (-np.inf, np.inf))
+    held = lower == upper
+    near = AT_BOUND * (upper - lower) if np.isfinite(upper - lower) else 0.0
+    at_bound = error is None and not held and not lower + near < value < upper - near
+    return Estimate(
+        name, symbol, value, unit, error, None, at_bound,
+        error is not None or held or at_bound, lower, upper, held,
+    )  # fmt: skip

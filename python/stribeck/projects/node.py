@@ -1,0 +1,53 @@
+"""One model of a project, and how it came about."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from stribeck.projects.findings import Found, Remembered
+from stribeck.projects.kept import Kept
+
+#: How a node comes from its parent.
+CHANGES = ("base", "add", "drop")
+
+
+@dataclass(frozen=True)
+class Node:
+    """A fitted model: the base, or its parent's with one effect more or fewer.
+
+    Attributes
+    ----------
+    number, parent
+        The parent of the base is None.
+    change : {"base", "add", "drop"}
+    found
+        The effect that was added or dropped, with what is known of it; None of the base.
+    name
+        Of the branch that begins here; may be empty.
+    rejected
+        Effects that are not tried from here on, with the reason, which may be empty.
+    diagnosis
+        What is missing here, if it has been asked.
+    """
+
+    number: int
+    parent: int | None
+    change: str
+    found: Found | None
+    kept: Kept
+    name: str = ""
+    rejected: Mapping[str, str] = field(default_factory=dict)
+    diagnosis: Remembered | None = None
+
+    @property
+    def effect(self) -> str | None:
+        """The effect that was added or dropped."""
+        return None if self.found is None else self.found.effect
+
+    @property
+    def label(self) -> str:
+        """``coulomb``, ``+ load`` or ``- load``."""
+        if self.found is None:
+            return self.kept.model.spec
+        return f"{'+' if self.change == 'add' else '-'} {self.found.effect}"

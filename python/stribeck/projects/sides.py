@@ -1,0 +1,73 @@
+"""Two nodes side by side."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+import polars as pl
+
+from stribeck.diagnosis.compare import Comparison, compare
+from stribeck.diagnosis.evidence import Difference, difference
+from stribeck.fitting.fit import Fit
+from stribeck.projects.node import Node
+from stribeck.recording.recording import Recording
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Two models of one recording, and whether their held-out errors differ by more than chance.
+
+    Attributes
+    ----------
+    nodes
+        In the order in which they were named.
+    better
+        Place of the one with the smaller held-out error, 0 or 1.
+    difference
+        Of the held-out squared errors.
+    """
+
+    nodes: tuple[Node, Node]
+    comparison: Comparison
+    better: int
+    difference: Difference
+
+    @classmethod
+    def of(cls, nodes: tuple[Node, Node], fits: tuple[Fit, Fit], recording: Recording) -> Sides:
+        """Compare the fits of two nodes."""
+        first, second = (_error(fitted) for fitted in fits)
+        better = 0 if first <= second else 1
+        return cls(
+            nodes, compare(fits, recording), better, difference(fits[1 - better], fits[better])
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The JSON of `stribeck compare`, with the nodes and their difference."""
+        return {
+            **self.comparison.to_dict(),
+            "nodes": [node.number for node in self.nodes],
+            "better": self.nodes[self.better].number,
+            "standard_errors_between": self.difference.statistic,
+        }
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row a model and regime."""
+        return self.comparison.to_frame()
+
+    def plot(self) -> Any:
+        """Residual against each channel."""
+        return self.comparison.plot()
+
+    def __repr__(self) -> str:
+        from stribeck.report.project import sides_text
+
+        return sides_text(self)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{escape(repr(self))}</pre>"
+
+
+def _error(fitted: Fit) -> float:
+    return fitted.rmse if fitted.rmse_held_out is None else fitted.rmse_held_out

@@ -1,0 +1,124 @@
+"""The data of a project: which file, which bytes, and how it was read."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from stribeck.base.errors import ProjectError
+from stribeck.recording.load import read
+from stribeck.recording.recording import Recording
+from stribeck.recording.sidecar import find_sidecar
+
+#: What can be said of how a file is read: the options of `stribeck.read`.
+READING = tuple(inspect.signature(read).parameters)[1:]
+
+
+@dataclass(frozen=True)
+class Source:
+    """A data file, by content, and the options it was read with.
+
+    Attributes
+    ----------
+    folder
+        Of the project file; `path` and a sidecar that is named are relative to it.
+    sha256, sidecar_sha256
+        Of the file's bytes, and of its sidecar's where there is one.
+    reading
+        Options of `stribeck.read` that were given.
+    """
+
+    folder: Path
+    path: str
+    sha256: str
+    sidecar_sha256: str | None
+    reading: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, data: str | os.PathLike[str], folder: Path, reading: Mapping[str, Any]) -> Source:
+        """The source that a data file is, as it stands now."""
+        given = {name: _plain(said) for name, said in reading.items()}
+        given = {name: said for name, said in given.items() if _is_said(said)}
+        if "sidecar" in given:
+            given["sidecar"] = os.path.relpath(given["sidecar"], folder)
+        path = os.path.relpath(data, folder)
+        made = cls(folder, path, "", None, given)
+        return cls(folder, path, *made._hashes(), given)
+
+    @property
+    def file(self) -> Path:
+        """Where the data file is, seen from here."""
+        return self.folder / self.path
+
+    @property
+    def sidecar(self) -> Path | None:
+        """The sidecar that reading the file uses, seen from here."""
+        named = self.reading.get("sidecar")
+        return find_sidecar(self.file) if named is None else self.folder / str(named)
+
+    def check(self) -> None:
+        """Refuse data that are not those the project was made of.
+
+        Raises
+        ------
+        ProjectError
+        """
+        found, beside = self._hashes()
+        if found != self.sha256:
+            raise ProjectError(
+                f"{self.file} has changed since the project was made (SHA-256 {found[:12]}, was "
+                f"{self.sha256[:12]}): put the old file back, or make a project of the new one"
+            )
+        if beside != self.sidecar_sha256:
+            raise ProjectError(
+                f"the sidecar of {self.file} has changed since the project was made: put the old "
+                f"one back, or make a new project"
+            )
+
+    @cached_property
+    def recording(self) -> Recording:
+        """The data, read as they were when the project was made."""
+        self.check()
+        named = {} if self.sidecar is None else {"sidecar": self.sidecar}
+        return read(self.file, **{**self.reading, **named})
+
+    def to_dict(self) -> dict[str, Any]:
+        """For JSON."""
+        return {
+            "path": self.path,
+            "sha256": self.sha256,
+            "sidecar_sha256": self.sidecar_sha256,
+            "reading": dict(self.reading),
+        }
+
+    def _hashes(self) -> tuple[str, str | None]:
+        return _sha256(self.file), None if self.sidecar is None else _sha256(self.sidecar)
+
+
+def _sha256(path: Path) -> str:
+    try:
+        return hashlib.sha256(path.read_bytes()).hexdigest()
+    except OSError as error:
+        raise ProjectError(
+            f"{path}: the project's data cannot be read ({error.strerror or error})"
+        ) from None
+
+
+def _is_said(option: Any) -> bool:
+    """Whether an option says something; an inertia of 0 does."""
+    return not (option is None or option is False or option == [])
+
+
+def _plain(said: Any) -> Any:
+    """An option as TOML keeps it: a text, a number or a list of texts."""
+    if isinstance(said, Mapping):
+        return [f"{name}={value}" for name, value in said.items()]
+    if isinstance(said, list | tuple):
+        return [str(item) for item in said]
+    return str(said) if isinstance(said, os.PathLike) else said

@@ -1,0 +1,105 @@
+"""Writing a project file: TOML that people can read, edit and compare line by line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import tomlkit
+
+from stribeck.base.errors import ModelFileError, ProjectError
+from stribeck.models.model_file import write_whole
+from stribeck.projects.findings import Found, Remembered
+from stribeck.projects.node import Node
+
+if TYPE_CHECKING:
+    from stribeck.projects.project import Project
+
+#: Version of the file's layout.
+SCHEMA = 1
+
+
+def write_project(project: Project, path: Path) -> None:
+    """Write a project whole or not at all.
+
+    Raises
+    ------
+    ProjectError
+    """
+    if path.resolve().parent != project.source.folder.resolve():
+        raise ProjectError(
+            f"cannot write {path}: a project names its data from its own folder "
+            f"{project.source.folder.resolve()}, so write it there"
+        )
+    try:
+        write_whole(path, project_toml(project))
+    except ModelFileError as error:
+        raise ProjectError(str(error)) from None
+
+
+def project_toml(project: Project) -> str:
+    """The file's text; numbers read back with the same bits."""
+    source = project.source
+    document = tomlkit.document()
+    document.add("kind", tomlkit.item("project"))
+    document.add("schema", tomlkit.item(SCHEMA))
+    document.add("current", tomlkit.item(project.current))
+    data = {"path": source.path, "sha256": source.sha256, "sidecar_sha256": source.sidecar_sha256}
+    document.add("data", _table(data))
+    if source.reading:
+        document.add("reading", _table(source.reading))
+    nodes = tomlkit.table(is_super_table=True)
+    for node in project.tree:
+        nodes.add(str(node.number), _node_table(node))
+    document.add("nodes", nodes)
+    return tomlkit.dumps(document)
+
+
+def _table(values: Mapping[str, Any]) -> Any:
+    """A table of what is known."""
+    table = tomlkit.table()
+    for key, value in values.items():
+        if value is not None and value != "" and value != []:
+            table.add(key, tomlkit.item(value))
+    return table
+
+
+def _node_table(node: Node) -> Any:
+    table = _table({"parent": node.parent, "change": node.change, "name": node.name})
+    if node.found is not None:
+        table.add("found", _found_table(node.found))
+    if node.rejected:
+        rejected = tomlkit.table()
+        for effect, why in node.rejected.items():
+            rejected.add(effect, tomlkit.item(why))
+        table.add("rejected", rejected)
+    if node.diagnosis is not None:
+        table.add("diagnosis", _diagnosis_table(node.diagnosis))
+    model = tomlkit.table()
+    node.kept.file.write_into(model)
+    table.add("model", model)
+    return table
+
+
+def _found_table(found: Found) -> Any:
+    return _table(
+        {
+            "effect": found.effect, "confidence": found.confidence,
+            "rmse_held_out": found.rmse_held_out, "share": found.share, "where": found.where,
+            "ties": list(found.ties),
+        }
+    )  # fmt: skip
+
+
+def _diagnosis_table(said: Remembered) -> Any:
+    table = _table(
+        {"verdict": said.verdict, "noise_floor": said.noise_floor, "left": said.left,
+         "left_where": said.left_where}
+    )  # fmt: skip
+    if said.findings:
+        rows = tomlkit.aot()
+        for found in said.findings:
+            rows.append(_found_table(found))
+        table.add("findings", rows)
+    return table

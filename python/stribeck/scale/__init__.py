@@ -1,0 +1,1 @@
+"""More than one recording, or more data than memory holds."""

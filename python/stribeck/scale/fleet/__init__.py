@@ -1,0 +1,1 @@
+"""Many robots, joints and days: the same work on each, and what changed."""

@@ -1,0 +1,195 @@
+"""Which joints have an effect that the others lack."""
+
+from __future__ import annotations
+
+import statistics
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any
+
+import polars as pl
+
+from stribeck.scale.fleet.store import DONE, as_name
+
+#: An effect is a joint's own when no more than this share of its peers have it.
+FEW = 0.25
+#: Joints of the same name that make a comparison; with fewer the whole fleet is it.
+FEWEST_PEERS = 3
+
+
+@dataclass(frozen=True)
+class JointEffect:
+    """An effect that was found at a joint on most of its days.
+
+    Attributes
+    ----------
+    days_found, days
+        On how many days, of how many.
+    confidence
+        Median over the days on which it was found.
+    tied
+        What it cannot be told from, on any of the days.
+    peers, peers_with
+        Other joints of the same name (or all others, where those are few), and how many of them
+        have the effect or one that it cannot be told from.
+    """
+
+    robot: str | None
+    joint: str | None
+    effect: str
+    days_found: int
+    days: int
+    confidence: float
+    tied: tuple[str, ...]
+    peers: int
+    peers_with: int
+
+    @property
+    def is_odd(self) -> bool:
+        """Whether the others lack it."""
+        return self.peers > 0 and self.peers_with <= FEW * self.peers
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON."""
+        return {
+            "robot": self.robot, "joint": self.joint, "effect": self.effect, "odd": self.is_odd,
+            "days_found": self.days_found, "days": self.days, "confidence": self.confidence,
+            "indistinguishable_from": list(self.tied), "peers": self.peers,
+            "peers_with": self.peers_with,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Share:
+    """How many of the joints of a name have an effect."""
+
+    joint: str | None
+    effect: str
+    having: int
+    joints: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON."""
+        return {
+            "joint": self.joint, "effect": self.effect, "having": self.having,
+            "joints": self.joints,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Effects:
+    """Effects over a fleet.
+
+    Attributes
+    ----------
+    joints
+        Every joint and effect it has, the rarest among its peers first.
+    shares
+        By name of joint and effect, the effects that most joints have first.
+    why
+        Why there is nothing to say; None where there is.
+    """
+
+    joints: tuple[JointEffect, ...]
+    shares: tuple[Share, ...]
+    why: str | None
+
+    @classmethod
+    def not_asked(cls) -> Effects:
+        """Where one model was fitted everywhere."""
+        return cls((), (), "one model was fitted everywhere: --model improve looks for effects")
+
+    @property
+    def odd(self) -> tuple[JointEffect, ...]:
+        """What single joints have and the others lack."""
+        return tuple(each for each in self.joints if each.is_odd)
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON."""
+        return {
+            "why": self.why,
+            "odd": [each.to_dict() for each in self.odd],
+            "shares": [share.to_dict() for share in self.shares],
+            "joints": [each.to_dict() for each in self.joints],
+        }
+
+
+@dataclass(frozen=True)
+class _Joint:
+    """What was found at one joint over its days."""
+
+    robot: str | None
+    joint: str | None
+    days: int
+    found: dict[str, list[float]]
+    tied: dict[str, Counter[str]]
+
+    def has(self, effect: str) -> bool:
+        """Whether the effect was found on more than half of the days."""
+        return 2 * len(self.found.get(effect, ())) > self.days
+
+    def may_have(self, effect: str) -> bool:
+        """Whether it was found, itself or one that it cannot be told from, on half of the days."""
+        tied = sum(count[effect] for count in self.tied.values())
+        return 2 * (len(self.found.get(effect, ())) + tied) > self.days
+
+
+def find_effects(rows: pl.DataFrame) -> Effects:
+    """Which effects each joint has, and how rare that is among its peers.
+
+    Parameters
+    ----------
+    rows
+        The data set of a fleet (`stribeck.scale.fleet.store.SCHEMA`).
+    """
+    done = rows.filter(pl.col("status") == DONE)
+    groups = done.group_by("robot", "joint", maintain_order=True)
+    joints = [_joint(as_name(r), as_name(j), days) for (r, j), days in groups]
+    having = [
+        _against_peers(joint, effect, joints)
+        for joint in joints
+        for effect in joint.found
+        if joint.has(effect)
+    ]
+    having.sort(key=_rarest_first)
+    why = None if having else "no effect was found missing from the base model at any joint"
+    return Effects(tuple(having), _shares(joints), why)
+
+
+def _joint(robot: str | None, joint: str | None, days: pl.DataFrame) -> _Joint:
+    found: dict[str, list[float]] = {}
+    tied: dict[str, Counter[str]] = {}
+    for of_day in days["found"].to_list():
+        for each in of_day:
+            found.setdefault(each["effect"], []).append(each["confidence"])
+            tied.setdefault(each["effect"], Counter()).update(each["tied"])
+    return _Joint(robot, joint, days.height, found, tied)
+
+
+def _against_peers(one: _Joint, effect: str, joints: list[_Joint]) -> JointEffect:
+    """An effect of a joint, and how many of its peers have it."""
+    peers = [other for other in joints if other.joint == one.joint and other is not one]
+    if len(peers) < FEWEST_PEERS:
+        peers = [other for other in joints if other is not one]
+    confidences = one.found[effect]
+    return JointEffect(
+        one.robot, one.joint, effect, len(confidences), one.days, statistics.median(confidences),
+        tuple(sorted(one.tied[effect])), len(peers), sum(peer.may_have(effect) for peer in peers),
+    )  # fmt: skip
+
+
+def _rarest_first(each: JointEffect) -> tuple[float, float, str, str, str]:
+    share = each.peers_with / each.peers if each.peers else 1.0
+    return share, -each.confidence, each.effect, each.robot or "", each.joint or ""
+
+
+def _shares(joints: list[_Joint]) -> tuple[Share, ...]:
+    """By name of joint: effects that most joints of the fleet have come first."""
+    names = sorted({joint.joint for joint in joints}, key=lambda name: name or "")
+    counts = Counter(e for joint in joints for e in joint.found if joint.has(e))
+    return tuple(
+        Share(name, effect, sum(j.has(effect) for j in same), len(same))
+        for name in names
+        for same in [[joint for joint in joints if joint.joint == name]]
+        for effect, _ in counts.most_common()
+    )

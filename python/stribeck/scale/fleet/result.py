@@ -1,0 +1,112 @@
+"""What a fleet answers: which joints changed, and which have an effect of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+from stribeck.scale.fleet.changes import Changes
+from stribeck.scale.fleet.effects import Effects
+from stribeck.scale.fleet.store import FAILED, RESULTS
+from stribeck.scale.fleet.task import Work
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A joint, or a whole file, that gave no answer."""
+
+    file: str
+    joint: str | None
+    reason: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON."""
+        return {"file": self.file, "joint": self.joint, "reason": self.reason}
+
+
+@dataclass(frozen=True)
+class Fleet:
+    """A model on every joint of many robots and days.
+
+    Attributes
+    ----------
+    rows : polars.DataFrame
+        The data set, one row a joint and file (`stribeck.scale.fleet.store.SCHEMA`).
+    new
+        Rows made by this run; the others were there before.
+    incidents
+        What went wrong with workers on the way.
+    """
+
+    folder: Path
+    work: Work
+    rows: pl.DataFrame
+    new: int
+    changes: Changes
+    effects: Effects
+    incidents: Sequence[str] = ()
+
+    @property
+    def done(self) -> pl.DataFrame:
+        """The rows with an answer."""
+        return self.rows.filter(pl.col("status") != FAILED)
+
+    @property
+    def failures(self) -> tuple[Failure, ...]:
+        """Joints and files without an answer, and why."""
+        failed = self.rows.filter(pl.col("status") == FAILED)
+        return tuple(Failure(*row) for row in failed.select("file", "joint", "reason").iter_rows())
+
+    def counts(self) -> dict[str, int]:
+        """How many files, robots, joints and days gave an answer, and how many did not."""
+        done = self.done
+        return {
+            "files": done["file"].n_unique(),
+            "robots": done["robot"].n_unique(),
+            "joints": done.select("robot", "joint").n_unique(),
+            "days": done["day"].drop_nulls().n_unique(),
+            "done": done.height,
+            "failed": self.rows.height - done.height,
+            "new": self.new,
+        }
+
+    def reading_notes(self) -> tuple[str, ...]:
+        """How most of the recordings were understood."""
+        done = self.done
+        notes = done["notes"].explode().drop_nulls().value_counts(sort=True)
+        return tuple(text for text, count in notes.iter_rows() if 2 * count > done.height)
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON of `stribeck fleet`."""
+        return {
+            "model": self.work.label,
+            "output": str(self.folder / RESULTS),
+            **self.counts(),
+            "failures": [failure.to_dict() for failure in self.failures],
+            "changes": self.changes.to_dict(),
+            "effects": self.effects.to_dict(),
+            "incidents": list(self.incidents),
+            "notes": list(self.reading_notes()),
+        }
+
+    def to_frame(self) -> pl.DataFrame:
+        """The data set: one row a joint and file."""
+        return self.rows
+
+    def plot(self) -> Any:
+        """Which joints changed, and which effects they have, as a matplotlib figure."""
+        from stribeck.report.fleet_figure import fleet_figure
+
+        return fleet_figure(self)
+
+    def __repr__(self) -> str:
+        from stribeck.report.fleet import fleet_text
+
+        return fleet_text(self)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{self!r}</pre>"

@@ -1,0 +1,245 @@
+"""The Parquet data set of a fleet: one row a joint and file, kept as they come.
+
+``manifest.json`` says what is done with every joint. ``results/`` is the data set: parts are added
+every few seconds, each written whole, and put together into one at the end. It can be read at any
+time: ``polars.read_parquet("FOLDER/results/*.parquet")``.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import time
+from collections.abc import Iterable
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+from stribeck.base.errors import StribeckError
+from stribeck.base.run_folder import MANIFEST, claim, unwritable
+from stribeck.recording.sidecar import sidecar_hash
+from stribeck.report.files import write_bytes_whole
+from stribeck.scale.fleet.task import Answer, File, Task, Work
+
+RESULTS = "results"
+#: Seconds after which what has come is written; what a power cut costs at most.
+BETWEEN_PARTS = 5.0
+#: What must be the same for rows to stand in one data set, and how to say that it is not.
+IDENTITY = {
+    "model": "with another model",
+    "base": "from another base model",
+    "name": "with robots and days named otherwise",
+    "day_column": "with days from elsewhere",
+    "starts": "with another number of starts",
+    "seed": "with another seed",
+    "reading": "of recordings read with other options",
+    "version": "made by another version of stribeck",
+}
+SCHEMA: dict[str, Any] = {
+    "file": pl.String, "robot": pl.String, "joint": pl.String, "day": pl.Date,
+    "status": pl.String, "reason": pl.String, "model": pl.String,
+    "found": pl.List(
+        pl.Struct({"effect": pl.String, "confidence": pl.Float64, "tied": pl.List(pl.String)})
+    ),
+    "rows": pl.Int64, "rows_scored": pl.Int64, "unit": pl.String, "rmse": pl.Float64,
+    "rmse_held_out": pl.Float64, "noise_floor": pl.Float64, "converged": pl.Boolean,
+    "parameters": pl.List(
+        pl.Struct(
+            {
+                "name": pl.String, "symbol": pl.String, "unit": pl.String, "value": pl.Float64,
+                "stderr": pl.Float64,
+            }
+        )
+    ),
+    "covariance": pl.List(pl.Float64), "model_file": pl.String, "notes": pl.List(pl.String),
+    "seconds": pl.Float64,
+    "size": pl.Int64, "modified": pl.Int64, "sha256": pl.String, "sidecar_sha256": pl.String,
+    "joints_in_file": pl.Int64,
+}  # fmt: skip
+#: A row answers for a joint of a file, and for these bytes.
+KEY, BYTES = ("file", "joint"), ("sha256", "sidecar_sha256")
+DONE, FAILED = "done", "failed"
+
+
+class Store:
+    """The folder of a fleet.
+
+    Parameters
+    ----------
+    folder
+        Made where it does not exist.
+    work
+        What is done with every joint.
+    retry_failed
+        Take what failed before as not done.
+
+    Attributes
+    ----------
+    frame : polars.DataFrame
+        Every row, by file and joint: those found, and once it is closed those added.
+
+    Raises
+    ------
+    StribeckError
+        The folder holds something else, or cannot be written to.
+    """
+
+    def __init__(self, folder: Path, work: Work, *, retry_failed: bool = False) -> None:
+        self.folder = folder
+        claim(folder, _manifest(work), IDENTITY, "fleet's results")
+        self._results = folder / RESULTS
+        try:
+            self._results.mkdir(exist_ok=True)
+        except OSError as error:
+            raise unwritable(folder, error) from None
+        self._sidecar = work.reading.get("sidecar")
+        self._parts = sorted(self._results.glob("part-*.parquet"))
+        self._new: list[dict[str, Any]] = []
+        self._added: list[pl.DataFrame] = []
+        self._written = time.monotonic()
+        self.frame = _latest(_read(path) for path in self._parts)
+        self._kept = self.frame.filter(pl.col("status") == DONE) if retry_failed else self.frame
+        keys = self._kept.select("file", "joint", "sha256", "sidecar_sha256")
+        self._answered = set(keys.iter_rows())
+
+    def known(self, files: Iterable[File]) -> set[str]:
+        """Paths of which every joint has its row, and which have not changed since."""
+        of_file = self._kept.group_by("file").agg(
+            pl.len() == pl.first("joints_in_file"), pl.first("size", "modified", "sidecar_sha256")
+        )
+        states = {path: tuple(state) for path, whole, *state in of_file.iter_rows() if whole}
+        paths = (file.path for file in files)
+        return {p for p in paths if p in states and states[p] == self._state(p)}
+
+    def has(self, task: Task) -> bool:
+        """Whether these bytes of a joint have been answered for."""
+        return (task.file, task.joint, task.sha256, task.sidecar_sha256) in self._answered
+
+    def add(self, row: dict[str, Any]) -> None:
+        """Keep a row; it is on disk some seconds later, and when the store is closed."""
+        self._new.append(row)
+        if time.monotonic() - self._written > BETWEEN_PARTS:
+            self._write_part()
+
+    def close(self) -> None:
+        """Write what is left, and put all parts together into one, in order.
+
+        A folder without a single answer is none: the next run may ask something else of it.
+        """
+        self._write_part()
+        self.frame = _latest([self.frame, *self._added])
+        if not (self.frame["status"] == DONE).any():
+            self._discard()
+        elif len(self._parts) > 1:
+            self._put_together()
+
+    def _put_together(self) -> None:
+        before = list(self._parts)
+        self._write(self.frame)
+        for path in before:
+            path.unlink(missing_ok=True)
+            self._parts.remove(path)
+
+    def _discard(self) -> None:
+        for path in (*self._parts, self.folder / MANIFEST):
+            path.unlink(missing_ok=True)
+        for folder in (self._results, self.folder):
+            if not any(folder.iterdir()):
+                folder.rmdir()
+
+    def _write_part(self) -> None:
+        self._written = time.monotonic()
+        if not self._new:
+            return
+        part = pl.DataFrame(self._new, schema=SCHEMA)
+        self._write(part)
+        self._new.clear()
+        self._added.append(part)
+
+    def _write(self, part: pl.DataFrame) -> None:
+        number = 1 + (int(self._parts[-1].stem.rpartition("-")[2]) if self._parts else 0)
+        path = self._results / f"part-{number:06d}.parquet"
+        stream = io.BytesIO()
+        part.write_parquet(stream, compression="zstd")
+        write_bytes_whole(path, stream.getvalue())
+        self._parts.append(path)
+
+    def _state(self, path: str) -> tuple[int | None, int | None, str | None]:
+        return *file_state(path), sidecar_hash(path, self._sidecar)
+
+
+def file_state(path: str) -> tuple[int | None, int | None]:
+    """Size in bytes and time of the last change in ns; a file that has both is the same."""
+    try:
+        stat = Path(path).stat()
+    except OSError:
+        return None, None
+    return stat.st_size, stat.st_mtime_ns
+
+
+def row_of(answer: Answer) -> dict[str, Any]:
+    """A joint that was identified, or could not be."""
+    failed = answer.failure is not None
+    return {
+        **dict.fromkeys(SCHEMA),
+        **_of_task(answer.task),
+        **({} if answer.identified is None else asdict(answer.identified)),
+        "status": FAILED if failed else DONE,
+        "reason": answer.failure,
+        "seconds": answer.seconds,
+    }
+
+
+def row_of_loss(task: Task, reason: str) -> dict[str, Any]:
+    """A joint that was given up."""
+    return {**dict.fromkeys(SCHEMA), **_of_task(task), "status": FAILED, "reason": reason}
+
+
+def row_of_file(file: File, reason: str) -> dict[str, Any]:
+    """A file of which no joint could be told."""
+    size, modified = file_state(file.path)
+    return {
+        **dict.fromkeys(SCHEMA), "file": file.path, "robot": file.robot, "joint": file.joint,
+        "day": file.day, "status": FAILED, "reason": reason, "size": size, "modified": modified,
+        "joints_in_file": 1,
+    }  # fmt: skip
+
+
+def as_name(cell: object) -> str | None:
+    """A robot or joint out of the data set."""
+    return None if cell is None else str(cell)
+
+
+def _of_task(task: Task) -> dict[str, Any]:
+    return {name: value for name, value in asdict(task).items() if name in SCHEMA}
+
+
+def _latest(parts: Iterable[pl.DataFrame]) -> pl.DataFrame:
+    """Rows of several parts, the later one where two answer for the same; in order.
+
+    The last bytes of a file count: rows of other ones are of joints that are no longer in it.
+    """
+    rows = pl.concat([pl.DataFrame(schema=SCHEMA), *parts])
+    same = [pl.col(c).eq_missing(pl.col(c).last().over("file")) for c in BYTES]
+    return rows.filter(*same).unique(KEY, keep="last", maintain_order=True).sort(KEY)
+
+
+def _read(path: Path) -> pl.DataFrame:
+    try:
+        part = pl.read_parquet(path)
+        if dict(part.schema) != SCHEMA:
+            raise StribeckError(f"{path} has other columns: remove it, or give another --output")
+    except (pl.exceptions.PolarsError, OSError):
+        raise StribeckError(
+            f"{path} is damaged: remove it, its joints are then done again"
+        ) from None
+    return part
+
+
+def _manifest(work: Work) -> dict[str, Any]:
+    said = asdict(work)
+    said["reading"] = {k: v for k, v in said["reading"].items() if v not in (None, (), [], {}, "")}
+    # As it reads back: tuples are lists in JSON.
+    return dict(json.loads(json.dumps({"kind": "fleet", **said}, default=str)))

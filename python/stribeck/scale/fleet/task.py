@@ -1,0 +1,224 @@
+"""The pieces of work of a fleet: to look into a file, and to identify one joint of it.
+
+Both run in whichever process or machine an executor chooses. They get and give plain data only,
+and what is wrong with a file is part of the answer.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import date, datetime
+from pathlib import Path
+from typing import Any
+
+from threadpoolctl import threadpool_limits
+
+from stribeck.base.errors import RecordingError, StribeckError, nearest
+from stribeck.base.version import __version__
+from stribeck.recording.load import read
+from stribeck.recording.readers import read_table
+from stribeck.recording.scan import scan
+from stribeck.recording.sidecar import sidecar_hash
+from stribeck.scale.fleet.identified import IMPROVE, Identified, identify, start_model
+from stribeck.scale.fleet.naming import as_date
+
+
+@dataclass(frozen=True)
+class Work:
+    """What is done with every joint of a fleet.
+
+    Attributes
+    ----------
+    model
+        A spec, the text of a model file, or ``"improve"``: diagnose and add effects from `base`.
+    base
+        Spec, or the text of a model file.
+    starts, seed
+        Of every fit.
+    reading
+        Options of `stribeck.read`.
+    name
+        How paths name robots and days (`Naming`).
+    day_column
+        Column of the files that holds the date; None: the path has it.
+    version
+        Of the package that asks; another one does not answer.
+    """
+
+    model: str
+    base: str
+    starts: int
+    seed: int
+    reading: Mapping[str, Any]
+    name: str | None
+    day_column: str | None
+    version: str
+
+    @property
+    def label(self) -> str:
+        """What is done, in a word or two."""
+        if self.model == IMPROVE:
+            return f"{IMPROVE} from {_spec(self.base)}"
+        return _spec(self.model)
+
+
+def _spec(text: str) -> str:
+    model = start_model(text)
+    return model if isinstance(model, str) else model.spec
+
+
+@dataclass(frozen=True)
+class File:
+    """A file of a fleet, and what its path says of it."""
+
+    path: str
+    robot: str | None
+    day: date | None
+    joint: str | None = None
+
+
+@dataclass(frozen=True)
+class Task:
+    """One joint of a file, and which bytes these were when they were looked at.
+
+    Attributes
+    ----------
+    joint
+        Its name; None where neither file nor path names it.
+    select
+        The value of the file's joint column; None: the file holds this joint alone.
+    size, modified
+        Bytes, and ns since 1970: a file with the same ones is taken as unchanged.
+    sha256, sidecar_sha256
+        Of the file, and of its sidecar where there is one.
+    joints_in_file
+        How many tasks the file makes.
+    """
+
+    file: str
+    joint: str | None
+    robot: str | None
+    day: date | None
+    select: str | None
+    size: int
+    modified: int
+    sha256: str
+    sidecar_sha256: str | None
+    joints_in_file: int
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is in a file: its joints as tasks, or why there are none."""
+
+    file: File
+    tasks: tuple[Task, ...]
+    failure: str | None
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of a task: what was identified, or why nothing was."""
+
+    task: Task
+    identified: Identified | None
+    failure: str | None
+    seconds: float = field(compare=False)
+
+
+def look(file: File, work: Work) -> Look:
+    """Find the joints of a file."""
+    _check_version(work)
+    try:
+        return Look(file, _tasks(file, work), None)
+    except Exception as error:
+        return Look(file, (), _sentence(error))
+
+
+def answer(task: Task, work: Work) -> Answer:
+    """Identify one joint of one file.
+
+    The same wherever it runs: with one thread, and the seed of `work`.
+    """
+    _check_version(work)
+    began = time.perf_counter()
+    identified: Identified | None = None
+    failure: str | None = None
+    try:
+        with threadpool_limits(1):
+            recording = read(task.file, **{**work.reading, "joint": task.select})
+            if recording.sha256 != task.sha256:
+                raise RecordingError(f"{task.file} was changed meanwhile: run the command again")
+            identified = identify(recording, work.model, work.base, work.starts, work.seed)
+    except Exception as error:
+        failure = _sentence(error)
+    return Answer(task, identified, failure, time.perf_counter() - began)
+
+
+def _tasks(file: File, work: Work) -> tuple[Task, ...]:
+    stat = Path(file.path).stat()
+    table = scan(file.path, **work.reading)
+    if table.problem is not None:
+        raise RecordingError(table.problem)
+    wanted = _wanted(table.joints, work.reading.get("joint") or file.joint, file)
+    day = file.day if work.day_column is None else _day(file.path, work.day_column)
+    sidecar = sidecar_hash(file.path, work.reading.get("sidecar"))
+    return tuple(
+        Task(
+            file.path, name, file.robot, day, select, stat.st_size, stat.st_mtime_ns,
+            table.sha256, sidecar, len(wanted),
+        )
+        for name, select in wanted
+    )  # fmt: skip
+
+
+def _wanted(
+    joints: Sequence[str], asked: str | None, file: File
+) -> list[tuple[str | None, str | None]]:
+    """Name of each joint to identify, and what selects it in the file."""
+    if not joints:
+        return [(asked, None)]
+    if asked is None:
+        return [(name, name) for name in joints]
+    if asked in joints:
+        return [(asked, asked)]
+    raise RecordingError(
+        f"{file.path} has no joint {asked!r}{nearest(asked, joints)}; it has {', '.join(joints)}"
+    )
+
+
+def _day(path: str, column: str) -> date:
+    """The day of the first row: a log that goes on past midnight is of the day it began."""
+    table = read_table(path).table
+    if column not in table.columns:
+        raise RecordingError(
+            f"{path} has no column {column!r}{nearest(column, table.columns)} for --day"
+        )
+    first = table[column].drop_nulls().first()
+    found = as_date(first) if isinstance(first, str) else first
+    if isinstance(found, datetime):
+        return found.date()
+    if isinstance(found, date):
+        return found
+    raise RecordingError(f"{path}: column {column!r} holds {first!r}, --day needs dates")
+
+
+def _check_version(work: Work) -> None:
+    if work.version != __version__:
+        raise StribeckError(
+            f"a worker has stribeck {__version__}, this is {work.version}: install the "
+            f"same version on all of them"
+        )
+
+
+def _sentence(error: Exception) -> str:
+    """Why a file or joint gives no answer; one defect must not end the others of a fleet."""
+    if isinstance(error, StribeckError):
+        text = str(error)
+    elif isinstance(error, OSError):
+        text = f"{error.filename}: {error.strerror or error}"
+    else:
+        text = f"unexpected {type(error).__name__}: {error}; please report it"
+    return text.replace("\n", " ")

@@ -1,0 +1,178 @@
+"""Parquet files in a row, read a stretch at a time."""
+
+from __future__ import annotations
+
+import glob
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from stribeck.base.errors import RecordingError
+
+__all__ = ["DataSet", "is_data_set"]
+
+SUFFIXES = (".parquet", ".pq")
+#: Bytes of a file that are hashed at a time.
+HASHED = 1 << 22
+
+
+@dataclass(frozen=True)
+class DataSet:
+    """The rows of one or several Parquet files, in the order of their names.
+
+    Attributes
+    ----------
+    path
+        What was given: a file, a folder or a pattern.
+    files
+        Paths of the files, in order.
+    first
+        Number of the first row of each file, and of all rows, array [files + 1].
+    schema
+        Columns and their types, the same in every file.
+    origin
+        First value of each column of dates, from which seconds are counted.
+    """
+
+    path: str
+    files: tuple[str, ...]
+    first: NDArray[np.int64]
+    schema: pl.Schema
+    origin: dict[str, object]
+
+    @classmethod
+    def open(cls, path: str | Path) -> DataSet:
+        """Find the files and count their rows; of the data itself only the first row is read.
+
+        Parameters
+        ----------
+        path
+            A Parquet file, a folder of them, or a pattern such as ``"logs/2024-*.parquet"``.
+
+        Raises
+        ------
+        RecordingError
+            No files, a damaged one, or files with different columns.
+        """
+        files = _found(path)
+        schema = _schema(files[0])
+        counts = []
+        for file in files:
+            own = _schema(file)
+            if own != schema:
+                differing = sorted(
+                    {n for n, _ in set(own.items()) ^ set(schema.items())}
+                )  # fmt: skip
+                raise RecordingError(
+                    f"{file}: its columns are not those of {files[0]} (they differ in "
+                    f"{', '.join(differing) or 'order'}): write all files with the same columns"
+                )
+            counts.append(int(pl.scan_parquet(file).select(pl.len()).collect().item()))
+        if not sum(counts):
+            raise RecordingError(f"{path}: there are no rows of data in the files")
+        first = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+        dates = [name for name, kind in schema.items() if kind == pl.Datetime]
+        head = files[int(np.argmax(np.array(counts) > 0))]
+        row = pl.scan_parquet(head).select(dates).head(1).collect()
+        origin = {name: row[name][0] for name in dates}
+        return cls(str(path), tuple(files), first, schema, origin)
+
+    @property
+    def rows(self) -> int:
+        """Rows of all files together."""
+        return int(self.first[-1])
+
+    def frame(self, start: int, stop: int, columns: list[str] | None = None) -> pl.DataFrame:
+        """Rows `start` to `stop` of the data set, dates as durations since the first of them."""
+        parts = []
+        begin = int(np.searchsorted(self.first, start, side="right")) - 1
+        for k in range(begin, len(self.files)):
+            own = int(self.first[k])
+            if own >= stop:
+                break
+            a, b = max(start - own, 0), min(stop, int(self.first[k + 1])) - own
+            part = pl.scan_parquet(self.files[k], glob=False).slice(a, b - a)
+            parts.append(
+                _collected(self.files[k], part if columns is None else part.select(columns))
+            )
+        whole = parts[0] if len(parts) == 1 else pl.concat(parts)
+        return whole.with_columns(
+            pl.col(name) - pl.lit(date, dtype=self.schema[name])
+            for name, date in self.origin.items()
+            if name in whole.columns
+        )
+
+    def place(self, row: int) -> str:
+        """Name a row (counted from 0) the way a person finds it: by its row in its file."""
+        k = int(np.searchsorted(self.first, row, side="right")) - 1
+        return f"row {row - int(self.first[k]) + 1} of {Path(self.files[k]).name}"
+
+    @cached_property
+    def sha256(self) -> str:
+        """Hash of the file's bytes; of several files, of their names and hashes, in order."""
+        hashes = [_hash(file) for file in self.files]
+        if len(hashes) == 1:
+            return hashes[0]
+        lines = (f"{h}  {Path(f).name}\n" for h, f in zip(hashes, self.files, strict=True))
+        return hashlib.sha256("".join(lines).encode()).hexdigest()
+
+
+def is_data_set(path: str | Path) -> bool:
+    """Whether a path is a folder or a pattern, which stand for several files."""
+    return Path(path).is_dir() or (glob.has_magic(str(path)) and not Path(path).exists())
+
+
+def _found(path: str | Path) -> list[str]:
+    """The files that a path stands for, by name."""
+    given = Path(path)
+    if given.is_dir():
+        files = [str(file) for file in given.iterdir() if file.suffix.lower() in SUFFIXES]
+        what = "there are no Parquet files in this folder"
+    elif given.exists() or not glob.has_magic(str(path)):
+        if not given.exists():
+            raise RecordingError(f"{path}: no such file or folder")
+        files, what = [str(given)], ""
+    else:
+        files = [file for file in glob.glob(str(path)) if Path(file).is_file()]
+        what = "no file has a name of this pattern"
+    if not files:
+        raise RecordingError(f"{path}: {what}")
+    for file in files:
+        if Path(file).suffix.lower() not in SUFFIXES:
+            raise RecordingError(
+                f"{file}: only Parquet files are read in stretches: write it as Parquet, or leave "
+                "--stream out"
+            )
+    return sorted(files)
+
+
+def _schema(file: str) -> pl.Schema:
+    try:
+        return pl.Schema(pl.read_parquet_schema(file))
+    except (pl.exceptions.PolarsError, OSError) as error:
+        raise _damaged(file, error) from None
+
+
+def _collected(file: str, frame: pl.LazyFrame) -> pl.DataFrame:
+    try:
+        return frame.collect()
+    except (pl.exceptions.PolarsError, pl.exceptions.PanicException, OSError) as error:
+        raise _damaged(file, error) from None
+
+
+def _damaged(file: str, error: BaseException) -> RecordingError:
+    reason = str(error).strip().splitlines()[0][:120] if str(error).strip() else "unknown"
+    return RecordingError(f"{file}: is not a whole Parquet file ({reason}): write or copy it again")
+
+
+def _hash(file: str) -> str:
+    made = hashlib.sha256()
+    with open(file, "rb") as stream:
+        while part := stream.read(HASHED):
+            made.update(part)
+    return made.hexdigest()

@@ -1,0 +1,232 @@
+"""Least squares over all rows of a data set, from a start found on stretches in memory."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base.errors import FitError
+from stribeck.fitting.fit import Fit, needs_own_load
+from stribeck.identify.covariance import correlation_length
+from stribeck.identify.estimates import Estimate, estimates_by_rows
+from stribeck.identify.held_out import Bounded
+from stribeck.identify.separable import Search, minimise
+from stribeck.identify.triangle import Triangle
+from stribeck.models.model import Model
+from stribeck.scale.streaming.dataset import DataSet
+from stribeck.scale.streaming.passes import Groups, StreamedProblem, Told, group_edges
+from stribeck.scale.streaming.result import StreamedFit
+from stribeck.scale.streaming.sample import Sample
+from stribeck.scale.streaming.windows import WINDOW_ROWS, Windows
+
+__all__ = ["streamed_fit"]
+
+Array = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+#: Most passes of a search.
+MOST_PASSES = 40
+#: The search ends when its next step foresees a fall of the squared error by less than this share
+#: of that of one independent row: a step of a hundredth of the standard error.
+SETTLED = 1e-4
+#: Most rounds in which the load of an identified rigid body is renewed, and the relative change
+#: below which it stays.
+LOAD_ROUNDS, LOAD_STAYS = 4, 1e-5
+#: Groups of rows in each held-out block, at most; standard errors take them for independent.
+MOST_GROUPS = 20
+#: A group is so many correlation lengths of the residual long, at least.
+LENGTHS = 4.0
+
+
+def streamed_fit(
+    data: DataSet,
+    sample: Sample,
+    start: Fit,
+    *,
+    told: Told,
+    window_rows: int = WINDOW_ROWS,
+    tolerance: float | None = None,
+) -> StreamedFit:
+    """Identify the model of `start` on all rows.
+
+    Linear parameters alone take one pass, others one for each step from the start. The held-out
+    error and the standard errors come out of the last one too.
+
+    Parameters
+    ----------
+    start : Fit
+        To `sample`, which is of `data`.
+    told
+        Told after each window: rows done, rows in all, and which pass it is.
+    tolerance
+        The search ends when its next step foresees a smaller relative fall of the squared error;
+        default: one that moves no parameter by more than a hundredth of its standard error.
+
+    Raises
+    ------
+    FitError
+        The model is not finite on some row.
+    """
+    began = time.perf_counter()
+    model = start.model
+    bounds = np.array([model.bounds[name] for name in model.names])
+    free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
+    length = correlation_length(start.residual[start.rows])
+    edges = group_edges(sample.edges, _groups(start, sample, length))
+    windows = Windows(data, sample, model, window_rows)
+    problem = StreamedProblem(windows, model, edges, told)
+    if tolerance is None:
+        tolerance = SETTLED * length / int(sample.edges[-1])
+    found = _searched(problem, model.values, bounds, tolerance)
+    groups = _at(problem, found.values)
+    parts = _in_order(groups, found.values)
+    block = np.searchsorted(sample.edges, edges[groups.number], side="right") - 1
+    blocks = [_joined(parts, block == b) for b in range(sample.edges.size - 1)]
+    held_out = _held_out(found.values, bounds, blocks)
+    moving = int(groups.rows.sum())
+    square = Triangle.joined(parts).square
+    made = replace(model, box=groups.ranges).with_values(found.values)
+    seconds = time.perf_counter() - began
+    return StreamedFit(
+        model=made,
+        data=data,
+        start=start,
+        estimates=_estimates(model, found.values, bounds, parts, free),
+        rmse=float(np.sqrt(square / moving)),
+        rmse_held_out=None if held_out is None else float(np.sqrt(held_out / moving)),
+        rows=groups.count,
+        moving=moving,
+        dropped=groups.dropped,
+        time_span=groups.time_span,
+        blocks=sample.edges.size - 1,
+        converged=found.converged,
+        outcome=found.outcome,
+        passes=problem.passes,
+        seconds=start.seconds + seconds,
+        pass_seconds=seconds,
+        notes=_notes(sample, start, groups),
+    )
+
+
+def _groups(start: Fit, sample: Sample, length: float) -> int:
+    """Groups of rows in each block, each well longer than the residual's correlation `length`."""
+    share = start.rows.size / sample.recording.rows
+    moving = share * int(sample.edges[-1]) / (sample.edges.size - 1)
+    return int(np.clip(moving / (LENGTHS * length), 1, MOST_GROUPS))
+
+
+def _searched(problem: StreamedProblem, values: Array, bounds: Array, tolerance: float) -> Search:
+    """The minimum that `values` lead to; where friction depends on the identified rigid body, in
+    rounds in which its load is renewed.
+    """
+    if all(p.linear for p in problem.model.parameters) and not needs_own_load(problem.model):
+        return _solved(problem, values, bounds)
+    rounds = LOAD_ROUNDS if needs_own_load(problem.model) else 1
+    found = Search(values, np.inf, False, "", 0)
+    for _ in range(rounds):
+        if rounds > 1:
+            problem.load_at = values
+        found = minimise(
+            problem, values, bounds[:, 0], bounds[:, 1], tolerance=tolerance, most=MOST_PASSES
+        )
+        if not np.isfinite(found.square):
+            raise _not_finite(problem)
+        moved = np.abs(found.values - values) / (np.abs(values) + np.finfo(float).tiny)
+        values = found.values
+        if np.all(moved < LOAD_STAYS):
+            break
+    return found
+
+
+def _solved(problem: StreamedProblem, values: Array, bounds: Array) -> Search:
+    """The best linear parameters, in one pass."""
+    free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
+    groups = problem.groups(values, free)
+    if groups is None:
+        raise _not_finite(problem)
+    at, (lower, upper) = values[free], bounds[free].T
+    found = values.copy()
+    step = Triangle.joined(groups.parts).solve(lower - at, upper - at)
+    found[free] = np.clip(at + step, lower, upper)
+    return Search(found, np.inf, True, "solved directly", 1)
+
+
+def _not_finite(problem: StreamedProblem) -> FitError:
+    return FitError(
+        f"{problem.model.spec} predicts no finite torque on some row of "
+        f"{problem.windows.data.path}: take rows for which it means something (--where)"
+    )
+
+
+def _at(problem: StreamedProblem, values: Array) -> Groups:
+    """The pass whose nonlinear parameters are those of the solution."""
+    curved = [k for k, p in enumerate(problem.model.parameters) if not p.linear]
+    latest = problem.latest
+    if latest is not None and np.array_equal(latest.values[curved], values[curved]):
+        return latest
+    assert latest is not None
+    made = problem.groups(values, latest.wanted)
+    assert made is not None
+    return made
+
+
+def _in_order(groups: Groups, values: Array) -> list[Triangle]:
+    """Factors of the groups at the solution, columns in the order of the parameters."""
+    columns = np.argsort(groups.wanted)
+    return [Triangle(t.factor[:, columns], t.right, t.rest) for t in groups.moved(values)]
+
+
+def _joined(parts: list[Triangle], wanted: NDArray[np.bool_]) -> Triangle:
+    """The problem of some of the groups together."""
+    return Triangle.joined(
+        [part for part, is_wanted in zip(parts, wanted, strict=True) if is_wanted]
+    )
+
+
+def _held_out(values: Array, bounds: Array, blocks: list[Triangle]) -> float | None:
+    """Sum of squares, each block predicted by a refit without it; None with a single block.
+
+    A refit is one step from the solution, of which the linearisation tells the prediction: exact
+    for linear parameters; leaving out a tenth of so many rows moves the others little.
+    """
+    if len(blocks) < 2:
+        return None
+    refit = Bounded(bounds[:, 0], bounds[:, 1])
+    free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
+    total = 0.0
+    for k, block in enumerate(blocks):
+        others = Triangle.joined([other for j, other in enumerate(blocks) if j != k])
+        total += block.square - block.fall((refit.step(values, others) - values)[free])
+    return total
+
+
+def _estimates(
+    model: Model, values: Array, bounds: Array, parts: list[Triangle], free: NDArray[np.intp]
+) -> dict[str, Estimate]:
+    """The parameters with errors from the scores of the groups."""
+    count = max(free.size, 1)
+    jacobian = np.zeros((count * len(parts), values.size))
+    jacobian[:, free] = np.concatenate([t.factor for t in parts])
+    residual = np.concatenate([t.right for t in parts])
+    batch = np.repeat(np.arange(len(parts), dtype=np.uint32), count)
+    return estimates_by_rows(model, values, bounds[:, 0], bounds[:, 1], jacobian, residual, batch)
+
+
+def _notes(sample: Sample, start: Fit, groups: Groups) -> tuple[str, ...]:
+    notes = []
+    if not sample.whole:
+        notes.append(
+            f"bounds, noise of the velocity and the start of the search are from "
+            f"{sample.recording.rows} rows in contiguous stretches; parameters and errors are from "
+            f"all {groups.count} rows"
+        )
+    if groups.dropped:
+        notes.append(f"{groups.dropped} rows with empty, NaN or infinite cells dropped as gaps")
+    if start.model.rigid_body:
+        notes.append(
+            f"identified together with the friction: {' and '.join(start.model.rigid_body)}"
+        )
+    return tuple(notes)

@@ -1,0 +1,67 @@
+"""The loop on a data set: looked for on stretches in memory, counted on all rows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from stribeck.diagnosis.floor import NoiseFloor
+from stribeck.diagnosis.improve import Improvement
+from stribeck.diagnosis.ranking import share_of_unexplained
+from stribeck.scale.streaming.result import StreamedFit
+
+__all__ = ["StreamedImprovement"]
+
+
+@dataclass(frozen=True)
+class StreamedImprovement:
+    """The way from a base model to one that leaves noise.
+
+    Attributes
+    ----------
+    found
+        The way on the stretches in memory: which effects, how sure, where they show.
+    fits
+        The base model and that of each step, identified on all rows.
+    """
+
+    found: Improvement
+    fits: tuple[StreamedFit, ...]
+
+    @property
+    def final(self) -> StreamedFit:
+        """The last model, identified on all rows."""
+        return self.fits[-1]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck improve`; errors and parameters are of all rows."""
+        made = self.found.to_dict()
+        floor = self.found.noise_floor
+        for step, before, after in zip(made["steps"], self.fits, self.fits[1:], strict=False):
+            step.update(before_and_after(before, after, floor))
+            step.update(
+                rmse_before=before.rmse, rmse_after=after.rmse,
+                parameters=after.to_dict()["parameters"],
+            )  # fmt: skip
+        last = self.final.to_dict()
+        same = ("model", "rmse", "rmse_held_out", "relative_residual", "parameters")
+        made["final"] = {key: last[key] for key in same}
+        made["rmse_held_out_base"] = self.fits[0].rmse_held_out
+        made.update({key: last[key] for key in ("scored", "data", "notes")})
+        return made
+
+    def __repr__(self) -> str:
+        from stribeck.scale.streaming.text import improvement_text
+
+        return improvement_text(self)
+
+
+def before_and_after(
+    before: StreamedFit, after: StreamedFit, floor: NoiseFloor
+) -> dict[str, float | None]:
+    """The held-out errors of all rows without an effect and with it, and what they come to."""
+    return {
+        "rmse_held_out_before": before.rmse_held_out,
+        "rmse_held_out_after": after.rmse_held_out,
+        "share_of_unexplained": share_of_unexplained(before, after, floor),
+    }

@@ -1,0 +1,70 @@
+"""How far a window has to see beyond its own rows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from stribeck.models.model import Model
+from stribeck.recording.assemble import BANDS
+from stribeck.recording.derive import motion_band
+from stribeck.recording.recording import Recording
+
+__all__ = ["Margin", "acceleration_band", "smoothed"]
+
+#: A filter has forgotten what lies so many periods of its cut-off away (to 1e-10).
+PERIODS = 10.0
+#: A state of friction is run in over so many seconds before the window.
+RUN_IN = 20.0
+#: Most rows of a margin.
+MOST = 131_072
+
+
+@dataclass(frozen=True)
+class Margin:
+    """Rows that a window needs to see before and after its own."""
+
+    before: int
+    after: int
+
+    @classmethod
+    def of(cls, model: Model, sample: Recording) -> Margin:
+        """What `model` needs on data like `sample`.
+
+        One row before shows how the time goes on; more are needed for filters and states alone.
+        """
+        if not smoothed(model, sample):
+            return cls(1, 0)
+        bands = [x for x in (sample.cutoff_hz, acceleration_band(sample)) if x is not None]
+        filters = int(PERIODS * sample.rate_hz / min(bands)) if bands else 8
+        state = int(RUN_IN * sample.rate_hz) if model.has_state else 0
+        most = MOST
+        return cls(min(1 + filters + state, most), min(filters, most))
+
+
+def smoothed(model: Model, sample: Recording) -> bool:
+    """Whether `model` on data like `sample` reads a channel that is filtered or has a memory."""
+    derived = {name for name, column in sample.columns.items() if column.derived}
+    accelerated = "acceleration" in derived and (
+        "inertia" in model.rigid_body
+        or "acceleration" in model.core.needs
+        or _known_inertia(sample)
+    )
+    return (
+        not model.memoryless
+        or "elasticity" in model.effects
+        or ("velocity" in derived and sample.columns["velocity"].source == "position")
+        or accelerated
+    )
+
+
+def _known_inertia(sample: Recording) -> bool:
+    """Whether the load torque is computed from the acceleration."""
+    load = sample.columns.get("load_torque")
+    return load is not None and load.source == "rigid-body terms"
+
+
+def acceleration_band(sample: Recording) -> float | None:
+    """Cut-off of an acceleration that is derived, Hz, as a recording in memory has it."""
+    band = motion_band(sample.time, sample.velocity, sample.segment)
+    bands = [x for x in (sample.cutoff_hz, None if band is None else BANDS * band) if x is not None]
+    return min(bands, default=None)

@@ -1,0 +1,137 @@
+"""What a fit to a data set tells."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import polars as pl
+
+from stribeck.base.errors import StribeckError
+from stribeck.fitting.fit import Fit
+from stribeck.identify.estimates import Estimate
+from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile
+from stribeck.scale.streaming.dataset import DataSet
+
+__all__ = ["StreamedFit"]
+
+
+@dataclass(frozen=True)
+class StreamedFit:
+    """A model identified on all rows of a data set.
+
+    Attributes
+    ----------
+    start
+        The fit to the stretches in memory, from which the passes set out.
+    rmse, rmse_held_out
+        Over all moving rows, in the unit of torque; held out by blocks of the whole data set.
+    rows, moving, dropped
+        Rows in all, those that are scored and fitted to, and those without a number.
+    passes
+        How often all rows were read.
+    seconds, pass_seconds
+        In all, and of the passes alone.
+    """
+
+    model: Model
+    data: DataSet
+    start: Fit
+    estimates: Mapping[str, Estimate]
+    rmse: float
+    rmse_held_out: float | None
+    rows: int
+    moving: int
+    dropped: int
+    time_span: tuple[float, float]
+    blocks: int
+    converged: bool
+    outcome: str
+    passes: int
+    seconds: float
+    pass_seconds: float
+    notes: tuple[str, ...] = ()
+
+    @property
+    def rows_per_second(self) -> float:
+        """Rows read in a second of the passes."""
+        return self.passes * self.rows / self.pass_seconds
+
+    @property
+    def passive(self) -> bool | None:
+        """Whether friction gives off no energy over the ranges seen; None where undecided."""
+        from stribeck.passivity.check import check
+
+        try:
+            return check(self.model).passive
+        except StribeckError:
+            # A box over which the law has no limit, or a bristle without dry friction.
+            return None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The contract's JSON of `stribeck fit`, and what was read of the data.
+
+        The relative residual, which needs a filter over all rows, is of the stretches in memory.
+        """
+        sample = self.start.recording
+        return {
+            "model": self.model.spec,
+            "parameters": {name: e.to_dict() for name, e in self.estimates.items()},
+            "rmse": self.rmse,
+            "rmse_held_out": self.rmse_held_out,
+            "relative_residual": self.start.relative_residual,
+            "unit": self.model.torque_unit,
+            "starts": self.start.starts,
+            "converged": self.converged,
+            "outcome": self.outcome,
+            "evaluations": self.start.evaluations + self.passes,
+            "seconds": self.seconds,
+            "passive": self.passive,
+            "rigid_body": list(self.model.rigid_body),
+            "scored": {
+                "rows": self.moving,
+                "share": self.moving / self.rows,
+                "velocity_threshold": sample.velocity_threshold,
+            },
+            "data": {
+                "path": self.data.path,
+                "files": len(self.data.files),
+                "rows": self.rows,
+                "rows_dropped": self.dropped,
+                "rows_in_memory": sample.rows,
+                "passes": self.passes,
+                "rows_per_second": self.rows_per_second,
+            },
+            "notes": [*sample.notes, *self.notes],
+        }
+
+    def to_frame(self) -> pl.DataFrame:
+        """The parameters as a table."""
+        return pl.DataFrame(
+            [{"parameter": n, "symbol": e.symbol, "value": e.value, "stderr": e.stderr,
+              "unit": e.unit} for n, e in self.estimates.items()]
+        )  # fmt: skip
+
+    def model_file(self) -> ModelFile:
+        """The model with its standard errors and provenance; hashes the files."""
+        fitted_on: dict[str, Any] = {
+            "path": self.data.path,
+            "sha256": self.data.sha256,
+            "rows": self.moving,
+            "time_span": list(self.time_span),
+            "rmse": self.rmse,
+        }
+        if self.rmse_held_out is not None:
+            fitted_on["rmse_held_out"] = self.rmse_held_out
+        errors = {n: e.stderr for n, e in self.estimates.items() if e.stderr is not None}
+        return ModelFile(self.model, errors, fitted_on)
+
+    def __repr__(self) -> str:
+        from stribeck.scale.streaming.text import fit_text
+
+        return fit_text(self)
+
+    def _repr_html_(self) -> str:
+        return str(self.to_frame()._repr_html_())

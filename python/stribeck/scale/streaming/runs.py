@@ -1,0 +1,95 @@
+"""Where runs begin in a data set, and which held-out block each row belongs to."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base.errors import RecordingError
+from stribeck.recording.rows import BLOCKS, MANY_RUNS
+from stribeck.scale.streaming.dataset import DataSet
+
+__all__ = ["block_edges", "numbered", "run_starts"]
+
+Ints = NDArray[np.int64]
+
+#: Rows of one column that are looked at together.
+LOOKED_AT = 4_000_000
+
+
+def run_starts(data: DataSet, run: str | None, time: str) -> Ints:
+    """Numbers of the rows with which a run begins, in order.
+
+    Without a column `run` a new one begins with each file whose clock starts again, as loggers
+    write them.
+
+    Raises
+    ------
+    RecordingError
+        The rows of a run do not stand together.
+    """
+    return _of_files(data, time) if run is None else _of_column(data, run)
+
+
+def _of_files(data: DataSet, time: str) -> Ints:
+    starts, last = [0], None
+    for k in range(len(data.files)):
+        begin, end = int(data.first[k]), int(data.first[k + 1])
+        if begin == end:
+            continue
+        now = data.frame(begin, begin + 1, [time])[time][0]
+        if last is not None and now is not None and now <= last:
+            starts.append(begin)
+        last = data.frame(end - 1, end, [time])[time][0]
+    return np.array(starts, dtype=np.int64)
+
+
+def _of_column(data: DataSet, run: str) -> Ints:
+    starts: list[int] = []
+    seen: set[object] = set()
+    last: object = None
+    for begin in range(0, data.rows, LOOKED_AT):
+        names = data.frame(begin, min(begin + LOOKED_AT, data.rows), [run])[run]
+        changes = names.ne_missing(names.shift(1)).arg_true()
+        for row in sorted({0, *changes.to_list()}):
+            name = names[row]
+            if row == 0 and starts and name == last:
+                continue
+            if name in seen:
+                raise RecordingError(
+                    f"{data.path}: {data.place(begin + row)}, column '{run}': run '{name}' goes on "
+                    "after another one: sort the rows by run, then by time"
+                )
+            seen.add(name)
+            starts.append(begin + row)
+            last = name
+    return np.array(starts, dtype=np.int64)
+
+
+def block_edges(rows: int, starts: Ints) -> Ints:
+    """Rows at which held-out blocks begin, and the number of all rows, array [blocks + 1].
+
+    Ten equal shares of the rows; where there are at least five runs, of whole runs.
+    """
+    edges = np.arange(BLOCKS + 1) * rows // BLOCKS
+    if starts.size >= MANY_RUNS:
+        borders = np.append(starts, rows)
+        edges = borders[np.argmin(np.abs(borders[None, :] - edges[:, None]), axis=1)]
+    return np.unique(edges)
+
+
+def numbered(row: Ints, starts: Ints) -> Ints:
+    """Which of the pieces that begin at `starts` each row belongs to, array [n].
+
+    Parameters
+    ----------
+    row : array [n]
+        Numbers of rows, ascending, none before the first piece.
+
+    Examples
+    --------
+    >>> numbered(np.array([0, 1, 5, 9]), np.array([0, 5, 8])).tolist()
+    [0, 0, 1, 2]
+    """
+    first = np.searchsorted(row, starts)
+    return np.repeat(np.arange(starts.size), np.diff(np.append(first, row.size)))

@@ -1,0 +1,129 @@
+"""Contiguous stretches of a data set, taken evenly, as one recording in memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from stribeck.base.errors import RecordingError
+from stribeck.recording.assemble import build
+from stribeck.recording.columns import Choice
+from stribeck.recording.excerpt import stretches
+from stribeck.recording.options import Options
+from stribeck.recording.readers import Source
+from stribeck.recording.recording import Recording
+from stribeck.recording.table import Prepared, joint_rows, prepared_table
+from stribeck.scale.streaming.dataset import DataSet
+from stribeck.scale.streaming.runs import block_edges, run_starts
+
+__all__ = ["Sample", "take"]
+
+Ints = NDArray[np.int64]
+
+#: Column that numbers the runs where only the clock tells them apart.
+CLOCK_RUN = "run of the clock"
+
+
+@dataclass(frozen=True)
+class Sample:
+    """What is in memory of a data set, and what it tells about the rest.
+
+    Attributes
+    ----------
+    recording
+        The stretches, with gaps between them.
+    prepared
+        Their table, with the columns chosen for the channels.
+    joint
+        The joint that is read of a file that holds several.
+    starts, edges
+        Rows of the data set at which runs and held-out blocks begin; `edges` ends with the number
+        of all rows.
+    """
+
+    recording: Recording
+    prepared: Prepared
+    joint: str | None
+    starts: Ints
+    edges: Ints
+
+    @property
+    def whole(self) -> bool:
+        """Whether all rows of the data set are in it."""
+        return self.prepared.source.table.height == int(self.edges[-1])
+
+
+class _Rows(Source):
+    """Rows of a data set, named by their place in its files."""
+
+    def __init__(self, data: DataSet, table: pl.DataFrame) -> None:
+        super().__init__(data.path, "", table, 0)
+        self._data = data
+
+    def place(self, row: int) -> str:
+        """Name a row (counted from 0)."""
+        return self._data.place(row)
+
+
+def take(data: DataSet, options: Options, most: int, seed: int) -> Sample:
+    """Read at most `most` rows of a data set.
+
+    Raises
+    ------
+    RecordingError
+        What a recording is refused for, or an option that needs all rows at once.
+    """
+    _refuse(data, options)
+    taken = stretches(data.rows, most, seed)
+    table = pl.concat([data.frame(*stretch) for stretch in taken])
+    number = np.concatenate([np.arange(*stretch) for stretch in taken])
+    prepared = prepared_table(_Rows(data, table), options)
+    starts = _starts(data, prepared)
+    row = number[prepared.row]
+    prepared = _with_runs(replace(prepared, row=row), row, starts)
+    joint, own = joint_rows(prepared, options.joint)
+    recording = build(prepared, joint, own)
+    edges = block_edges(data.rows, starts)
+    return Sample(recording, prepared, joint, starts, edges)
+
+
+def _refuse(data: DataSet, options: Options) -> None:
+    """Refuse what needs more than one stretch at a time."""
+    for flag, said in (
+        ("--average", options.average), ("--drive", options.drive),
+        ("--hold-out", options.hold_out),
+    ):  # fmt: skip
+        if said is not None:
+            raise RecordingError(
+                f"{data.path}: {flag} {said} needs all rows in memory: leave it out, or give one "
+                "file without --stream"
+            )
+
+
+def _starts(data: DataSet, prepared: Prepared) -> Ints:
+    time, run = prepared.choices.get("time"), prepared.choices.get("run")
+    for choice in (time, run):
+        if choice is not None and choice.source not in data.schema:
+            raise RecordingError(
+                f"{data.path}: '{choice.source}' is derived, but a data set is put in order by "
+                f"columns of its files: write the {choice.channel} into them"
+            )
+    if time is None:
+        return np.zeros(1, dtype=np.int64)
+    return run_starts(data, None if run is None else run.source, time.source)
+
+
+def _with_runs(prepared: Prepared, row: Ints, starts: Ints) -> Prepared:
+    """Number the runs where no column does and there are several."""
+    if "run" in prepared.choices or starts.size < 2:
+        return prepared
+    number = pl.Series(CLOCK_RUN, np.searchsorted(starts, row, side="right"))
+    choices = {**prepared.choices, "run": Choice("run", CLOCK_RUN, None, "name")}
+    note = f"the clock starts again in {starts.size - 1} files: each of them begins a run"
+    return replace(
+        prepared, table=prepared.table.with_columns(number), choices=choices,
+        notes=(*prepared.notes, note),
+    )  # fmt: skip

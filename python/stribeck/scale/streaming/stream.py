@@ -1,0 +1,190 @@
+"""`stream`: a data set that is larger than memory."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from stribeck.diagnosis.improve import improve as improve_in_memory
+from stribeck.diagnosis.run import LEAST_FALL
+from stribeck.diagnosis.run import diagnose as diagnose_in_memory
+from stribeck.fitting.fit import QUICK, Fit
+from stribeck.fitting.fit import fit as fit_in_memory
+from stribeck.models.model import Model
+from stribeck.recording.excerpt import SAMPLE_ROWS
+from stribeck.recording.options import gather
+from stribeck.scale.streaming.dataset import DataSet
+from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
+from stribeck.scale.streaming.fit import streamed_fit
+from stribeck.scale.streaming.improvement import StreamedImprovement
+from stribeck.scale.streaming.passes import Told
+from stribeck.scale.streaming.result import StreamedFit
+from stribeck.scale.streaming.sample import Sample, take
+from stribeck.scale.streaming.windows import WINDOW_ROWS
+
+__all__ = ["Stream", "stream"]
+
+#: Options of `stribeck.read`, and what they are where nothing is said.
+_UNSAID: dict[str, Any] = {
+    "sidecar": None, "joint": None, "joint_kind": None, "gear_ratio": None,
+    "torque_constant": None, "inertia": None, "km": None, "kb": None, "kt": None, "unit": (),
+    "map": (), "derive": (), "where": None, "average": None, "drive": None, "hold_out": None,
+    "rows": None,
+}  # fmt: skip
+
+
+def _silent(done: int, total: int, number: int) -> None:
+    """Tell nobody."""
+
+
+@dataclass(frozen=True)
+class Stream:
+    """One joint's measurements in Parquet files, of which only a sample is in memory.
+
+    Attributes
+    ----------
+    data
+        The files.
+    sample
+        Contiguous stretches of them.
+    window_rows
+        Rows that are in memory at a time beside the sample.
+    """
+
+    data: DataSet
+    sample: Sample
+    window_rows: int = WINDOW_ROWS
+
+    def fit(
+        self,
+        spec: str | Model,
+        *,
+        starts: int = 20,
+        seed: int = 0,
+        start: Mapping[str, float] | None = None,
+        bounds: Mapping[str, tuple[float, float]] | None = None,
+        fix: Mapping[str, float] | None = None,
+        told: Told = _silent,
+    ) -> StreamedFit:
+        """Identify `spec` on all rows by bounded least squares; see `stribeck.fit`.
+
+        Parameters
+        ----------
+        told
+            Told after each window: rows done, rows in all, number of the pass.
+        """
+        first = fit_in_memory(
+            spec, self.sample.recording, starts=starts, seed=seed, start=start, bounds=bounds,
+            fix=fix,
+        )  # fmt: skip
+        return streamed_fit(self.data, self.sample, first, told=told, window_rows=self.window_rows)
+
+    def diagnose(
+        self,
+        spec: str | Model,
+        *,
+        starts: int = 20,
+        seed: int = 0,
+        least_fall: float = LEAST_FALL,
+        candidates: Collection[str] = (),
+        told: Told = _silent,
+    ) -> StreamedDiagnosis:
+        """Find which effect `spec` lacks; see `stribeck.diagnose`.
+
+        Causes are looked for on the sample; the errors without and with them are of all rows.
+        """
+        sample = self.sample.recording
+        first = fit_in_memory(spec, sample, starts=starts, seed=seed)
+        found = diagnose_in_memory(
+            first, sample, least_fall=least_fall, candidates=candidates, seed=seed,
+            sample_rows=sample.rows,
+        )  # fmt: skip
+        return StreamedDiagnosis(
+            found,
+            self._on_all_rows(first, told),
+            tuple(self._on_all_rows(f.fit, told, QUICK.tolerance) for f in found.findings),
+        )
+
+    def improve(
+        self,
+        base: str | Model,
+        *,
+        starts: int = 20,
+        seed: int = 0,
+        told: Told = _silent,
+        **options: Any,
+    ) -> StreamedImprovement:
+        """Diagnose and add until what is left is noise; see `stribeck.improve`.
+
+        Causes are looked for on the sample; each step's model is then identified on all rows.
+
+        Parameters
+        ----------
+        **options
+            `least_fall`, `most_steps`, `rejected`, `candidates` and `progress` of
+            `stribeck.improve`.
+        """
+        sample = self.sample.recording
+        found = improve_in_memory(
+            base, sample, starts=starts, seed=seed, sample_rows=sample.rows, **options
+        )
+        *way, last = [found.base, *(step.after for step in found.steps)]
+        # Of the models on the way only the errors are wanted.
+        fits = [self._on_all_rows(fit, told, QUICK.tolerance) for fit in way]
+        return StreamedImprovement(found, (*fits, self._on_all_rows(last, told)))
+
+    def _on_all_rows(self, start: Fit, told: Told, tolerance: float | None = None) -> StreamedFit:
+        return streamed_fit(
+            self.data, self.sample, start, told=told, window_rows=self.window_rows,
+            tolerance=tolerance,
+        )  # fmt: skip
+
+    def __repr__(self) -> str:
+        files = len(self.data.files)
+        return (
+            f"<Stream {self.data.path}: {self.data.rows} rows in {files} "
+            f"file{'s' if files > 1 else ''}, {self.sample.recording.rows} of them in memory>"
+        )
+
+
+def stream(
+    path: str | Path,
+    *,
+    sample_rows: int = SAMPLE_ROWS,
+    window_rows: int = WINDOW_ROWS,
+    seed: int = 0,
+    **reading: Any,
+) -> Stream:
+    """Open a data set that is read in passes, a window at a time.
+
+    Parameters
+    ----------
+    path
+        A Parquet file, a folder of them (in the order of their names), or a pattern.
+    sample_rows
+        Rows in memory: forty contiguous stretches, one in each equal share. They tell the noise of
+        the velocity, bounds and starts, and they are what a diagnosis looks at.
+    window_rows
+        Rows that are read at a time. Memory follows it; results do, by rounding alone, for models
+        without a memory on columns as recorded.
+    seed
+        Of the places of the stretches.
+    **reading
+        As in `stribeck.read`, but for `average`, `drive`, `hold_out` and `standstill`.
+
+    Raises
+    ------
+    RecordingError
+        One sentence that says what is wrong, where, and what to do.
+
+    Examples
+    --------
+    ::
+
+        fitted = sb.stream("logs/", map=["velocity=dq_3"]).fit("coulomb+load")
+    """
+    options = gather(path, **{**_UNSAID, **reading})
+    data = DataSet.open(path)
+    return Stream(data, take(data, options, sample_rows, seed), window_rows)

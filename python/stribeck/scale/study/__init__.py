@@ -1,0 +1,1 @@
+"""Many laws compared on many joints, with tables and figures."""

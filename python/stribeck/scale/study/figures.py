@@ -1,0 +1,175 @@
+"""Pictures of a study: box plots of the torque error, and friction against velocity."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from stribeck.report.channels import torque_name
+from stribeck.report.figures import AFTER, BEFORE, DPI, FLOOR, MEASURED
+from stribeck.report.numbers import MINUS, plain, thousands
+from stribeck.scale.study.plan import DYNAMIC, STATIC, THERMAL
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from stribeck.scale.study.assess import Entry, Spread
+    from stribeck.scale.study.result import Study
+
+COLOURS = {STATIC.id: AFTER, THERMAL.id: BEFORE, DYNAMIC.id: FLOOR}
+NAMES = {
+    STATIC.id: "static",
+    THERMAL.id: "static, with temperature or load",
+    DYNAMIC.id: "dynamic",
+}
+COLUMNS = 5
+
+
+def _figure(width: float, height: float, layout: Literal["constrained"] | None) -> Figure:
+    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _bare(axes: Axes) -> None:
+    axes.set_axisbelow(True)
+    axes.grid(True, color="#e6e6e6", linewidth=0.6)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+
+
+def _of_joint(study: Study, joint: str | None) -> list[tuple[str, str, Entry]]:
+    """Group, law and figures of each law fitted to a joint, table by table."""
+    return [
+        (table.group.id, row.law, row.entries[joint])
+        for table in study.tables
+        for row in table.rows
+        if joint in row.entries
+    ]
+
+
+def _name(study: Study, joint: str | None) -> str:
+    return "" if joint is None else f", joint {joint}"
+
+
+def error_figure(study: Study, joint: str | None) -> Figure:
+    """Box plots of the torque error of every law on one joint: all speeds, and low speed.
+
+    As figures 7, 12 and 15 of the review: the line is the median, the box the quartiles, whiskers
+    reach to the last row within 1.5 times the box's length; rows beyond are not drawn.
+    """
+    rows = _of_joint(study, joint)
+    data = study.joints[joint]
+    quantity = torque_name(data.torque_unit)
+    figure = _figure(10.5, 2.2 + 0.27 * len(rows), layout="constrained")
+    both: Any = figure.subplots(1, 2, sharey=True)
+    slow = f"|v| < {plain(data.low_speed, 2)} {data.velocity_unit}"
+    spreads = [
+        ("all speeds", [entry.whole for _, _, entry in rows]),
+        (slow, [entry.low_speed for _, _, entry in rows]),
+    ]
+    at = _places([group for group, _, _ in rows])
+    for axes, (title, boxes) in zip(both, spreads, strict=True):
+        _bare(axes)
+        axes.axvline(0.0, color=MEASURED, linewidth=0.8)
+        for place, (group, _, _), spread in zip(at, rows, boxes, strict=True):
+            _box(axes, place, spread, COLOURS[group])
+        axes.set_title(f"{title} ({thousands(boxes[0].rows)} rows)", loc="left", fontsize=10.5)
+        axes.set_xlabel(f"{quantity} error, measured {MINUS} modelled [{data.torque_unit}]")
+    both[0].set_yticks(at, [law for _, law, _ in rows])
+    both[0].set_ylim(max(at) + 0.7, min(at) - 0.7)
+    figure.supxlabel(
+        "line: median; box: middle half of the rows; whiskers: last row within 1.5 box lengths",
+        fontsize=8, color=MEASURED,
+    )  # fmt: skip
+    used = [group for group in COLOURS if any(group == g for g, _, _ in rows)]
+    figure.legend(
+        handles=[
+            Patch(facecolor=_tint(COLOURS[group]), edgecolor=COLOURS[group], label=NAMES[group])
+            for group in used
+        ],
+        loc="outside upper center", ncols=len(used), frameon=False, fontsize=9,
+        title=f"{quantity.capitalize()} error of each law{_name(study, joint)}",
+    )  # fmt: skip
+    return figure
+
+
+def _places(groups: list[str]) -> list[float]:
+    """One unit a law, and half a unit between tables."""
+    places, at = [], 0.0
+    for k, group in enumerate(groups):
+        at += 0.0 if k == 0 else 1.0 if group == groups[k - 1] else 1.6
+        places.append(at)
+    return places
+
+
+def _box(axes: Axes, place: float, spread: Spread, colour: str) -> None:
+    if spread.rows == 0:
+        axes.text(0.0, place, " no rows", va="center", fontsize=8, color=MEASURED)
+        return
+    low, middle, high = spread.quartiles
+    stats = {"q1": low, "med": middle, "q3": high, "whislo": spread.whiskers[0],
+             "whishi": spread.whiskers[1]}  # fmt: skip
+    line = {"color": colour, "linewidth": 1.2}
+    axes.bxp(
+        [stats], positions=[place], orientation="horizontal", widths=0.62, showfliers=False,
+        patch_artist=True, manage_ticks=False, medianprops={"color": "black", "linewidth": 1.3},
+        boxprops={"facecolor": _tint(colour), "edgecolor": colour, "linewidth": 1.2},
+        whiskerprops=line, capprops=line,
+    )  # fmt: skip
+
+
+def _tint(colour: str) -> str:
+    """A light shade of a colour."""
+    parts = [int(colour[k : k + 2], 16) for k in (1, 3, 5)]
+    return "#" + "".join(f"{round(255 - 0.45 * (255 - part)):02x}" for part in parts)
+
+
+def friction_figure(study: Study, joint: str | None) -> Figure:
+    """Friction against velocity on one joint, measured and modelled, one panel a law."""
+    rows = _of_joint(study, joint)
+    data = study.joints[joint]
+    unit = data.torque_unit
+    columns = min(COLUMNS, len(rows))
+    lines = -(-len(rows) // columns)
+    width, height = max(2.5 * columns, 5.0), 1.3 + 2.0 * lines
+    figure = _figure(width, height, layout=None)
+    grid: Any = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
+    # Set by hand: with so many panels, finding room for all their labels takes longer than to draw.
+    figure.subplots_adjust(
+        left=0.72 / width, right=1.0 - 0.1 / width, bottom=0.6 / height, top=1.0 - 0.85 / height,
+        wspace=0.08, hspace=0.22,
+    )  # fmt: skip
+    dots = {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "rasterized": True}
+    for axes in grid.flat[len(rows) :]:
+        axes.set_visible(False)
+    for axes, (group, law, entry) in zip(grid.flat, rows, strict=False):
+        _bare(axes)
+        cloud = entry.cloud
+        axes.plot(cloud.velocity, cloud.measured, color="#b0b0b0", markersize=3.0, **dots)
+        axes.plot(cloud.velocity, cloud.modelled, color=COLOURS[group], markersize=2.2, **dots)
+        axes.set_title(f"{law}: {plain(entry.whole.rms)} {unit}", loc="left", fontsize=9, pad=3.0)
+        axes.tick_params(labelsize=8)
+    low, high = np.quantile(np.concatenate([e.cloud.measured for _, _, e in rows]), [0.001, 0.999])
+    grid[0, 0].set_ylim(low - 0.1 * (high - low), high + 0.1 * (high - low))
+    for axes in grid.flat[max(len(rows) - columns, 0) : len(rows)]:
+        axes.tick_params(labelbottom=True)
+    figure.supxlabel(f"velocity [{data.velocity_unit}]", fontsize=10, y=0.08 / height)
+    figure.supylabel(f"friction {torque_name(unit)} [{unit}]", fontsize=10, x=0.08 / width)
+    used = [group for group in COLOURS if any(group == g for g, _, _ in rows)]
+    handles = [_dot("#b0b0b0", "measured")]
+    handles += [_dot(COLOURS[group], f"modelled, {NAMES[group]}") for group in used]
+    figure.legend(
+        handles=handles, loc="upper center", ncols=len(handles), frameon=False, fontsize=9,
+        title=f"Friction against velocity{_name(study, joint)} (law: RMS error)",
+    )  # fmt: skip
+    return figure
+
+
+def _dot(colour: str, label: str) -> Line2D:
+    return Line2D([], [], linestyle="none", marker="o", markersize=6, color=colour, label=label)

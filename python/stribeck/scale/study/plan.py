@@ -1,0 +1,201 @@
+"""What a study consists of: which laws, on which joints, from how many starts."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+
+from stribeck.base.errors import FitError, SpecError
+from stribeck.identify.scaling import model_for
+from stribeck.models.model import Model
+from stribeck.models.spec import parse_spec
+from stribeck.recording.load import read
+from stribeck.recording.recording import Recording
+from stribeck.recording.scan import scan
+from stribeck.recording.sidecar import sidecar_hash
+
+#: The 25 laws that the review compares, in the order of its tables 1, 2 and 3.
+REVIEW = (
+    "bittencourt_a", "clochiatti", "coulomb", "dong", "gaz_a", "gaz_b", "grotjahn_a", "grotjahn_b",
+    "hao_a", "indri_a", "makkar", "shao", "wolf", "zhou",
+    "bittencourt_b", "hao_b", "iskandar", "li", "madsen", "nevmerzhitskiy", "simoni",
+    "dahl", "indri_b", "lugre", "tadese_t",
+)  # fmt: skip
+#: Starts of each law on each joint (review, section 4).
+STARTS = 20
+#: What the tables call low speed: rad/s as in the review, and m/s for a joint that slides.
+LOW_SPEED = {"revolute": 0.1, "prismatic": 0.01}
+
+
+@dataclass(frozen=True)
+class Group:
+    """Laws that stand in one table."""
+
+    id: str
+    title: str
+
+
+STATIC = Group("static", "Static laws without temperature and load (as table 4 of the review)")
+THERMAL = Group("thermal", "Static laws with temperature or load (as table 5)")
+DYNAMIC = Group("dynamic", "Dynamic laws (as table 6)")
+GROUPS = (STATIC, THERMAL, DYNAMIC)
+
+
+def group_of(model: Model) -> Group:
+    """The table in which a model stands, by what its friction depends on."""
+    if model.has_state:
+        return DYNAMIC
+    if {"temperature", "load_torque", "external_torque"} & set(model.core.needs):
+        return THERMAL
+    return STATIC
+
+
+@dataclass(frozen=True)
+class Job:
+    """One fit: a law on a joint from one start."""
+
+    joint: str | None
+    law: str
+    start: int
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """A law that a joint's recording cannot be fitted with, and why."""
+
+    joint: str | None
+    law: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A study before it runs.
+
+    Attributes
+    ----------
+    path, reading
+        The recording and the options that read it, as `stribeck.read` takes them.
+    data
+        SHA-256 of the file, and of the sidecar where there is one.
+    joints
+        In the order of the file; ``(None,)`` where they have no names.
+    laws
+        Specs, in the order given.
+    starts, seed
+        Starts of each law, and the seed of the random ones.
+    jobs
+        Every fit that can be made, law by law of each joint, dynamic ones first. A law without
+        nonlinear parameters has one start: its parameters follow from linear equations.
+    skipped
+        Laws that a recording lacks a channel for.
+    notes
+        How the recordings were understood.
+    """
+
+    path: str
+    reading: Mapping[str, Any]
+    data: Mapping[str, str | None]
+    joints: tuple[str | None, ...]
+    laws: tuple[str, ...]
+    starts: int
+    seed: int
+    jobs: tuple[Job, ...] = field(repr=False)
+    skipped: tuple[Skipped, ...]
+    notes: tuple[str, ...]
+
+    def pieces(self, todo: Collection[Job]) -> list[tuple[Job, ...]]:
+        """The fits that are made together: all starts of a law on a joint, if one is to do."""
+        together = groupby(self.jobs, key=lambda job: (job.joint, job.law))
+        pieces = [tuple(jobs) for _, jobs in together]
+        wanted = set(todo)
+        return [piece for piece in pieces if not wanted.isdisjoint(piece)]
+
+    def read(self, joint: str | None) -> Recording:
+        """The recording of one joint."""
+        return read(self.path, **{**self.reading, "joint": joint})
+
+
+def make_plan(
+    path: str,
+    reading: Mapping[str, Any],
+    laws: Sequence[str] = REVIEW,
+    *,
+    starts: int = STARTS,
+    seed: int = 0,
+) -> Plan:
+    """Look at a recording and plan the fits of `laws` on each of its joints.
+
+    Raises
+    ------
+    SpecError
+        A law that does not exist or is given twice; no starts; a negative seed.
+    RecordingError
+        A recording that cannot be read.
+    FitError
+        No law can be fitted to it.
+    """
+    if not laws:
+        raise SpecError("a study needs at least one law: name one with --law")
+    if starts < 1:
+        raise SpecError(f"{starts} starts are none: give 1 or more")
+    if seed < 0:
+        raise SpecError(f"seed {seed} is negative: give 0 or more")
+    for law in laws:
+        parse_spec(law)
+        if laws.count(law) > 1:
+            raise SpecError(f"law {law!r} is given twice: leave one out")
+    joints = _joints(path, reading)
+    jobs: list[Job] = []
+    skipped: list[Skipped] = []
+    notes: list[str] = []
+    sha256 = ""
+    for joint in joints:
+        recording = read(path, **{**reading, "joint": joint})
+        sha256 = recording.sha256
+        notes += recording.notes
+        counts: dict[str, int] = {}
+        for law in laws:
+            try:
+                counts[law] = _useful_starts(law, recording, starts)
+            except FitError as error:
+                skipped.append(Skipped(joint, law, str(error)))
+        # What takes longest begins: no process waits for the last of them.
+        in_turn = sorted(counts, key=lambda law: not model_for(law, recording).has_state)
+        jobs += [Job(joint, law, k) for law in in_turn for k in range(counts[law])]
+    if not jobs:
+        raise FitError(f"{path}: no law of the study can be fitted: {skipped[0].why}")
+    return Plan(
+        path=path,
+        reading=dict(reading),
+        data={"sha256": sha256, "sidecar_sha256": sidecar_hash(path, reading.get("sidecar"))},
+        joints=joints,
+        laws=tuple(laws),
+        starts=starts,
+        seed=seed,
+        jobs=tuple(jobs),
+        skipped=tuple(skipped),
+        notes=tuple(dict.fromkeys(notes)),
+    )
+
+
+def _joints(path: str, reading: Mapping[str, Any]) -> tuple[str | None, ...]:
+    """The joint that was named, or every joint of the file."""
+    if reading.get("joint") is not None:
+        return (str(reading["joint"]),)
+    return scan(path, **reading).joints or (None,)
+
+
+def _useful_starts(law: str, recording: Recording, starts: int) -> int:
+    """How many starts can end in different places; refuses what the recording cannot be asked."""
+    model = model_for(law, recording)
+    fewest = len(model.names) + 2
+    if int(np.count_nonzero(recording.moving)) < fewest:
+        raise FitError(
+            f"{recording.path} has fewer than {fewest} rows that move, which {law} needs at least"
+        )
+    return 1 if all(p.linear for p in model.parameters) else starts

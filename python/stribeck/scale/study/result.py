@@ -1,0 +1,191 @@
+"""The result of a study: its tables as data, text and files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import polars as pl
+
+from stribeck.fitting.energy import Energy, total_energy
+from stribeck.scale.study.assess import Entry, JointData
+from stribeck.scale.study.plan import GROUPS, Group, Plan, Skipped
+from stribeck.scale.study.trial import Trial
+
+
+@dataclass(frozen=True)
+class Row:
+    """A law in its table."""
+
+    law: str
+    entries: Mapping[str | None, Entry]
+    energy: Energy | None
+
+
+@dataclass(frozen=True)
+class Table:
+    """Laws of one group, the smallest error first."""
+
+    group: Group
+    rows: tuple[Row, ...]
+
+
+@dataclass(frozen=True)
+class Study:
+    """Laws times joints times starts on a recording.
+
+    Attributes
+    ----------
+    joints
+        What was scored of each joint.
+    tables
+        As tables 4, 5 and 6 of the review; a group without laws is left out.
+    failed
+        Fits that could not be made.
+    frame
+        Every fit, one row each.
+    """
+
+    plan: Plan
+    folder: Path
+    joints: Mapping[str | None, JointData]
+    tables: tuple[Table, ...]
+    failed: tuple[Trial, ...]
+    frame: pl.DataFrame
+
+    @property
+    def skipped(self) -> tuple[Skipped, ...]:
+        """Laws that a recording lacks a channel for."""
+        return self.plan.skipped
+
+    def entries(self) -> Iterator[tuple[Table, Row, str | None, Entry]]:
+        """Every law on every joint, table by table."""
+        for table in self.tables:
+            for row in table.rows:
+                for joint, entry in row.entries.items():
+                    yield table, row, joint, entry
+
+    def to_dict(self) -> dict[str, Any]:
+        """JSON of `stribeck study`."""
+        return {
+            "data": {
+                "path": self.plan.path,
+                "sha256": self.plan.data["sha256"],
+                "joints": [
+                    {
+                        "joint": joint, "rows": data.rows, "scored": dict(data.scored),
+                        "unit": data.torque_unit,
+                        "low_speed": {"below": data.low_speed, "unit": data.velocity_unit},
+                    }
+                    for joint, data in self.joints.items()
+                ],
+                "notes": list(self.plan.notes),
+            },
+            "laws": list(self.plan.laws),
+            "starts": self.plan.starts,
+            "seed": self.plan.seed,
+            "fits": self.frame.height,
+            "complete": self.frame.height == len(self.plan.jobs),
+            "tables": [
+                {
+                    "group": table.group.id,
+                    "title": table.group.title,
+                    "rows": [
+                        {
+                            "law": row.law,
+                            "joints": [
+                                {"joint": joint, **entry.to_dict()}
+                                for joint, entry in row.entries.items()
+                            ],
+                            "energy": None if row.energy is None else row.energy.to_dict(),
+                        }
+                        for row in table.rows
+                    ],
+                }
+                for table in self.tables
+            ],
+            "skipped": [{"joint": s.joint, "law": s.law, "why": s.why} for s in self.skipped],
+            "failed": [
+                {"joint": t.job.joint, "law": t.job.law, "start": t.job.start, "why": t.failure}
+                for t in self.failed
+            ],
+            "output": str(self.folder),
+        }  # fmt: skip
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row a law and joint: the figures of the tables."""
+        return pl.DataFrame(
+            [
+                {
+                    "table": table.group.id, "law": row.law, "joint": joint,
+                    "unit": self.joints[joint].torque_unit,
+                    "mean": entry.whole.mean, "std": entry.whole.std, "rmse": entry.whole.rms,
+                    "rmse_held_out": entry.best.rmse_held_out,
+                    "low_speed_mean": entry.low_speed.mean, "low_speed_std": entry.low_speed.std,
+                    "low_speed_rmse": entry.low_speed.rms, "low_speed_rows": entry.low_speed.rows,
+                    "measured_J": entry.energy.measured if entry.energy else None,
+                    "model_J": entry.energy.modelled if entry.energy else None,
+                    "error_J": entry.energy.error if entry.energy else None,
+                    "best_start": entry.best.job.start, "starts": entry.trials,
+                    "starts_agreeing": entry.agreeing,
+                }
+                for table, row, joint, entry in self.entries()
+            ]
+        )  # fmt: skip
+
+    def plot(self, joint: str | None = None) -> Any:
+        """Box plots of the torque error of one joint (default: the first)."""
+        from stribeck.scale.study.figures import error_figure
+
+        return error_figure(self, next(iter(self.joints)) if joint is None else joint)
+
+    def __repr__(self) -> str:
+        from stribeck.scale.study.text import study_text
+
+        return study_text(self)
+
+    def _repr_html_(self) -> str:
+        return str(self.to_frame()._repr_html_())
+
+
+def make_tables(
+    groups: Mapping[str, Group], entries: Mapping[str, Mapping[str | None, Entry]]
+) -> tuple[Table, ...]:
+    """Sort laws into their tables.
+
+    Parameters
+    ----------
+    groups, entries
+        By law; entries by joint.
+    """
+    tables = []
+    for group in GROUPS:
+        laws = {law: of for law, of in entries.items() if of and groups[law] == group}
+        rows = [
+            Row(law, laws[law], total_energy(entry.energy for entry in laws[law].values()))
+            for law in _ranked(laws)
+        ]
+        if rows:
+            tables.append(Table(group, tuple(rows)))
+    return tuple(tables)
+
+
+def _ranked(laws: Mapping[str, Mapping[str | None, Entry]]) -> list[str]:
+    """Laws with the smallest error first: mean over the joints of the error over the best one's.
+
+    Relative, since joints differ in size; a law that lacks a joint comes after those with all.
+    """
+    best: dict[str | None, float] = {}
+    for entries in laws.values():
+        for joint, entry in entries.items():
+            best[joint] = min(best.get(joint, np.inf), entry.whole.rms)
+
+    def key(law: str) -> tuple[int, float, str]:
+        entries = laws[law]
+        ratios = [entry.whole.rms / (best[joint] or 1.0) for joint, entry in entries.items()]
+        return len(best) - len(entries), float(np.mean(ratios)), law
+
+    return sorted(laws, key=key)

@@ -1,0 +1,188 @@
+"""The folder of a study: what it is of, and every fit as it is made.
+
+``manifest.json`` says what the study is of. ``fits.csv`` gets one line as each fit ends, so that
+nothing is lost when the study is stopped; at the end it is put in order, and the same rows are
+written to ``fits.parquet``.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import polars as pl
+
+from stribeck.base.errors import StribeckError
+from stribeck.base.run_folder import claim, unwritable
+from stribeck.base.version import __version__
+from stribeck.models.model_file import write_whole
+from stribeck.report.files import write_bytes_whole
+from stribeck.scale.study.plan import Job, Plan
+from stribeck.scale.study.trial import Trial
+
+FITS = "fits.csv"
+FIELDS = (
+    "joint", "law", "start", "rmse", "rmse_held_out", "converged", "outcome", "evaluations",
+    "seconds", "parameters", "constants", "rigid_body", "failure",
+)  # fmt: skip
+#: What must be the same for a study to go on, and how to say that it is not.
+IDENTITY = {
+    "data": "of another recording or sidecar",
+    "reading": "of a recording read with other options",
+    "joints": "of other joints",
+    "laws": "of other laws",
+    "starts": "with another number of starts",
+    "seed": "with another seed",
+    "version": "made by another version of stribeck",
+}
+
+
+class Store:
+    """The folder of one study.
+
+    Parameters
+    ----------
+    folder
+        Made where it does not exist.
+    plan
+        What the study is of.
+
+    Raises
+    ------
+    StribeckError
+        The folder holds another study or other files, or cannot be written to.
+    """
+
+    def __init__(self, folder: Path, plan: Plan) -> None:
+        self.folder = folder
+        claim(folder, _manifest(plan), IDENTITY, "study")
+        try:
+            self.trials = _read_fits(folder / FITS, set(plan.jobs))
+            self._rewrite()
+            self._log = (folder / FITS).open("a", encoding="utf-8", newline="")
+        except OSError as error:
+            raise unwritable(folder, error) from None
+
+    def add(self, trial: Trial) -> None:
+        """Keep a fit; it is on disk when this returns."""
+        self.trials[trial.job] = trial
+        self._log.write(_lines([trial]))
+        self._log.flush()
+
+    def close(self) -> None:
+        """Put the fits in order and write them as Parquet too."""
+        self._log.close()
+        self._rewrite()
+        stream = io.BytesIO()
+        self.frame().write_parquet(stream)
+        write_bytes_whole(self.folder / "fits.parquet", stream.getvalue())
+
+    def _rewrite(self) -> None:
+        """Write the fits known in the order of joints, laws and starts."""
+        write_whole(self.folder / FITS, ",".join(FIELDS) + "\n" + _lines(self.ordered()))
+
+    def ordered(self) -> list[Trial]:
+        """The fits by joint, law and start, whichever order they were made in."""
+        return sorted(
+            self.trials.values(), key=lambda t: (t.job.joint or "", t.job.law, t.job.start)
+        )
+
+    def frame(self) -> pl.DataFrame:
+        """Every fit, one row each; parameters as a list of name and value."""
+        rows = [
+            {
+                "joint": t.job.joint, "law": t.job.law, "start": t.job.start, "rmse": t.rmse,
+                "rmse_held_out": t.rmse_held_out, "converged": t.converged, "outcome": t.outcome,
+                "evaluations": t.evaluations, "seconds": t.seconds,
+                "parameters": [{"name": n, "value": v} for n, v in t.parameters.items()],
+                "failure": t.failure,
+            }
+            for t in self.ordered()
+        ]  # fmt: skip
+        pairs = pl.List(pl.Struct({"name": pl.String, "value": pl.Float64}))
+        schema: dict[str, Any] = {
+            "joint": pl.String, "law": pl.String, "start": pl.Int64, "rmse": pl.Float64,
+            "rmse_held_out": pl.Float64, "converged": pl.Boolean, "outcome": pl.String,
+            "evaluations": pl.Int64, "seconds": pl.Float64, "parameters": pairs,
+            "failure": pl.String,
+        }  # fmt: skip
+        return pl.DataFrame(rows, schema=schema)
+
+
+def _manifest(plan: Plan) -> dict[str, Any]:
+    made = {
+        "kind": "study",
+        "path": str(plan.path),
+        "data": dict(plan.data),
+        "reading": {k: v for k, v in plan.reading.items() if v not in (None, (), [], {}, "")},
+        "joints": list(plan.joints),
+        "laws": list(plan.laws),
+        "starts": plan.starts,
+        "seed": plan.seed,
+        "version": __version__,
+        "fits": len(plan.jobs),
+        "skipped": [{"joint": s.joint, "law": s.law, "why": s.why} for s in plan.skipped],
+    }
+    # As it reads back: tuples are lists in JSON.
+    return dict(json.loads(json.dumps(made, default=str)))
+
+
+def _lines(trials: Iterable[Trial]) -> str:
+    """Fits as lines of CSV; numbers read back with the same bits."""
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    for t in trials:
+        writer.writerow(
+            [
+                t.job.joint or "", t.job.law, t.job.start, _number(t.rmse),
+                _number(t.rmse_held_out), str(t.converged).lower(), t.outcome, t.evaluations,
+                repr(t.seconds), json.dumps(dict(t.parameters)), json.dumps(dict(t.constants)),
+                json.dumps(list(t.rigid_body)), t.failure,
+            ]
+        )  # fmt: skip
+    return stream.getvalue()
+
+
+def _number(value: float | None) -> str:
+    return "" if value is None or not math.isfinite(value) else repr(value)
+
+
+def _read_fits(path: Path, wanted: set[Job]) -> dict[Job, Trial]:
+    """The fits made before; a line that was cut off in writing is left out and made again."""
+    if not path.exists():
+        return {}
+    text = path.read_text(encoding="utf-8")
+    whole = text[: text.rfind("\n") + 1]
+    trials: dict[Job, Trial] = {}
+    for row in csv.DictReader(io.StringIO(whole, newline="")):
+        try:
+            trial = _trial(row)
+        except (KeyError, TypeError, ValueError):
+            raise StribeckError(
+                f"{path} is damaged (after {len(trials)} fits): remove the folder, or give another "
+                f"--output"
+            ) from None
+        if trial.job in wanted:
+            trials[trial.job] = trial
+    return trials
+
+
+def _trial(row: dict[str, str]) -> Trial:
+    return Trial(
+        job=Job(row["joint"] or None, row["law"], int(row["start"])),
+        rmse=float(row["rmse"]) if row["rmse"] else None,
+        rmse_held_out=float(row["rmse_held_out"]) if row["rmse_held_out"] else None,
+        converged=row["converged"] == "true",
+        outcome=row["outcome"],
+        evaluations=int(row["evaluations"]),
+        seconds=float(row["seconds"]),
+        parameters=json.loads(row["parameters"]),
+        constants=json.loads(row["constants"]),
+        rigid_body=tuple(json.loads(row["rigid_body"])),
+        failure=row["failure"],
+    )

@@ -1,0 +1,160 @@
+"""Many laws on every joint of a recording, from many starts: the tables of the UR5e review.
+
+The review of 25 friction models (2024/25, sections 3 to 5) fits each law to each joint from twenty
+random starts, keeps the best, and compares the errors of friction torque, over all speeds and
+within 0.1 rad/s, and of the motors' electrical energy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from stribeck.base.errors import FitError, SpecError
+from stribeck.base.pool import Stopped, worker_count
+from stribeck.models.model_file import write_whole
+from stribeck.report.files import save_figure
+from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
+from stribeck.scale.study.crew import Crew, Desk, crew_of
+from stribeck.scale.study.plan import REVIEW, STARTS, Job, Plan, make_plan
+from stribeck.scale.study.result import Study, Table, make_tables
+from stribeck.scale.study.store import Store
+from stribeck.scale.study.trial import Trial, fit_trials
+
+#: Told after each fit: fits made now and before, and all there are.
+Progress = Callable[[int, int], None]
+
+
+def study(
+    path: str | Path,
+    output: str | Path,
+    laws: Sequence[str] = REVIEW,
+    *,
+    starts: int = STARTS,
+    seed: int = 0,
+    low_speed: float | None = None,
+    workers: int | None = 1,
+    progress: Progress | None = None,
+    note: Callable[[str], None] | None = None,
+    **reading: Any,
+) -> Study:
+    """Fit `laws` to every joint of a recording from many starts, and compare them.
+
+    Parameters
+    ----------
+    path
+        The recording; `reading` are the options of `stribeck.read`. With ``joint`` that one alone.
+    output
+        Folder of the study. Every fit is written there as it ends; a second run with the same
+        arguments goes on from them.
+    laws
+        Specs; default: the 25 of the review.
+    starts
+        Of each law on each joint: the catalog's own and random ones (review: 20).
+    low_speed
+        What the tables call low speed, rad/s or m/s; default 0.1 rad/s or 0.01 m/s.
+    workers
+        Processes; None: one for each core. More than one needs the script's main module to be
+        importable (``if __name__ == "__main__":``). The results do not depend on it.
+    progress, note
+        Told after each fit how many are made, and before the first how the recording was read.
+
+    Raises
+    ------
+    StribeckError
+        A recording, law or folder that cannot be used.
+    Stopped
+        On Ctrl-C; what is done is saved.
+
+    Examples
+    --------
+    >>> study("ur5e.parquet", "ur5e.study", ["coulomb", "lugre"], starts=5)  # doctest: +SKIP
+    """
+    if low_speed is not None and not low_speed > 0.0:
+        raise SpecError(f"low speed {low_speed:g} must be above zero")
+    plan = make_plan(str(path), reading, laws, starts=starts, seed=seed)
+    if note is not None:
+        for sentence in plan.notes:
+            note(sentence)
+    store = Store(Path(output), plan)
+    with crew_of(plan, worker_count(workers)) as crew:
+        _fit(plan, store, crew, progress)
+        result = _result(plan, store, low_speed, crew)
+        _write(result, crew)
+    return result
+
+
+def _fit(plan: Plan, store: Store, crew: Crew, progress: Progress | None) -> None:
+    """Make the fits that are not in the store.
+
+    The starts of a law on a joint are fitted together, and again if one of them is missing: so the
+    results are the same on any number of processes, and of a study that was stopped.
+    """
+    missing = {job for job in plan.jobs if job not in store.trials}
+
+    def made(trials: list[Trial]) -> None:
+        for trial in trials:
+            if trial.job in missing:
+                store.add(trial)
+                if progress is not None:
+                    progress(len(store.trials), len(plan.jobs))
+
+    try:
+        crew.each(fit_trials, plan.pieces(missing), made)
+    finally:
+        store.close()
+
+
+def _result(plan: Plan, store: Store, low_speed: float | None, crew: Crew) -> Study:
+    """Figures of the best starts, joint by joint."""
+    trials = store.ordered()
+    of_joint: dict[str | None, dict[str, list[Trial]]] = {joint: {} for joint in plan.joints}
+    for trial in trials:
+        of_joint[trial.job.joint].setdefault(trial.job.law, []).append(trial)
+    pieces = [JointTrials(joint, laws, low_speed) for joint, laws in of_joint.items()]
+    found: dict[str | None, Assessed] = {}
+    crew.each(assess_joint, pieces, lambda assessed: found.update({assessed.joint: assessed}))
+    assessed = {joint: found[joint] for joint in plan.joints}
+    failed = tuple(trial for trial in trials if trial.failure)
+    tables = make_tables(
+        {law: group for joint in assessed.values() for law, group in joint.groups.items()},
+        {
+            law: {name: of.entries[law] for name, of in assessed.items() if law in of.entries}
+            for law in plan.laws
+        },
+    )
+    if not tables:
+        raise FitError(f"{plan.path}: no fit could be made, the first says: {failed[0].failure}")
+    joints = {name: of.data for name, of in assessed.items()}
+    return Study(plan, store.folder, joints, tables, failed, store.frame())
+
+
+def _write(result: Study, crew: Crew) -> None:
+    """Tables and pictures into the study's folder."""
+    folder = result.folder
+    write_whole(folder / "tables.csv", result.to_frame().write_csv())
+    write_whole(folder / "tables.txt", repr(result) + "\n")
+    drawn = [
+        (result, joint) for joint in result.joints
+        if any(joint in row.entries for table in result.tables for row in table.rows)
+    ]  # fmt: skip
+    crew.each(_draw, drawn, lambda _: None)
+
+
+def _draw(_: Desk, of: tuple[Study, str | None]) -> None:
+    """The pictures of one joint."""
+    from stribeck.scale.study.figures import error_figure, friction_figure
+
+    result, joint = of
+    name = "" if joint is None else f"_{_plain_name(joint)}"
+    save_figure(error_figure(result, joint), str(result.folder / f"errors{name}.png"))
+    save_figure(friction_figure(result, joint), str(result.folder / f"friction{name}.png"))
+
+
+def _plain_name(joint: str) -> str:
+    """A joint's name as part of a file name."""
+    return "".join(c if c.isalnum() or c in "-_" else "_" for c in joint)
+
+
+__all__ = ["REVIEW", "Job", "Plan", "Stopped", "Study", "Table", "Trial", "study"]

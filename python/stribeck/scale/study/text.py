@@ -1,0 +1,160 @@
+"""What `stribeck study` prints: the tables of the review, in plain words with units."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from stribeck.report.numbers import MINUS, listed, plain, thousands
+from stribeck.report.text import WIDTH, paragraph, table
+
+if TYPE_CHECKING:
+    from stribeck.fitting.energy import Energy
+    from stribeck.scale.study.assess import Spread
+    from stribeck.scale.study.result import Row, Study, Table
+
+PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
+
+
+def study_text(study: Study) -> str:
+    """The whole result."""
+    parts = [_heading(study)]
+    for each in study.tables:
+        parts += ["", each.group.title, "", *_error_tables(study, each)]
+        if any(row.energy is not None for row in each.rows):
+            parts += ["", *_energy_table(each)]
+    parts += ["", *_notes(study)]
+    return "\n".join(parts).rstrip()
+
+
+def _heading(study: Study) -> str:
+    plan = study.plan
+    fits = f"{thousands(study.frame.height)} fits"
+    if study.frame.height < len(plan.jobs):
+        fits += f" of {thousands(len(plan.jobs))} (not complete)"
+    return (
+        f"{plan.path}: {len(plan.laws)} law{'s' if len(plan.laws) > 1 else ''}, "
+        f"{len(study.joints)} joint{'s' if len(study.joints) > 1 else ''}, up to {plan.starts} "
+        f"start{'s' if plan.starts > 1 else ''} each, {fits}"
+    )
+
+
+def spread_text(spread: Spread, digits: int) -> str:
+    """``mean ± standard deviation`` with as many decimals; a dash where there are no rows."""
+    if spread.rows == 0:
+        return "no rows"
+    return f"{_signed(spread.mean, digits)} {PLUS_MINUS} {spread.std:.{digits}f}"
+
+
+def _signed(value: float, digits: int) -> str:
+    text = f"{value:.{digits}f}"
+    if float(text) == 0.0:
+        text = text.removeprefix("-")
+    return text.replace("-", MINUS)
+
+
+def _error_tables(study: Study, each: Table) -> list[str]:
+    """Mean and standard deviation by joint: all speeds, then low speed."""
+    lines: list[str] = []
+    joints = list(study.joints)
+    names = ", ".join(dict.fromkeys(d.torque_unit for d in study.joints.values()))
+    lows = dict.fromkeys(
+        f"{plain(d.low_speed, 2)} {d.velocity_unit}" for d in study.joints.values()
+    )
+    for title, low in (
+        (f"torque error, measured {MINUS} modelled, all speeds [{names}]", False),
+        (f"the same at low speed, |v| < {' or '.join(lows)} [{names}]", True),
+    ):
+        lines += [f"  {title}"] if not lines else ["", f"  {title}"]
+        blocks = -(-len(joints) // ((WIDTH - 20) // 16))
+        per_block = -(-len(joints) // blocks)
+        for at in range(0, len(joints), per_block):
+            lines += ["", _block(study, each.rows, joints[at : at + per_block], low)]
+    return lines
+
+
+def _block(study: Study, rows: Sequence[Row], joints: Sequence[str | None], low: bool) -> str:
+    heading = ["law", *(f"mean {PLUS_MINUS} std" if j is None else j for j in joints)]
+    cells = [heading]
+    for row in rows:
+        line = [row.law]
+        for joint in joints:
+            entry = row.entries.get(joint)
+            if entry is None:
+                line.append("skipped")
+            else:
+                spread = entry.low_speed if low else entry.whole
+                line.append(spread_text(spread, _digits(study, joint)))
+        cells.append(line)
+    return table(cells, right=range(1, len(heading)))
+
+
+def _digits(study: Study, joint: str | None) -> int:
+    """Decimals that show the smallest error of a joint with three digits, in all its tables."""
+    errors = [entry.whole.std for _, _, of, entry in study.entries() if of == joint]
+    smallest = min((e for e in errors if e > 0.0), default=1.0)
+    return min(max(2 - math.floor(math.log10(smallest)), 0), 6)
+
+
+def _energy_table(each: Table) -> list[str]:
+    rows = [["law", "modelled [J]", "measured [J]", "error [J]", "error [%]"]]
+    for row in each.rows:
+        if row.energy is not None:
+            rows.append([row.law, *energy_cells(row.energy)])
+    return [
+        f"  electrical energy over the scored rows, all joints (error: measured {MINUS} modelled)",
+        "",
+        table(rows, right=range(1, 5)),
+    ]
+
+
+def energy_cells(energy: Energy) -> list[str]:
+    """Modelled, measured, error in J and in per cent."""
+    return [
+        plain(energy.modelled, 5),
+        plain(energy.measured, 5),
+        _signed(energy.error, 2),
+        _signed(energy.error_percent, 2),
+    ]
+
+
+def _notes(study: Study) -> list[str]:
+    lines: list[str] = []
+    if study.skipped:
+        lines += ["Skipped:", *_skipped(study)]
+    if study.failed:
+        lines.append(f"Fits that could not be made: {len(study.failed)}")
+        seen: dict[tuple[str | None, str], int] = {}
+        for t in study.failed:
+            seen[(t.job.joint, t.job.law)] = seen.get((t.job.joint, t.job.law), 0) + 1
+        for (joint, law), count in seen.items():
+            first = next(t for t in study.failed if (t.job.joint, t.job.law) == (joint, law))
+            where = law if joint is None else f"{law} on {joint}"
+            lines.append(paragraph(f"{where}: {count}, the first: {first.failure}"))
+    if all(row.energy is None for each in study.tables for row in each.rows):
+        lines.append(
+            paragraph(
+                "No electrical energy: it needs km, kb, kt and the gear ratio of every joint, by "
+                "--km, --kb, --kt and --gear-ratio or in the sidecar.", 0,
+            )
+        )  # fmt: skip
+    lines.append(f"All fits, tables and pictures are in {study.folder}")
+    return lines
+
+
+def _skipped(study: Study) -> list[str]:
+    """Laws that were not fitted, those with the same reason together."""
+    joints: dict[tuple[str, str], list[str | None]] = {}
+    for s in study.skipped:
+        reason = s.why.replace(s.law, "the law", 1)
+        joints.setdefault((reason, s.law), []).append(s.joint)
+    laws: dict[str, list[str]] = {}
+    for (reason, law), on in joints.items():
+        everywhere = len(on) == len(study.joints)
+        laws.setdefault(reason, []).append(law if everywhere else f"{law} on {_joints(on)}")
+    return [paragraph(f"{listed(of)}: {reason}", hang=2) for reason, of in laws.items()]
+
+
+def _joints(names: Sequence[str | None]) -> str:
+    return listed([name for name in names if name is not None])

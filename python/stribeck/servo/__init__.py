@@ -1,1 +1,0 @@
-"""Servo actuators: joints of which only the motor's voltage is logged."""

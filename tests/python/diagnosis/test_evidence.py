@@ -1,0 +1,83 @@
+"""The test of an added torque keeps its promise under noise with a memory."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from scipy.stats import binom
+from stribeck.diagnosis.evidence import added_torque_test, difference, evidence
+from synthetic import ar1, joint, motion, record
+
+TRIALS = 200
+
+
+@pytest.mark.parametrize("rho", [0.0, 0.9])
+@pytest.mark.parametrize("memory", [0.0, 0.95])
+def test_chance_is_called_chance(rho: float, memory: float) -> None:
+    """A regressor that has nothing to do with the noise passes 5 % about once in twenty."""
+    rng = np.random.default_rng([7, int(10 * rho), int(100 * memory)])
+    size, found = 4000, 0
+    for _ in range(TRIALS):
+        noise, x = ar1(rng, size, rho, 1.0), ar1(rng, size, memory, 1.0)
+        added = x * (x @ noise) / (x @ x)
+        found += added_torque_test(added, noise - added, 1) < 0.05
+    assert found <= binom.ppf(0.999, TRIALS, 0.05), found
+    # It is not blind either.
+    assert found >= binom.ppf(0.001, TRIALS, 0.01)
+
+
+def test_chance_of_several_parameters() -> None:
+    """The best of three regressors at once counts as three."""
+    rng = np.random.default_rng(8)
+    size, found = 4000, 0
+    for _ in range(TRIALS):
+        noise = ar1(rng, size, 0.9, 1.0)
+        x = np.column_stack([ar1(rng, size, 0.95, 1.0) for _ in range(3)])
+        added = x @ np.linalg.lstsq(x, noise, rcond=None)[0]
+        found += added_torque_test(added, noise - added, 3) < 0.05
+    assert found <= binom.ppf(0.999, TRIALS, 0.05), found
+
+
+def test_a_cause_is_called_a_cause() -> None:
+    rng = np.random.default_rng(9)
+    noise, x = ar1(rng, 4000, 0.9, 1.0), ar1(rng, 4000, 0.95, 1.0)
+    measured = noise + x
+    added = x * (x @ measured) / (x @ x)
+    assert added_torque_test(added, measured - added, 1) < 1e-6
+    assert added_torque_test(np.zeros(4000), noise, 1) == 1.0
+    assert added_torque_test(added, measured - added, 0) == 1.0
+
+
+def test_evidence_of_a_real_effect_and_of_none(tmp_path: Path, plain: sb.Recording) -> None:
+    offset = record(tmp_path, joint(0.1), "offset")
+    before, after = sb.fit("coulomb", offset), sb.fit("coulomb+offset", offset)
+    found = evidence(before, after)
+    rows = before.rows
+    fall = 1.0 - np.sqrt(
+        np.sum(after.held_out_residual[rows] ** 2) / np.sum(before.held_out_residual[rows] ** 2)
+    )
+    assert found.fall == pytest.approx(fall, rel=1e-9) and found.fall > 0.5
+    assert found.everywhere and found.fall_in_band > 0.5 and found.p_value < 1e-9
+    nothing = evidence(sb.fit("coulomb", plain), sb.fit("coulomb+offset", plain))
+    assert nothing.fall < 0.01 and nothing.p_value > 1e-3
+
+
+def test_one_event_is_not_everywhere(tmp_path: Path) -> None:
+    """What a single block gains is no effect."""
+    t = motion()[0]
+    once = record(tmp_path, joint(np.where((t > 9.0) & (t < 11.5), 0.3, 0.0)))
+    found = evidence(sb.fit("coulomb", once), sb.fit("coulomb+offset", once))
+    assert found.fall < 0.01
+
+
+def test_difference_is_a_mean_and_its_error(tmp_path: Path) -> None:
+    offset = record(tmp_path, joint(0.1), "offset")
+    worse, better = sb.fit("coulomb", offset), sb.fit("coulomb+offset", offset)
+    found = difference(worse, better)
+    rows = worse.rows
+    total = np.sum(worse.held_out_residual[rows] ** 2 - better.held_out_residual[rows] ** 2)
+    assert found.total == pytest.approx(total) and found.statistic > 5.0
+    assert difference(better, worse).statistic == 0.0

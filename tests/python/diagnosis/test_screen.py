@@ -1,0 +1,55 @@
+"""A few steps on a few rows tell which effects are worth a fit to all of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.screen import screened
+from stribeck.diagnosis.trial import promises, try_effect
+from synthetic import joint, motion, record
+
+ROWS = 9000
+
+
+def hardened(sign: float) -> np.ndarray:
+    """More dry friction at one end of the stroke."""
+    _, q, v, _ = motion(ROWS)
+    return sign * 0.6 * np.sign(v) / (1.0 + np.exp(-8.0 * q))
+
+
+@pytest.fixture
+def fitted(tmp_path: Path) -> sb.Fit:
+    return sb.fit("coulomb", record(tmp_path, joint(hardened(1.0), rows=ROWS)))
+
+
+def test_it_foretells_the_fall_of_the_fit(fitted: sb.Fit) -> None:
+    found = screened(fitted, "position")
+    assert found is not None and promises(found, 0.01)
+    trial = try_effect(fitted, found)
+    assert trial is not None
+    assert found.fall == pytest.approx(trial.evidence.fall, abs=0.03)
+
+
+@pytest.mark.parametrize("effect", ["offset", "temperature_viscous", "inertia", "drift"])
+def test_what_brings_nothing_is_not_fitted(fitted: sb.Fit, effect: str) -> None:
+    found = screened(fitted, effect)
+    assert found is not None and not promises(found, 0.01)
+
+
+def test_a_memory_is_tried_on_one_stretch(fitted: sb.Fit) -> None:
+    found = screened(fitted, "presliding")
+    assert found is not None and not promises(found, 0.01)
+
+
+def test_what_the_model_cannot_take_is_left_out(fitted: sb.Fit) -> None:
+    assert screened(fitted, "no_such_effect") is None
+
+
+def test_the_seed_decides(fitted: sb.Fit) -> None:
+    once, again = (screened(fitted, "stribeck", seed=3) for _ in range(2))
+    assert once is not None and again is not None
+    assert once.fall == again.fall
+    np.testing.assert_array_equal(once.model.values, again.model.values)

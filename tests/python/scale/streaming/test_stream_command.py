@@ -1,0 +1,63 @@
+"""`stribeck fit` of a folder, and of one file with --stream."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+import stribeck as sb
+from click.testing import CliRunner
+from stribeck.cli.main import cli
+from stribeck.cli.progress import RowProgress
+from synthetic import joint
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    frame = joint(rows=6000)
+    made = tmp_path / "logs"
+    made.mkdir()
+    frame[:3000].write_parquet(made / "a.parquet")
+    frame[3000:].write_parquet(made / "b.parquet")
+    return made
+
+
+def test_a_folder_is_fitted_as_one_recording(folder: Path, tmp_path: Path) -> None:
+    target = tmp_path / "model.toml"
+    done = CliRunner().invoke(
+        cli, ["fit", str(folder), "--model", "coulomb", "--json", "-o", str(target)]
+    )
+    assert done.exit_code == 0, done.output
+    answer = json.loads(done.stdout)
+    assert answer["data"]["files"] == 2 and answer["data"]["rows"] == 6000
+    assert answer["data"]["passes"] == 1
+    assert sb.load(str(target)).value("coulomb_friction") == pytest.approx(3.0, abs=0.05)
+
+
+def test_one_file_needs_the_flag(folder: Path) -> None:
+    path = str(folder / "a.parquet")
+    plain = CliRunner().invoke(cli, ["fit", path, "--model", "coulomb", "--json"])
+    streamed = CliRunner().invoke(cli, ["fit", path, "--model", "coulomb", "--json", "--stream"])
+    assert "data" not in json.loads(plain.stdout)
+    assert json.loads(streamed.stdout)["data"]["rows"] == 3000
+
+
+def test_what_needs_memory_is_refused(folder: Path) -> None:
+    done = CliRunner().invoke(cli, ["fit", str(folder), "--model", "coulomb", "--passive"])
+    assert isinstance(done.exception, sb.SpecError)
+    assert "--passive needs all rows in memory" in str(done.exception)
+
+
+def test_progress_tells_the_rate_and_the_time_left(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock = iter([0.0, 0.0, 30.0, 30.0, 60.0, 60.0])
+    monkeypatch.setattr("stribeck.cli.progress.time.monotonic", lambda: next(clock))
+    with RowProgress() as bar:
+        bar.show_pass(300, 900, 1)
+        bar.show_pass(600, 900, 1)
+    assert capsys.readouterr().err.splitlines() == [
+        "note: pass 1: 300 of 900 rows, 10 a second, 60 s left",
+        "note: pass 1: 600 of 900 rows, 10 a second, 30 s left",
+    ]
