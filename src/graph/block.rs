@@ -1,4 +1,5 @@
-//! The loops over a block of rows, one an operation. All blocks are of one length: no loop has a rest.
+//! One loop per operation over a block of samples. All blocks have the same length, so that no loop
+//! has a remainder.
 
 use core::cell::Cell;
 use core::hint::select_unpredictable;
@@ -7,31 +8,31 @@ use super::operation::{Binary, Unary};
 use crate::math::f64 as elementary;
 use crate::scalar::Real;
 
-/// Numbers of a block: what all operations leave stays in the first cache.
+/// Numbers per block: the results of all operations fit into the first-level cache.
 pub const BLOCK: usize = 256;
 
-/// Room for a block. It begins with a line of the cache: a vector as long as a line that lay across
-/// two of them would be read and written twice.
+/// Memory of one block, aligned to a cache line: vector loads and stores that cross two lines cost
+/// double.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub struct Buffer<const N: usize = BLOCK>(pub [f64; N]);
 
 impl<const N: usize> Buffer<N> {
-    /// Of zeros.
+    /// All zeros.
     pub const ZERO: Self = Self([0.0; N]);
 }
 
-/// What an operation takes: one number a row, or the same for all.
+/// An operand: one number per sample, or one for all.
 #[derive(Clone, Copy, Debug)]
 pub enum Operand<'a, const N: usize = BLOCK> {
-    /// The same.
+    /// One number for all samples.
     Same(f64),
-    /// One a row.
+    /// One number per sample.
     Each(&'a [f64; N]),
 }
 
 impl<const N: usize> Operand<'_, N> {
-    /// That of one row.
+    /// The value at one sample.
     #[inline(always)]
     #[must_use]
     pub fn at(&self, row: usize) -> f64 {
@@ -76,7 +77,7 @@ fn zip<const N: usize>(
     }
 }
 
-/// An operation on one number of each row.
+/// A unary operation on each sample.
 #[inline(always)]
 pub fn unary<const N: usize>(out: &mut [f64; N], operation: Unary, x: Operand<'_, N>) {
     match operation {
@@ -98,7 +99,7 @@ pub fn unary<const N: usize>(out: &mut [f64; N], operation: Unary, x: Operand<'_
     }
 }
 
-/// Sine or cosine: the few phases that need care are mended.
+/// Sine or cosine; the few large arguments are recomputed with the exact reduction.
 #[inline(always)]
 fn wave<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, of: impl Fn((f64, f64)) -> f64) {
     map(out, x, |x| of(elementary::sin_cos_fast(x)));
@@ -109,7 +110,7 @@ fn wave<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, of: impl Fn((f64,
     }
 }
 
-/// An operation on two numbers of each row.
+/// A binary operation on each sample.
 #[inline(always)]
 pub fn binary<const N: usize>(
     out: &mut [f64; N],
@@ -131,7 +132,7 @@ pub fn binary<const N: usize>(
     }
 }
 
-/// Of an exponent that all rows share the special cases are looked at once.
+/// Powers. For an exponent that all samples share, the special cases are checked once.
 #[inline(always)]
 fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N>) {
     let plain = elementary::is_plain_exponent;
@@ -157,7 +158,8 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
     }
 }
 
-/// High parts and, returned, low parts. Two loops keep more rows under way than one.
+/// Binary logarithms: writes the high parts and returns the low parts. Two loops keep more
+/// independent operations in flight than one.
 #[inline(always)]
 fn logarithms<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {
     let mut lows = Buffer::ZERO;
@@ -167,7 +169,7 @@ fn logarithms<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {
     lows
 }
 
-/// The few bases and exponents that need care.
+/// Recomputes the results that [`elementary::powf_fast`] has left as NaN.
 #[inline(always)]
 fn mend_powers<const N: usize>(out: &mut [f64; N], x: &[f64; N], p: impl Fn(usize) -> f64) {
     if any_nan(out) {
@@ -179,7 +181,7 @@ fn mend_powers<const N: usize>(out: &mut [f64; N], x: &[f64; N], p: impl Fn(usiz
     }
 }
 
-/// Products; the few that are no numbers are mended.
+/// Products of slopes and derivatives; recomputed by [`chain`] where one is NaN.
 #[inline(always)]
 fn chain_all<const N: usize>(out: &mut [f64; N], slope: Operand<'_, N>, by: Operand<'_, N>) {
     let nan = Cell::new(false);
@@ -198,14 +200,14 @@ fn any_nan<const N: usize>(numbers: &[f64; N]) -> bool {
     numbers.iter().fold(false, |any, x| any | x.is_nan())
 }
 
-/// A slope times a derivative; nothing where one of them is nothing.
+/// A slope times a derivative: 0 where either is 0, even if the other is infinite.
 #[inline(always)]
 fn chain(slope: f64, by: f64) -> f64 {
     let product = slope * by;
     if slope == 0.0 || by == 0.0 { 0.0 } else { product }
 }
 
-/// The second where the mask holds, else the third.
+/// `yes` where the mask is not 0, else `no`.
 #[inline(always)]
 pub fn choose<const N: usize>(
     out: &mut [f64; N],
@@ -223,21 +225,21 @@ pub fn choose<const N: usize>(
         }
         (Operand::Each(mask), Operand::Each(yes), Operand::Each(no)) => {
             for (((out, &mask), &yes), &no) in out.iter_mut().zip(mask).zip(yes).zip(no) {
-                // An `if` would be made a choice of the place to read from, row by row.
+                // With an `if` the compiler selects an address per sample instead of a value.
                 *out = select_unpredictable(mask == 0.0, no, yes);
             }
         }
     }
 }
 
-/// The same operation on single numbers.
+/// A unary operation on a single number.
 pub fn unary_once(operation: Unary, x: f64) -> f64 {
     let mut out = [0.0];
     unary(&mut out, operation, Operand::Same(x));
     out[0]
 }
 
-/// The same operation on single numbers.
+/// A binary operation on single numbers.
 pub fn binary_once(operation: Binary, x: f64, y: f64) -> f64 {
     let mut out = [0.0];
     binary(&mut out, operation, Operand::Same(x), Operand::Same(y));

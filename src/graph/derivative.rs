@@ -1,9 +1,8 @@
-//! Symbolic derivatives.
+//! Symbolic derivatives of a graph.
 //!
-//! What lies between parameters, states and an output is differentiated backwards: one factor a
-//! node, however many parameters there are (reverse accumulation; Griewank and Walther 2008,
-//! section 3.2). States are differentiated forwards, along the rows. The rules are those of
-//! [`Dual`](crate::scalar::Dual).
+//! From an output back to parameters and states the mode is reverse: one factor per node, whatever
+//! the number of parameters (Griewank and Walther 2008, section 3.2). States are differentiated
+//! forwards, along the samples. The rules are those of [`Dual`](crate::scalar::Dual).
 
 use std::collections::HashMap;
 use std::vec;
@@ -14,9 +13,9 @@ use super::recorded::Recorded;
 use super::recorder::Recorder;
 use crate::scalar::Real;
 
-/// The derivatives of each output by each of the `wanted` parameters; what does not depend on a
-/// parameter is known to be 0. A node in `narrows` lies on the way from many parameters to several
-/// outputs or states: what leads to it is differentiated once.
+/// The derivatives of each output with respect to each of the `wanted` parameters; known to be 0
+/// where it does not depend on one. Nodes in `narrows` lie between many parameters and several
+/// outputs or states: they are differentiated first, once.
 pub fn derivatives<'r>(
     recorder: &'r Recorder,
     outputs: &[Id],
@@ -41,21 +40,21 @@ pub fn derivatives<'r>(
     outputs.iter().map(|&output| numbers(rules.of(output))).collect()
 }
 
-/// A derivative, if there is one.
+/// A derivative, or `None` if it is identically 0.
 type Slope<'r> = Option<Recorded<'r>>;
 
 struct Rules<'r, 'w> {
     recorder: &'r Recorder,
     wanted: &'w [usize],
     operations: Vec<Operation>,
-    /// Which nodes depend on a wanted parameter.
+    /// Whether each node depends on a wanted parameter.
     depends: Vec<bool>,
-    /// Derivatives that have been found.
+    /// Derivatives computed so far.
     known: HashMap<Id, Vec<Slope<'r>>>,
 }
 
 impl<'r> Rules<'r, '_> {
-    /// The derivatives of a node by each wanted parameter.
+    /// The derivatives of a node with respect to each wanted parameter.
     fn of(&mut self, id: Id) -> Vec<Slope<'r>> {
         if let Some(known) = self.known.get(&id) {
             return known.clone();
@@ -79,8 +78,8 @@ impl<'r> Rules<'r, '_> {
         slopes
     }
 
-    /// The derivatives of a sum of nodes times factors: from these back to parameters, states and
-    /// nodes whose derivatives have been found, and from these on by what is known of them.
+    /// The derivatives of a weighted sum of nodes. Goes backwards from them to parameters, states
+    /// and nodes of known derivatives, and multiplies by these.
     fn backwards(&mut self, sum: &[(Id, Recorded<'r>)]) -> Vec<Slope<'r>> {
         let last = sum.iter().map(|&(id, _)| id).max().unwrap_or(0);
         let mut factors: Vec<Slope<'r>> = vec![None; last + 1];
@@ -105,7 +104,7 @@ impl<'r> Rules<'r, '_> {
         slopes
     }
 
-    /// What a node's factor makes of those of its operands.
+    /// The factors that a node's factor passes on to its operands.
     fn shares(
         &self,
         id: Id,
@@ -148,7 +147,7 @@ impl<'r> Rules<'r, '_> {
         shares
     }
 
-    /// The factor of the first of two operands.
+    /// The factor of the first operand.
     fn first(
         &self,
         binary: Binary,
@@ -170,7 +169,7 @@ impl<'r> Rules<'r, '_> {
         }
     }
 
-    /// The factor of the second of two operands.
+    /// The factor of the second operand.
     fn second(
         &self,
         binary: Binary,
@@ -182,7 +181,7 @@ impl<'r> Rules<'r, '_> {
             Binary::Add => Some(factor),
             Binary::Subtract => Some(-factor),
             Binary::Multiply => Some(self.times(x, factor)),
-            // By the inverse, which the other operand's factor needs too.
+            // Uses 1 / y, which the factor of the first operand needs too.
             Binary::Divide => Some(-self.times(value * (Recorded::Known(1.0) / y), factor)),
             Binary::Power => {
                 let slope = Recorded::choose(x.at_zero(), Recorded::Known(0.0), value * x.ln());
@@ -192,8 +191,8 @@ impl<'r> Rules<'r, '_> {
         }
     }
 
-    /// A number without the sign that was put before it, and whether one was: signs are handed
-    /// through to where a sum takes them up as a difference.
+    /// A number without its leading minus, and whether it had one. Signs are propagated to where a
+    /// sum turns them into a subtraction.
     fn sign_apart(&self, x: Recorded<'r>) -> (bool, Recorded<'r>) {
         if let Recorded::Node(recorder, id) = x
             && let Operation::Unary(Unary::Negate, inner) = recorder.operation(id)
@@ -218,7 +217,7 @@ impl<'r> Rules<'r, '_> {
         self.recorder.number(Operation::Choose(mask, yes, no))
     }
 
-    /// A product, which is nothing where one of both is nothing and the other one infinite.
+    /// A product that is 0 where one factor is 0, even if the other is infinite.
     fn times(&self, slope: Recorded<'r>, by: Recorded<'r>) -> Recorded<'r> {
         let ((one, slope), (other, by)) = (self.sign_apart(slope), self.sign_apart(by));
         let product = if slope.is(1.0) {
@@ -238,13 +237,13 @@ impl<'r> Rules<'r, '_> {
         }
     }
 
-    /// The state's derivative relaxes to nothing by the same share, and is moved by what the
-    /// parameters do to share, target, extra and shift.
+    /// The derivative of a state relaxes to 0 with the same share, driven by the derivatives of
+    /// share, target, extra and shift.
     fn relax(&mut self, state: Id, relaxing: Relaxing) -> Vec<Slope<'r>> {
         let Relaxing { share, target, extra, shift, settled, .. } = relaxing;
         let one = Recorded::Known(1.0);
         let way = self.number(target) - self.before(Recorded::Node(self.recorder, state));
-        // What the row before hands on is differentiated first: the sum then ends there.
+        // Differentiated first, so that the reverse sweep ends there.
         let by_settled = self.of(settled);
         let moved = self.backwards(&[
             (share, way),
@@ -270,7 +269,7 @@ impl<'r> Rules<'r, '_> {
         (0..self.wanted.len()).map(slope).collect()
     }
 
-    /// The state before the row, or its derivative.
+    /// The state before the sample, or the derivative of that.
     fn before(&self, state: Recorded<'r>) -> Recorded<'r> {
         let id = self.recorder.id(state);
         match self.recorder.operation(id) {
@@ -293,7 +292,7 @@ fn signed(negative: bool, x: Recorded<'_>) -> Recorded<'_> {
     if negative { -x } else { x }
 }
 
-/// The slope of a function at `x`, where it has one.
+/// The slope of a function at `x`, if it is differentiable.
 fn slope<'r>(unary: Unary, value: Recorded<'r>, x: Recorded<'r>) -> Slope<'r> {
     let one = Recorded::Known(1.0);
     Some(match unary {
@@ -301,7 +300,7 @@ fn slope<'r>(unary: Unary, value: Recorded<'r>, x: Recorded<'r>) -> Slope<'r> {
         Unary::Sign | Unary::IsFinite | Unary::Not => return None,
         Unary::Abs => x.sign(),
         Unary::Exp => value,
-        // Far below zero value + 1 cancels.
+        // Far below zero `value + 1` loses its digits by cancellation.
         Unary::Expm1 => {
             let near = value.is_above(Recorded::Known(-0.5));
             Recorded::choose(near, value + one, x.exp())
@@ -311,7 +310,7 @@ fn slope<'r>(unary: Unary, value: Recorded<'r>, x: Recorded<'r>) -> Slope<'r> {
         Unary::Cbrt => one / (Recorded::Known(3.0) * value * value),
         Unary::Sin => x.cos(),
         Unary::Cos => -x.sin(),
-        // Far from zero 1 - tanh^2 cancels: there 4 e/(1 + e)^2 with e = exp(-2 |x|).
+        // Far from zero 1 - tanh^2 cancels: use 4 e / (1 + e)^2 with e = exp(-2 |x|) there.
         Unary::Tanh => {
             let e = (Recorded::Known(-2.0) * x.abs()).exp();
             let whole = one + e;

@@ -1,10 +1,10 @@
-//! What a law computes, written down once as a graph and then carried out on many rows.
+//! The operations of a law, recorded once as a graph and then executed on many samples.
 //!
-//! A model that is evaluated in [`Recorded`] numbers leaves its operations in a [`Recorder`]. The
-//! graph is differentiated symbolically ([`derivative`]), so that only derivatives that exist are
-//! carried, ordered ([`Schedule`]), and run operation by operation over blocks of rows that stay in
-//! the first cache ([`run`]): each operation is a loop that the compiler turns into vector
-//! instructions. Every number has the bits that it has alone: nothing is fused or reordered.
+//! A model evaluated with [`Recorded`] numbers leaves its operations in a [`Recorder`]. The graph
+//! is differentiated symbolically ([`derivative`]), so that derivatives that are always 0 cost
+//! nothing, scheduled ([`Schedule`]), and run operation by operation over blocks of samples that
+//! fit into the first-level cache ([`run`]): each operation is a loop that the compiler vectorises.
+//! Every number has the bits of a scalar evaluation: nothing is fused or reordered.
 
 mod block;
 mod derivative;

@@ -1,4 +1,4 @@
-//! A model in numbers that write down what is done to them.
+//! Records the operations of a model as a graph.
 
 use std::vec::Vec;
 
@@ -11,11 +11,11 @@ use crate::sample::Sample;
 use crate::scalar::Real;
 use crate::table::Channel;
 
-/// A model and what it samples, as numbers of a recorder.
+/// A model and its sample, in numbers of a recorder.
 type Written<'r, F> = (Composed<Recorded<'r, F>>, Sample<Recorded<'r, F>>);
 
-/// A model and the sample that it reads: parameters by their places, channels as columns by their
-/// numbers; those that it does not read are 0.
+/// A model and the sample it reads: parameters by index, channels as columns by number; channels
+/// that it does not read are 0.
 ///
 /// # Errors
 /// As [`Spec::with`].

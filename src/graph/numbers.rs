@@ -1,19 +1,19 @@
-//! What a graph hands over of a block of rows.
+//! The outputs of a graph for a block of samples.
 
 use core::ops::Range;
 use std::vec::Vec;
 
-/// Numbers of a block: one a row, or the same for all.
+/// The values of one output: one per sample, or one for all.
 #[derive(Clone, Copy, Debug)]
 pub enum Numbers<'a> {
-    /// The same.
+    /// One number for all samples.
     Same(f64),
-    /// One a row.
+    /// One number per sample.
     Each(&'a [f64]),
 }
 
 impl Numbers<'_> {
-    /// Those of some rows.
+    /// The values at some samples.
     #[inline(always)]
     #[must_use]
     pub fn part(&self, rows: &Range<usize>) -> Self {
@@ -23,7 +23,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// Products with a factor.
+    /// Writes the products with `factor`.
     #[inline(always)]
     pub fn times(&self, factor: f64, out: &mut [f64]) {
         match self {
@@ -34,7 +34,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// Differences to other numbers.
+    /// Writes `others` minus these numbers.
     #[inline(always)]
     pub fn subtracted_from(&self, others: &[f64], out: &mut [f64]) {
         let others = out.iter_mut().zip(others);
@@ -46,7 +46,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// Appends those of that many rows.
+    /// Appends `count` values.
     #[inline(always)]
     pub fn append_to(&self, out: &mut Vec<f64>, count: usize) {
         match self {
@@ -55,7 +55,7 @@ impl Numbers<'_> {
         }
     }
 
-    /// Puts sums with a number into places, one a row.
+    /// Writes `number` plus each value.
     #[inline(always)]
     pub fn add_to_each<'o>(&self, number: f64, out: impl Iterator<Item = &'o mut f64>) {
         match self {

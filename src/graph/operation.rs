@@ -3,55 +3,56 @@
 use std::vec;
 use std::vec::Vec;
 
-/// A node of a graph: nodes are in an order in which they can be computed.
+/// A node of a graph. The operands of a node have smaller ids.
 pub type Id = usize;
 
-/// What a node computes.
+/// The operation that a node computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operation {
     /// A number, by its bits.
     Constant(u64),
-    /// A parameter: the same in all rows.
+    /// A parameter: the same for all samples.
     Parameter(usize),
-    /// A column.
+    /// A column of the recording.
     Column(usize),
-    /// Of one number.
+    /// An operation on one number.
     Unary(Unary, Id),
-    /// Of two numbers.
+    /// An operation on two numbers.
     Binary(Binary, Id, Id),
-    /// The second where the first holds, else the third. A mask is 1 where it holds, else 0.
+    /// The second operand where the first is not 0, else the third. A mask is 1 (true) or 0
+    /// (false).
     Choose(Id, Id, Id),
-    /// The number of the row before; of the row itself where a segment starts.
+    /// The value at the previous sample; at the start of a segment that of the sample itself.
     Previous(Id),
-    /// A state `z` at the end of each row, from where a segment starts on.
+    /// A state `z` at the end of each sample interval.
     Relax(Relaxing),
-    /// The state of a node before its row: a state that starts as that one, and moves as it.
+    /// The value of a state before each sample: of the state, of its settled value, with its start.
     Before(Id, Id, Start),
 }
 
 /// `(z + extra) + share (target - z) + shift`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Relaxing {
-    /// Share of the way that is gone.
+    /// The share of the distance to the target that is covered in one interval.
     pub share: Id,
-    /// Where it goes.
+    /// The target.
     pub target: Id,
-    /// What comes to that.
+    /// Added to the state before it relaxes, without influence on the distance.
     pub extra: Id,
-    /// What comes at the end.
+    /// Added at the end.
     pub shift: Id,
-    /// Where a segment starts that has settled.
+    /// The state at the start of a segment that begins settled.
     pub settled: Id,
-    /// Where other segments start.
+    /// The state at the start of any other segment.
     pub start: Start,
 }
 
-/// What a state is where a segment starts.
+/// The state at the start of a segment that does not begin settled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Start {
-    /// What is given.
+    /// The given start.
     Given,
-    /// 0: a derivative, of what is given.
+    /// 0: for derivatives with respect to parameters.
     Zero,
 }
 
@@ -91,12 +92,12 @@ pub enum Binary {
     Equal,
     And,
     Or,
-    /// A slope times a derivative, 0 where the latter is 0 even if the slope is infinite.
+    /// A slope times a derivative: 0 where either is 0, even if the other is infinite.
     Chain,
 }
 
 impl Operation {
-    /// The nodes that it takes its numbers from.
+    /// The nodes that it reads.
     #[must_use]
     pub fn operands(self) -> Vec<Id> {
         match self {
@@ -110,7 +111,7 @@ impl Operation {
         }
     }
 
-    /// The same of other nodes and columns.
+    /// The same operation on other nodes and columns.
     #[must_use]
     pub fn moved(self, node: impl Fn(Id) -> Id, column: impl Fn(usize) -> usize) -> Self {
         match self {
@@ -132,7 +133,7 @@ impl Operation {
         }
     }
 
-    /// Whether it depends on rows before, whatever it takes.
+    /// Whether its value depends on previous samples even if its operands do not.
     #[must_use]
     pub const fn has_memory(self) -> bool {
         matches!(self, Self::Previous(_) | Self::Relax(_) | Self::Before(..))

@@ -1,4 +1,4 @@
-//! Numbers that write down what is done to them.
+//! Numbers that record the operations performed on them.
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
@@ -6,27 +6,27 @@ use super::operation::{Binary, Id, Operation, Unary};
 use super::recorder::Recorder;
 use crate::scalar::{Choice, Mask, Real, Scalar};
 
-/// A number that is known beforehand, or a node of a graph, in the format `F`.
+/// A number known while recording, or a node of a graph; known numbers are computed in format `F`.
 #[derive(Clone, Copy, Debug)]
 pub enum Recorded<'r, F = f64> {
-    /// Known: operations on it alone are carried out at once, in that format.
+    /// A known number: operations on known numbers are computed at once.
     Known(F),
-    /// What a node computes.
+    /// A node of the graph.
     Node(&'r Recorder, Id),
 }
 
-/// The answer to a comparison, known or a node.
+/// The result of a comparison: known, or a node.
 #[derive(Clone, Copy, Debug)]
 pub enum RecordedMask<'r> {
-    /// Known.
+    /// Known while recording.
     Known(bool),
-    /// What a node computes.
+    /// A node of the graph.
     Node(&'r Recorder, Id),
 }
 
 use Recorded::{Known, Node};
 
-/// A format in which what is known is computed.
+/// A format that known numbers are computed in.
 pub trait Format: Scalar<Plain = Self> {}
 
 impl<F: Scalar<Plain = F>> Format for F {}
@@ -65,7 +65,7 @@ impl<'r, F: Format> Recorded<'r, F> {
         }
     }
 
-    /// Whether it is known to be this number, sign of zero aside.
+    /// Whether it is known to equal `number`; the sign of zero is ignored.
     #[must_use]
     pub fn is(self, number: f64) -> bool {
         matches!(self, Known(x) if x.value() == number)
@@ -118,7 +118,7 @@ impl Mask for RecordedMask<'_> {
         matches!(self, Self::Known(true))
     }
 
-    /// What is known beforehand leaves only one way.
+    /// Records one alternative only where the mask is known.
     fn either<T: Choice<Self>>(self, yes: impl FnOnce() -> T, no: impl FnOnce() -> T) -> T {
         match self {
             Self::Known(true) => yes(),
@@ -146,7 +146,7 @@ operator!(Add: add, Sub: sub);
 impl<F: Format> Mul for Recorded<'_, F> {
     type Output = Self;
 
-    /// To multiply by one changes no bits.
+    /// Multiplication by one changes no bits and is left out.
     fn mul(self, other: Self) -> Self {
         match (self.is(1.0), other.is(1.0)) {
             (true, _) => other,
@@ -222,7 +222,7 @@ impl<'r, F: Format> Real for Recorded<'r, F> {
         self
     }
 
-    /// A node is not known yet: whoever runs the graph tests it.
+    /// A node passes every test: its value is checked when the graph runs.
     fn every(self, mut test: impl FnMut(f64) -> bool) -> bool {
         match self {
             Known(x) => test(x.value()),

@@ -1,4 +1,4 @@
-//! Where operations are written down.
+//! The list of operations that recorded numbers write to.
 
 use core::cell::RefCell;
 use std::collections::HashMap;
@@ -7,7 +7,7 @@ use std::vec::Vec;
 use super::operation::{Binary, Id, Operation, Relaxing, Start, Unary};
 use super::recorded::{Format, Recorded};
 
-/// The operations so far; none twice.
+/// The operations recorded so far, without duplicates.
 #[derive(Debug, Default)]
 pub struct Recorder {
     nodes: RefCell<Nodes>,
@@ -20,7 +20,7 @@ struct Nodes {
 }
 
 impl Recorder {
-    /// The node of an operation: the one that is there already, or a new one.
+    /// The node of an operation: the existing one, or a new one.
     pub fn node(&self, operation: Operation) -> Id {
         let nodes = &mut *self.nodes.borrow_mut();
         *nodes.known.entry(operation).or_insert_with(|| {
@@ -29,12 +29,12 @@ impl Recorder {
         })
     }
 
-    /// The same, as a number.
+    /// The node of an operation, as a number.
     pub fn number<F>(&self, operation: Operation) -> Recorded<'_, F> {
         Recorded::Node(self, self.node(operation))
     }
 
-    /// All operations, in an order in which they can be computed.
+    /// All operations; operands come before the nodes that read them.
     #[must_use]
     pub fn operations(&self) -> Vec<Operation> {
         self.nodes.borrow().operations.clone()
@@ -59,7 +59,7 @@ impl Recorder {
         self.node(Operation::Constant(x.to_bits()))
     }
 
-    /// A state that relaxes from row to row: before its row and after it.
+    /// A state that relaxes from sample to sample: its value before and after each sample.
     pub fn relax<'r>(
         &'r self,
         share: Recorded<'r>,
@@ -81,7 +81,7 @@ impl Recorder {
         (before, Recorded::Node(self, after))
     }
 
-    /// A unary operation; what is known is computed at once.
+    /// A unary operation.
     pub fn unary<'r, F>(&'r self, operation: Unary, x: Id) -> Recorded<'r, F> {
         self.number(Operation::Unary(operation, x))
     }

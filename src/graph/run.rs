@@ -1,4 +1,4 @@
-//! Carries out a graph on rows.
+//! Executes a schedule on the samples of a recording, block by block.
 
 use core::array::from_fn;
 use core::mem::swap;
@@ -13,36 +13,36 @@ use super::numbers::Numbers;
 use super::operation::{Operation, Relaxing, Start};
 use super::schedule::{MOST_TOGETHER, Place, Schedule, Task};
 
-/// Where operands of states that run together are spread out if all rows share them.
+/// Buffers for operands of grouped states that are one number for all samples.
 type Scratch = [[Buffer; MOST_TOGETHER]; 4];
 
-/// A number that all rows share, and that is often nothing.
+/// Operand that is 0 for all samples, the most frequent case.
 const NOTHING: &Buffer = &Buffer::ZERO;
 
-/// What a graph is carried out on.
+/// Inputs of a run.
 pub struct Given<'a> {
     /// The parameters.
     pub parameters: &'a [f64],
-    /// The columns, by their numbers; one that no operation reads may be empty.
+    /// Columns by number; one that no operation reads may be empty.
     pub columns: &'a [&'a [f64]],
-    /// How many rows.
+    /// Number of samples.
     pub rows: usize,
-    /// What a state is where a segment starts.
+    /// The state at the start of segments that do not begin settled.
     pub start: f64,
-    /// The rows at which segments start, from the first row on, and how.
+    /// The first sample of each segment, in increasing order and starting at 0, and how it begins.
     pub starts: &'a [(usize, Beginning)],
 }
 
-/// How a segment starts.
+/// How a segment begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Beginning {
-    /// With the state that is given.
+    /// From the given state.
     Fresh,
-    /// Settled.
+    /// From the settled state.
     Settled,
 }
 
-/// Carries out the operations; `sink` takes the outputs of each block of rows.
+/// Runs the schedule; `sink` receives the outputs of each block of samples.
 pub fn run(schedule: &Schedule, given: &Given<'_>, sink: impl FnMut(Range<usize>, &[Numbers<'_>])) {
     Arch::new().dispatch(Running { schedule, given, sink });
 }
@@ -72,7 +72,7 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
         let uniforms = once(schedule, self.given.parameters);
         let mut room = vec![Buffer::ZERO; schedule.buffers + MOST_TOGETHER];
         let mut buffers: Vec<&mut Buffer> = room.iter_mut().collect();
-        // An operation writes into a spare buffer, which then changes places with its own.
+        // An operation writes into a spare buffer, which is then swapped with the destination.
         let mut spare = buffers.split_off(schedule.buffers);
         let mut memories = vec![0.0; schedule.memories];
         let mut starts = self.given.starts;
@@ -129,7 +129,7 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
     }
 }
 
-/// What all rows share.
+/// The values that are the same for all samples.
 fn once(schedule: &Schedule, parameters: &[f64]) -> Vec<f64> {
     let mut shared = vec![0.0; schedule.uniforms];
     for task in &schedule.once {
@@ -158,14 +158,14 @@ fn once(schedule: &Schedule, parameters: &[f64]) -> Vec<f64> {
     shared
 }
 
-/// What operations need to know about a block.
+/// The block that is being computed.
 struct Moment<'a> {
     given: &'a Given<'a>,
-    /// Its first row.
+    /// Index of its first sample.
     first: usize,
-    /// How many rows it has; what is computed beyond them, nobody reads.
+    /// Number of its samples; results beyond them are not read.
     count: usize,
-    /// The starts of segments in this block.
+    /// The segments that start in this block.
     starts: &'a [(usize, Beginning)],
 }
 
@@ -199,7 +199,8 @@ impl Moment<'_> {
         }
     }
 
-    /// Rows that are missing in the last block are as its last one: numbers of the usual size.
+    /// A column. Beyond the last sample its value is repeated: usual magnitudes, no slow special
+    /// cases.
     #[inline(always)]
     fn column(&self, out: &mut [f64; BLOCK], column: usize) {
         let rows = &self.given.columns[column][self.first..][..self.count];
@@ -208,7 +209,7 @@ impl Moment<'_> {
         rest.fill(rows[self.count - 1]);
     }
 
-    /// The rows of the block in stretches without a start, and how their first one starts.
+    /// Ranges of the block that contain no segment start, and how each begins; `None` continues.
     #[inline(always)]
     fn stretches(&self) -> impl Iterator<Item = (Option<Beginning>, Range<usize>)> {
         let starts =
@@ -222,7 +223,7 @@ impl Moment<'_> {
         starts.zip(ends.chain([self.count])).map(|((how, from), to)| (how, from..to))
     }
 
-    /// Where the state is before a row at which a stretch begins so.
+    /// The state before the first sample of a range that begins in this way.
     #[inline(always)]
     fn before_start(
         &self,
@@ -251,7 +252,8 @@ impl Moment<'_> {
         *memory = x.at(self.count - 1);
     }
 
-    /// One state, or derivatives of one: while one waits for its sum the others go on.
+    /// Steps one state, or a group of derivatives of one state, whose chains of dependent sums
+    /// overlap.
     #[inline(always)]
     fn relax<const K: usize>(
         &self,
@@ -274,13 +276,13 @@ impl Moment<'_> {
             for (state, settled) in states.iter_mut().zip(settled) {
                 *state = self.before_start(how, *state, || settled.at(first), start);
             }
-            // Cut to one length, so that no index needs to be checked within the loops.
+            // Slices of one length remove the bounds checks from the loops.
             let length = rows.len();
             let share = &share[rows.clone()][..length];
             let [target, extra, shift] =
                 [target, extra, shift].map(|all| all.map(|all| &all[rows.clone()][..length]));
             let outs = outs.each_mut().map(|out| &mut out[rows.clone()][..length]);
-            // By value: in registers.
+            // A local copy, which stays in registers.
             let mut at = *states;
             macro_rules! step {
                 ($row:ident, $k:ident => $state:expr) => {
@@ -293,7 +295,7 @@ impl Moment<'_> {
                 };
             }
             match (no_target, no_extra, no_shift) {
-                // Sum and product do not wait for each other.
+                // Sum and product are independent and overlap.
                 (true, _, true) => {
                     step!(i, k => (at[k] + extra[k][i]) - share[i] * at[k]);
                 }
@@ -308,7 +310,7 @@ impl Moment<'_> {
         }
     }
 
-    /// Derivatives of one state, together.
+    /// Steps a group of derivatives of one state.
     #[inline(always)]
     fn relax_alike<'b, const K: usize>(
         &self,
@@ -348,7 +350,7 @@ impl Moment<'_> {
     }
 }
 
-/// One number a row, also of what all share.
+/// An operand as one number per sample.
 #[inline(always)]
 fn each<'a>(from: Operand<'a>, scratch: &'a mut Buffer) -> &'a [f64; BLOCK] {
     match from {
@@ -361,7 +363,7 @@ fn each<'a>(from: Operand<'a>, scratch: &'a mut Buffer) -> &'a [f64; BLOCK] {
     }
 }
 
-/// The same of several.
+/// Several operands as one number per sample each.
 #[inline(always)]
 fn each_of<'a, const K: usize>(
     from: [Operand<'a>; K],

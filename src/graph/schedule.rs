@@ -1,62 +1,62 @@
-//! Which operations run, in which order, and where their results stand.
+//! The order of operations and the buffers for their results.
 
 use std::vec;
 use std::vec::Vec;
 
 use super::operation::{Id, Operation, Relaxing, Start};
 
-/// Where a number stands while the graph runs.
+/// The location of a number during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// The same for all rows.
+    /// Index of a number that is the same for all samples.
     Uniform(usize),
-    /// A buffer, one number a row of the block.
+    /// Index of a buffer, with one number per sample of the block.
     Buffer(usize),
 }
 
-/// An operation with the places of what it takes and leaves.
+/// An operation with the locations of its operands and its result.
 #[derive(Clone, Copy, Debug)]
 pub struct Task {
-    /// What is done.
+    /// The operation.
     pub operation: Operation,
-    /// Where its operands stand, in their order.
+    /// Locations of its operands, in their order.
     pub from: [Place; 5],
-    /// Where the result goes; for one that all rows share, its place among these.
+    /// Index of the result: a buffer, or a uniform number.
     pub to: usize,
-    /// Where what it remembers stands, of an operation with a memory.
+    /// Index of the value kept from block to block, for an operation with memory.
     pub memory: usize,
-    /// How many operations from this one on run together: derivatives of one state.
+    /// Number of tasks, from this one on, that run as a group: derivatives of one state.
     pub together: usize,
 }
 
-/// Derivatives of a state that run together.
+/// Largest number of derivatives of a state that run as a group.
 pub const MOST_TOGETHER: usize = 8;
 
-/// The operations behind some outputs.
+/// The operations that some outputs need.
 #[derive(Clone, Debug)]
 pub struct Schedule {
-    /// What is done once, for all rows.
+    /// Computed once, for all samples.
     pub once: Vec<Task>,
-    /// What is done for each block of rows.
+    /// Computed for each block of samples.
     pub each: Vec<Task>,
-    /// Where the outputs stand.
+    /// Locations of the outputs.
     pub outputs: Vec<Place>,
-    /// How many numbers all rows share.
+    /// Number of uniform numbers.
     pub uniforms: usize,
-    /// How many buffers are needed at once.
+    /// Number of buffers.
     pub buffers: usize,
-    /// How many numbers are remembered from block to block.
+    /// Number of values kept from block to block.
     pub memories: usize,
 }
 
 impl Schedule {
-    /// Of a graph's operations, what the outputs need.
+    /// The schedule of the operations that the outputs need.
     #[must_use]
     pub fn of(operations: &[Operation], outputs: &[Id]) -> Self {
         let order = order(operations, outputs);
         let mut last_use: Vec<Option<usize>> = vec![None; operations.len()];
         for (place, &id) in order.iter().enumerate() {
-            // What runs together with this reads what it reads until all of it is done.
+            // The operands of a group stay in use until all of the group is computed.
             let together = order[place..].iter().take_while(|&&id| is_slope(operations[id]));
             let done = place + together.count().max(1) - 1;
             for operand in operations[id].operands() {
@@ -118,8 +118,8 @@ impl Schedule {
     }
 }
 
-/// The nodes that the outputs need, in an order in which they can be computed. Derivatives of a
-/// state wait for each other as long as nothing reads them: side by side they run faster.
+/// The nodes that the outputs need, operands first. Derivatives of a state are deferred until one
+/// of them is read, so that they form groups.
 fn order(operations: &[Operation], outputs: &[Id]) -> Vec<Id> {
     let mut needed = vec![false; operations.len()];
     for &output in outputs {
@@ -149,7 +149,7 @@ fn is_slope(operation: Operation) -> bool {
     matches!(operation, Operation::Relax(Relaxing { start: Start::Zero, .. }))
 }
 
-/// How many tasks from the first on are derivatives of one state, as far as they run together.
+/// How many tasks from the first on are derivatives of one state and run as a group.
 fn relaxing_alike(tasks: &[Task]) -> usize {
     let alike = |task: &&Task| match (tasks[0].operation, task.operation) {
         (Operation::Relax(first), Operation::Relax(own)) => {
@@ -160,7 +160,7 @@ fn relaxing_alike(tasks: &[Task]) -> usize {
     tasks.iter().take(MOST_TOGETHER).take_while(alike).count().max(1)
 }
 
-/// Buffers that are free again are used again.
+/// Allocates buffers and reuses those that are free again.
 #[derive(Default)]
 struct Layout {
     free: Vec<usize>,

@@ -21,8 +21,8 @@ pub fn atan<F: Format>(x: F) -> F {
     let t = numerator / denominator;
     let z = t * t;
 
-    // What rounding has taken from the quotient: 1 / (a + 1) is (1 - t) / 2, and the derivative of
-    // atan t is nearly 1 - t^2.
+    // Corrects the rounding error of the quotient: 1 / (a + 1) is (1 - t) / 2, and the derivative
+    // of atan t is nearly 1 - t^2.
     let lost = (size - (below + one)) - t * (size - (above - one));
     let correction = half * lost * ((one - t) * (one - z));
 

@@ -1,12 +1,12 @@
-//! The bits of a float: signs, powers of two, whole numbers.
+//! The bits of a float: signs, powers of two, integers.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A float whose bits can be worked with.
+/// A float whose bits can be manipulated.
 ///
-/// Nothing here but operations that every vector unit has: no conversion between whole numbers and
-/// floats, no arithmetic shift. A whole number is added to `1.5 * 2^52` instead (to `1.5 * 2^23` in
-/// single precision) and then stands in the lowest bits.
+/// Uses only operations that every vector unit has: no conversion between integers and floats, no
+/// arithmetic shift. To convert an integer-valued float, `1.5 * 2^52` is added (`1.5 * 2^23` in
+/// single precision), which leaves the integer in the lowest bits.
 pub trait Bits:
     Copy
     + PartialOrd
@@ -16,18 +16,18 @@ pub trait Bits:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// A whole number in the lowest bits; those above it mean nothing.
+    /// An integer in the lowest bits; the higher bits are arbitrary.
     type Whole: Copy;
 
     const SMALLEST_NORMAL: Self;
     const INFINITY: Self;
     const NAN: Self;
 
-    /// A constant.
+    /// A constant that is exact in single precision.
     fn of(x: f32) -> Self;
-    /// Whether it is no number.
+    /// Whether it is NaN.
     fn is_nan(self) -> bool;
-    /// Whether it is the same number, or the same NaN, with the same sign.
+    /// Whether the bits are equal: same number and sign, or the same NaN.
     fn has_bits_of(self, other: Self) -> bool;
     /// Whether `lower <= x < upper`, for two positive numbers.
     fn is_between(self, lower: Self, upper: Self) -> bool;
@@ -35,46 +35,47 @@ pub trait Bits:
     fn abs(self) -> Self;
     /// `|x|` with the sign of another number.
     fn copysign(self, sign: Self) -> Self;
-    /// `x` without the lower half of its digits: the product of two such numbers is exact.
+    /// `x` with the lower half of its significand cleared: the product of two such numbers is
+    /// exact.
     fn short(self) -> Self;
-    /// The nearest whole number, as a float and as bits, of a number below `2^51` (`2^22`).
+    /// The nearest integer, as a float and in the lowest bits, for `|x| < 2^51` (`2^22`).
     fn nearest(self) -> (Self, Self::Whole);
     /// `2^(n-1)`, for a result in the normal range.
     fn half_power_of_two(n: Self::Whole) -> Self;
-    /// `2^n x`, where `x` and the result are in the normal range.
+    /// `2^n x`, where `x` and the result are normal.
     fn times_power_of_two_in_range(self, n: Self::Whole) -> Self;
-    /// `2^n x`, rounded once: `n` may be somewhat less or more than any exponent of the format.
+    /// `2^n x`, rounded once; `n` may lie somewhat outside the exponent range of the format.
     fn times_power_of_two(self, n: Self::Whole) -> Self;
-    /// Whether the bit of weight one is set.
+    /// Whether the lowest bit is set.
     fn is_odd(n: Self::Whole) -> bool;
-    /// `-x` where the bit of weight two is set in `n + add`.
+    /// `-x` where the second-lowest bit of `n + add` is set.
     fn negated_by_second_bit(self, n: Self::Whole, add: u8) -> Self;
-    /// `k` and `m` of `x = 2^k m` with `m` between `sqrt(1/2)` and `sqrt(2)`, for finite `x > 0`;
-    /// some finite numbers for any other `x`.
+    /// `k` and `m` of `x = 2^k m` with `sqrt(1/2) <= m < sqrt(2)`, for finite `x > 0`; arbitrary
+    /// finite numbers for any other `x`.
     fn exponent_and_significand(self) -> (Self, Self);
-    /// The same of a number in the normal range.
+    /// The same for a normal positive number.
     fn exponent_and_significand_of_normal(self) -> (Self, Self);
-    /// Whether a number is in the normal range and positive.
+    /// Whether the number is normal and positive.
     fn is_normal_and_positive(self) -> bool;
-    /// `m` and `e` of `|x| = m 2^e` with a whole `m`, for a finite number in the normal range.
+    /// `m` and `e` of `|x| = m 2^e` with an integer `m`, for a normal number.
     fn whole_and_exponent(self) -> (u64, i32);
-    /// `fraction / 2^digits` as the sum of a number and a small one.
+    /// `fraction / 2^digits` as an unevaluated sum of a large and a small number.
     fn pair_of_fraction(fraction: i128, digits: u32) -> (Self, Self);
-    /// A small whole number.
+    /// A small integer.
     fn whole(n: u8) -> Self::Whole;
-    /// Whether a number is whole, and whether it is odd; not for NaN.
+    /// Whether the number is an integer, and whether it is odd; not for NaN.
     fn whole_and_odd(self) -> (bool, bool);
 }
 
 macro_rules! bits {
     ($float:ident, $whole:ident) => {
         const _: () = {
-            /// Digits after the leading one.
+            /// Stored bits of the significand.
             const STORED: u32 = <$float>::MANTISSA_DIGITS - 1;
             /// The exponent field of 1.
             const BIAS: $whole = (<$float>::MAX_EXP - 1) as $whole;
             const ONE: $whole = BIAS << STORED;
-            /// From here on every number is whole.
+            /// From here on every float is an integer.
             const WHOLE: $float = ((1 as $whole) << STORED) as $float;
 
             impl Bits for $float {
@@ -101,7 +102,8 @@ macro_rules! bits {
 
                 #[inline(always)]
                 fn is_between(self, lower: Self, upper: Self) -> bool {
-                    // As whole numbers positive floats are in order, and negative ones above them.
+                    // Positive floats have the order of their bits as integers; negative ones lie
+                    // above them.
                     let (lower, upper) = (lower.to_bits(), upper.to_bits());
                     self.to_bits().wrapping_sub(lower) < upper - lower
                 }
@@ -141,8 +143,8 @@ macro_rules! bits {
 
                 #[inline(always)]
                 fn times_power_of_two(self, n: $whole) -> Self {
-                    // Two factors reach beyond the normal range. Twice the bias is enough for both
-                    // and makes their sum positive, so that a logical shift halves it.
+                    // Two factors reach beyond the normal range. Adding twice the bias makes the
+                    // sum positive, so that a logical shift halves it.
                     let both = n.wrapping_add(2 * BIAS);
                     let first = both >> 1;
                     let second = both.wrapping_sub(first);
@@ -176,7 +178,7 @@ macro_rules! bits {
                 fn exponent_and_significand_of_normal(self) -> (Self, Self) {
                     const ROOT_HALF: $whole =
                         (core::f64::consts::FRAC_1_SQRT_2 as $float).to_bits();
-                    // Moved so that the binary exponent changes at the root and not at 1.
+                    // Offset so that the exponent changes at sqrt(1/2) and not at 1.
                     let moved = self.to_bits().wrapping_add(ONE - ROOT_HALF);
                     let exponent = Self::from_bits((moved >> STORED) | WHOLE.to_bits());
                     let significand = (moved & ((1 << STORED) - 1)) + ROOT_HALF;

@@ -1,8 +1,8 @@
-//! The same functions for one number at a time: what is usual comes first, by a branch, and computes
-//! nothing but what it needs.
+//! Elementary functions with branches, for one number at a time: the usual case comes first and
+//! computes only what it needs.
 //!
-//! On a microcontroller an operation that could have been left out is time. The bits are those of
-//! the functions without branches, whose parts these are.
+//! A microcontroller has no time for operations whose result is discarded. The bits are those of
+//! the functions without branches, whose parts are used here.
 
 use super::format::Format;
 use super::{exponential, phi, power, trigonometric};

@@ -1,8 +1,8 @@
-//! Double precision.
+//! Constants and polynomials of double precision.
 //!
-//! The polynomials are those of `tests/elementary/coefficients.py`.
+//! `tests/elementary/coefficients.py` computes the coefficients.
 
-// All the digits that identify a number; a rounded ln 2 is meant as such.
+// Coefficients are written with all digits that identify the float; the rounded ln 2 is intended.
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
 use super::format::Format;
@@ -14,7 +14,7 @@ impl Format for f64 {
     const EXP2_RANGE: Self = 1100.0;
     const EXP2_NORMAL: Self = 1020.0;
     const EXPM1_LINEAR: Self = 5.551115123125783e-17;
-    // Powers of two, which are cheap to compare with.
+    // Powers of two: cheap to compare with.
     const EXP_USUAL: Self = 512.0;
     const EXP_FAR: Self = 1024.0;
     const EXPM1_USUAL: Self = 64.0;

@@ -1,7 +1,7 @@
 //! `e^x` and `e^x - 1`.
 //!
 //! `x = n ln 2 + r` with `|r| <= ln(2) / 2`, and `e^r = 1 + r + r^2 Q(r)`. As `ln 2` has two parts,
-//! so has `r`: the larger is exact, and the smaller is added to the square's term, which is small.
+//! so has `r`: the larger is exact, and the smaller is added to the small quadratic term.
 
 use super::format::{Format, within};
 
@@ -13,7 +13,7 @@ pub fn exp<F: Format>(x: F) -> F {
     significand.times_power_of_two(bits)
 }
 
-/// `m` and `n` of `e^x = 2^n m` with `m` about 1, for `x` in `EXP_RANGE`.
+/// `m` and `n` of `e^x = 2^n m` with `m` near 1, for `x` in `EXP_RANGE`.
 #[inline(always)]
 pub fn exp_parts<F: Format>(x: F) -> (F, F::Whole) {
     let (n, bits) = (x * F::LOG2_E).nearest();
@@ -31,11 +31,11 @@ pub fn expm1<F: Format>(x: F) -> F {
     if x.abs() < F::EXPM1_LINEAR { x } else { value }
 }
 
-/// `(e^x - 1) / 2` as the sum of a number and what rounding has taken from it; the half, because
-/// `2^n` itself may be too large.
+/// `(e^x - 1) / 2` as a number and its rounding error. Half of it, because `2^n` itself may
+/// overflow.
 ///
-/// In `(2^n - 1) + 2^n r + 2^n (e^r - 1 - r)` the first two may cancel, the last is always small, and
-/// where `n` is 0 it is alone with `x`.
+/// In `(2^n - 1) + 2^n r + 2^n (e^r - 1 - r)` the first two terms may cancel and the last is small;
+/// for `n = 0` only the last two remain.
 #[inline(always)]
 pub fn half_expm1<F: Format>(x: F) -> (F, F) {
     let (lowest, highest) = F::EXPM1_RANGE;

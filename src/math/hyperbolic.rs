@@ -3,10 +3,10 @@
 use super::exponential::half_expm1;
 use super::format::{Format, within};
 
-/// Hyperbolic tangent: `h / (1 + h)` of `h = (e^(2 |x|) - 1) / 2`.
+/// Hyperbolic tangent: `h / (1 + h)` with `h = (e^(2 |x|) - 1) / 2`.
 ///
-/// Both have been rounded. What that has taken from them, `lost` and `denominator_lost`, changes the
-/// quotient `q` by `(lost - q denominator_lost) / (1 + h)`, and `1 / (1 + h)` is `1 - q`.
+/// Numerator and denominator have rounding errors, `lost` and `denominator_lost`. They change the
+/// quotient `q` by `(lost - q denominator_lost) / (1 + h)`, where `1 / (1 + h)` is `1 - q`.
 #[inline(always)]
 pub fn tanh<F: Format>(x: F) -> F {
     let one = F::of(1.0);

@@ -1,8 +1,8 @@
-//! The constants of a format by name, for programs in other languages.
+//! The constants of a format by name, for code generated in other languages.
 
 use super::format::Format;
 
-/// Each constant and each polynomial's coefficients, by the names that they have here.
+/// Calls `each` with the name of every constant and coefficient list, and its values.
 pub fn constants<F: Format>(mut each: impl FnMut(&'static str, &[F])) {
     each("exp_range", &[F::EXP_RANGE.0, F::EXP_RANGE.1]);
     each("expm1_range", &[F::EXPM1_RANGE.0, F::EXPM1_RANGE.1]);

@@ -1,13 +1,13 @@
 //! Logarithms.
 //!
-//! `x = 2^k m`, and with `s = (m - 1) / (m + 1)` is `ln m = 2 artanh s`, an odd series in `s`.
+//! `x = 2^k m`. With `s = (m - 1) / (m + 1)`, `ln m = 2 artanh s`: an odd series in `s`.
 
 use super::format::Format;
 
 /// Natural logarithm.
 ///
-/// With `f = m - 1` is `2 s = f - s f`, so `ln m = f - (f^2/2 - s (f^2/2 + R))`: its largest term
-/// is exact (K. C. Ng, fdlibm).
+/// With `f = m - 1`, `2 s = f - s f`, so `ln m = f - (f^2/2 - s (f^2/2 + R))`: its largest term is
+/// exact (K. C. Ng, fdlibm).
 #[inline(always)]
 pub fn ln<F: Format>(x: F) -> F {
     let (k, m) = x.exponent_and_significand();
@@ -22,12 +22,12 @@ pub fn ln<F: Format>(x: F) -> F {
     if x < F::INFINITY { value } else { x }
 }
 
-/// The binary logarithm of `2^k m` (from `exponent_and_significand`) as the sum of a short number and
-/// a small one: half as many digits again as one number has.
+/// The binary logarithm of `2^k m` (from `exponent_and_significand`) as the sum of a number with
+/// half the digits and a small one: together one and a half times the precision of the format.
 ///
 /// `ln m = 2/3 s (3 + z + z^2 L)` with `z = s^2`. Every factor is split so that the product of the
-/// short parts is exact (as in fdlibm's `pow`). The short parts come from the rough values, and what
-/// these lack joins the small ones: so the two chains do not wait for each other.
+/// high parts is exact (as in fdlibm's `pow`). The high parts come from unrefined values, and their
+/// errors are added to the low parts: this shortens the chain of dependent operations.
 #[inline(always)]
 pub fn log2_pair<F: Format>((k, m): (F, F)) -> (F, F) {
     let (one, three) = (F::of(1.0), F::of(3.0));

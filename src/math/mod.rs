@@ -1,23 +1,23 @@
-//! The one door to transcendental functions.
+//! Transcendental functions with the same bits on every machine.
 //!
-//! They are written in `+ - * /`, comparisons and whole-number operations on bits, in one order, so
-//! that a wheel, a test, a microcontroller and every vector unit compute the same bits. `clippy.toml`
-//! bans every other way; a fused multiply-add is used nowhere, and single precision never computes
-//! in double.
+//! They use only `+ - * /`, comparisons and integer operations on bits, in a fixed order, so that a
+//! desktop, a microcontroller and every vector unit compute the same bits. `clippy.toml` bans the
+//! functions of `std` and `libm` elsewhere. There is no fused multiply-add, and single precision
+//! never computes in double.
 //!
-//! No function but [`sin_cos`](f64::sin_cos), [`sin`](f64::sin), [`cos`](f64::cos) and
-//! [`phi`](f64::phi) of order 3 and more has a branch: a loop over a slice becomes packed code. For
-//! sines in such a loop take [`sin_cos_fast`](f64::sin_cos_fast) and mend what
-//! [`needs_care`](f64::needs_care) with `sin_cos`: the bits are the same.
+//! Only [`sin_cos`](f64::sin_cos), [`sin`](f64::sin), [`cos`](f64::cos) and [`phi`](f64::phi) of
+//! order 3 and above branch: the compiler vectorises a loop over a slice with any other. For sines
+//! in such a loop use [`sin_cos_fast`](f64::sin_cos_fast), and recompute with `sin_cos` where
+//! [`needs_care`](f64::needs_care) is true: the bits are the same.
 //!
-//! | file | what is there |
+//! | file | content |
 //! |---|---|
-//! | `exponential`, `phi`, `logarithm`, `power`, `hyperbolic`, `arctangent`, `trigonometric` | the functions, once for both formats |
-//! | `branching` | some of them again for one number at a time |
-//! | `double`, `single`, `format` | constants and minimax polynomials of a format |
-//! | `phase` | quarter turns in a large phase |
-//! | `root` | square roots, as IEEE 754 has them |
-//! | `bits` | powers of two, whole numbers and signs |
+//! | `exponential`, `phi`, `logarithm`, `power`, `hyperbolic`, `arctangent`, `trigonometric` | the functions, generic over both formats |
+//! | `branching` | some of them with branches, for one number at a time |
+//! | `double`, `single`, `format` | constants and minimax polynomials of each format |
+//! | `phase` | reduction of large arguments of sine and cosine |
+//! | `root` | square roots, correctly rounded |
+//! | `bits` | signs, powers of two and integers in the bits of a float |
 //! | `polynomial` | Estrin's scheme |
 //! | `listing` | all constants by name |
 //!
@@ -44,47 +44,48 @@ mod trigonometric;
 
 macro_rules! elementary {
     ($float:ident: $sqrt:ident, $cbrt:ident) => {
-        /// Elementary functions on one primitive type.
+        /// Elementary functions of one primitive type.
         pub mod $float {
             use super::{
                 arctangent, exponential, hyperbolic, listing, logarithm, phi, power, root,
                 trigonometric,
             };
 
-            /// Each constant behind these functions, and each polynomial's coefficients, by name:
-            /// for programs in other languages.
+            /// Calls `each` with the name and value of every constant and coefficient list of these
+            /// functions, for code generated in other languages.
             pub fn constants(each: impl FnMut(&'static str, &[$float])) {
                 listing::constants(each);
             }
 
             elementary!(@ "`e^x`.", exp(x: $float) -> $float, exponential::exp(x));
             elementary!(@ "`e^x - 1`.", expm1(x: $float) -> $float, exponential::expm1(x));
-            elementary!(@ "`phi_k(x) = sum_j x^j / (j + k)!`, the weights of an exponential step.",
+            elementary!(@ "`phi_k(x) = sum_j x^j / (j + k)!`, the weights of an exponential integrator.",
                 phi(order: u8, x: $float) -> $float, phi::phi(order, x));
             elementary!(@ "Natural logarithm.", ln(x: $float) -> $float, logarithm::ln(x));
-            elementary!(@ "`x` to the power `p`; of a negative `x` only whole ones.",
+            elementary!(@ "`x` to the power `p`; of a negative `x` integer powers only.",
                 powf(x: $float, p: $float) -> $float, power::powf(x, p));
-            elementary!(@ "Binary logarithm of a normal, positive number in two parts: half of a power.",
+            elementary!(@ "Binary logarithm of a normal, positive number in two parts, for [`powf_fast`].",
                 log2_fast(x: $float) -> ($float, $float), power::log2_fast(x));
-            elementary!(@ "The power from the [logarithm](log2_fast), or NaN where [`powf`] is to be asked.",
+            elementary!(@ "The power from the [logarithm](log2_fast), or NaN where [`powf`] must be used.",
                 powf_fast(x: $float, logarithm: ($float, $float), p: $float) -> $float,
                 power::powf_fast(x, logarithm, p));
-            elementary!(@ "The power by an exponent of 0, 1 or 2, which [`powf_fast`] does not take; else `value`.",
+            elementary!(@ "The power for an exponent of 0, 1 or 2, which [`powf_fast`] does not support; else `value`.",
                 power_without_logarithm(value: $float, x: $float, p: $float) -> $float,
                 power::without_logarithm(value, x, p));
-            elementary!(@ "Whether [`powf_fast`] takes this exponent.",
+            elementary!(@ "Whether [`powf_fast`] supports this exponent.",
                 is_plain_exponent(p: $float) -> bool, power::is_plain_exponent(p));
             elementary!(@ "Hyperbolic tangent.", tanh(x: $float) -> $float, hyperbolic::tanh(x));
             elementary!(@ "Arc tangent.", atan(x: $float) -> $float, arctangent::atan(x));
             elementary!(@ "Square root.", sqrt(x: $float) -> $float, root::$sqrt(x));
-            elementary!(@ "Real, odd cube root.", cbrt(x: $float) -> $float, libm::$cbrt(x));
+            elementary!(@ "Cube root, negative for negative `x`.", cbrt(x: $float) -> $float, libm::$cbrt(x));
             elementary!(@ "Sine.", sin(x: $float) -> $float, sin_cos(x).0);
             elementary!(@ "Cosine.", cos(x: $float) -> $float, sin_cos(x).1);
             elementary!(@ "Sine and cosine.", sin_cos(x: $float) -> ($float, $float),
                 trigonometric::sin_cos(x));
-            elementary!(@ "Sine and cosine without a branch, where `x` does not [need care](needs_care).",
+            elementary!(@ "Sine and cosine without a branch, where [`needs_care`] is false.",
                 sin_cos_fast(x: $float) -> ($float, $float), trigonometric::sin_cos_fast(x));
-            /// The same functions for one number at a time, by branches: fewer operations, equal bits.
+            /// The same functions with branches, for one number at a time: fewer operations, equal
+            /// bits.
             pub mod branching {
                 use super::super::branching;
 

@@ -1,7 +1,7 @@
-//! Quarter turns in a phase of any size (the reduction of Payne and Hanek).
+//! Reduction of an argument of any size to quarter turns (Payne and Hanek).
 //!
-//! A phase is a whole number times a power of two, `m 2^e`. Of `2^e 2/pi` only a window of 192 bits
-//! can count: those above it make whole turns of every `m`, those below it are too small to be seen.
+//! The argument is an integer times a power of two, `m 2^e`. Of `2^e 2/pi` only a window of 192
+//! bits matters: higher bits add full turns for every `m`, lower bits are below the precision.
 
 use super::format::Format;
 
@@ -29,7 +29,7 @@ const TWO_OVER_PI: [u64; 20] = [
     0x5603_3046_fc7b_6bab,
 ];
 
-/// Digits of a fraction of a quarter turn in [`quarter_turns`].
+/// Binary digits of the fraction of a quarter turn in [`quarter_turns`].
 const FRACTION: u32 = 126;
 
 /// `n` modulo 4 and `r` in two parts of `|x| = n pi/2 + r`, for finite `|x| >= 1`.
@@ -46,7 +46,7 @@ pub fn reduce<F: Format>(x: F) -> (F::Whole, F, F) {
     (F::whole(whole), r, lost + (high * right_angle_low + low * right_angle))
 }
 
-/// Quarter turns of `m 2^e`: the nearest whole number, modulo 4, and the rest, as a multiple of
+/// Quarter turns of `m 2^e`: the nearest integer modulo 4, and the remainder in multiples of
 /// `2^-126`.
 fn quarter_turns((m, e): (u64, i32)) -> (u8, i128) {
     // The first bit of the window is worth two quarter turns.

@@ -1,4 +1,4 @@
-//! The weights of an exponential step: `phi_k(x) = sum_j x^j / (j + k)!`.
+//! The weights of an exponential integrator: `phi_k(x) = sum_j x^j / (j + k)!`.
 
 use super::exponential::{exp, expm1, half_expm1};
 use super::format::Format;
@@ -38,7 +38,7 @@ fn recurrence<F: Format>(order: u8, x: F) -> F {
     (2..order).fold(phi_2(x), |phi, k| (phi - F::inverse_factorial(k.into())) / x)
 }
 
-/// Even and odd terms apart: neither has to wait for the other.
+/// The series. Even and odd terms are summed separately, so that the two sums run in parallel.
 fn series<F: Format>(order: u8, x: F) -> F {
     let square = x * x;
     let term = |j: usize| F::inverse_factorial(j + usize::from(order));

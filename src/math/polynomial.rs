@@ -1,8 +1,8 @@
 //! Polynomials by Estrin's scheme.
 
-/// `c0 + c1 x + c2 x^2 + ...`: neighbours are joined to a polynomial in `x^2`, and so on. Of `n`
-/// coefficients only about `log2 n` wait for one another, of Horner's scheme all. With brackets
-/// around `c0` there is no `c1`: `c0 + c2 x^2 + c3 x^3 + ...`.
+/// `c0 + c1 x + c2 x^2 + ...`: pairs of neighbours form a polynomial in `x^2`, and so on. The chain
+/// of dependent operations has a length of about `log2 n` for `n` coefficients; Horner's scheme has
+/// `n`. With brackets around `c0` there is no `c1`: `c0 + c2 x^2 + c3 x^3 + ...`.
 macro_rules! estrin {
     ($x:ident; [$first:expr], $($coefficient:expr),+ $(,)?) => {
         estrin!(@pairs $x [$first] $($coefficient),+)

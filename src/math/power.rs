@@ -1,12 +1,12 @@
-//! `x^p`.
+//! The power `x^p`.
 
 use super::format::{Format, within};
 use super::logarithm::log2_pair;
 
 /// `x` to the power `p`, with the special cases of IEEE 754's `pow`.
 ///
-/// `p log2 x` may be a thousand and its error counts in full, so the logarithm comes with more
-/// digits. `x^1` and `x^2` are exact as far as they can be.
+/// `p log2 x` may be about 1000, where a relative error counts a thousandfold, so the logarithm has
+/// extra digits. `x^1` and `x^2` are correctly rounded.
 #[inline(always)]
 pub fn powf<F: Format>(x: F, p: F) -> F {
     let (zero, one) = (F::of(0.0), F::of(1.0));
@@ -26,7 +26,7 @@ pub fn powf<F: Format>(x: F, p: F) -> F {
     without_logarithm(value, x, p)
 }
 
-/// The power where an exponent of 0, 1 or 2 asks for no logarithm, elsewhere a value as it is.
+/// The power for an exponent of 0, 1 or 2, which needs no logarithm; `value` for any other.
 #[inline(always)]
 pub fn without_logarithm<F: Format>(value: F, x: F, p: F) -> F {
     let (zero, one) = (F::of(0.0), F::of(1.0));
@@ -36,15 +36,15 @@ pub fn without_logarithm<F: Format>(value: F, x: F, p: F) -> F {
 }
 
 /// The binary logarithm of a normal, positive number, high and low part: the first half of
-/// [`powf`]. In two loops more numbers are under way at a time than in one.
+/// [`powf`]. Two loops of half the length keep more independent operations in flight than one.
 #[inline(always)]
 pub fn log2_fast<F: Format>(x: F) -> (F, F) {
     log2_pair(x.exponent_and_significand_of_normal())
 }
 
-/// `x` to the power `p` from its [logarithm](log2_fast), without a branch and without most special
-/// cases: where these might matter the result is NaN, and [`powf`] is to be asked. Otherwise the bits
-/// are the same. `p` is neither 0, 1, 2 nor beyond any use.
+/// `x` to the power `p` from its [logarithm](log2_fast), without branches and without most special
+/// cases: where these might matter the result is NaN and [`powf`] must be used. Otherwise the bits
+/// are the same. `p` must pass [`is_plain_exponent`].
 #[inline(always)]
 pub fn powf_fast<F: Format>(x: F, logarithm: (F, F), p: F) -> F {
     let zero = F::of(0.0);
@@ -57,13 +57,13 @@ pub fn powf_fast<F: Format>(x: F, logarithm: (F, F), p: F) -> F {
     if (x == zero) & (p > zero) { zero } else { value }
 }
 
-/// Whether [`powf_fast`] takes this exponent.
+/// Whether [`powf_fast`] supports this exponent: not 0, 1, 2, NaN or very large.
 #[inline(always)]
 pub fn is_plain_exponent<F: Format>(p: F) -> bool {
     p.abs() < F::LARGE_EXPONENT && p != F::of(0.0) && p != F::of(1.0) && p != F::of(2.0)
 }
 
-/// `p l` for `l = high + low`: an exact product, and the rest.
+/// `p l` for `l = high + low`: the exact product of the high parts, and the rest.
 #[inline(always)]
 pub fn product<F: Format>(p: F, (high, low): (F, F)) -> (F, F) {
     let p_high = p.short();

@@ -1,4 +1,4 @@
-//! Square roots: rounded correctly, as IEEE 754 demands, and so the same bits by any of these ways.
+//! Square roots. IEEE 754 requires correct rounding, so every implementation gives the same bits.
 
 macro_rules! square_root {
     ($(#[$doc:meta] $name:ident($float:ident) without_std $other:path;)+) => {$(
@@ -6,7 +6,8 @@ macro_rules! square_root {
         #[inline(always)]
         #[must_use]
         pub fn $name(x: $float) -> $float {
-            // The compiler's own is an instruction of the kind that the loop around it is made of.
+            // `std`'s square root compiles to an instruction that vectorises with the loop around
+            // it.
             #[cfg(feature = "std")]
             #[allow(clippy::disallowed_methods)]
             let root = x.sqrt();

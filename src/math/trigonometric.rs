@@ -1,6 +1,6 @@
 //! Sine and cosine.
 //!
-//! `x = n pi/2 + r` with `|r| <= pi/4`; `n` says which of the two series, with which sign.
+//! `x = n pi/2 + r` with `|r| <= pi/4`; `n` selects the series and its sign.
 
 use super::format::Format;
 use super::phase;
@@ -11,27 +11,27 @@ pub fn sin_cos<F: Format>(x: F) -> (F, F) {
     if needs_care(x) { sin_cos_with_care(x) } else { sin_cos_fast(x) }
 }
 
-/// Whether a phase is too large for [`sin_cos_fast`].
+/// Whether `|x|` is too large for [`sin_cos_fast`].
 #[inline(always)]
 pub fn needs_care<F: Format>(x: F) -> bool {
     x.abs() > F::LARGEST_PHASE
 }
 
-/// Sine and cosine of a phase that [does not need care](needs_care), without a branch.
+/// Sine and cosine without branches, where [`needs_care`] is false.
 #[inline(always)]
 pub fn sin_cos_fast<F: Format>(x: F) -> (F, F) {
     let (n, bits) = (x * F::FRAC_2_PI).nearest();
     let [first, second, third, fourth] = F::PI_HALF;
-    // Next to a multiple of pi/2 one part after the other cancels.
+    // Near a multiple of pi/2 each subtraction may cancel.
     let (sum, lost) = difference(x - n * first, n * second);
     let (r, lost_again) = difference(sum, n * third);
     let low = (lost + lost_again) - n * fourth;
     let (sin, cos) = of_quadrant(bits, r, low);
-    // -0 stays what it is
+    // keeps the sign of -0
     (if x == F::of(0.0) { x } else { sin }, cos)
 }
 
-/// Sine and cosine of a phase that is less than half a quarter turn: of itself.
+/// Sine and cosine for `|x| < PHASE_USUAL`, without argument reduction.
 #[inline(always)]
 pub fn sin_cos_unreduced<F: Format>(x: F) -> (F, F) {
     let z = x * x;
@@ -42,7 +42,7 @@ pub fn sin_cos_unreduced<F: Format>(x: F) -> (F, F) {
     (if x == F::of(0.0) { x } else { sin }, rough + F::cos_beyond(lost, z))
 }
 
-/// Sine and cosine of a large phase.
+/// Sine and cosine of a large argument.
 #[cold]
 fn sin_cos_with_care<F: Format>(x: F) -> (F, F) {
     if x.abs() == F::INFINITY {
@@ -64,7 +64,7 @@ fn of_quadrant<F: Format>(n: F::Whole, r: F, low: F) -> (F, F) {
     )
 }
 
-/// `a - b`, and what rounding has taken from it.
+/// `a - b`, and its rounding error.
 #[inline(always)]
 fn difference<F: Format>(a: F, b: F) -> (F, F) {
     let rounded = a - b;

@@ -1,28 +1,30 @@
+//! Dual numbers: values with derivatives, for forward-mode automatic differentiation.
+
 use core::cmp::Ordering;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
 use super::{Mask, Real};
 
-/// A number with its derivatives along `N` directions (forward mode).
+/// A number with its derivatives in `N` directions (forward mode).
 ///
-/// Arrays on the stack, no allocation; nests for higher derivatives.
+/// Arrays on the stack, no allocation. Dual numbers of dual numbers give higher derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct Dual<T, const N: usize> {
     /// The value.
     pub value: T,
-    /// Its derivatives.
+    /// The derivatives.
     pub derivative: [T; N],
 }
 
 impl<T: Real, const N: usize> Dual<T, N> {
-    /// A number that depends on nothing.
+    /// A number whose derivatives are all 0.
     #[inline(always)]
     #[must_use]
     pub fn constant(value: T) -> Self {
         Self { value, derivative: [T::zero(); N] }
     }
 
-    /// The variable of direction `index`; a constant if there is no such direction.
+    /// The variable of direction `index`; a constant if `index >= N`.
     #[inline(always)]
     #[must_use]
     pub fn variable(value: T, index: usize) -> Self {
@@ -33,7 +35,8 @@ impl<T: Real, const N: usize> Dual<T, N> {
         dual
     }
 
-    /// A function's value and slope at `self`. An infinite slope leaves constants constant.
+    /// A function of `self` with this value and slope. Zero derivatives stay 0, even where the
+    /// slope is infinite.
     #[inline(always)]
     fn chain(self, value: T, slope: T) -> Self {
         let bounded = slope.is_finite();
@@ -45,25 +48,25 @@ impl<T: Real, const N: usize> Dual<T, N> {
         Self { value, derivative }
     }
 
-    /// With derivatives of 0 where the mask holds.
+    /// The same value, with derivatives of 0 where the mask is true.
     #[inline(always)]
     fn level_where(self, mask: T::Mask) -> Self {
         Self { value: self.value, derivative: self.map(|d| T::choose(mask, T::zero(), d)) }
     }
 
-    /// Whether nothing it depends on is a variable.
+    /// Whether all derivatives are 0.
     #[inline(always)]
     fn is_constant(&self) -> bool {
         self.derivative.iter().all(Real::is_zero)
     }
 
-    /// New derivatives, one from each: no temporary arrays, no branches in the loop.
+    /// Applies `f` to each derivative, without temporary arrays and without branches in the loop.
     #[inline(always)]
     fn map(&self, f: impl Fn(T) -> T) -> [T; N] {
         core::array::from_fn(|i| f(self.derivative[i]))
     }
 
-    /// New derivatives, one from each pair.
+    /// Applies `f` to each pair of derivatives.
     #[inline(always)]
     fn zip(&self, other: &Self, f: impl Fn(T, T) -> T) -> [T; N] {
         core::array::from_fn(|i| f(self.derivative[i], other.derivative[i]))
@@ -265,15 +268,15 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
     #[inline(always)]
     fn exp(self) -> Self {
         let value = self.value.exp();
-        // e^(-x) outruns every power of x: 0 is the limit even where the exponent's own
-        // derivative has overflowed, and 0 * inf must not become NaN.
+        // e^(-x) falls faster than any power of x grows: the limit is 0 even where the exponent's
+        // derivative has overflowed, and 0 * inf must not give NaN.
         self.chain(value, value).level_where(value.at_zero())
     }
 
     #[inline(always)]
     fn expm1(self) -> Self {
         let value = self.value.expm1();
-        // Far below zero value + 1 cancels.
+        // Far below zero `value + 1` loses its digits by cancellation.
         let near = value.is_above(T::Plain::from_f64(-0.5));
         if near.all() {
             return self.chain(value, value + T::one());
@@ -347,7 +350,7 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
         if near.all() {
             return self.chain(value, T::one() - value * value);
         }
-        // Far from zero 1 - tanh^2 cancels: there 4 e/(1 + e)^2 with e = exp(-2 |x|).
+        // Far from zero 1 - tanh^2 cancels: use 4 e / (1 + e)^2 with e = exp(-2 |x|) there.
         let e = (T::from_f64(-2.0) * self.value.abs()).exp();
         let whole = T::one() + e;
         let far = T::from_f64(4.0) * e / (whole * whole);

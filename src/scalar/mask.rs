@@ -1,24 +1,26 @@
+//! The result of comparing numbers: one `bool`, or one per lane.
+
 use core::fmt::Debug;
 
 use super::Real;
 
-/// Yes or no, once for each of several numbers that are compared side by side.
+/// One boolean, or one per lane.
 pub trait Mask: Copy + Debug {
-    /// The same for each.
+    /// The same boolean in every lane.
     fn of(yes: bool) -> Self;
-    /// Both.
+    /// Logical and.
     #[must_use]
     fn and(self, other: Self) -> Self;
-    /// Either or both.
+    /// Logical or.
     #[must_use]
     fn or(self, other: Self) -> Self;
-    /// The opposite.
+    /// Logical not.
     #[must_use]
     fn not(self) -> Self;
-    /// Whether it is yes throughout.
+    /// Whether all lanes are true.
     fn all(self) -> bool;
-    /// What `yes` yields where it holds, and what `no` yields elsewhere. A single number goes one of
-    /// the two ways only; of several side by side both are computed, and neither may have effects.
+    /// The result of `yes` where the mask is true, that of `no` elsewhere. A single number
+    /// evaluates one of the two only; lanes evaluate both, so neither may have side effects.
     fn either<T: Choice<Self>>(self, yes: impl FnOnce() -> T, no: impl FnOnce() -> T) -> T {
         T::select(self, yes(), no())
     }
@@ -56,9 +58,9 @@ impl Mask for bool {
     }
 }
 
-/// What a mask can choose from.
+/// A type that a mask can select between.
 pub trait Choice<M> {
-    /// `yes` where the mask holds, `no` elsewhere.
+    /// `yes` where the mask is true, `no` elsewhere.
     #[must_use]
     fn select(mask: M, yes: Self, no: Self) -> Self;
 }
@@ -70,7 +72,7 @@ impl<S: Real> Choice<S::Mask> for S {
     }
 }
 
-/// Number by number.
+/// Element by element.
 impl<S: Real, const N: usize> Choice<S::Mask> for [S; N] {
     #[inline(always)]
     fn select(mask: S::Mask, yes: Self, no: Self) -> Self {

@@ -1,4 +1,4 @@
-//! The numbers a law is written in: `f32`, `f64`, and [`Dual`] where a gradient is wanted.
+//! The number types that laws are written in: `f32`, `f64`, and [`Dual`] for gradients.
 
 mod dual;
 mod mask;
@@ -9,11 +9,11 @@ pub use mask::{Choice, Mask};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 
-/// A real number, or several side by side. Comparison is by value alone.
+/// A real number, or several in parallel lanes. Comparisons are by value and ignore derivatives.
 ///
-/// What is written in `Real` runs on all kinds of numbers with the same bits, so it does not branch
-/// on one: it computes both ways and [chooses](Self::choose). What has to branch asks for a
-/// [`Scalar`].
+/// Code generic over `Real` runs on every number type with the same bits. It must not branch on a
+/// number: it computes both alternatives and [chooses](Self::choose) one. Code that has to branch
+/// requires a [`Scalar`].
 pub trait Real:
     Copy
     + Debug
@@ -25,30 +25,31 @@ pub trait Real:
     + AddAssign
     + MulAssign
 {
-    /// What is never differentiated by: samples, constants, time.
+    /// The type without derivatives: of samples, constants and time.
     type Plain: Real<Plain: Real<Mask = Self::Mask>, Mask = Self::Mask>;
-    /// The answer to a comparison: one for each number.
+    /// The result of a comparison: one `bool` per lane.
     type Mask: Mask;
 
     /// A constant.
     fn from_f64(x: f64) -> Self;
-    /// A constant.
+    /// A number without derivatives.
     fn from_plain(x: Self::Plain) -> Self;
-    /// The plain number, without what is carried along.
+    /// The value, without derivatives.
     fn plain(self) -> Self::Plain;
-    /// Whether each number passes a test.
+    /// Whether the value of every lane passes `test`.
     fn every(self, test: impl FnMut(f64) -> bool) -> bool;
-    /// Whether it is 0 and so is all that is carried along.
+    /// Whether the value and all derivatives are 0.
     fn is_zero(&self) -> bool;
     /// `x < bound`.
     fn is_below(self, bound: Self::Plain) -> Self::Mask;
     /// `x > bound`.
     fn is_above(self, bound: Self::Plain) -> Self::Mask;
-    /// `x = other`.
+    /// `x == other`.
     fn equals(self, other: Self::Plain) -> Self::Mask;
-    /// Neither infinite nor NaN.
+    /// Whether the value is neither infinite nor NaN.
     fn is_finite(self) -> Self::Mask;
-    /// `yes` where the mask holds, `no` elsewhere; what is not chosen leaves no trace.
+    /// `yes` where the mask is true, `no` elsewhere; the other alternative has no influence, not
+    /// even if it is NaN.
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// `a x`.
     fn scale(self, factor: Self::Plain) -> Self;
@@ -58,27 +59,27 @@ pub trait Real:
     fn add_scaled(&mut self, other: &Self, factor: Self::Plain);
     /// `x += sum_j a_j y_j`, in one pass.
     fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [Self::Plain; K]);
-    /// `a / x`.
+    /// `a / x`, rounded once.
     fn divide(self, numerator: Self::Plain) -> Self;
-    /// `a^x` for `a >= 0`; at `a = 0` the derivative is taken as 0.
+    /// `a^x` for `a >= 0`; at `a = 0` the derivative is defined as 0.
     fn exponent_of(self, base: Self::Plain) -> Self;
     /// `|x|`, with derivative `sign(x)`.
     fn abs(self) -> Self;
-    /// -1, 0 or 1; `sign(0) = 0`, unlike `signum`. A constant to the derivative.
+    /// -1, 0 or 1; `sign(0) = 0`, unlike `signum`. Its derivative is 0.
     fn sign(self) -> Self;
-    /// `e^x`; where it underflows to 0 its derivative is 0 as well.
+    /// `e^x`; where it underflows to 0 its derivative is 0 too.
     fn exp(self) -> Self;
     /// `e^x - 1`.
     fn expm1(self) -> Self;
-    /// `phi_k(x) = sum_j x^j / (j + k)!`, the weights of an exponential step.
+    /// `phi_k(x) = sum_j x^j / (j + k)!`, the weights of an exponential integrator.
     fn phi(self, order: u8) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
-    /// `x^p` for `x >= 0`; at `x = 0` a derivative without a finite value is taken as 0.
+    /// `x^p` for `x >= 0`; at `x = 0` an infinite derivative is replaced by 0.
     fn powf(self, p: Self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
-    /// Real, odd cube root.
+    /// Cube root, negative for negative `x`.
     fn cbrt(self) -> Self;
     /// Sine.
     fn sin(self) -> Self;
@@ -105,7 +106,7 @@ pub trait Real:
         Self::from_f64(1.0)
     }
 
-    /// The plain number, of a single one.
+    /// The value of a single number as `f64`.
     #[inline]
     fn value(self) -> f64
     where
@@ -137,14 +138,14 @@ pub trait Real:
         self.is_above(bound).or(self.equals(bound))
     }
 
-    /// `x = 0`, whatever is carried along.
+    /// `x == 0`, whatever the derivatives.
     #[inline]
     fn at_zero(self) -> Self::Mask {
         self.equals(Self::Plain::zero())
     }
 }
 
-/// A single real number, on which code may branch: what a state is stepped in.
+/// A single real number, on which code may branch. States are stepped with it.
 pub trait Scalar: Real<Mask = bool> {}
 
 impl<S: Real<Mask = bool>> Scalar for S {}
@@ -250,7 +251,7 @@ macro_rules! primitive {
                 } else if self < 0.0 {
                     -1.0
                 } else {
-                    // keeps NaN, turns -0 into 0
+                    // keeps NaN and turns -0 into 0
                     self + 0.0
                 }
             }
