@@ -1,21 +1,22 @@
-//! A bristle around any split law, stepped exactly for a velocity held over the step.
+//! A bristle for any split law, stepped exactly for a velocity that is constant over the step.
 //!
-//! `dz/dt = v - s0 |v|/D z`, `tf = s0 z + s1 dz/dt + V + additive` (Canudas de Wit et al. 1995,
-//! eqs 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the solution goes the share
-//! `1 - e^-x` of the way to `sgn(v) D/s0`: stable and free of overshoot for every stiffness and
-//! step. Share and target do not depend on `z`, so they are found for many rows side by side.
+//! `dz/dt = v - s0 |v|/D z`, `tf = s0 z + s1 dz/dt + V + additive` (Canudas de Wit et al. 1995, eqs
+//! 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the deflection covers the share `1 -
+//! e^-x` of the distance to its target `sgn(v) D/s0`: stable and without overshoot for every
+//! stiffness and step. Share and target do not depend on `z`, so they are computed for many samples
+//! in parallel.
 //!
-//! With a smoothed sign `S(v)` it is `dz/dt = S^2 v - s0 S v/D z` (Indri et al. 2020): the share with
-//! `x |S|` of the way to `S D/s0`.
+//! With a smoothed sign `S(v)`, `dz/dt = S^2 v - s0 S v/D z` (Indri et al. 2020): the share uses `x
+//! |S|`, and the target is `S D/s0`.
 
 use super::{Approach, Deflection, Interval, SATURATED, Step, following};
 use crate::sample::{Sample, Split, arctangent_sign};
 use crate::scalar::{Mask, Real, Scalar};
 
-/// A bristle that settles faster than this (s) has settled in any step.
+/// A bristle with a shorter settling time (s) is settled at the end of any step.
 const SHORTEST: f64 = 1e-12;
 
-/// Dry friction below this (T) has no bristle.
+/// Below this dry friction (T) there is no bristle.
 const LEAST_DRY: f64 = 1e-30;
 
 /// Parameters of a bristle.
@@ -25,13 +26,13 @@ pub struct Bristle<S> {
     pub stiffness: S,
     /// Damping `s1` (T s/X).
     pub damping: S,
-    /// Steepness of the smoothed sign (s/X); none: the sign jumps.
+    /// Steepness of the smoothed sign (s/X); `None` for the exact sign.
     pub sign_steepness: Option<S>,
 }
 
-/// The dry magnitude (T) below which nothing is left of the way after a step of this length (s), and
-/// whether it is below: the bristle then takes the lowest, with which it settles. It is positive at
-/// rest, too, where nothing pulls.
+/// The dry magnitude (T) at which the deflection just settles within a step of this length (s), and
+/// whether `dry` is below it and must be replaced by it. It is positive at rest too, where the pull
+/// is 0.
 #[inline(always)]
 fn settling<S: Real>(pull: S, dry: S, dt: S::Plain) -> (S::Plain, S::Mask) {
     let shortest = S::Plain::from_f64(SHORTEST);
@@ -41,7 +42,7 @@ fn settling<S: Real>(pull: S, dry: S, dt: S::Plain) -> (S::Plain, S::Mask) {
     (lowest, dry.is_below(lowest))
 }
 
-/// State of a bristle, kept apart from its parameters.
+/// State of a bristle, separate from its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BristleState<S> {
     /// Mean deflection `z` (X).
@@ -62,13 +63,14 @@ impl<S: Real> Bristle<S> {
         Self { stiffness, damping, sign_steepness: None }
     }
 
-    /// `S(v)`, where the sign is smoothed.
+    /// `S(v)`, if the sign is smoothed.
     #[inline(always)]
     fn smoothed_sign(&self, velocity: S::Plain) -> Option<S> {
         self.sign_steepness.map(|steepness| arctangent_sign(velocity, steepness))
     }
 
-    /// What pulls the deflection to where it tends to, over a way `|v|` (T/s) or `|v| dt` (T).
+    /// The coefficient that pulls the deflection to its target, for `way = |v|` (T/s) or `|v| dt`
+    /// (T).
     #[inline(always)]
     fn pull(&self, velocity: S::Plain, way: S::Plain) -> S {
         let pull = self.stiffness.scale(way);
@@ -81,10 +83,10 @@ impl<S: Real> Bristle<S> {
         self.smoothed_sign(velocity).map_or_else(|| x.scale(velocity.sign()), |sign| x * sign)
     }
 
-    /// What a held velocity does to the deflection over `dt` (s); with `dt <= 0` nothing.
+    /// The effect of a constant velocity on the deflection over `dt` (s); none with `dt <= 0`.
     ///
-    /// At rest the deflection is kept. A magnitude `D <= 0` has no bristle; the limit
-    /// `z = sgn(v) D/s0` is used, so that a fit passing through it sees a finite slope.
+    /// At rest the deflection does not change. For a dry magnitude `D <= 0` the limit `z = sgn(v)
+    /// D/s0` is used, so that a fit that passes through it gets a finite slope.
     #[inline(always)]
     pub fn course(&self, dry: S, velocity: S::Plain, dt: S::Plain) -> Course<S> {
         let lasts = dt.is_positive();
@@ -99,14 +101,14 @@ impl<S: Real> Bristle<S> {
         Course { target, share: -left, pace, decay, left, rest: velocity.at_zero(), settled }
     }
 
-    /// Where the deflection tends to (X).
+    /// The target of the deflection (X).
     #[inline(always)]
     pub fn target(&self, dry: S, velocity: S::Plain) -> S {
         self.along(velocity, dry / self.stiffness)
     }
 
-    /// How far the deflection moves at the end of a step (X): dry magnitude and velocity change there
-    /// from those that were held to those of the end.
+    /// Correction of the deflection at the end of a step (X), where dry magnitude and velocity have
+    /// changed from the constant values to those at the end.
     #[inline(always)]
     pub fn shift(
         &self,
@@ -117,7 +119,7 @@ impl<S: Real> Bristle<S> {
         let moved = match self.sign_steepness {
             None => ((end - dry) / self.stiffness).scale(velocity.sign()),
             Some(_) => {
-                // The size of the sign changes, and not which way the joint moves.
+                // Only the magnitude of the smoothed sign changes, not the direction of motion.
                 let along = velocity.sign() * last.sign();
                 self.target(end, last).scale(along) - course.target
             }
@@ -125,13 +127,13 @@ impl<S: Real> Bristle<S> {
         moved * course.following()
     }
 
-    /// Torque at the deflection `z` that slips at `rate` (X/s).
+    /// Torque at the deflection `z` with `dz/dt = rate` (X/s).
     #[inline(always)]
     pub fn torque(&self, z: S, rate: S, split: &Split<S>) -> S {
         self.stiffness * z + self.damping * rate + split.rate + split.additive
     }
 
-    /// `dz/dt` at `z`; 0 of a bristle that has settled at once.
+    /// `dz/dt` at `z`; 0 for a bristle that settles at once.
     #[inline(always)]
     pub fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
         let pull = self.pull(velocity, velocity.abs());
@@ -145,7 +147,7 @@ impl<S: Real> Bristle<S> {
 }
 
 impl<S: Real> Bristle<S> {
-    /// What it is at `velocity`, for proofs.
+    /// The equation of the deflection at `velocity`, for proofs.
     #[inline]
     #[must_use]
     pub fn deflection(&self, velocity: S::Plain) -> Deflection<S>
@@ -158,8 +160,8 @@ impl<S: Real> Bristle<S> {
         Deflection { stiffness: self.stiffness, drag, approach }
     }
 
-    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
-    /// which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
+    /// at the end.
     #[inline(always)]
     pub fn over(
         &self,
@@ -189,7 +191,8 @@ impl<S: Real> Bristle<S> {
         Step { torque, mean_torque }
     }
 
-    /// Holds `velocity` and `split` for `dt` (s). With `dt <= 0` the state stays as it is.
+    /// Steps over `dt` (s) with `velocity` and `split` constant. With `dt <= 0` the state is
+    /// unchanged.
     #[inline]
     pub fn step(
         &self,
@@ -215,12 +218,12 @@ impl<S: Real> Bristle<S> {
         let way = course.target - before;
         let stays = || self.torque(course.end(before), S::zero(), split);
         let settles = || {
-            // The mean still holds the transient's area, way/x.
+            // The transient is over, but the mean still contains its area, way/x.
             let slip = way.scale(S::Plain::one() / dt);
             self.torque(course.target - way * reach, slip, split)
         };
         let follows = || {
-            // Counted from where the deflection is for most of the step, nothing cancels.
+            // Relative to where the deflection is for most of the step: avoids cancellation.
             let phi = course.phi();
             let mean = course.decay.is_below(-S::Plain::one()).either(
                 || course.target - way * phi,
@@ -233,14 +236,14 @@ impl<S: Real> Bristle<S> {
     }
 }
 
-/// How a step goes: by this share of the way to a target.
+/// The effect of a step: the deflection covers a share of the distance to a target.
 #[derive(Clone, Copy, Debug)]
 pub struct Course<S: Real> {
-    /// Where the deflection tends to (X).
+    /// The target of the deflection (X).
     pub target: S,
     /// `1 - e^-x`.
     pub share: S,
-    /// `s0 |v|/D` (1/s), 0 of a bristle at rest.
+    /// `s0 |v|/D` (1/s), 0 for a bristle at rest.
     pace: S,
     /// `-x`.
     decay: S,
@@ -269,7 +272,7 @@ impl<S: Real> Course<S> {
         S::choose(self.decay.at_zero(), S::one(), self.left / self.decay)
     }
 
-    /// How far the deflection has followed where it tends to.
+    /// The share of a change of the target that the deflection has followed.
     #[inline(always)]
     fn following(&self) -> S {
         let moving = S::choose(self.settled, S::one(), following(self.decay, self.phi()));

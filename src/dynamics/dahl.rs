@@ -1,22 +1,22 @@
-//! Dahl's bristle with any exponent, stepped exactly for a velocity held over the step.
+//! Dahl's bristle with any exponent, stepped exactly for a velocity that is constant over the step.
 //!
 //! `dz/dt = v sgn(u) |u|^n` with `u = 1 - sgn(v) s0 z/D`, and `tf = s0 z + V + additive` (Dahl
-//! 1968). Over a travel `|v| dt`, with `k = s0 |v| dt/D`, `u` goes to `u e^-w` and the mean of `u`
-//! over the step is `u ln(1 + c)/c phi_1((n - 2) w)`, where
-//! `c = (n - 1) k |u|^(n-1)` and `w = ln(1 + c)/(n - 1)`: smooth in `n`, for `n = 1` (`w = k`) and
-//! `n = 2` too. For `n < 1` sliding begins within the step where `c <= -1`.
+//! 1968). Over a travel `|v| dt`, with `k = s0 |v| dt/D`, `u` becomes `u e^-w` and its mean over
+//! the step is `u ln(1 + c)/c phi_1((n - 2) w)`, where `c = (n - 1) k |u|^(n-1)` and `w = ln(1 +
+//! c)/(n - 1)`: smooth in `n`, also at `n = 1` (`w = k`) and `n = 2`. For `n < 1` sliding begins
+//! within the step where `c <= -1`.
 
 use super::{BristleState, Interval, Step, following, logarithm_ratio};
 use crate::sample::Split;
 use crate::scalar::{Mask, Real};
 
-/// Above this `k` dry friction has vanished beside what the travel would have built up.
+/// Above this `k` dry friction is negligible.
 const VANISHED: f64 = 1e30;
 
-/// Below this `k` nothing moves, and the slope of its logarithm is beyond all numbers.
+/// Below this `k` the joint is at rest; the slope of `ln k` would overflow.
 const STILL: f64 = 1e-290;
 
-/// Above this `c` the one in `1 + c` is lost.
+/// Above this `c` the 1 in `1 + c` is below the rounding error.
 const FAR: f64 = 1e15;
 
 /// Parameters of Dahl's bristle.
@@ -24,13 +24,14 @@ const FAR: f64 = 1e15;
 pub struct DahlBristle<S> {
     /// Stiffness `s0` (T/X).
     pub stiffness: S,
-    /// Exponent `n`: 1 approaches sliding exponentially, more takes longer, less gets there.
+    /// Exponent `n`: with 1 sliding is approached exponentially, above 1 more slowly, below 1 it is
+    /// reached.
     pub exponent: S,
 }
 
 impl<S: Real> DahlBristle<S> {
-    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
-    /// which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
+    /// at the end.
     #[inline]
     pub fn over(
         &self,
@@ -51,7 +52,7 @@ impl<S: Real> DahlBristle<S> {
         Step { torque, mean_torque: self.stiffness * mean + split.rate + split.additive }
     }
 
-    /// Moves the state.
+    /// Advances the state.
     #[inline]
     fn advance(
         &self,
@@ -78,7 +79,7 @@ impl<S: Real> DahlBristle<S> {
         Slid { mean, following }
     }
 
-    /// How `u > 0` falls over a travel `k`.
+    /// The decrease of `u > 0` over a travel `k`.
     #[inline]
     fn fall(&self, u: S, k: S) -> Fall<S> {
         let arrived = u.at_zero().or(u.is_finite().not());
@@ -90,13 +91,14 @@ impl<S: Real> DahlBristle<S> {
         Fall { covered, mean, following }
     }
 
-    /// As [`fall`](Self::fall), of what has not arrived and moves: `covered`, `mean` and `following`.
+    /// Like [`fall`](Self::fall) for a bristle that moves and has not reached sliding: `covered`,
+    /// `mean` and `following`.
     #[inline]
     fn approach(&self, u: S, k: S) -> [S; 3] {
         let one = S::Plain::one();
         let excess = self.exponent.shift(-one);
         let other = excess.shift(-one);
-        // ln(k u^(n-1)): the power itself may be beyond all numbers.
+        // ln(k u^(n-1)): the power itself may overflow.
         let pace = excess * u.ln() + k.ln();
         let reach = pace.exp();
         let c = excess * reach;
@@ -121,20 +123,21 @@ impl<S: Real> DahlBristle<S> {
     }
 }
 
-/// How a step went: the mean deflection, and how far it has followed where it tends to.
+/// The result of a step: the mean deflection, and the share of a change of the target that it has
+/// followed.
 struct Slid<S> {
     mean: S,
     following: S,
 }
 
-/// What share of the way to sliding is covered at the end of a step, and on average over it.
+/// The share of the distance to sliding that is covered, at the end of a step and on average.
 struct Fall<S> {
     covered: S,
     mean: S,
     following: S,
 }
 
-/// Sliding begins within the step, in which this share is covered on average.
+/// Sliding is reached within the step, in which this share is covered on average.
 #[inline]
 fn at_once<S: Real>(mean: S) -> [S; 3] {
     [S::one(), mean, S::one()]

@@ -1,16 +1,16 @@
-//! What a law with one deflection consists of, for proofs about all of its motions.
+//! The equation of a law with one deflection, for proofs over all of its motions.
 
 use crate::scalar::{Real, Scalar};
 
 /// `tf = f + drag slope sgn v + V + additive`, `df/dt = s0 v slope`, with the slope a function of
-/// `x = f sgn(v)/D`: one where the bristle is elastic, zero where it slides.
+/// `x = f sgn(v)/D`: 1 where the bristle is elastic, 0 where it slides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deflection<S> {
     /// Stiffness `s0` (T/X).
     pub stiffness: S,
     /// Damping times speed, `s1 |v|` (T).
     pub drag: S,
-    /// How the slope falls.
+    /// The slope as a function of `x`.
     pub approach: Approach<S>,
 }
 
@@ -21,14 +21,14 @@ pub enum Approach<S> {
     Linear,
     /// `sgn(1 - x) |1 - x|^n`.
     Power(S),
-    /// `1 - a x`, with `a = 0` up to this `x` and 1 in sliding.
+    /// `1 - a x`, with `a = 0` up to this `x` and `a = 1` in sliding.
     Elastoplastic(S),
     /// `s (s - x)`, with this smoothed sign `s` in place of the sign.
     Smoothed(S),
 }
 
 impl<S: Scalar> Approach<S> {
-    /// `dz/dt` over `v` at `x`; it does not grow with `x`.
+    /// The slope `dz/dt` over `v` at `x`; it never increases with `x`.
     pub fn slope(&self, x: S) -> S {
         let one = S::Plain::one();
         let way = (-x).shift(one);

@@ -1,29 +1,30 @@
-//! The elastoplastic model, stepped for a velocity held over the step.
+//! The elastoplastic model, stepped for a velocity that is constant over the step.
 //!
 //! `dz/dt = v (1 - a s0 z sgn v/D)`, `tf = s0 z + s1 dz/dt + V + additive` (Dupont et al. 2002, eqs
-//! 8-14). In units of the deflection in full sliding, `x = s0 z sgn v/D`, a bristle is elastic
-//! (`a = 0`) up to `b`, slides (`a = 1`) from 1 on, and in between, with `1 - x = (1 - b) p`,
-//! `a = cos^2(pi p/2)`. The ends are exact. In between `ln p` falls at a rate between 1 and
-//! `1 + 1.14/(1 - b)` along the travel `s0 |v| t/D`; sixteen Runge-Kutta steps of fourth order in that
-//! variable are stable for every travel and leave an error below `6e-6 D/s0` for `b <= 0.99`.
+//! 8-14). In units of the deflection in full sliding, `x = s0 z sgn v/D`, a bristle is elastic (`a
+//! = 0`) up to `b`, slides (`a = 1`) from 1 on, and between them `a = cos^2(pi p/2)` with `1 - x =
+//! (1 - b) p`. The elastic and the sliding part are exact. In the transition `ln p` falls at a rate
+//! between 1 and `1 + 1.14/(1 - b)` along the travel `s0 |v| t/D`; sixteen Runge-Kutta steps of
+//! fourth order in that variable are stable for every travel and have an error below `6e-6 D/s0`
+//! for `b <= 0.99`.
 
 use super::{BristleState, Interval, Step, following};
 use crate::sample::Split;
 use crate::scalar::{Mask, Real};
 
-/// Runge-Kutta steps of fourth order in the transition, and over a travel below [`SHORT`].
+/// Runge-Kutta steps of fourth order in the transition, and for a travel below [`SHORT`].
 const STEPS: (u8, u8) = (16, 4);
 
-/// A travel so short beside the breadth of the transition takes fewer steps: error below `1e-6`.
+/// A travel below this share of the width of the transition needs fewer steps: error below `1e-6`.
 const SHORT: f64 = 0.5;
 
-/// Above this travel in units of `D/s0` dry friction has vanished.
+/// Above this travel in units of `D/s0` dry friction is negligible.
 const VANISHED: f64 = 1e30;
 
-/// Below this `p` sliding is exponential to the last digit.
+/// Below this `p` sliding is exponential to rounding.
 const SLIDING: f64 = 1e-8;
 
-/// Nodes and weights of the Gauss-Legendre rule of twelve points on -1 .. 1, the upper half.
+/// Nodes and weights of the Gauss-Legendre rule with twelve points on -1 .. 1, the upper half.
 const GAUSS: [(f64, f64); 6] = [
     (0.125_233_408_511_468_9, 0.249_147_045_813_402_8),
     (0.367_831_498_998_180_2, 0.233_492_536_538_354_8),
@@ -45,8 +46,8 @@ pub struct ElastoplasticBristle<S> {
 }
 
 impl<S: Real> ElastoplasticBristle<S> {
-    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
-    /// which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
+    /// at the end.
     #[inline]
     pub fn over(
         &self,
@@ -73,7 +74,7 @@ impl<S: Real> ElastoplasticBristle<S> {
         Step { torque, mean_torque }
     }
 
-    /// `b`; nothing is elastic beyond full sliding.
+    /// `b`, at most 1: no bristle is elastic beyond full sliding.
     #[inline]
     fn breakaway(&self) -> S {
         S::choose(self.breakaway.is_below(S::Plain::one()), self.breakaway, S::one())
@@ -121,13 +122,14 @@ impl<S: Real> ElastoplasticBristle<S> {
         Glide { mean, following }
     }
 
-    /// Deflection at the end, its mean and how far it follows over the travel `whole` from `x`, in
-    /// units of the deflection in full sliding, beyond the elastic `room`.
+    /// Deflection at the end, its mean and the share of a change of the target that it has
+    /// followed, over the travel `whole` from `x`, in units of the deflection in full sliding,
+    /// beyond the elastic `room`.
     #[inline]
     fn yields(&self, unit: S, whole: S, x: S, room: S, area: bool) -> [S; 3] {
         let one = S::Plain::one();
         let start = (-x).shift(one);
-        // What is elastic first, then what is left of the travel; areas are under 1 - x.
+        // First the elastic part, then the remaining travel; areas are those under 1 - x.
         let elastic = || {
             let way = start + -room;
             [whole + -room, way, room * (start + -room.scale(S::Plain::from_f64(0.5)))]
@@ -157,7 +159,8 @@ pub(super) fn slope_at<S: Real>(x: S, breakaway: S) -> S {
     x.is_below(breakaway.plain()).either(S::one, slides)
 }
 
-/// How a step went: the mean deflection, and how far it has followed where it tends to.
+/// The result of a step: the mean deflection, and the share of a change of the target that it has
+/// followed.
 struct Glide<S> {
     mean: S,
     following: S,
@@ -170,12 +173,12 @@ fn descent<S: Real>(p: S, breadth: S) -> S {
         let (sin, cos) = p.scale(S::Plain::from_f64(core::f64::consts::FRAC_PI_2)).sin_cos();
         sin * (sin / (breadth * p)) + cos * cos
     };
-    // In single precision the bound is 0.
+    // In single precision this bound is 0.
     let arrived = p.is_below(S::Plain::from_f64(1e-150)).or(p.at_zero());
     arrived.either(S::one, falls)
 }
 
-/// How far `ln p` falls over a travel from `p`, and the area under `1 - x` if it is wanted.
+/// The decrease of `ln p` over a travel from `p`, and the area under `1 - x` if `area` is set.
 #[inline]
 fn transition<S: Real>(p: S, breadth: S, travel: S, area: bool) -> [S; 2] {
     let long = travel.is_above(breadth.plain() * S::Plain::from_f64(SHORT));
@@ -185,7 +188,7 @@ fn transition<S: Real>(p: S, breadth: S, travel: S, area: bool) -> [S; 2] {
     [fall, under]
 }
 
-/// How far `ln p` falls over a travel from `p`, by so many Runge-Kutta steps.
+/// The decrease of `ln p` over a travel from `p`, with `steps` Runge-Kutta steps.
 #[inline]
 fn fall<S: Real>(p: S, breadth: S, travel: S, steps: u8) -> S {
     let (half, sixth) = (S::Plain::from_f64(0.5), S::Plain::from_f64(1.0 / 6.0));
@@ -202,7 +205,8 @@ fn fall<S: Real>(p: S, breadth: S, travel: S, steps: u8) -> S {
     fall
 }
 
-/// `(1 - b) int dp/h` from `end` to `start`, in the square root of `p`, in which it is smooth.
+/// `(1 - b) int dp/h` from `end` to `start`, integrated over the square root of `p`, in which it is
+/// smooth.
 #[inline]
 fn area_between<S: Real>(start: S, end: S, breadth: S) -> S {
     let (half, two) = (S::Plain::from_f64(0.5), S::Plain::from_f64(2.0));

@@ -1,11 +1,11 @@
-//! Elements in parallel, each with a force of its own.
+//! Elements in parallel, each with its own force.
 
 use crate::scalar::Real;
 
-/// Most elements of a law.
+/// Largest number of elements of a law.
 pub const MOST_ELEMENTS: usize = 16;
 
-/// State of the elements of a law, kept apart from their parameters.
+/// State of the elements of a law, separate from their parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct Elements<S: Real> {
     /// Force of each element (T).

@@ -1,36 +1,35 @@
-//! A gap between two flanks, which opens when the load torque changes its sign and closes with the
-//! motion.
+//! Backlash: a gap between two flanks that opens when the load torque changes its sign and closes
+//! with the motion.
 //!
-//! `w` is the way since the sign changed, `dw = |v|^n vr^(1 - n) dt`, and `g = exp(-(w/b)^2)` says
-//! how far the gap is open: that share of the load torque is not carried. What the load has lacked
-//! in momentum meanwhile, `P`, is made up for as the flanks meet, `g` falling by the factor `e^-h`
-//! in a step: `P (1 - e^-h)/dt` on average over the step.
+//! `w` is the travel since the change of sign, `dw = |v|^n vr^(1 - n) dt`. `g = exp(-(w/b)^2)` is
+//! the share of the load torque that is not carried. The momentum `P` that the load has lost
+//! meanwhile is restored as the flanks meet: where `g` falls by the factor `e^-h` in a step, `P (1
+//! - e^-h)/dt` on average over the step.
 
 use super::Interval;
 use crate::scalar::{Mask, Real};
 
-/// A gap.
+/// Parameters of a gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap<S: Real> {
-    /// `b` (X): way in which it closes to 1/e.
+    /// `b` (X): travel over which it closes to 1/e.
     pub width: S,
-    /// `n`: 1 where it closes with the way of the motor, 0 where it takes the same time at any
-    /// speed.
+    /// `n`: 1 if it closes with the travel of the motor, 0 if it takes the same time at any speed.
     pub exponent: S,
-    /// Speed `vr` (X/s) at which the exponent plays no role.
+    /// Speed `vr` (X/s) at which the exponent has no influence.
     pub reference: S::Plain,
-    /// Share of the momentum that is made up for.
+    /// Share of the momentum that is restored.
     pub returned: S,
 }
 
-/// Where the flanks stand.
+/// State of the gap.
 #[derive(Clone, Copy, Debug)]
 pub struct Flanks<S: Real> {
     /// Whether there was a step before.
     pub(super) begun: S::Mask,
     /// Load torque at the end of the step before (T).
     pub(super) load: S,
-    /// Whether the load torque has changed its sign: before that the flanks touch.
+    /// Whether the load torque has changed its sign; before that the flanks touch.
     pub(super) parted: S::Mask,
     /// `w` (X).
     pub(super) way: S,
@@ -46,7 +45,7 @@ impl<S: Real> Default for Flanks<S> {
 }
 
 impl<S: Real> Gap<S> {
-    /// What a gap takes from the load torque over `interval` (T).
+    /// The part of the load torque that the gap takes away over `interval` (T).
     #[inline]
     pub fn over(&self, state: &mut Flanks<S>, interval: &Interval<S::Plain>) -> S {
         let before = *state;
@@ -56,7 +55,7 @@ impl<S: Real> Gap<S> {
         let crossed = lasts.and((load * earlier).is_negative());
         let parted = before.parted.or(crossed);
         let start = S::choose(crossed, S::zero(), before.way);
-        // Within the step the load torque changes evenly.
+        // Within the step the load torque changes linearly.
         let crosses = || self.way(interval) * (load / (load - earlier));
         let goes_on = || before.way + self.way(interval);
         let end = parted.and(lasts).either(|| crossed.either(crosses, goes_on), || before.way);
@@ -64,14 +63,14 @@ impl<S: Real> Gap<S> {
             || self.taken(load, [start / self.width, end / self.width], before.momentum, interval),
             || [S::zero(), before.momentum],
         );
-        // A load torque of 0 has no sign: what it had before counts.
+        // A load torque of 0 has no sign: the one before stays.
         let signed = S::choose(load.at_zero(), earlier, load);
         *state = Flanks { begun: S::Mask::of(true), load: signed, parted, way: end, momentum };
         taken
     }
 
-    /// What is taken from the load torque (T), and the momentum that is lacking afterwards (T s), for
-    /// a way from `start` to `end`, in widths.
+    /// The part of the load torque taken away (T) and the momentum still missing afterwards (T s),
+    /// for a travel from `start` to `end`, in widths.
     #[inline]
     fn taken(
         &self,
@@ -91,7 +90,7 @@ impl<S: Real> Gap<S> {
         dt.is_positive().either(closes, || [-left, momentum])
     }
 
-    /// How much further the gap closes in a step (X).
+    /// The travel over which the gap closes in a step (X).
     #[inline]
     fn way(&self, interval: &Interval<S::Plain>) -> S {
         let ratio = interval.velocity().abs() / self.reference;

@@ -1,9 +1,8 @@
-//! A quantity that follows its steady value late, by a first-order lag stepped exactly.
+//! A quantity that follows its steady value with a first-order lag, stepped exactly.
 //!
-//! `tau de/dt = E - e`. Over a step that holds `E`, `e` goes to `E + (e - E) exp(-dt/tau)`; where
-//! `E` moves evenly from `E0` to `E1` it goes to
-//! `E1 + (e - E0) exp(-dt/tau) - (E1 - E0) phi_1(-dt/tau)`. Both lie between what was there before,
-//! so a lag never makes friction negative.
+//! `tau de/dt = E - e`. Over a step with constant `E`, `e` becomes `E + (e - E) exp(-dt/tau)`;
+//! where `E` changes linearly from `E0` to `E1` it becomes `E1 + (e - E0) exp(-dt/tau) - (E1 - E0)
+//! phi_1(-dt/tau)`. Both lie between the values before, so a lag never makes friction negative.
 
 use super::{Interval, SATURATED};
 use crate::scalar::{Mask, Real};
@@ -11,18 +10,18 @@ use crate::scalar::{Mask, Real};
 /// A first-order lag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lag<S> {
-    /// Time constant `tau` (s): at 0 nothing lags.
+    /// Time constant `tau` (s); 0 for no lag.
     pub time: S,
 }
 
-/// Where a quantity that lags stands.
+/// State of a lagging quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct Lagging<S: Real> {
-    /// Whether it has begun: before its first step it stands nowhere.
+    /// Whether it has a value: it has none before the first step.
     pub(super) begun: S::Mask,
     /// `e`.
     pub(super) value: S,
-    /// `E`, at the end of the step before.
+    /// `E` at the end of the step before.
     pub(super) steady: S,
 }
 
@@ -34,8 +33,8 @@ impl<S: Real> Default for Lagging<S> {
 
 impl<S: Real> Lag<S> {
     /// Steps over `interval`, at whose end the steady value is `steady`; the first step begins
-    /// there. A mean velocity means that the motion changes within the step, and the steady value
-    /// with it: evenly.
+    /// there. Where the interval has a mean velocity, the steady value changes linearly within the
+    /// step.
     #[inline]
     pub fn over(&self, state: &mut Lagging<S>, steady: S, interval: &Interval<S::Plain>) -> S {
         let before = *state;
@@ -49,7 +48,7 @@ impl<S: Real> Lag<S> {
         value
     }
 
-    /// What is left of the lag before, and of a change over the step.
+    /// The weights of the earlier deviation and of the change over the step.
     #[inline]
     fn weights(&self, interval: &Interval<S::Plain>) -> (S, S) {
         let dt = interval.dt;

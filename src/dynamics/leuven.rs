@@ -1,37 +1,38 @@
-//! The Leuven model with a Maxwell slip hysteresis, stepped exactly for a velocity held over the
-//! step.
+//! The Leuven model with a Maxwell slip hysteresis, stepped exactly for a velocity that is constant
+//! over the step.
 //!
-//! `dz/dt = v (1 - F sgn v/D)`, `tf = F + s1 dz/dt + V + additive`, where `F` is the sum of elements
-//! that follow `z`, `dF_i = k_i dz` while `|F_i| <= W_i` (Lampaert, Swevers and Al-Bender 2002, with
-//! `n = 1`). Along the travel `z` moves one way and `F` relaxes to `D`, faster while more elements
-//! stick; each element reaches its limit at most once, so that a step has a bounded number of pieces.
+//! `dz/dt = v (1 - F sgn v/D)`, `tf = F + s1 dz/dt + V + additive`, where `F` is the sum of
+//! elements that follow `z`, `dF_i = k_i dz` while `|F_i| <= W_i` (Lampaert, Swevers and Al-Bender
+//! 2002, with `n = 1`). Along the travel `z` moves in one direction and `F` relaxes to `D`, faster
+//! while more elements stick; each element reaches its limit at most once, so a step has a bounded
+//! number of pieces.
 
 use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step, following, logarithm_ratio};
 use crate::sample::Split;
 use crate::scalar::{Choice, Mask, Real};
 
-/// An element so near its limit, relative to it, has reached it.
+/// Relative distance at which an element counts as having reached its limit.
 const ROUNDING: f64 = 1e-12;
 
-/// Above this ratio of a force per travel to dry friction, dry friction has vanished.
+/// Above this ratio of force per travel to dry friction, dry friction is negligible.
 const VANISHED: f64 = 1e30;
 
 /// Parameters of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeuvenBristle<'a, S> {
-    /// What each element carries at most, relative to the others (T).
+    /// Largest force of each element, relative to the others (T).
     pub friction: &'a [S; MOST_ELEMENTS],
     /// Stiffness of each element (T/X).
     pub stiffness: &'a [S; MOST_ELEMENTS],
-    /// How many elements there are.
+    /// Number of elements.
     pub count: usize,
     /// Damping `s1` (T s/X).
     pub damping: S,
 }
 
 impl<S: Real> LeuvenBristle<'_, S> {
-    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
-    /// which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
+    /// at the end.
     #[inline]
     pub fn over(
         &self,
@@ -78,15 +79,15 @@ impl<S: Real> LeuvenBristle<'_, S> {
         self.count.min(MOST_ELEMENTS)
     }
 
-    /// What an element carries at most, over its friction: together they carry what holds the joint
-    /// at rest, so that `F` can always reach `D`.
+    /// The largest force of an element over its friction: the sum of all is the holding torque, so
+    /// that `F` can always reach `D`.
     #[inline]
     fn limit(&self, split: &Split<S>) -> S {
         let total = self.friction[..self.count()].iter().fold(S::zero(), |sum, &part| sum + part);
         (split.coulomb + split.height + split.load + split.smoothed_amplitude) / total
     }
 
-    /// Travels along `direction`, piece by piece between the elements' limits.
+    /// Advances along `direction`, piece by piece between the limits of the elements.
     #[inline]
     fn advance(
         &self,
@@ -111,7 +112,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
         glide
     }
 
-    /// The next piece of a travel.
+    /// Advances by the next piece.
     #[inline]
     fn piece(
         &self,
@@ -174,7 +175,8 @@ impl<S: Real> LeuvenBristle<'_, S> {
         free
     }
 
-    /// Forces after `z` has moved by `way` along `toward`, no further than the first element's limit.
+    /// Forces after `z` has moved by `way` along `toward`, at most to the limit of the first
+    /// element.
     #[inline]
     fn shifted(
         &self,
@@ -193,7 +195,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
         forces
     }
 
-    /// Puts elements that have come to their limit, but for rounding, exactly there.
+    /// Sets elements that are at their limit up to rounding exactly to it.
     #[inline]
     fn stopped(
         &self,
@@ -211,8 +213,8 @@ impl<S: Real> LeuvenBristle<'_, S> {
     }
 }
 
-/// A travel on its way: forces, what is left of it, the area under the force, and how far the force
-/// has followed where it tends to.
+/// A travel in progress: forces, the remaining travel, the area under the force, and the share of a
+/// change of the target that the force has followed.
 #[derive(Clone, Copy)]
 struct Glide<S> {
     force: [S; MOST_ELEMENTS],
@@ -232,15 +234,15 @@ impl<S: Real> Choice<S::Mask> for Glide<S> {
     }
 }
 
-/// Elements that are not at their limit: whether there are any, their stiffness together, and how
-/// far the first is from it.
+/// Elements that are not at their limit: whether there are any, the sum of their stiffness, and the
+/// least distance to a limit.
 struct Free<S: Real> {
     any: S::Mask,
     stiffness: S,
     room: S,
 }
 
-/// A stretch over which the same elements stick: `F` relaxes to `D`.
+/// A part of the travel in which the same elements stick: `F` relaxes to `D`.
 struct Piece<S> {
     dry: S,
     gap: S,
@@ -248,8 +250,8 @@ struct Piece<S> {
 }
 
 impl<S: Real> Piece<S> {
-    /// The travel after which `z` has moved by `room`, infinite if it never does: together the
-    /// elements carry `D` at least, so that the last one never comes to its limit, whatever the
+    /// The travel after which `z` has moved by `room`, infinite if it never does: the sum of all
+    /// limits is at least `D`, so that the last element never reaches its limit, whatever the
     /// rounding.
     #[inline]
     fn travel_to(&self, room: S) -> S {
@@ -261,7 +263,8 @@ impl<S: Real> Piece<S> {
         )
     }
 
-    /// How far `z` moves over a travel, and how far the force has followed where it tends to.
+    /// The motion of `z` over a travel, and the share of a change of the target that the force has
+    /// followed.
     #[inline]
     fn over(&self, travel: S) -> [S; 2] {
         let pull = self.stiffness * travel;
@@ -275,7 +278,7 @@ impl<S: Real> Piece<S> {
     }
 }
 
-/// `dz/dt` over `v`, for a force along the velocity; 0 where dry friction has vanished.
+/// `dz/dt` over `v`, for a force along the velocity; 0 where dry friction is negligible.
 #[inline]
 fn slope<S: Real>(force: S, dry: S) -> S {
     let vanished = force.abs().reaches(dry.plain() * S::Plain::from_f64(VANISHED));

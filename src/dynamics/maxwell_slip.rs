@@ -1,9 +1,10 @@
-//! The generalized Maxwell slip model, stepped exactly for a velocity held over the step.
+//! The generalized Maxwell slip model, stepped exactly for a velocity that is constant over the
+//! step.
 //!
 //! Each element sticks, `dF_i/dt = k_i v`, until its force reaches `a_i s(v)` in the direction of
 //! motion; then it slides, `dF_i/dt = C (a_i s sgn v - F_i)/s`, until the velocity passes through
-//! zero (Al-Bender, Lampaert and Swevers 2005, eqs 18-20). Here `s = D` and `a_i = F_i/sum F`. A held
-//! velocity moves an element along a ramp, then an exponential: it changes over at most once.
+//! zero (Al-Bender, Lampaert and Swevers 2005, eqs 18-20). Here `s = D` and `a_i = F_i/sum F`. At a
+//! constant velocity the force is a ramp followed by an exponential, with at most one transition.
 
 use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step};
 use crate::sample::Split;
@@ -12,19 +13,19 @@ use crate::scalar::{Mask, Real};
 /// Parameters of the elements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaxwellSlip<'a, S> {
-    /// What each element carries in sliding, relative to the others (T).
+    /// Force of each element in sliding, relative to the others (T).
     pub friction: &'a [S; MOST_ELEMENTS],
     /// Stiffness of each element (T/X).
     pub stiffness: &'a [S; MOST_ELEMENTS],
-    /// How many elements there are.
+    /// Number of elements.
     pub count: usize,
-    /// How fast a sliding element settles, `C` (T/s).
+    /// Rate at which a sliding element settles, `C` (T/s).
     pub attraction: S,
 }
 
 impl<S: Real> MaxwellSlip<'_, S> {
-    /// Steps over `interval` with the dry magnitude `dry` held; `split` is that of the sample, with
-    /// which the torque is read.
+    /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
+    /// at the end.
     #[inline]
     pub fn over(
         &self,
@@ -48,7 +49,7 @@ impl<S: Real> MaxwellSlip<'_, S> {
         Step { torque, mean_torque: mean + split.rate + split.additive }
     }
 
-    /// What all elements have in common over a step at whose end dry friction is `end`.
+    /// Values common to all elements over a step at whose end dry friction is `end`.
     #[inline]
     fn slide(&self, dry: S, end: S, interval: &Interval<S::Plain>) -> Slide<S> {
         let mut total = S::zero();
@@ -69,28 +70,28 @@ impl<S: Real> MaxwellSlip<'_, S> {
     }
 }
 
-/// What all elements have in common over a step.
+/// Values common to all elements over a step.
 struct Slide<S: Real> {
     direction: S::Plain,
     travel: S::Plain,
-    /// Force in sliding over the friction of an element, at the start of the step and at its end: it
-    /// moves steadily through what is held, at the middle.
+    /// Force in sliding over the friction of an element, at the start of the step and at its end:
+    /// it changes linearly and has the constant value at the middle.
     from: S,
     to: S,
     settling: Settling<S>,
-    /// The weights of an element that slides through the whole step.
+    /// The weights of an element that slides during the whole step.
     whole: Weights<S>,
 }
 
-/// How a sliding element settles: its relaxation over the whole step is `pull/dry`.
+/// The settling of a sliding element: over the whole step it relaxes by the exponent `pull/dry`.
 struct Settling<S> {
     pull: S,
     dry: S,
     mean: bool,
 }
 
-/// What is left of a way, at the mean of it (`phi_1`) and of a way that grows (`phi_2`, if the mean
-/// is wanted), and what is covered at the end.
+/// The remaining shares of a distance: its mean (`phi_1`), the mean for a distance that grows
+/// linearly (`phi_2`, if the mean is requested), and the share covered at the end.
 struct Weights<S> {
     first: S,
     second: S,
@@ -126,7 +127,7 @@ struct Element<S> {
 }
 
 impl<S: Real> Element<S> {
-    /// Moves one element and returns its mean force over the step.
+    /// Advances one element and returns its mean force over the step.
     #[inline]
     fn advance(&self, force: &mut S, sliding: &mut S::Plain, slide: &Slide<S>) -> S {
         let (direction, held) = (slide.direction, *force);
@@ -142,9 +143,9 @@ impl<S: Real> Element<S> {
         mean
     }
 
-    /// Force at the end and mean force of an element that starts at `before`, both along the motion,
-    /// and whether it sticks throughout: 1, else 0. One that `slides` does so until the motion
-    /// reverses; another sticks for a share of the step first, or for all of it.
+    /// Force at the end and mean force of an element that starts at `before`, both along the
+    /// motion, and 1 if it sticks throughout, else 0. One that `slides` does so until the motion
+    /// reverses; another sticks for a share of the step, or for all of it.
     #[inline]
     fn along(&self, before: S, slides: S::Mask, slide: &Slide<S>) -> [S; 3] {
         let half = S::Plain::from_f64(0.5);
@@ -174,7 +175,7 @@ impl<S: Real> Element<S> {
 }
 
 /// Force at the end and mean force of an element that starts at `start` and tends to a limit that
-/// moves from one place to another.
+/// moves linearly.
 #[inline]
 fn approach<S: Real>(start: S, (from, to): (S, S), weights: &Weights<S>) -> [S; 2] {
     let (gap, rise) = (from - start, to - from);

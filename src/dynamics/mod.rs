@@ -1,8 +1,9 @@
-//! Laws with a memory: their states, each stepped exactly for a velocity held over the step.
+//! The states of laws with memory, each stepped exactly for a velocity that is constant over the
+//! step.
 //!
-//! One file a kind of state. A law of [`crate::law`] chooses its kind in
-//! [`FrictionLaw::step`](crate::law::FrictionLaw::step); the effect `presliding` puts a bristle
-//! around any static law, `frictional_lag` and `backlash` have states beside it.
+//! One file per kind of state. A law of [`crate::law`] selects its kind in
+//! [`FrictionLaw::step`](crate::law::FrictionLaw::step); the effect `presliding` adds a bristle to
+//! any static law, and `frictional_lag` and `backlash` have separate states.
 
 mod bristle;
 mod dahl;
@@ -31,13 +32,13 @@ pub use relaxation::Relaxation;
 use crate::sample::Sample;
 use crate::scalar::{Mask, Real};
 
-/// Above this much relaxation a state has forgotten where it was: `e^-700 < 1e-304`.
+/// Above this exponent of relaxation the initial state has no influence: `e^-700 < 1e-304`.
 const SATURATED: f64 = 700.0;
 
-/// After so long (s) every state has settled.
+/// After this time (s) every state has settled.
 pub const LONG: f64 = 1e9;
 
-/// A stretch of time over which a sample is held.
+/// A time step over which a sample is constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval<P> {
     /// The sample, at the end of the step.
@@ -45,28 +46,29 @@ pub struct Interval<P> {
     /// Mean velocity over the step (X/s), where it is known, from positions say. It carries the
     /// state instead of the sample's velocity, which makes the step second order.
     pub mean_velocity: Option<P>,
-    /// Length (s); with `dt <= 0` a state stays as it is.
+    /// Length (s); with `dt <= 0` the state is unchanged.
     pub dt: P,
-    /// Whether the mean torque is wanted too: exact work where the sample's own velocity is held.
+    /// Whether the mean torque is requested too: exact work where the sample's velocity is
+    /// constant.
     pub mean: bool,
 }
 
 impl<P: Real> Interval<P> {
-    /// `sample` held for `dt` (s); the mean torque is not wanted.
+    /// `sample` constant for `dt` (s), without the mean torque.
     #[inline(always)]
     #[must_use]
     pub const fn held(sample: Sample<P>, dt: P) -> Self {
         Self { sample, mean_velocity: None, dt, mean: false }
     }
 
-    /// The velocity that carries the state (X/s).
+    /// The velocity that the state is stepped with (X/s).
     #[inline]
     #[must_use]
     pub fn velocity(&self) -> P {
         self.mean_velocity.unwrap_or(self.sample.velocity)
     }
 
-    /// What the state goes through: `|v| dt` (X), and 0 where time does not pass.
+    /// The travel `|v| dt` (X); 0 for `dt <= 0`.
     #[inline]
     #[must_use]
     pub fn travel(&self) -> P {
@@ -74,18 +76,18 @@ impl<P: Real> Interval<P> {
     }
 }
 
-/// What one step yields.
+/// The result of one step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<S> {
     /// Torque at the end of the step (T).
     pub torque: S,
-    /// Torque averaged over the step (T): times `v dt` it is the exact work. The torque at the
-    /// end where it was not asked for.
+    /// Torque averaged over the step (T): times `v dt` it is the exact work. Equal to `torque` if
+    /// not requested.
     pub mean_torque: S,
 }
 
 impl<S: Real> Step<S> {
-    /// A torque that does not change over the step.
+    /// A torque that is constant over the step.
     #[inline]
     #[must_use]
     pub fn same(torque: S) -> Self {
@@ -93,21 +95,21 @@ impl<S: Real> Step<S> {
     }
 }
 
-/// What the state of a model consists of, in the order in which a start value gives it.
+/// The kind of state of a model, whose numbers are in the order of a start value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Memory {
-    /// Nothing.
+    /// No state.
     None,
     /// The deflection of one bristle (X).
     Deflection,
-    /// The forces of so many elements in parallel (T).
+    /// The forces of this many elements in parallel (T).
     Forces(usize),
-    /// The force of each of the law's elements (T).
+    /// The force of each element of the law (T).
     Elements,
 }
 
 impl Memory {
-    /// How many numbers the state has.
+    /// Number of values of the state.
     #[must_use]
     pub const fn size(self) -> usize {
         match self {
@@ -119,23 +121,23 @@ impl Memory {
     }
 }
 
-/// State of any model, kept apart from its parameters: each kind of law uses its own part.
+/// State of any model, separate from its parameters: each kind of law uses its own part.
 #[derive(Clone, Copy, Debug)]
 pub struct State<S: Real> {
     /// Deflection of a bristle.
     pub bristle: BristleState<S>,
     /// Forces of elements in parallel.
     pub elements: Elements<S>,
-    /// Stribeck curve that lags.
+    /// The lagging Stribeck curve.
     pub curve: Lagging<S>,
-    /// Flanks of a gap.
+    /// The gap of backlash.
     pub flanks: Flanks<S>,
     /// Dry magnitude at the end of the step before (T).
     dry: Option<S>,
 }
 
 impl<S: Real> State<S> {
-    /// The state that a deflection `z` (X) at the start means; 0 is a joint without tension.
+    /// The state for an initial deflection `z` (X); 0 for a relaxed bristle.
     #[inline]
     #[must_use]
     pub fn deflected(z: S) -> Self {
@@ -149,14 +151,14 @@ impl<S: Real> State<S> {
     }
 
     /// The dry magnitude that acts over a step at whose end it is `end` (T): the mean over the step
-    /// where the velocity is a mean too, else that of the sample that is held.
+    /// if the interval has a mean velocity, else `end`.
     #[inline]
     pub(crate) fn dry_over(&mut self, end: S, interval: &Interval<S::Plain>) -> S {
         let before = self.dry.replace(end).filter(|_| interval.mean_velocity.is_some());
         before.map_or(end, |before| (before + end).scale(S::Plain::from_f64(0.5)))
     }
 
-    /// The state of elements that stick with these forces (T).
+    /// The state of sticking elements with these forces (T).
     #[must_use]
     pub fn tensioned(forces: impl IntoIterator<Item = S>) -> Self {
         let mut state = Self::default();
@@ -173,12 +175,12 @@ impl<S: Real> Default for State<S> {
     }
 }
 
-/// How far a state has followed, at the end of a step, where it tends to.
+/// The share of a change of its target that a state has followed at the end of a step.
 ///
-/// That place moves steadily through the one that was held, at the middle of the step, to the one
-/// at the end. With `y` minus the relaxation over the step and `phi = phi_1(y)`, a state that relaxes
-/// to the held place comes, of the way from there to the end, this share further: `y^2/6` where it is
-/// slow, all where it is stiff. So a step-mean velocity gives second order whatever the stiffness.
+/// The target moves linearly: it has the constant value at the middle of the step. With `y` minus
+/// the exponent of relaxation over the step and `phi = phi_1(y)`, the state follows the second half
+/// of that motion by this share: `y^2/6` where relaxation is slow, 1 where it is stiff. With a mean
+/// velocity the step is therefore second order for any stiffness.
 #[inline]
 pub(crate) fn following<S: Real>(y: S, phi: S) -> S {
     let two = S::Plain::from_f64(2.0);

@@ -1,4 +1,4 @@
-//! The numbers that a state consists of, by name.
+//! The numbers of a state, by name.
 
 use super::{Flanks, Lagging, State};
 use crate::scalar::{Choice, Mask, Real};
@@ -12,15 +12,15 @@ pub enum Part {
     Force(usize),
     /// Direction in which an element slides.
     Sliding(usize),
-    /// Whether the Stribeck curve that lags has begun.
+    /// Whether the lagging Stribeck curve has a value.
     CurveBegun,
-    /// The Stribeck curve that lags.
+    /// The lagging Stribeck curve.
     Curve,
-    /// Where that tends to.
+    /// The steady value of the lagging Stribeck curve.
     SteadyCurve,
-    /// Whether a load torque is remembered.
+    /// Whether a previous load torque is known.
     LoadBegun,
-    /// The load torque that is remembered.
+    /// The previous load torque.
     Load,
     /// Whether the flanks of the gap have parted.
     GapParted,
@@ -31,7 +31,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// Its name without the number of an element, its unit and what it is.
+    /// Its name without the number of an element, its unit and its meaning.
     #[must_use]
     pub const fn describe(self) -> (&'static str, &'static str, &'static str) {
         match self {
@@ -51,7 +51,7 @@ impl Part {
         }
     }
 
-    /// Of an element, which.
+    /// The number of the element, if it belongs to one.
     #[must_use]
     pub const fn element(self) -> Option<usize> {
         match self {
@@ -62,8 +62,8 @@ impl Part {
 }
 
 impl<S: Real> State<S> {
-    /// The state with each of its numbers changed, always in the same order. What is either so or
-    /// not so counts as 1 or 0.
+    /// The state with each of its numbers changed, always in the same order. Booleans count as 1 or
+    /// 0.
     #[must_use]
     pub fn map(&self, mut change: impl FnMut(Part, S) -> S) -> Self {
         let mut state = *self;

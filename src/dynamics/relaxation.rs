@@ -3,29 +3,29 @@
 use super::{SATURATED, following};
 use crate::scalar::{Mask, Real};
 
-/// Above this ratio of pull to hold a state is at its target wherever it is.
+/// Above this ratio of pull to hold the state is always at its target.
 const LOOSE: f64 = 1e30;
 
-/// `dz/ds = (target - z) pull/hold` along a travel `s`, with `pull >= 0`; a state without hold is
-/// at its target as soon as anything moves.
+/// `dz/ds = (target - z) pull/hold` along a travel `s`, with `pull >= 0`; with `hold = 0` the state
+/// is at its target as soon as there is travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relaxation<S> {
-    /// Where the state tends to.
+    /// The target of the state.
     pub target: S,
-    /// What pulls it there.
+    /// Numerator of the rate.
     pub pull: S,
-    /// What holds it back.
+    /// Denominator of the rate.
     pub hold: S,
 }
 
-/// Where a travel leaves the state.
+/// The state after a travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relaxed<S> {
     /// At the end of the travel.
     pub end: S,
     /// Averaged over the travel.
     pub mean: S,
-    /// Minus `pull/hold s`: what is left of the way to the target is its exponential.
+    /// The exponent `-(pull/hold) s`: the remaining share of the distance is its exponential.
     pub decay: S,
 }
 
@@ -63,8 +63,8 @@ impl<S: Real> Relaxation<S> {
 }
 
 impl<S: Real> Relaxed<S> {
-    /// How far the state has followed a target that moved from the one that was held to the one at
-    /// the end.
+    /// The share of a change of the target that the state has followed: the target moves linearly
+    /// and has the constant value at the middle.
     #[inline]
     #[must_use]
     pub fn following(&self) -> S {

@@ -1,3 +1,5 @@
+//! What is wrong with a formula, and where.
+
 use core::fmt;
 
 use super::vocabulary::Function;
@@ -5,48 +7,48 @@ use super::vocabulary::Function;
 /// Why a text is not a formula, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FormulaError<'a> {
-    /// Character of the text, counted from 1.
+    /// Position of the character, counted from 1.
     pub position: usize,
-    /// What is wrong there.
+    /// The reason.
     pub reason: Reason<'a>,
 }
 
-/// What can be wrong with a formula.
+/// The reasons why a text is not a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reason<'a> {
-    /// Nothing but blanks.
+    /// The text is empty or blank.
     Empty,
-    /// Every name is a channel: nothing to identify.
+    /// Every name is a channel, so there is nothing to identify.
     NoParameter,
-    /// A character that no formula holds.
+    /// A character that is not allowed in a formula.
     Character(char),
-    /// Digits that are no number.
+    /// Digits that do not form a number.
     Number(&'a str),
-    /// An operator, bracket or comma stands where a value is needed.
+    /// An operator, bracket or comma where a value is needed.
     NoValue(&'a str),
     /// The text ends where a value is needed.
     Unfinished,
-    /// Two values follow each other.
+    /// Two values without an operator between them.
     NoOperator(&'a str),
-    /// A bracket is opened and never closed.
+    /// An opening bracket without a closing one.
     Unclosed(&'a str),
-    /// A bracket is closed that was not opened, or not by this kind.
+    /// A closing bracket without an opening one of its kind.
     Unopened(&'a str),
-    /// A name with a bracket behind it is no function.
+    /// A name before a bracket that is not a function, and the function with the most similar name.
     UnknownFunction(&'a str, Option<&'static str>),
-    /// A name that looks like a mistyped channel or function.
+    /// A name that looks like a misspelt channel or function.
     Mistyped(&'a str, &'static str),
-    /// `e`: Euler's number, or a parameter?
+    /// `e` could be Euler's number or a parameter.
     Ambiguous(&'a str),
-    /// A quantity that a law of friction cannot depend on.
+    /// Time, which a friction law cannot depend on.
     Time(&'a str),
-    /// A function without brackets.
+    /// A function without its arguments.
     NotCalled(Function),
-    /// A function with too few or too many values.
+    /// A function with too few or too many arguments.
     Arity(Function, usize),
-    /// Numbers alone that make infinity or nothing at all.
+    /// A constant expression that is infinite or NaN.
     NotFinite,
-    /// The program would be larger than a formula can be.
+    /// The formula is too long.
     TooLarge(&'static str, usize),
 }
 
@@ -59,13 +61,13 @@ impl fmt::Display for FormulaError<'_> {
                     "the formula has no parameter to identify: every name in it is a channel",
                 );
             }
-            Reason::Character(c) => write!(f, "'{c}' means nothing in a formula,"),
+            Reason::Character(c) => write!(f, "'{c}' is not allowed in a formula,"),
             Reason::Number(text) => write!(f, "'{text}' is not a number,"),
             Reason::NoValue(text) => write!(f, "a value is missing before '{text}'"),
             Reason::Unfinished => f.write_str("a value is missing at the end,"),
             Reason::NoOperator(text) => write!(f, "an operator is missing before '{text}'"),
             Reason::Unclosed(text) => write!(f, "the bracket '{text}' is never closed,"),
-            Reason::Unopened(text) => write!(f, "'{text}' closes no bracket,"),
+            Reason::Unopened(text) => write!(f, "'{text}' has no opening bracket,"),
             Reason::UnknownFunction(name, None) => write!(f, "'{name}' is not a function,"),
             Reason::UnknownFunction(name, Some(near)) => {
                 write!(f, "'{name}' is not a function (did you mean '{near}'?),")
@@ -91,10 +93,10 @@ impl fmt::Display for FormulaError<'_> {
             }
             Reason::Arity(function, given) => {
                 let (name, needed) = (function.name(), function.arity());
-                let values = if needed == 1 { "value" } else { "values" };
+                let values = if needed == 1 { "argument" } else { "arguments" };
                 write!(f, "{name} takes {needed} {values}, not {given},")
             }
-            Reason::NotFinite => f.write_str("this makes no finite number,"),
+            Reason::NotFinite => f.write_str("the result is not a finite number,"),
             Reason::TooLarge(what, most) => {
                 write!(f, "the formula is too long (at most {most} {what}),")
             }

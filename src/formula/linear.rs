@@ -1,4 +1,4 @@
-//! In which parameters a formula is linear, all others held.
+//! The parameters in which a formula is linear, with all others fixed.
 
 use super::program::{MAX_DEPTH, MAX_PARAMETERS, Operation, Program};
 
@@ -7,8 +7,8 @@ pub(super) type ParameterSet = u16;
 
 /// The largest set of parameters found in which the formula is jointly linear.
 ///
-/// A set grows from each parameter in turn, in the order of the formula; in `c1*(c2 + c3*v)` this
-/// finds `c2, c3` rather than `c1`.
+/// A set is grown from each parameter in turn, in the order of the formula; for `c1*(c2 + c3*v)`
+/// this finds `c2, c3` rather than `c1`.
 pub(super) fn linear_parameters(program: &Program) -> ParameterSet {
     let grown = (0..program.parameter_count).map(|first| {
         (0..program.parameter_count).fold(0, |set, step| {
@@ -16,7 +16,7 @@ pub(super) fn linear_parameters(program: &Program) -> ParameterSet {
             if is_linear(program, candidate) { candidate } else { set }
         })
     });
-    // The first of the largest: `max_by_key` would take the last.
+    // The first of the largest sets: `max_by_key` would return the last.
     grown.fold(
         0,
         |best: ParameterSet, set| if set.count_ones() > best.count_ones() { set } else { best },

@@ -1,16 +1,16 @@
-//! Friction terms that a user writes as text: `c1*v + c2*tanh(v/c3)*abs(load)`.
+//! Friction terms given as text: `c1*v + c2*tanh(v/c3)*abs(load)`.
 //!
-//! The text becomes a [`Formula`]: a program of fixed size that only computes, nothing of it is
-//! ever executed as code. Every name that is neither a channel, a function nor `pi` is a
-//! parameter. The same program serves `f32`, `f64` and dual numbers.
+//! The text is parsed into a [`Formula`], a program of fixed size that only computes; no text is
+//! executed as code. Every name that is not a channel, a function or `pi` is a parameter. The same
+//! program runs on `f32`, `f64` and dual numbers.
 //!
-//! | module | what lives there |
+//! | module | content |
 //! |---|---|
-//! | [`vocabulary`](Function) | channels, functions and constants by name |
-//! | `parser` | text to program |
+//! | [`vocabulary`](Function) | names of channels, functions and constants |
+//! | `parser` | from text to program |
 //! | [`program`](Operation) | operations in postfix order, and their evaluation |
-//! | [`terms`](TermKind) | which terms are dry, rate-dependent, additive |
-//! | `linear` | in which parameters the torque is linear |
+//! | [`terms`](TermKind) | terms: dry, rate-dependent or additive |
+//! | `linear` | the parameters in which the torque is linear |
 //!
 //! ```
 //! use stribeck::formula::{Formula, OwnTerms};

@@ -1,4 +1,4 @@
-//! From text to program: recursive descent, operations written as they are recognised.
+//! From text to program: recursive descent that emits operations while it parses.
 //!
 //! ```text
 //! sum     = product { ("+" | "-") product }
@@ -15,7 +15,7 @@ use super::program::{
 use super::vocabulary::{self, Function, Word};
 use crate::sample::Sample;
 
-/// The parameters' names, in the order in which the formula first mentions them.
+/// The names of the parameters, in the order of their first use in the formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Names<'a> {
     names: [&'a str; MAX_PARAMETERS],
@@ -29,7 +29,7 @@ impl<'a> Names<'a> {
         self.names.get(..self.count).unwrap_or_default()
     }
 
-    /// The index of a name, which is added if it is new; `None` if there is no room.
+    /// The index of a name, which is added if it is new; `None` if there are too many.
     fn index(&mut self, name: &'a str) -> Option<u8> {
         let known = self.as_slice().iter().position(|known| *known == name);
         let index = known.unwrap_or(self.count);
@@ -212,7 +212,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A bracket with values between commas; returns how many.
+    /// Parses a bracket of comma-separated values; returns how many.
     fn bracket(&mut self, depth: usize) -> Result<usize, FormulaError<'a>> {
         let open = self.token;
         let closing = if self.word() == "[" { "]" } else { ")" };
@@ -245,7 +245,8 @@ impl<'a> Parser<'a> {
         Err(self.wrong(token.start, Reason::TooLarge("numbers", MAX_CONSTANTS)))
     }
 
-    /// Writes an operation; numbers alone are computed at once, whole exponents by multiplication.
+    /// Emits an operation. Constant expressions are computed at once, and integer powers become
+    /// multiplications.
     fn emit(&mut self, operation: Operation, token: Token) -> Result<(), FormulaError<'a>> {
         let room = if operation.arity() > 0 && self.all_numbers(operation.arity()) {
             let first = self.program.operations().len() - operation.arity();
@@ -277,7 +278,7 @@ impl<'a> Parser<'a> {
         last.filter(|operation| matches!(operation, Operation::Constant(_))).count() == count
     }
 
-    /// The exponent that stands last in the program, if it is a whole number of moderate size.
+    /// The constant exponent at the end of the program, if it is an integer of moderate size.
     #[allow(clippy::cast_possible_truncation)]
     fn whole_exponent(&self) -> Option<i8> {
         let mut program = self.program;
@@ -343,7 +344,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// How many bytes a number takes: digits, a point, an exponent with its sign.
+/// The length of a number in bytes: digits, a point, an exponent with its sign.
 fn number_length(text: &str) -> usize {
     let mut before = ' ';
     for (at, c) in text.char_indices() {

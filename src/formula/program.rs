@@ -7,16 +7,16 @@ use crate::sample::Sample;
 use crate::scalar::{Mask, Real};
 use crate::table::Channel;
 
-/// The most operations of a formula.
+/// Largest number of operations of a formula.
 pub const MAX_OPERATIONS: usize = 160;
-/// The most numbers of a formula.
+/// Largest number of constants of a formula.
 pub const MAX_CONSTANTS: usize = 40;
-/// The most parameters of a formula.
+/// Largest number of parameters of a formula.
 pub const MAX_PARAMETERS: usize = 16;
-/// The most values that wait for their operator, and the deepest nesting of brackets.
+/// Largest number of values on the stack, and deepest nesting of brackets.
 pub const MAX_DEPTH: usize = 24;
 
-/// One step of a program: it takes its values from a stack and leaves one there.
+/// One operation: it pops its operands from a stack and pushes its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// A number, by its index in [`Program::constants`].
@@ -35,14 +35,14 @@ pub enum Operation {
     Multiply,
     /// `x / y`.
     Divide,
-    /// `x^n` by multiplication: exact for `n = 2`, and any `x` will do.
+    /// `x^n` by multiplication: exact for `n = 2`, and defined for negative `x`.
     IntegerPower(i8),
-    /// A function; `x^y` is one.
+    /// A function; `x^y` is one of them.
     Call(Function),
 }
 
 impl Operation {
-    /// How many values it takes.
+    /// Number of operands.
     #[must_use]
     pub const fn arity(self) -> usize {
         match self {
@@ -54,7 +54,7 @@ impl Operation {
     }
 }
 
-/// A formula that has been parsed: what to compute, without the names of its parameters.
+/// A parsed formula: its operations, without the names of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Program {
     operations: [Operation; MAX_OPERATIONS],
@@ -64,7 +64,7 @@ pub struct Program {
     pub(super) parameter_count: usize,
 }
 
-/// A part of a program whose value is put in place of computing it.
+/// A part of a program that is replaced by a known value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Replacement<'a, P> {
     pub(super) part: &'a Range<usize>,
@@ -80,19 +80,19 @@ impl Program {
         parameter_count: 0,
     };
 
-    /// The operations in the order in which they run.
+    /// The operations in the order of evaluation.
     #[must_use]
     pub fn operations(&self) -> &[Operation] {
         self.operations.get(..self.length).unwrap_or_default()
     }
 
-    /// The numbers that operations refer to.
+    /// The constants, in the order in which operations refer to them.
     #[must_use]
     pub fn constants(&self) -> &[f64] {
         self.constants.get(..self.constant_count).unwrap_or_default()
     }
 
-    /// Appends an operation; `false` if there is no room.
+    /// Appends an operation; `false` if the program is full.
     pub(super) fn push(&mut self, operation: Operation) -> bool {
         let Some(slot) = self.operations.get_mut(self.length) else { return false };
         *slot = operation;
@@ -100,7 +100,7 @@ impl Program {
         true
     }
 
-    /// Appends a number; `false` if there is no room.
+    /// Appends a constant; `false` if the program is full.
     pub(super) fn push_constant(&mut self, value: f64) -> bool {
         let index = self.constant_count;
         let Some(slot) = self.constants.get_mut(index) else { return false };
@@ -109,7 +109,7 @@ impl Program {
         u8::try_from(index).is_ok_and(|index| self.push(Operation::Constant(index)))
     }
 
-    /// Takes the last operation off again if it is a number: numbers stand in order.
+    /// Removes the last operation if it is a constant.
     pub(super) fn pop_constant(&mut self) -> Option<f64> {
         let Some(Operation::Constant(_)) = self.operations().last() else { return None };
         let value = self.constants().last().copied()?;
@@ -118,7 +118,7 @@ impl Program {
         Some(value)
     }
 
-    /// The sum of two programs, the second with parameters of its own; `None` if it is too large.
+    /// The sum of two programs, the second with separate parameters; `None` if it is too large.
     pub(super) fn plus(&self, other: &Self) -> Option<Self> {
         let mut sum = *self;
         sum.parameter_count += other.parameter_count;
@@ -139,7 +139,7 @@ impl Program {
         fits.then_some(sum)
     }
 
-    /// The operations that make the value which the one at `last` leaves, itself included.
+    /// The operations that compute the value of the one at `last`, including that one.
     pub(super) fn part(&self, last: usize) -> Range<usize> {
         let mut open = 1;
         let mut first = last + 1;
@@ -154,7 +154,7 @@ impl Program {
         first..last + 1
     }
 
-    /// The most values on the stack at any time.
+    /// The largest number of values on the stack.
     pub(super) fn depth(&self) -> usize {
         let mut depth: usize = 0;
         let deepest = self.operations().iter().map(|operation| {
@@ -229,8 +229,7 @@ impl Program {
     }
 }
 
-/// A value that depends on parameters, or one that does not: where a gradient is wanted, nothing
-/// is carried along with the latter.
+/// A value that depends on parameters, or one that does not: the latter carries no derivatives.
 #[derive(Clone, Copy)]
 enum Value<S: Real> {
     Known(S::Plain),
@@ -252,7 +251,7 @@ impl<S: Real> Value<S> {
     }
 }
 
-/// Values that wait for their operator. The parser has seen to it that there is room.
+/// The stack of values. The parser has checked that it is large enough.
 struct Stack<S: Real> {
     values: [Value<S>; MAX_DEPTH],
     height: usize,
@@ -279,7 +278,7 @@ impl<S: Real> Stack<S> {
     }
 }
 
-/// An operation on two values; the result's bits do not depend on which of them are known.
+/// A binary operation; the bits of the result do not depend on which operands are known.
 #[inline]
 fn combine<S: Real>(operation: Operation, x: Value<S>, y: Value<S>) -> Value<S> {
     use Value::{Full, Known};
@@ -312,7 +311,7 @@ fn combine<S: Real>(operation: Operation, x: Value<S>, y: Value<S>) -> Value<S> 
     }
 }
 
-/// The smaller one, the first of equals; NaN on either side must not vanish.
+/// The smaller value, the first if they are equal; NaN on either side stays NaN.
 #[inline]
 fn minimum<R: Real>(x: R, y: R) -> R {
     let is_number = |x: R| x.equals(x.plain());

@@ -1,4 +1,5 @@
-//! A formula taken apart into the terms of its sum, so that effects compose with it.
+//! The terms of a formula: it is split into dry, rate-dependent and additive friction, so that
+//! effects apply to it.
 
 use core::ops::Range;
 
@@ -11,35 +12,34 @@ use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, ParameterInfo, Presence, Role, Scale};
 
-/// The most terms of a formula.
+/// Largest number of terms of a formula.
 pub const MAX_TERMS: usize = 24;
 
-/// What a term is.
+/// The kind of a term.
 ///
-/// | a term is | where |
+/// | kind | condition |
 /// |---|---|
-/// | dry | it has the factor `sgn(v)`, and the other factors do not vanish with `v` |
-/// | smoothed | it has the factor `tanh` or `atan` of a multiple of `v`, likewise |
-/// | rate | it is neither, and zero at `v = 0` |
-/// | additive | it is none of these |
+/// | dry | it has the factor `sgn(v)`, and the other factors are not zero at `v = 0` |
+/// | smoothed | the same with the factor `tanh` or `atan` of a multiple of `v` |
+/// | rate | neither of these, and zero at `v = 0` |
+/// | additive | none of these |
 ///
-/// A factor is found in products, in numerators and behind signs, not inside a bracketed sum; so
-/// `(c1 + c2*abs(v))*sgn(v)` is dry as a whole, and `c1*sgn(v) + c2*abs(v)*sgn(v)` is dry and
-/// rate.
+/// Factors are searched in products, numerators and behind signs, not inside a bracketed sum: `(c1
+/// + c2*abs(v))*sgn(v)` is one dry term, and `c1*sgn(v) + c2*abs(v)*sgn(v)` a dry and a rate term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TermKind {
     /// Dry friction along `sgn(v)`.
     Dry,
     /// Dry friction with a smoothed sign.
     Smoothed,
-    /// Vanishes with the velocity.
+    /// Vanishes at zero velocity.
     Rate,
-    /// Does not care about motion.
+    /// Independent of the motion.
     Additive,
 }
 
 impl TermKind {
-    /// The name users read.
+    /// The name shown to users.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -54,7 +54,7 @@ impl TermKind {
 /// A term of the sum, as a part of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Term {
-    /// What it is.
+    /// Its kind.
     pub kind: TermKind,
     negative: bool,
     part: (u8, u8),
@@ -74,7 +74,8 @@ impl Term {
         range(self.part)
     }
 
-    /// The operations that compute its factor `sgn(v)`, or the smoothed one; empty without any.
+    /// The operations that compute its factor `sgn(v)` or the smoothed sign; empty if there is
+    /// none.
     #[must_use]
     pub fn direction(&self) -> Range<usize> {
         range(self.direction)
@@ -85,7 +86,7 @@ fn range((first, end): (u8, u8)) -> Range<usize> {
     usize::from(first)..usize::from(end)
 }
 
-/// A formula: its program, its terms, and in which parameters it is linear.
+/// A formula: its program, its terms, and the parameters in which it is linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Formula {
     program: Program,
@@ -119,18 +120,18 @@ impl Formula {
         &self.program
     }
 
-    /// How many parameters it has.
+    /// Number of parameters.
     #[must_use]
     pub const fn parameter_count(&self) -> usize {
         self.program.parameter_count
     }
 
-    /// The terms, in order.
+    /// The terms, in their order.
     pub fn terms(&self) -> impl Iterator<Item = &Term> {
         self.terms.iter().flatten()
     }
 
-    /// The sum of two formulas; the parameters of the second come after those of the first.
+    /// The sum of two formulas; the parameters of the second follow those of the first.
     ///
     /// # Errors
     /// The sum is larger than a formula can be.
@@ -148,15 +149,15 @@ impl Formula {
         self.program.operations().contains(&Operation::Channel(channel))
     }
 
-    /// Whether the formula takes the lesser or the larger of two values.
+    /// Whether the formula contains `min` or `max`.
     #[must_use]
     pub fn compares(&self) -> bool {
         let extreme = [Operation::Call(Function::Minimum), Operation::Call(Function::Maximum)];
         self.program.operations().iter().any(|operation| extreme.contains(operation))
     }
 
-    /// A row of a table for each parameter. They have the names `p1`, `p2` ... here: those that
-    /// the user gave are kept with the text.
+    /// A table entry for each parameter, named `p1`, `p2` ...: the caller keeps the names in the
+    /// text.
     pub fn parameters(&self) -> impl Iterator<Item = &'static ParameterInfo> + '_ {
         (0..self.parameter_count()).filter_map(|i| slots(self.role(i)).get(i))
     }
@@ -227,7 +228,7 @@ impl Formula {
         Some(Term { kind, negative, part: small(part)?, direction })
     }
 
-    /// The factor of a product that is wanted, as a part of the program.
+    /// The first factor of a product that satisfies `wanted`, as a part of the program.
     fn factor(&self, last: usize, wanted: &dyn Fn(usize) -> bool) -> Option<Range<usize>> {
         if wanted(last) {
             return Some(self.program.part(last));
@@ -252,7 +253,7 @@ impl Formula {
             && self.is_velocity(last - 1)
     }
 
-    /// What a smoothed sign tends to with speed, if the function that ends at `last` is one.
+    /// The limit of a smoothed sign at high speed, if the function that ends at `last` is one.
     fn smoothed_limit(&self, last: usize) -> Option<f64> {
         let limit = match self.program.operations().get(last)? {
             Operation::Call(Function::Tanh) => 1.0,
@@ -262,8 +263,8 @@ impl Formula {
         self.factor(last - 1, &|at| self.is_velocity(at)).map(|_| limit)
     }
 
-    /// Whether a part of the program is zero at rest: at made-up parameters and channels, which
-    /// no formula has reason to cancel.
+    /// Whether a part of the program is zero at rest: evaluated at arbitrary parameters and
+    /// channels, at which no terms cancel by accident.
     fn vanishes(&self, part: &Range<usize>, replacement: Option<Replacement<'_, f64>>) -> bool {
         let parameters = core::array::from_fn(|i| 0.7312 + 0.1937 * f64::from(i as u8));
         let rest = |sign: f64| Sample {
@@ -283,7 +284,7 @@ impl Formula {
     }
 }
 
-/// The table of parameters that all enter the torque alike: unbounded, without a unit.
+/// Table entries for parameters with this role: unbounded, without a unit.
 const fn slots(role: Role) -> &'static [ParameterInfo; MAX_PARAMETERS] {
     match role {
         Role::Dry => const { &table(Role::Dry) },
@@ -320,7 +321,7 @@ const fn table(role: Role) -> [ParameterInfo; MAX_PARAMETERS] {
     rows
 }
 
-/// A formula with numbers for its parameters.
+/// A formula with parameter values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OwnTerms<S> {
     formula: Formula,
@@ -328,7 +329,7 @@ pub struct OwnTerms<S> {
 }
 
 impl<S: Real> OwnTerms<S> {
-    /// The formula with the parameters that `next` yields, in their order.
+    /// The formula with the parameters that `next` returns, in their order.
     #[inline]
     #[must_use]
     pub fn read(formula: &Formula, mut next: impl FnMut() -> S) -> Self {
@@ -337,14 +338,14 @@ impl<S: Real> OwnTerms<S> {
         Self { formula: *formula, parameters }
     }
 
-    /// The formula with these parameters; what is missing is zero.
+    /// The formula with these parameters; missing ones are zero.
     #[must_use]
     pub fn new(formula: &Formula, parameters: &[S]) -> Self {
         let mut parameters = parameters.iter().copied();
         Self::read(formula, || parameters.next().unwrap_or_else(S::zero))
     }
 
-    /// The torque at one instant, taken apart.
+    /// The torque at one sample, by terms.
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
@@ -353,7 +354,7 @@ impl<S: Real> OwnTerms<S> {
         split
     }
 
-    /// Adds the terms to what is there.
+    /// Adds the terms to `split`.
     #[inline]
     pub fn add_to(&self, split: &mut Split<S>, sample: &Sample<S::Plain>) {
         for term in self.formula.terms() {
@@ -376,7 +377,7 @@ impl<S: Real> OwnTerms<S> {
         }
     }
 
-    /// What the smoothed sign tends to as the speed grows forwards.
+    /// The limit of the smoothed sign at high forward speed.
     fn limit(&self, term: &Term, sample: &Sample<S::Plain>) -> S::Plain {
         let direction = term.direction();
         let last = direction.end.saturating_sub(1);

@@ -1,8 +1,8 @@
-//! The words of a formula: channels, functions, constants.
+//! The names that a formula can use: channels, functions, constants.
 
 use crate::table::Channel;
 
-/// A function of one value, or of two.
+/// A function of one or two arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum Function {
@@ -25,7 +25,7 @@ pub enum Function {
 }
 
 impl Function {
-    /// How many values it takes.
+    /// Number of arguments.
     #[must_use]
     pub const fn arity(self) -> usize {
         match self {
@@ -34,14 +34,14 @@ impl Function {
         }
     }
 
-    /// The name by which programs and messages call it.
+    /// The name in programs and messages.
     #[must_use]
     pub fn name(self) -> &'static str {
         FUNCTIONS.iter().find(|(_, function)| *function == self).map_or("", |(name, _)| name)
     }
 }
 
-/// Functions by name; the first name of each is its own.
+/// Functions by name; the first name of each function is the one in messages.
 const FUNCTIONS: [(&str, Function); 20] = [
     ("sgn", Function::Sign),
     ("sign", Function::Sign),
@@ -84,12 +84,12 @@ const CHANNELS: [(&str, Channel); 15] = [
     ("external_torque", Channel::ExternalTorque),
 ];
 
-/// What a name stands for.
+/// The meaning of a name.
 pub(super) enum Word {
     Channel(Channel),
     Function(Function),
     Pi,
-    /// A parameter, or a slip of the pen.
+    /// A parameter, or a misspelt name.
     Other,
 }
 
@@ -106,13 +106,13 @@ pub(super) fn word(name: &str) -> Word {
     }
 }
 
-/// The function whose name is closest to a mistyped one.
+/// The function with the most similar name.
 pub(super) fn nearest_function(name: &str) -> Option<&'static str> {
     nearest(name, FUNCTIONS.iter().map(|(word, _)| *word), name.len() / 2)
 }
 
-/// The channel, function or constant that a parameter's name was probably meant to be: one that
-/// differs by case alone, or a long one with a letter or two wrong. A single letter may be anything.
+/// The channel, function or constant that was probably meant: its name differs by case only, or is
+/// long and differs by one or two letters. Single letters are never considered misspelt.
 pub(super) fn probably_meant(name: &str) -> Option<&'static str> {
     if name.len() < 2 {
         return None;
@@ -135,11 +135,11 @@ fn nearest(
     measured.filter(|(d, _)| *d <= most).min_by_key(|(d, _)| *d).map(|(_, word)| word)
 }
 
-/// The longest name that is compared with others.
+/// The longest name that is compared.
 const LONGEST: usize = 24;
 
-/// Letters to insert, delete, replace or exchange with the next (Damerau 1964, each letter touched
-/// once); `None` if a name is too long.
+/// Number of letters to insert, delete, replace or exchange with the next (Damerau 1964, each
+/// letter edited once); `None` if a name is too long.
 fn distance(a: &str, b: &str) -> Option<usize> {
     if a.len() > LONGEST || b.len() > LONGEST {
         return None;

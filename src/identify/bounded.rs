@@ -1,24 +1,27 @@
+//! Linear least squares within bounds: bounded variables least squares (Stark and Parker 1995).
+
 use std::vec;
 use std::vec::Vec;
 
 use crate::scalar::Real;
 
-/// Directions with a singular value below this share of the largest, all columns brought to length
-/// one, are not shown by the data.
+/// Directions with a singular value below this share of the largest, with all columns scaled to
+/// length one, are not identifiable.
 const UNSEEN: f64 = 1e-10;
-/// Where every pivot is at least this share of the largest, all directions are shown.
+/// Where every pivot is at least this share of the largest, all directions are identifiable.
 const PLAIN: f64 = 1e-5;
-/// Rotations end when all pairs of columns are so nearly orthogonal, or after so many rounds.
+/// Jacobi rotations end when all pairs of columns are orthogonal to this accuracy, or after
+/// [`MOST_ROUNDS`].
 const ORTHOGONAL: f64 = 1e-15;
 const MOST_ROUNDS: usize = 40;
-/// A parameter leaves its bound where the slope, with columns of length one, is this share of the
-/// right side.
+/// A parameter leaves its bound where the slope of the error, with columns of length one, is this
+/// share of the right-hand side.
 const PULLED: f64 = 1e-10;
 
-/// Minimises `|A x - b|` within bounds; directions that A does not show stay at zero.
+/// Minimises `|A x - b|` within bounds; `x` is 0 along directions that A does not determine.
 ///
-/// `matrix` is A, `right.len()` rows of `lower.len()` numbers. Where A or b has left the range of
-/// numbers there is no step: zeros. Bounded variables least squares (Stark and Parker 1995).
+/// `matrix` is A, `right.len()` rows of `lower.len()` numbers. Where A or b is not finite the
+/// result is zeros. Bounded variables least squares (Stark and Parker 1995).
 ///
 /// # Examples
 ///
@@ -48,7 +51,7 @@ pub fn bounded_least_squares(
         Bounded { columns, right, lower: scaled(lower), upper: scaled(upper), x: vec![0.0; count] };
     search.solve();
     let unscaled = |k: usize| {
-        // A bound is met exactly, not to the rounding of its scale.
+        // At a bound return it exactly, without the rounding of the column scale.
         if search.x[k] <= search.lower[k] {
             lower[k]
         } else if search.x[k] >= search.upper[k] {
@@ -60,7 +63,7 @@ pub fn bounded_least_squares(
     (0..count).map(unscaled).collect()
 }
 
-/// Columns of length one, and their lengths; none where a length is not finite.
+/// Columns scaled to length one, and their lengths; `None` where a length is not finite.
 fn unit_columns(matrix: &[f64], count: usize) -> Option<(Vec<Vec<f64>>, Vec<f64>)> {
     let mut columns = Vec::with_capacity(count);
     let mut lengths = Vec::with_capacity(count);
@@ -71,7 +74,7 @@ fn unit_columns(matrix: &[f64], count: usize) -> Option<(Vec<Vec<f64>>, Vec<f64>
         }
         let largest = column.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let size = if largest > 0.0 { largest } else { 1.0 };
-        // Divided by the largest first: no square leaves the range of numbers.
+        // Divided by the largest element first, so that no square overflows.
         column.iter_mut().for_each(|x| *x /= size);
         let length = if largest > 0.0 { Real::sqrt(dot(&column, &column)) } else { 1.0 };
         column.iter_mut().for_each(|x| *x /= length);
@@ -93,7 +96,7 @@ impl Bounded<'_> {
     fn solve(&mut self) {
         let count = self.x.len();
         let mut free = vec![true; count];
-        // What lies beyond its bound is held there, until the rest has room.
+        // Parameters beyond their bound are fixed there until the others allow otherwise.
         loop {
             let best = self.best(&free);
             let mut held = false;
@@ -120,7 +123,7 @@ impl Bounded<'_> {
         }
     }
 
-    /// The held parameter that the error pulls inside most.
+    /// The fixed parameter with the steepest descent into its range.
     fn pulled_inside(&self, free: &[bool]) -> Option<usize> {
         let left = self.left(&vec![false; self.x.len()]);
         let least = PULLED * Real::sqrt(dot(self.right, self.right));
@@ -135,8 +138,8 @@ impl Bounded<'_> {
         (strongest.1 > least).then_some(strongest.0)
     }
 
-    /// To the best of the free ones; whichever meets its bound on the way is held there. False
-    /// where the one just freed does not move.
+    /// Moves towards the minimum over the free parameters; one that meets its bound on the way is
+    /// fixed there. False where the parameter just freed does not move.
     fn walk(&mut self, free: &mut [bool], freed: usize) -> bool {
         let mut first = true;
         loop {
@@ -165,7 +168,7 @@ impl Bounded<'_> {
         }
     }
 
-    /// The residual of the parameters that are not left out.
+    /// The residual of the parameters that are not in `out`.
     fn left(&self, out: &[bool]) -> Vec<f64> {
         let mut left = self.right.to_vec();
         for (k, column) in self.columns.iter().enumerate().filter(|&(k, _)| !out[k]) {
@@ -176,7 +179,7 @@ impl Bounded<'_> {
         left
     }
 
-    /// The best of the free ones where the others stay.
+    /// The minimum over the free parameters with the others fixed.
     fn best(&self, free: &[bool]) -> Vec<f64> {
         let left = self.left(free);
         let own = (0..self.x.len()).filter(|&k| free[k]);
@@ -190,8 +193,8 @@ impl Bounded<'_> {
     }
 }
 
-/// The best solution by reflections, the longest column first (Golub and Van Loan, section 5.4.2);
-/// none where some direction is hardly shown.
+/// The minimum by Householder reflections with column pivoting (Golub and Van Loan, section 5.4.2);
+/// `None` where a direction is poorly determined.
 fn plain(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
     let (count, mut right) = (columns.len(), right.to_vec());
     let mut order: Vec<usize> = (0..count).collect();
@@ -230,8 +233,8 @@ fn plain(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
     Some(x)
 }
 
-/// The shortest of the best solutions, by singular values: columns are rotated in pairs until they
-/// are orthogonal (one-sided Jacobi, Hestenes 1958).
+/// The minimum of least norm by singular values: columns are rotated in pairs until they are
+/// orthogonal (one-sided Jacobi, Hestenes 1958).
 fn shortest(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Vec<f64> {
     let count = columns.len();
     let unit = |k: usize| (0..count).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
@@ -265,7 +268,7 @@ fn shortest(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Vec<f64> {
     x
 }
 
-/// What makes two columns orthogonal, if they are not.
+/// Cosine and sine of the rotation that makes two columns orthogonal, unless they are.
 fn rotation(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
     let (first, second, both) = (dot(x, x), dot(y, y), dot(x, y));
     if both.abs() <= ORTHOGONAL * Real::sqrt(first * second) {

@@ -1,9 +1,8 @@
-//! Parameters from recordings: separable least squares over columns in memory.
+//! Parameters from recordings: separable least squares.
 //!
-//! [`Problem`] binds a model to a measured torque and brings its linearisation down to a
-//! [`Triangle`] block by block, without a Jacobian in memory. [`minimise`] takes damped steps in the
-//! nonlinear parameters and solves for the linear ones in between, on that or on anything else that
-//! is [`LeastSquares`].
+//! [`Problem`] is a model and a measured torque. It reduces its linearisation to a [`Triangle`]
+//! block by block, without a Jacobian in memory. [`minimise`] takes damped steps in the nonlinear
+//! parameters and solves for the linear ones, for a [`Problem`] or any other [`LeastSquares`].
 
 mod bounded;
 mod problem;

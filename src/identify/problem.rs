@@ -1,3 +1,5 @@
+//! A least-squares problem: a model and the measured torque of a recording in memory.
+
 use core::ops::Range;
 use std::borrow::Cow;
 use std::vec;
@@ -10,40 +12,41 @@ use crate::batch::{self, BatchError, Columns, TimeStep};
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 
-/// The group of a row whose residual is not summed. A state runs through it all the same.
+/// The group of samples that are not scored. A state still runs through them.
 pub const NOT_SUMMED: u32 = u32::MAX;
-/// How many rows of a run tell how it began.
+/// Number of samples at the start of a run that decide how it begins.
 const FIRST_ROWS: usize = 500;
-/// Rows of a piece, where rows stand by themselves: pieces are gone through side by side.
+/// Samples per piece, where samples are independent: pieces run in parallel.
 const PIECE: usize = 1 << 16;
 
-/// A model against a measured torque, over columns in memory.
+/// A model and a measured torque, over columns in memory.
 #[derive(Clone, Copy, Debug)]
 pub struct Problem<'a> {
     /// The model.
     pub spec: &'a Spec,
-    /// What it is run over.
+    /// The columns of the recording.
     pub columns: Columns<'a>,
-    /// The torque that it should have: measured, less what is known.
+    /// The torque to fit: measured minus known torque (T).
     pub target: &'a [f64],
-    /// Which group of rows each belongs to, or [`NOT_SUMMED`].
+    /// The group of each sample, or [`NOT_SUMMED`].
     pub group: &'a [u32],
-    /// How many groups there are.
+    /// Number of groups.
     pub groups: usize,
-    /// The rows at which runs begin in motion, in order.
+    /// The first samples of runs that begin in motion, in increasing order.
     pub begins: &'a [usize],
-    /// Where the joint moves; the rows that tell how a run began.
+    /// Whether each sample is moving; only these decide how a run begins.
     pub moving: &'a [bool],
-    /// Norm of the measured torque.
+    /// Norm of the measured torque (T).
     pub torque_norm: f64,
-    /// On how many threads rows are gone through, where they stand by themselves.
+    /// Number of threads, used where samples are independent.
     pub threads: usize,
 }
 
 impl Problem<'_> {
-    /// Whether the joint slides already where each run begins in motion, or is without tension.
+    /// For each run that begins in motion, whether it begins in steady sliding or with a relaxed
+    /// bristle.
     ///
-    /// Nothing recorded says which: what fits the first rows better is taken.
+    /// The recording does not say which: the one that fits the first samples better is assumed.
     ///
     /// # Errors
     /// As [`batch::torque`]; columns of other lengths.
@@ -74,8 +77,8 @@ impl Problem<'_> {
         self.begins.iter().map(slides).collect()
     }
 
-    /// The problem of each group linearised at `values` by the parameters `wanted`, their columns
-    /// times `slope`; none where the model means nothing or is not finite.
+    /// The problem of each group, linearised at `values` with respect to the parameters `wanted`,
+    /// whose columns are multiplied by `slope`; `None` where the model is not finite.
     ///
     /// # Errors
     /// As [`batch::gradient`]; columns of other lengths.
@@ -112,12 +115,12 @@ impl Problem<'_> {
         Ok(made.iter().all(Triangle::is_finite).then_some(made))
     }
 
-    /// Whether no row depends on another one.
+    /// Whether the torque of a sample depends on no other sample.
     fn stands_row_by_row(&self) -> bool {
         !self.spec.has_state() && !self.spec.effects().contains(EffectId::Delay)
     }
 
-    /// Some rows that stand by themselves.
+    /// The problem of some samples, where samples are independent.
     fn part(&self, rows: &Range<usize>) -> Self {
         Self {
             columns: self.columns.part(rows),
@@ -157,7 +160,7 @@ impl Problem<'_> {
         })
     }
 
-    /// One step a row.
+    /// The time step of each sample.
     fn steps(&self) -> Cow<'_, [f64]> {
         match self.columns.dt {
             TimeStep::Each(steps) => Cow::Borrowed(steps),
@@ -188,7 +191,7 @@ impl Problem<'_> {
     }
 }
 
-/// Whether time passes from the row before; else a run begins.
+/// Whether time increases from the sample before; else a run begins.
 fn passes(step: f64) -> bool {
     step > 0.0
 }

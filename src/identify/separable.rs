@@ -1,9 +1,10 @@
-//! Separable least squares by Levenberg and Marquardt's method.
+//! Separable least squares with Levenberg-Marquardt steps.
 //!
-//! Golub and Pereyra (1973), in Kaufman's form (1975): steps are taken in the nonlinear parameters
-//! alone, and at each point the linear ones are solved for. What is damped, and what is compared
-//! before and after, is therefore the error that the linear parameters leave. Damping follows
-//! Nielsen (1999). Bounds hold throughout; a parameter whose bounds are equal is held.
+//! Variable projection (Golub and Pereyra 1973) in Kaufman's form (1975): steps are taken in the
+//! nonlinear parameters alone, and the linear ones are solved for at each point. The error that is
+//! compared before and after a step is therefore the minimum over the linear parameters. The
+//! damping follows Nielsen (1999). Bounds hold at all times; a parameter whose bounds are equal is
+//! fixed.
 
 use std::vec;
 use std::vec::Vec;
@@ -12,32 +13,33 @@ use super::bounded::bounded_least_squares;
 use super::triangle::Triangle;
 use crate::scalar::Real;
 
-/// Damping from which a step that is taken back goes on.
+/// Least damping after a rejected step.
 const LEAST_RETREAT: f64 = 5e-4;
-/// A damping beyond which no step can be told from standing still.
+/// At larger damping a step is indistinguishable from none.
 const MOST_DAMPING: f64 = 1e20;
-/// A damping below which there is none.
+/// Smaller damping is set to 0.
 const NO_DAMPING: f64 = 1e-12;
-/// The longest that a column has been scales its damping, or its parameter might run away where
-/// nothing depends on it (Moré 1978). One between bounds cannot, and would be held for good by a
-/// column that was once very long: its length fades, to this share with each step.
+/// The damping of a column scales with its largest length so far, or its parameter might diverge
+/// where the torque does not depend on it (Moré 1978). A parameter between bounds cannot diverge,
+/// and a column that was very long once would fix it for good: its length decays by this factor per
+/// step.
 const FADING: f64 = 0.5;
-/// After so many steps in a row that lower the sum of squares by less than the tolerance a search is
-/// over: in the bend of a model that has one, the undamped step never foresees so little.
+/// A search ends after this many consecutive steps with a relative decrease below the tolerance: in
+/// a curved valley the undamped step always predicts more.
 const MOST_IDLE: usize = 3;
-/// A linear step that lowers the sum of squares by more than this share bends the columns of the
-/// nonlinear parameters: they are computed anew.
+/// A linear step with a relative decrease above this changes the columns of the nonlinear
+/// parameters: they are computed again.
 const BENT: f64 = 1e-3;
 
-/// A model against measured torque: rows in memory, or a data set that is read in passes.
+/// A model and a measured torque: samples in memory, or a data set read in passes.
 pub trait LeastSquares {
-    /// Why it cannot be evaluated at all.
+    /// Why the problem cannot be evaluated at all.
     type Error;
 
-    /// The problem linearised at `values` by the parameters `wanted`, their columns times `slope`;
-    /// none where the model is not finite.
+    /// The problem linearised at `values` with respect to the parameters `wanted`, whose columns
+    /// are multiplied by `slope`; `None` where the model is not finite.
     ///
-    /// # Errors
+    /// An error that does not depend on `values`.
     /// What keeps it from being evaluated anywhere.
     fn triangle(
         &self,
@@ -46,23 +48,23 @@ pub trait LeastSquares {
         slope: &[f64],
     ) -> Result<Option<Triangle>, Self::Error>;
 
-    /// Norm of the measured torque; asked for after the first `triangle`.
+    /// Norm of the measured torque; called after the first `triangle`.
     ///
     /// # Errors
     /// As `triangle`.
     fn torque_norm(&self) -> Result<f64, Self::Error>;
 }
 
-/// Between what the parameters of a model are sought.
+/// Bounds and kinds of the parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds<'a> {
-    /// Lower ones; minus infinity: none.
+    /// Lower bounds; minus infinity for none.
     pub lower: &'a [f64],
-    /// Upper ones; a parameter whose bounds are equal is held.
+    /// Upper bounds; a parameter whose bounds are equal is fixed.
     pub upper: &'a [f64],
-    /// In which parameters the torque is linear.
+    /// Parameters in which the torque is linear.
     pub linear: &'a [bool],
-    /// Nonlinear parameters whose logarithm is stepped in; they keep their sign.
+    /// Nonlinear parameters that are searched by their logarithm; they keep their sign.
     pub logarithmic: &'a [bool],
 }
 
@@ -72,50 +74,51 @@ impl Bounds<'_> {
     }
 }
 
-/// How a search goes.
+/// Options of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steps {
-    /// The search ends when the undamped step foresees a smaller relative fall, or some damped ones
-    /// bring a smaller one.
+    /// The search ends when the undamped step predicts a smaller relative decrease, or when several
+    /// damped steps bring a smaller one.
     pub tolerance: f64,
-    /// Most steps, those that are taken back included.
+    /// Largest number of steps, rejected ones included.
     pub most: usize,
-    /// First damping, in squared lengths of the columns: 0 from a point near the minimum.
+    /// Initial damping relative to the squared lengths of the columns: 0 from a point near the
+    /// minimum.
     pub damping: f64,
 }
 
-/// How a search ended.
+/// Why a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Another step would change nothing.
+    /// A further step would change nothing.
     Converged,
-    /// No step can be told from rounding.
+    /// A further decrease would be below the rounding error.
     ToRounding,
-    /// At the largest number of steps.
+    /// The largest number of steps was reached.
     Stopped,
     /// The model is not finite at the start.
     NotFinite,
 }
 
-/// Where a search ended.
+/// The result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Search {
-    /// The parameters.
+    /// The parameters at the end.
     pub values: Vec<f64>,
     /// Sum of squares there; infinite where the model is not finite at the start.
     pub square: f64,
-    /// How it ended.
+    /// Why it ended.
     pub outcome: Outcome,
-    /// Nonlinear parameters on which the torque does not depend there: no step changes them.
+    /// Nonlinear parameters that do not influence the torque there: steps do not change them.
     pub blind: Vec<usize>,
-    /// How often the problem was linearised.
+    /// Number of linearisations.
     pub evaluations: usize,
 }
 
-/// Brings the sum of squares down from `start` to the minimum it leads to.
+/// Minimises the sum of squares from `start`, to a local minimum.
 ///
 /// # Errors
-/// Those of the problem.
+/// Errors of the problem.
 pub fn minimise<P: LeastSquares>(
     problem: &P,
     start: &[f64],
@@ -127,18 +130,18 @@ pub fn minimise<P: LeastSquares>(
     search.descend(start.collect(), steps)
 }
 
-/// Values at which the linear parameters are the best, and the problem linearised there.
+/// Values with optimal linear parameters, and the problem linearised there.
 struct Point {
     values: Vec<f64>,
     triangle: Triangle,
 }
 
-/// A problem with its free parameters in order: the linear ones first.
+/// A problem with its free parameters ordered: the linear ones first.
 struct Separable<'a, P> {
     problem: &'a P,
     bounds: &'a Bounds<'a>,
     order: Vec<usize>,
-    /// How many of them are linear.
+    /// Number of linear ones.
     linear: usize,
     evaluations: usize,
 }
@@ -153,12 +156,12 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         Self { problem, bounds, order, linear, evaluations: 0 }
     }
 
-    /// Damped steps until the next one would change nothing.
+    /// Damped steps until convergence.
     fn descend(&mut self, start: Vec<f64>, steps: Steps) -> Result<Search, P::Error> {
         let Some(mut point) = self.at(start.clone(), f64::INFINITY)? else {
             return Ok(self.ended(start, None, Outcome::NotFinite));
         };
-        // Below this a fall cannot be told from the rounding of the torque itself.
+        // A smaller decrease is below the rounding error of the torque itself.
         let noise = 4.0 * f64::EPSILON * self.problem.torque_norm()?;
         let mut damping = steps.damping;
         let mut scale = vec![0.0; self.order.len()];
@@ -215,15 +218,16 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         Search { values, square, outcome, blind, evaluations: self.evaluations }
     }
 
-    /// The nonlinear parameters whose columns are nothing.
+    /// The nonlinear parameters whose columns are zero.
     fn blind(&self, triangle: &Triangle) -> Vec<usize> {
         let count = self.order.len();
         let nothing = |&k: &usize| (0..count).all(|row| triangle.row(row)[k] == 0.0);
         (self.linear..count).filter(nothing).map(|k| self.order[k]).collect()
     }
 
-    /// The point with the nonlinear parameters of `values`; none where it is not finite. Columns are
-    /// not computed anew where the sum of squares is above `most`: the point is not gone on from.
+    /// The point with the nonlinear parameters of `values`; `None` where it is not finite. Where
+    /// the sum of squares is above `most` the step will be rejected, so the columns are not
+    /// computed again.
     fn at(&mut self, values: Vec<f64>, most: f64) -> Result<Option<Point>, P::Error> {
         let mut found = self.linearised(values)?;
         for _ in 0..2 {
@@ -253,7 +257,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         Ok(made.map(|triangle| Point { values, triangle }))
     }
 
-    /// Moves the linear parameters to their best; the torque is linear in them, so R stays.
+    /// Solves for the linear parameters; the torque is linear in them, so R stays.
     fn with_linear_solved(&self, point: Point) -> Point {
         let n = self.linear;
         let Point { values, triangle } = point;
@@ -265,7 +269,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         Point { values: self.moved(&values, &step), triangle: triangle.moved(&step) }
     }
 
-    /// The best step of the free parameters, damped or not.
+    /// The optimal step of the free parameters, damped or not.
     fn step(&self, point: &Point, damping: Option<(f64, &[f64])>) -> Vec<f64> {
         let count = self.order.len();
         let triangle = &point.triangle;
@@ -282,7 +286,8 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         bounded_least_squares(&matrix, &right, &lower, &upper)
     }
 
-    /// Lengths of the columns of the nonlinear parameters, less what linear ones explain.
+    /// Lengths of the columns of the nonlinear parameters after projection onto the complement of
+    /// the linear ones.
     fn lengths(&self, triangle: &Triangle) -> Vec<f64> {
         let (n, count) = (self.linear, self.order.len());
         let square =
@@ -302,7 +307,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         after
     }
 
-    /// How far each free parameter may still go, down and up.
+    /// Distances of each free parameter to its bounds, down and up.
     fn room(&self, values: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let way = |k: usize, to: f64| {
             if self.in_logarithm(k) { Real::ln((to / values[k]).max(0.0)) } else { to - values[k] }
@@ -319,7 +324,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
     }
 }
 
-/// As `clamp`; what is not a number stays, and is found out where it is evaluated.
+/// Like `clamp`, but NaN stays NaN; the evaluation detects it.
 fn clip(x: f64, lower: f64, upper: f64) -> f64 {
     if x < lower {
         lower

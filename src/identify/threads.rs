@@ -1,12 +1,15 @@
+//! Independent pieces of work on several threads.
+
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 use std::vec;
 use std::vec::Vec;
 
-/// `count` pieces of work on some threads, in their order: which one runs where changes nothing.
+/// The results of `count` pieces of work, in their order: they do not depend on the number of
+/// threads.
 ///
 /// # Errors
-/// The first of those of the pieces.
+/// The first error, in the order of the pieces.
 pub fn side_by_side<T: Send, E: Send>(
     count: usize,
     threads: usize,

@@ -1,3 +1,5 @@
+//! QR factorisation of least-squares problems, block by block, without the Jacobian in memory.
+
 use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
@@ -7,18 +9,18 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::batch::BatchError;
 use crate::scalar::Real;
 
-/// Rows that are reflected together.
+/// Number of samples per reflection.
 const BLOCK: usize = 128;
-/// Sums that run side by side.
+/// Number of partial sums of a dot product.
 const LANES: usize = 16;
-/// Numbers whose squares, and sums of very many of them, stay in the range of numbers.
+/// Magnitudes whose squares, and sums of very many of them, neither overflow nor underflow.
 const COMFORTABLE: Range<f64> = 1e-100..1e100;
 
 /// The triangular factor of a least-squares problem.
 ///
-/// With `[J r] = Q R` the best step solves `R_jj x = R_jr`, and the last entry of the diagonal is
-/// the norm of what is left. `J'J = R'R` has the square of the condition of `R`: a problem that
-/// halves the digits in `R` loses all of them in the normal equations.
+/// With `[J r] = Q R` the optimal step solves `R_jj x = R_jr`, and the last diagonal entry is the
+/// norm of the remaining residual. `J'J = R'R` squares the condition number of `R`: where `R` loses
+/// half the digits, the normal equations lose all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Triangle {
     width: usize,
@@ -32,7 +34,7 @@ impl Triangle {
         Self { width, factor }
     }
 
-    /// Columns of `R`: parameters, and the residual.
+    /// Number of columns of `R`: the parameters and the residual.
     #[must_use]
     pub fn width(&self) -> usize {
         self.width
@@ -50,7 +52,7 @@ impl Triangle {
         &self.factor[row * self.width..(row + 1) * self.width]
     }
 
-    /// `Q'r` of one row; the last one is the norm of what no step explains.
+    /// One entry of `Q'r`; the last one is the norm of the residual that no step explains.
     #[must_use]
     pub fn right(&self, row: usize) -> f64 {
         self.row(row)[self.width - 1]
@@ -62,7 +64,8 @@ impl Triangle {
         (0..self.width).map(|row| self.right(row) * self.right(row)).sum()
     }
 
-    /// By how much a step of the parameters lowers the sum of squares: no difference of two sums.
+    /// The decrease of the sum of squares for a step of the parameters, computed without
+    /// cancellation.
     #[must_use]
     pub fn fall(&self, step: &[f64]) -> f64 {
         let lowered = |row: usize| {
@@ -72,7 +75,7 @@ impl Triangle {
         (0..step.len()).map(lowered).sum()
     }
 
-    /// The same problem after a step of the parameters in which it is linear.
+    /// The same problem after a step of parameters in which it is linear.
     #[must_use]
     pub fn moved(mut self, step: &[f64]) -> Self {
         for row in 0..step.len() {
@@ -85,20 +88,20 @@ impl Triangle {
         self.row(row).iter().zip(step).skip(row).map(|(x, step)| x * step).sum()
     }
 
-    /// Whether all of it is finite.
+    /// Whether all entries are finite.
     #[must_use]
     pub fn is_finite(&self) -> bool {
         self.factor.iter().all(|x| x.is_finite()) && self.square().is_finite()
     }
 }
 
-/// Factors of the problems of which `pass` hands all rows over, one a group.
+/// The factors of the problems whose samples `pass` supplies, one per group.
 ///
-/// `pass` is asked a second time, and its columns are scaled, where squares would leave the range
-/// of numbers. The same rows have the same bits on every machine.
+/// `pass` is called a second time with scaled columns where squares would overflow or underflow.
+/// The same samples give the same bits on every machine.
 ///
 /// # Errors
-/// Those of `pass`, and more groups than fit into memory.
+/// Errors of `pass`, and more groups than fit into memory.
 pub fn factored<E: From<BatchError>>(
     width: usize,
     groups: usize,
@@ -115,11 +118,11 @@ pub fn factored<E: From<BatchError>>(
     Ok(factoring.triangles())
 }
 
-/// Factors `[J r]`, one a group: `jacobian` is `n x parameters`, row by row; `group` holds each
-/// row's group.
+/// The factors of `[J r]`, one per group: `jacobian` is `n x parameters`, row-major; `group` is the
+/// group of each row.
 ///
 /// # Errors
-/// Lengths that do not fit together, or a group that is not below `groups`.
+/// Inconsistent lengths, or a group that is not below `groups`.
 pub fn triangles(
     jacobian: &[f64],
     parameters: usize,
@@ -156,7 +159,7 @@ pub fn triangles(
     })
 }
 
-/// Factors of all rows, from those of some of them: each part has one a group.
+/// Combines the factors of parts of the samples: each part has one per group.
 ///
 /// # Errors
 /// More groups than fit into memory.
@@ -179,14 +182,14 @@ pub fn joined(
     })
 }
 
-/// Rows on their way into triangles.
+/// Samples that are being reduced to triangles.
 pub struct Factoring {
     scale: Vec<f64>,
     largest: Vec<f64>,
     groups: Vec<Group>,
 }
 
-/// Rows that wait, column by column: sums along columns run side by side.
+/// Samples not yet reduced, column by column, so that sums along columns vectorise.
 #[derive(Clone)]
 struct Group {
     columns: Vec<[f64; BLOCK]>,
@@ -209,7 +212,7 @@ impl Factoring {
         Ok(Self { largest: vec![0.0; width], scale, groups: all })
     }
 
-    /// Takes `count` rows of a group; `fill` puts a column's numbers from a row on into place.
+    /// Takes `count` samples of a group; `fill` writes a column's numbers from an index on.
     #[inline(always)]
     pub fn take(
         &mut self,
@@ -237,14 +240,14 @@ impl Factoring {
         }
     }
 
-    /// Reflects all rows that still wait.
+    /// Reduces all remaining samples.
     fn absorb(&mut self) {
         for group in &mut self.groups {
             group.absorb(&mut self.largest);
         }
     }
 
-    /// By what columns are to be multiplied, if they are not comfortable as they are.
+    /// Factors that bring the columns into the comfortable range, if they are not.
     fn better_scale(&self) -> Option<Vec<f64>> {
         let strange = |x: &f64| *x > 0.0 && x.is_finite() && !COMFORTABLE.contains(x);
         self.largest.iter().any(strange).then(|| {
@@ -268,7 +271,7 @@ impl Factoring {
 }
 
 impl Group {
-    /// Reflects the rows into the triangle and forgets them.
+    /// Reduces the samples into the triangle and empties the block.
     fn absorb(&mut self, largest: &mut [f64]) {
         if self.rows > 0 {
             let Self { columns, factor, .. } = self;
@@ -298,7 +301,7 @@ impl WithSimd for Absorbing<'_> {
 }
 
 impl Absorbing<'_> {
-    /// Householder reflections (Golub and Van Loan, section 5.1), those of a column after another.
+    /// Householder reflections (Golub and Van Loan, section 5.1), column after column.
     #[inline(always)]
     fn all(self) {
         let width = self.columns.len();
@@ -311,7 +314,7 @@ impl Absorbing<'_> {
             let top = &mut self.triangle[k * width + k..(k + 1) * width];
             let below = dot(own, own);
             if below < f64::MIN_POSITIVE {
-                // Nothing below the diagonal, or so little that its square has no inverse.
+                // Zero below the diagonal, or so small that its square underflows.
                 continue;
             }
             let diagonal = top[0];
@@ -331,7 +334,7 @@ impl Absorbing<'_> {
     }
 }
 
-/// The sum of products, in the same order whatever the width of the registers.
+/// The dot product, with the same order of sums whatever the vector width.
 #[inline(always)]
 fn dot(x: &[f64; BLOCK], y: &[f64; BLOCK]) -> f64 {
     let mut sums = [0.0; LANES];

@@ -1,9 +1,9 @@
-//! A planar arm of two joints in the horizontal plane (Indri et al., eq 4), friction in both.
+//! A planar arm with two joints in a horizontal plane (Indri et al., eq 4), with friction in both.
 //!
-//! The second angle is relative to the first link. With `h(q2)` the coupling,
-//! `M = [[a + d + 2h, d + h], [d + h, d]]`. Over a step with mean velocities `w`, momentum changes by
-//! `M+ v+ - M v`, and the second joint feels the mean of `dT/dq2`, `v+' N v dh/(2 dq2)` with
-//! `dM = N dh`: so kinetic energy changes by exactly what motors give and friction takes.
+//! The second angle is relative to the first link. With the coupling `h(q2)`, `M = [[a + d + 2h, d
+//! + h], [d + h, d]]`. Over a step with mean velocities `w`, momentum changes by `M+ v+ - M v`, and
+//! the second joint is loaded by the mean of `dT/dq2`, `v+' N v dh/(2 dq2)` with `dM = N dh`: then
+//! kinetic energy changes exactly by the work of motors and friction.
 
 use super::coupling::{Taken, carry, friction_from, required};
 use super::gravity::{Gravity, GravityAbout};
@@ -13,12 +13,13 @@ use crate::dynamics::{Memory, State};
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
-/// Both joints may come to rest and break loose in a step: what is left after so many pieces is
-/// spent as the last one was.
+/// Both joints may stop and break away in a step; after this many pieces the rest of the step is
+/// computed like the last piece.
 const MOST_PIECES: usize = 5;
-/// A speed (rad/s) at which friction is that at the edge of motion.
+/// A speed (rad/s) that stands for the onset of motion in the friction law.
 const EDGE: f64 = 1e-30;
-/// A joint this slow, relative to the start of a piece that was to end at its rest, is at rest.
+/// At the end of a piece that ends in rest, a joint below this speed, relative to the start of the
+/// piece, is at rest.
 const STOPPED: f64 = 1e-9;
 
 /// The inertial parameters of eq 12.
@@ -30,11 +31,11 @@ pub struct PlanarArm<P> {
     pub inertia_2: P,
     /// `l1 m2 s_2x`, first moment of link 2 along it, times the length of link 1 (kg m2).
     pub moment_x: P,
-    /// `l1 m2 s_2y`, likewise across it (kg m2).
+    /// `l1 m2 s_2y`, the same across it (kg m2).
     pub moment_y: P,
 }
 
-/// Where both joints are and how fast they move.
+/// Positions and velocities of both joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmPosture<P> {
     /// Angles (rad).
@@ -43,10 +44,10 @@ pub struct ArmPosture<P> {
     pub velocity: [P; 2],
 }
 
-/// What acts over a step.
+/// The inputs of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmPush<P> {
-    /// Motor torques (N m), held.
+    /// Motor torques (N m), constant over the step.
     pub motor: [P; 2],
     /// Joint temperatures (degC).
     pub temperature: [P; 2],
@@ -54,19 +55,19 @@ pub struct ArmPush<P> {
     pub time: P,
 }
 
-/// Where a piece of a step begins, as the equations of the piece need it.
+/// The start of a piece of a step.
 #[derive(Clone, Copy)]
 struct Beginning<P> {
     velocity: [P; 2],
     second: P,
-    /// `h` there, and its slope seen from there.
+    /// `h` there, and its slope as a function of the angle from there.
     coupling: P,
     slope: GravityAbout<P>,
     momentum: [P; 2],
 }
 
 impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
-    /// `h` and its mean slope have the form of gravity's potential and torque.
+    /// `h` has the form of the potential of gravity, its mean slope that of its torque.
     fn coupling(&self) -> Gravity<P> {
         Gravity { constant: P::zero(), cos: -self.moment_y, sin: -self.moment_x }
     }
@@ -103,7 +104,8 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
         Beginning { velocity, second, coupling, slope, momentum }
     }
 
-    /// Mean torques that the motion over a piece of length `h` needs, at these mean velocities (N m).
+    /// Mean torques that the motion over a piece of length `h` requires, at these mean velocities
+    /// (N m).
     fn load(&self, from: &Beginning<P>, mean: [P; 2], h: P) -> [P; 2] {
         let (before, start) = (from.velocity, from.momentum);
         let after = [0, 1].map(|i| mean[i] + mean[i] - before[i]);
@@ -115,7 +117,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
         [(end[0] - start[0]) / h, (end[1] - start[1]) / h - turning]
     }
 
-    /// Moves the arm over `dt` (s) with the friction of both joints, whose states go along.
+    /// Advances the arm by `dt` (s) with the friction of both joints, and their states.
     pub fn step(
         &self,
         friction: [&Composed<P>; 2],
@@ -157,18 +159,18 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
     }
 }
 
-/// How a joint goes through a piece of a step.
+/// The motion of a joint in a piece of a step.
 #[derive(Clone, Copy)]
 enum Way<P> {
-    /// Its friction has a memory: one torque for each velocity.
+    /// Friction has a state: one torque for each velocity.
     Any,
-    /// Dry friction acts against this direction, carried on through rest.
+    /// Dry friction acts against this direction, continued beyond rest.
     Along(P),
-    /// It is at rest, unless friction does not hold it.
+    /// At rest, unless friction cannot hold the joint.
     Resting,
 }
 
-/// An arm on its way through a step.
+/// An arm within a step.
 struct ArmCourse<'a, P: Scalar + PartialOrd> {
     arm: &'a PlanarArm<P>,
     friction: [&'a Composed<P>; 2],
@@ -207,7 +209,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         }
     }
 
-    /// Friction of a joint in excess of what these mean velocities ask for (N m).
+    /// Friction of a joint minus the friction that these mean velocities require (N m).
     fn excess(&self, joint: usize, mean: [P; 2], h: P, direction: Option<P>) -> P {
         let sample = self.sample(joint, mean, h);
         let edge = P::from_f64(EDGE);
@@ -219,8 +221,8 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         friction_from(self.friction[joint], &self.states[joint], &acting, h) - required(&sample)
     }
 
-    /// The mean velocity of a joint for which friction is right, the other's being `mean`'s or
-    /// following from it.
+    /// The mean velocity of a joint at which the friction is the required one; `mean` gives both
+    /// mean velocities from it.
     fn solve(&self, joint: usize, slope: P, h: P, mean: impl Fn(P) -> [P; 2]) -> P {
         let zero = P::zero();
         let before = self.posture.velocity[joint];
@@ -246,7 +248,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         }
     }
 
-    /// Mean velocities over a piece in which no joint comes to rest.
+    /// Mean velocities over a piece in which no joint stops.
     fn velocities(&self, h: P) -> [P; 2] {
         let [own, across, other] = self.arm.inertia_with(self.beginning.coupling);
         let per_step = P::from_f64(2.0) / h;
@@ -256,8 +258,8 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         [first, second(first)]
     }
 
-    /// How far beyond rest the joint that is furthest has come at the end of a piece (rad/s):
-    /// negative while all still move their way.
+    /// How far the velocity of a joint has passed zero at the end of a piece (rad/s), the larger of
+    /// both: negative while both keep their direction.
     fn overshoot(&self, mean: [P; 2]) -> P {
         let mut most = -P::one();
         for (joint, mean) in mean.into_iter().enumerate() {
@@ -299,7 +301,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         (mean, h, stopped)
     }
 
-    /// Goes through a piece.
+    /// Advances the arm by a piece.
     fn go(&mut self, taken: &mut [Taken<P>; 2], mean: [P; 2], h: P, dt: P) {
         let samples = [0, 1].map(|joint| self.sample(joint, mean, h));
         for (joint, sample) in samples.iter().enumerate() {

@@ -1,16 +1,18 @@
+//! The mechanisms that friction acts on, and the inputs of a step.
+
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
-/// What acts on a joint over a step, besides what it is made of.
+/// The inputs of a joint over a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Push<P> {
-    /// Motor torque at the joint side (T), held.
+    /// Motor torque at the joint side (T), constant over the step.
     pub motor: P,
-    /// External torque (T), held.
+    /// External torque (T), constant over the step.
     pub external: P,
-    /// Where the far end of the joint's spring stands at the start of the step (X).
+    /// Position of the support at the start of the step (X).
     pub support: P,
-    /// How fast it moves (X/s).
+    /// Velocity of the support (X/s).
     pub support_velocity: P,
     /// Joint temperature (degC).
     pub temperature: P,
@@ -19,7 +21,7 @@ pub struct Push<P> {
 }
 
 impl<P: Scalar + PartialOrd> Push<P> {
-    /// A motor torque, and nothing else.
+    /// A motor torque alone.
     #[must_use]
     pub fn by_motor(motor: P) -> Self {
         let zero = P::zero();
@@ -34,22 +36,23 @@ impl<P: Scalar + PartialOrd> Push<P> {
     }
 }
 
-/// A mechanism over one step, seen from its one coordinate with friction. It can be asked what a
-/// piece of the step would be like, and told to go through it.
+/// A mechanism over one step, in its one coordinate with friction. `sample` predicts a piece of the
+/// step and `advance` performs it.
 pub trait Body<P: Scalar + PartialOrd> {
     /// Velocity of the coordinate (X/s).
     fn velocity(&self) -> P;
 
-    /// Inertia that the coordinate feels at once (T s2/X).
+    /// Inertia for a sudden force at the coordinate (T s2/X).
     fn inertia(&self) -> P;
 
-    /// Means over a piece of length `h` (s) in which the coordinate moves at `velocity` on average.
-    /// Friction must be `motor_torque - load_torque` for that: it falls with the velocity.
+    /// Means over a piece of length `h` (s) in which the coordinate has the mean velocity
+    /// `velocity`. The motion requires the friction `motor_torque - load_torque`, which falls with
+    /// the velocity.
     fn sample(&self, velocity: P, h: P) -> Sample<P>;
 
-    /// Goes through such a piece.
+    /// Advances by such a piece.
     fn advance(&mut self, velocity: P, h: P);
 
-    /// The coordinate has come to rest at the end of the piece before.
+    /// Sets the coordinate to rest, at the end of a piece.
     fn rest(&mut self);
 }

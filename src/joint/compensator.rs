@@ -1,11 +1,11 @@
-//! Friction cancelled: a share of what a model of it says.
+//! Friction compensation with a model of the friction.
 
 use crate::composed::Composed;
 use crate::dynamics::State;
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
-/// Cancels a share of friction by a model of it, whose state is its own and not the joint's.
+/// Compensates a share of friction with a model, whose state is separate from the joint's.
 #[derive(Clone, Copy, Debug)]
 pub struct Compensator<'a, P: Scalar + PartialOrd> {
     model: &'a Composed<P>,
@@ -14,13 +14,13 @@ pub struct Compensator<'a, P: Scalar + PartialOrd> {
 }
 
 impl<'a, P: Scalar<Plain = P> + PartialOrd> Compensator<'a, P> {
-    /// A joint without tension, of which this share of the friction is cancelled.
+    /// A compensator of this share of the friction, with a relaxed state.
     #[must_use]
     pub fn new(model: &'a Composed<P>, factor: P) -> Self {
         Self { model, factor, state: State::default() }
     }
 
-    /// The torque to add, sampled: the velocity has been held for `dt` (s).
+    /// The torque to add (T); the velocity of `sample` was held for `dt` (s).
     pub fn torque(&mut self, sample: &Sample<P>, dt: P) -> P {
         self.factor * self.model.step(&mut self.state, sample, dt).torque
     }

@@ -1,8 +1,10 @@
+//! A position controller.
+
 use super::trajectory::Reference;
 use crate::scalar::Scalar;
 
-/// A sampled PID controller of position, its torque held until the next sample:
-/// `kp e + ki int e dt + kd (b vd - v)`, limited.
+/// A sampled PID position controller with zero-order hold: `kp e + ki int e dt + kd (b vd - v)`,
+/// limited.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Controller<P> {
     /// `kp` (T/X).
@@ -11,13 +13,13 @@ pub struct Controller<P> {
     pub integral: P,
     /// `kd` (T s/X).
     pub derivative: P,
-    /// `b`: share of the desired velocity that the derivative part sees; 0 damps all motion.
+    /// `b`: weight of the desired velocity in the derivative part; 0 damps all motion.
     pub velocity_weight: P,
     /// Largest torque (T).
     pub limit: P,
 }
 
-/// What a controller remembers: the integral part (T).
+/// State of a controller: the integral part (T).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort<P> {
     /// `ki int e dt`.
@@ -31,8 +33,8 @@ impl<P: Scalar + PartialOrd> Default for Effort<P> {
 }
 
 impl<P: Scalar + PartialOrd> Controller<P> {
-    /// The torque over the next `dt` (s), `feedforward` (T) included. The integral stands still
-    /// while the limit is reached, unless it leads away from it.
+    /// The torque over the next `dt` (s), `feedforward` (T) included. At the limit the integral is
+    /// held, unless it leads away from the limit.
     pub fn torque(
         &self,
         effort: &mut Effort<P>,

@@ -1,9 +1,9 @@
-//! A step of a body and its friction together.
+//! One step of a body with friction.
 //!
-//! A model with a memory has one friction torque for each velocity, and one equation. A model
-//! without one holds the joint at rest by any torque up to its level: then a step falls into pieces,
-//! sliding until rest, rest, and sliding away from it, each with its own equation. So a joint that
-//! sticks stands exactly still.
+//! A model with a state has one friction torque for each velocity, which gives one equation. A
+//! model without one holds the joint at rest with any torque up to its level: a step then falls
+//! into pieces, sliding to rest, sticking, and sliding again, each with its own equation. A joint
+//! that sticks is exactly at rest.
 
 use super::body::Body;
 use super::root::Equation;
@@ -12,27 +12,27 @@ use crate::dynamics::{Memory, State};
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
-/// Pieces of a step: stop, go, stop again; what is left after that is spent at rest.
+/// Pieces of a step: stop, break away, stop again; the rest of the step is spent at rest.
 const MOST_PIECES: usize = 3;
-/// A speed (X/s) at which friction is that at the edge of motion.
+/// A speed (X/s) that stands for the onset of motion in the friction law.
 const EDGE: f64 = 1e-30;
 
 /// Friction that grows faster with the load than the load itself stops a joint at once: in this
 /// share of a step.
 const JAMMED: f64 = 1e-9;
 
-/// What a step took and gave: means over it (T), and work (J).
+/// The result of a step: means over it (T), and work (J).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taken<P> {
     /// Mean friction torque.
     pub friction: P,
-    /// Mean load torque: with friction, the mean motor torque.
+    /// Mean load torque; its sum with friction is the mean motor torque.
     pub load: P,
     /// Work of the motor.
     pub motor_work: P,
-    /// Work of the environment, gravity included.
+    /// Work of external torque and gravity.
     pub environment_work: P,
-    /// Work that friction took: dissipated, or stored in bristles.
+    /// Work against friction: dissipated, or stored in bristles.
     pub friction_work: P,
 }
 
@@ -59,8 +59,8 @@ impl<P: Scalar + PartialOrd> Taken<P> {
     }
 }
 
-/// Moves `body` over `dt` (s) with friction `model`, whose `state` goes along; with `dt <= 0` nothing
-/// moves.
+/// Advances `body` by `dt` (s) with friction `model`, and its `state`; with `dt <= 0` nothing
+/// changes.
 pub fn step<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &mut State<P>,
@@ -79,7 +79,7 @@ pub fn step<P: Scalar<Plain = P> + PartialOrd>(
     course.taken
 }
 
-/// A step on its way.
+/// A step in progress.
 struct Course<'a, P: Scalar + PartialOrd, B> {
     model: &'a Composed<P>,
     state: &'a mut State<P>,
@@ -90,26 +90,26 @@ struct Course<'a, P: Scalar + PartialOrd, B> {
 
 /// What happens in a piece of a step.
 enum Piece<P> {
-    /// Friction holds the joint.
+    /// Friction holds the joint at rest.
     Held,
-    /// It moves to the end of the step, with these means.
+    /// The joint moves until the end of the step, with these means.
     Slides(Sample<P>),
-    /// It comes to rest, after this time.
+    /// The joint comes to rest after this time (s).
     Stops(P),
 }
 
 impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
-    /// Mean friction torque over a piece, from the present state.
+    /// Mean friction torque over a piece, from the present state (T).
     fn friction(&self, sample: &Sample<P>, h: P) -> P {
         friction_from(self.model, self.state, sample, h)
     }
 
-    /// Friction in excess of what the means over a piece ask for (T): zero where it is right.
+    /// Friction minus the friction that the motion requires (T).
     fn excess(&self, sample: &Sample<P>, h: P) -> P {
         self.friction(sample, h) - required(sample)
     }
 
-    /// Size of what is summed in `excess` (T).
+    /// Magnitude of the terms of `excess` (T).
     fn size(&self, sample: &Sample<P>, h: P) -> P {
         let speeds = sample.velocity.abs() + self.body.velocity().abs();
         let momentum = self.body.inertia() * speeds / h;
@@ -144,11 +144,11 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
                 }
             }
         }
-        // At rest friction is whatever that asks for.
+        // At rest friction balances the other torques.
         self.go(&self.body.sample(P::zero(), left), left);
     }
 
-    /// What a piece that may last for `h` begins with.
+    /// What happens first in the next `h` (s).
     fn piece(&self, h: P) -> Piece<P> {
         let velocity = self.body.velocity();
         if velocity.is_zero() {
@@ -157,14 +157,14 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
         let (direction, slowest) = (velocity.sign(), velocity * P::from_f64(0.5));
         let first = self.body.sample(velocity, h);
         let value = self.excess(&first, h);
-        // Halfway to rest on average: slower than that, and it is at rest before the end.
+        // A slower mean velocity reaches zero before the end of the piece.
         match self.slide(direction, &first, value, slowest.abs(), h) {
             Some(means) => Piece::Slides(means),
             None => Piece::Stops(self.time_to_rest(slowest, h)),
         }
     }
 
-    /// What a joint at rest does: it breaks loose where friction does not hold it.
+    /// A joint at rest: it breaks away where friction cannot hold it.
     fn break_away(&self, h: P) -> Piece<P> {
         let first = self.body.sample(P::zero(), h);
         for direction in [P::one(), -P::one()] {
@@ -178,8 +178,8 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
         Piece::Held
     }
 
-    /// Means over a piece of sliding along `direction`, faster than `slowest`: from those at the
-    /// `first` velocity and the excess of friction there.
+    /// Means over a piece of sliding along `direction`, faster than `slowest`, given those at the
+    /// `first` velocity and the excess of friction there; `None` if there is none.
     fn slide(
         &self,
         direction: P,
@@ -200,11 +200,11 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
             self.excess(&last, h) * direction
         })?;
         let velocity = speed * direction;
-        // Where the search ends has nearly always been looked at last.
+        // The search has nearly always evaluated its result last.
         Some(if velocity == last.velocity { last } else { self.body.sample(velocity, h) })
     }
 
-    /// How long a joint takes to rest, at half its velocity on average, if that is within `h`.
+    /// The time until rest at half the velocity on average, if it is within `h` (s).
     fn time_to_rest(&self, mean: P, h: P) -> P {
         let (direction, speed) = (mean.sign(), (mean + mean).abs());
         let shortest = h * P::from_f64(JAMMED);
@@ -232,8 +232,8 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
         }))
     }
 
-    /// Goes through a piece: friction is what its means ask for, and that is what the model gives, to
-    /// rounding, or between both sides where friction jumps with the load.
+    /// Advances by a piece. Friction is what the motion requires: up to rounding that of the model,
+    /// or between its limits where friction jumps with the load.
     fn go(&mut self, means: &Sample<P>, h: P) {
         carry(self.model, self.state, means, h);
         self.taken.add(means, required(means), h, self.dt);
@@ -241,12 +241,12 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
     }
 }
 
-/// Friction that goes with a sample (T).
+/// Friction that a motion with these means requires (T).
 pub(super) fn required<P: Scalar + PartialOrd>(sample: &Sample<P>) -> P {
     sample.motor_torque - sample.load_torque
 }
 
-/// Mean friction torque as a sample is held for `h`, from a state that stays as it is.
+/// Mean friction torque over `h` (s) at this sample; the state is left unchanged.
 pub(super) fn friction_from<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &State<P>,
@@ -261,7 +261,7 @@ pub(super) fn friction_from<P: Scalar<Plain = P> + PartialOrd>(
     }
 }
 
-/// Takes the state through a sample that is held for `h`.
+/// Advances the state by `h` (s) at this sample.
 pub(super) fn carry<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &mut State<P>,

@@ -1,9 +1,9 @@
-//! A motor that moves its load through a spring with play.
+//! A motor that drives its load through a spring with backlash.
 //!
-//! Friction acts at the motor. Twist `d = theta - q`, of which the spring feels `e`, what exceeds the
-//! play on either side: `U(e) = k e^2/2`. Over a step the mean torque is `(U(e+) - U(e))/(d+ - d)`, and
-//! the damper's `c (e+ - e)/h (e+ - e)/(d+ - d)`: the first gives back exactly what it has stored, the
-//! second only takes. The load follows from its own scalar equation, within that of the motor.
+//! Friction acts at the motor. The twist is `d = theta - q`, and `e` is the part of it beyond the
+//! backlash on either side: `U(e) = k e^2/2`. Over a step the mean torque is `(U(e+) - U(e))/(d+ -
+//! d)`, and the damper's `c (e+ - e)/h (e+ - e)/(d+ - d)`: the first conserves energy exactly, the
+//! second only dissipates. The load follows from a scalar equation inside that of the motor.
 
 use super::body::{Body, Push};
 use super::rigid::{Joint, Moving, Posture};
@@ -11,7 +11,7 @@ use super::root::Equation;
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
-/// A spring and a damper with play.
+/// A spring and a damper in series with backlash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transmission<P> {
     /// Stiffness `k` (T/X).
@@ -23,7 +23,7 @@ pub struct Transmission<P> {
 }
 
 impl<P: Scalar + PartialOrd> Transmission<P> {
-    /// What the spring feels of a twist.
+    /// The part of a twist that stretches the spring.
     fn stretch(&self, twist: P) -> P {
         let side = self.backlash * P::from_f64(0.5);
         if twist > side {
@@ -59,31 +59,31 @@ impl<P: Scalar + PartialOrd> Transmission<P> {
     }
 }
 
-/// Two inertias and what is between them; motor quantities at the joint side.
+/// A motor and a load with a transmission between them; motor quantities at the joint side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticJoint<P> {
     /// Inertia of the motor (T s2/X).
     pub motor_inertia: P,
-    /// Between motor and load.
+    /// The transmission between motor and load.
     pub transmission: Transmission<P>,
-    /// What is moved, without the motor.
+    /// The load, without the motor.
     pub load: Joint<P>,
 }
 
-/// Where both inertias are and how fast they move.
+/// Positions and velocities of motor and load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElasticPosture<P> {
-    /// Of the motor.
+    /// The motor.
     pub motor: Posture<P>,
-    /// Of the load.
+    /// The load.
     pub load: Posture<P>,
-    /// Position of the motor minus that of the load (X), carried along by itself: a stiff spring
-    /// would feel the rounding of a difference.
+    /// Position of the motor minus that of the load (X), integrated separately: with a stiff spring
+    /// the rounding error of the difference would matter.
     pub twist: P,
 }
 
 impl<P: Scalar + PartialOrd> ElasticPosture<P> {
-    /// Both inertias at the same place and speed.
+    /// Motor and load with the same position and velocity.
     #[must_use]
     pub fn together(posture: Posture<P>) -> Self {
         Self { motor: posture, load: posture, twist: P::zero() }
@@ -91,7 +91,7 @@ impl<P: Scalar + PartialOrd> ElasticPosture<P> {
 }
 
 impl<P: Scalar + PartialOrd> ElasticJoint<P> {
-    /// Kinetic and potential energy, that of the springs included (J).
+    /// Kinetic and potential energy, including the springs (J).
     #[must_use]
     pub fn energy(&self, posture: &ElasticPosture<P>, support: P) -> P {
         let speed = posture.motor.velocity;
@@ -100,7 +100,7 @@ impl<P: Scalar + PartialOrd> ElasticJoint<P> {
             + self.load.energy(&posture.load, support)
     }
 
-    /// The joint as it goes through a step; what pushes it from outside acts on the load.
+    /// The joint within a step; external inputs act on the load.
     #[must_use]
     pub fn moving<'a>(
         &'a self,
@@ -112,7 +112,7 @@ impl<P: Scalar + PartialOrd> ElasticJoint<P> {
     }
 }
 
-/// Motor and load on their way through a step.
+/// Motor and load within a step.
 #[derive(Clone, Copy, Debug)]
 pub struct MovingApart<'a, P> {
     joint: &'a ElasticJoint<P>,
@@ -123,18 +123,18 @@ pub struct MovingApart<'a, P> {
 }
 
 impl<P: Scalar + PartialOrd> MovingApart<'_, P> {
-    /// Where both have come to.
+    /// Positions and velocities reached so far.
     #[must_use]
     pub fn posture(&self) -> ElasticPosture<P> {
         ElasticPosture { motor: self.motor, load: self.load.posture, twist: self.twist }
     }
 
-    /// Mean torque between them at these mean velocities (T).
+    /// Mean torque of the transmission at these mean velocities (T).
     fn between(&self, motor: P, load: P, h: P) -> P {
         self.joint.transmission.mean(self.twist, (motor - load) * h, h)
     }
 
-    /// Mean velocity of the load while the motor moves at `motor`.
+    /// Mean velocity of the load for a mean velocity of the motor.
     fn load_velocity(&self, motor: P, h: P) -> P {
         let start = self.load.velocity();
         let slope = self.load.inertia() / (h * P::from_f64(0.5));

@@ -1,32 +1,34 @@
+//! Gravity torque of a joint.
+
 use crate::scalar::Scalar;
 
-/// Gravity at a joint, `constant + cos * cos q + sin * sin q` (T): the first of a prismatic joint, the
-/// others of a revolute one.
+/// Gravity at a joint, `constant + cos * cos q + sin * sin q` (T): `constant` for a prismatic
+/// joint, the others for a revolute one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gravity<P> {
-    /// The same everywhere.
+    /// The constant part.
     pub constant: P,
-    /// At `q = 0`.
+    /// The torque at `q = 0`.
     pub cos: P,
-    /// At a quarter of a turn.
+    /// The torque at a quarter turn.
     pub sin: P,
 }
 
 impl<P: Scalar + PartialOrd> Gravity<P> {
-    /// None.
+    /// No gravity.
     #[must_use]
     pub fn none() -> Self {
         Self { constant: P::zero(), cos: P::zero(), sin: P::zero() }
     }
 
-    /// Mean torque along a way from `position` (T): times the way it is what the potential energy
-    /// gains, exactly.
+    /// Mean torque over a displacement `way` from `position` (T): times the displacement it is
+    /// exactly the change of potential energy.
     #[must_use]
     pub fn mean(&self, position: P, way: P) -> P {
         self.about(position).mean(position, way)
     }
 
-    /// Gravity seen from `position`.
+    /// Gravity as a function of the displacement from `position`.
     pub(super) fn about(&self, position: P) -> GravityAbout<P> {
         let (sin, cos) =
             if self.is_constant() { (P::zero(), P::one()) } else { position.sin_cos() };
@@ -38,7 +40,7 @@ impl<P: Scalar + PartialOrd> Gravity<P> {
         GravityAbout { position, own }
     }
 
-    /// Whether it is the same everywhere.
+    /// Whether it does not depend on the position.
     fn is_constant(&self) -> bool {
         self.cos.is_zero() && self.sin.is_zero()
     }
@@ -51,8 +53,8 @@ impl<P: Scalar + PartialOrd> Gravity<P> {
     }
 }
 
-/// Gravity with angles counted from a position: small ones along a short way, and the sine and cosine
-/// of the position taken once.
+/// Gravity as a function of the displacement from a position: accurate for small ones, and sine and
+/// cosine of the position are computed once.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GravityAbout<P> {
     position: P,
@@ -60,7 +62,7 @@ pub(super) struct GravityAbout<P> {
 }
 
 impl<P: Scalar + PartialOrd> GravityAbout<P> {
-    /// Mean torque along a way from `position` (T).
+    /// Mean torque over a displacement `way` (T).
     pub(super) fn mean(&self, position: P, way: P) -> P {
         let Gravity { constant, cos, sin } = self.own;
         if self.own.is_constant() {

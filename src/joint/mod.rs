@@ -1,20 +1,20 @@
-//! Joints in motion: friction coupled implicitly to an inertia, stepped at a fixed rate.
+//! Simulation of joints with friction: implicit steps of constant length.
 //!
-//! Over a step the velocity of the midpoint, `w = (v + v+)/2`, is held. It is the root of
-//! `2 J (w - v)/dt + tf(w) = u(w)`, with `tf` the mean friction torque of the exact step: unconditionally
-//! stable, and what the motor and the environment give is what the joint keeps and the friction
-//! takes, to rounding. Everything is computed by value, in a bounded number of operations.
+//! A step uses the midpoint velocity `w = (v + v+)/2`, the root of `2 J (w - v)/dt + tf(w) = u(w)`,
+//! with `tf` the mean friction torque of the exact step: unconditionally stable, and the energy
+//! balance of motor, environment, joint and friction closes to rounding. All types are values, and
+//! the number of operations is bounded.
 //!
-//! | file | what |
+//! | file | content |
 //! |---|---|
-//! | `body` | what friction acts on: a mechanism seen from its one coordinate with friction |
-//! | `coupling` | a step of body and friction; stiction as a set |
+//! | `body` | a mechanism in its one coordinate with friction; inputs of a step |
+//! | `coupling` | one step of body and friction; stick and slip |
 //! | `root` | the scalar equation of a step |
-//! | `rigid`, `gravity`, `ball_screw` | one inertia: revolute, prismatic, moved by a screw |
-//! | `elastic` | motor and load with a spring and play between them |
-//! | `arm` | two joints in the plane, each with its friction |
-//! | `trajectory`, `controller` | what the joint shall do, and who sees to it |
-//! | `compensator`, `observer` | friction cancelled by a model of it, and what is left of it |
+//! | `rigid`, `gravity`, `ball_screw` | one inertia: revolute, prismatic, with a ball screw |
+//! | `elastic` | motor and load with a spring and backlash between them |
+//! | `arm` | a planar arm with two joints, each with its friction |
+//! | `trajectory`, `controller` | the desired motion and a controller that follows it |
+//! | `compensator`, `observer` | friction compensation, and a disturbance observer for its error |
 //!
 //! ```
 //! use stribeck::composed::Spec;

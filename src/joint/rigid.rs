@@ -1,13 +1,15 @@
+//! A joint with one inertia.
+
 use super::body::{Body, Push};
 use super::gravity::{Gravity, GravityAbout};
 use crate::sample::Sample;
 use crate::scalar::Scalar;
 
-/// A joint of one inertia, revolute or prismatic, that a spring and a damper may tie to a moving
-/// support.
+/// A revolute or prismatic joint with one inertia, optionally connected to a moving support by a
+/// spring and a damper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joint<P> {
-    /// Inertia or mass, the motor's included (T s2/X).
+    /// Inertia or mass, including the motor's (T s2/X).
     pub inertia: P,
     /// Gravity.
     pub gravity: Gravity<P>,
@@ -17,7 +19,7 @@ pub struct Joint<P> {
     pub damping: P,
 }
 
-/// Where a joint is and how fast it moves.
+/// Position and velocity of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Posture<P> {
     /// Position (X).
@@ -27,7 +29,7 @@ pub struct Posture<P> {
 }
 
 impl<P: Scalar + PartialOrd> Joint<P> {
-    /// An inertia that nothing but friction, motor and environment act on.
+    /// An inertia without gravity and support.
     #[must_use]
     pub fn free(inertia: P) -> Self {
         let zero = P::zero();
@@ -40,7 +42,7 @@ impl<P: Scalar + PartialOrd> Joint<P> {
         Self { gravity: Gravity { cos, sin, ..Gravity::none() }, ..Self::free(inertia) }
     }
 
-    /// Kinetic and potential energy, the spring's included (J).
+    /// Kinetic and potential energy, including the spring (J).
     #[must_use]
     pub fn energy(&self, posture: &Posture<P>, support: P) -> P {
         let half = P::from_f64(0.5);
@@ -50,7 +52,7 @@ impl<P: Scalar + PartialOrd> Joint<P> {
             + self.gravity.potential(position)
     }
 
-    /// The joint as it goes through a step.
+    /// The joint within a step.
     #[must_use]
     pub fn moving<'a>(&'a self, posture: Posture<P>, push: &'a Push<P>) -> Moving<'a, P> {
         let gravity = self.gravity.about(posture.position);
@@ -58,19 +60,19 @@ impl<P: Scalar + PartialOrd> Joint<P> {
     }
 }
 
-/// A joint on its way through a step.
+/// A joint within a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Moving<'a, P> {
     joint: &'a Joint<P>,
     push: &'a Push<P>,
     gravity: GravityAbout<P>,
-    /// Where it has come to.
+    /// Position and velocity reached so far.
     pub posture: Posture<P>,
     elapsed: P,
 }
 
 impl<P: Scalar + PartialOrd> Moving<'_, P> {
-    /// What spring and damper exert on average over a piece (T).
+    /// Mean torque of spring and damper over a piece (T).
     fn tie(&self, velocity: P, h: P) -> P {
         let middle = self.elapsed + h * P::from_f64(0.5);
         let support = self.push.support + self.push.support_velocity * middle;

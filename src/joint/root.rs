@@ -1,14 +1,14 @@
-//! The scalar equation of a step: secants until the root is enclosed, then Chandrupatla's method,
-//! inverse quadratic interpolation where it is sure to gain, else bisection (Advances in Engineering
-//! Software 28, 1997).
+//! The scalar equation of a step: secant steps until the root is bracketed, then Chandrupatla's
+//! method, inverse quadratic interpolation where it converges and bisection elsewhere (Advances in
+//! Engineering Software 28, 1997).
 
 use crate::scalar::Scalar;
 
-/// Evaluations while the root is being enclosed; the distance doubles where secants do not help.
+/// Evaluations to bracket the root; the distance doubles where secants do not help.
 const MOST_WIDENED: usize = 80;
-/// Evaluations while the enclosure closes: bisection alone would need about this many.
+/// Evaluations to narrow the bracket: bisection alone would need about this many.
 const MOST_NARROWED: usize = 120;
-/// Rounding errors of one evaluation, in units in the last place of what is summed in it.
+/// Rounding errors of one evaluation, in units in the last place of its largest term.
 const SLACK: f64 = 4.0;
 
 /// Unit in the last place of 1.
@@ -17,32 +17,33 @@ fn rounding<P: Scalar + PartialOrd>() -> P {
     P::from_f64(if double { f64::EPSILON } else { f64::from(f32::EPSILON) })
 }
 
-/// Where a function is zero, that is expected to grow at least as fast as `slope`.
+/// The zero of a function that is expected to grow at least as fast as `slope`.
 pub(super) struct Equation<P> {
-    /// Where to begin.
+    /// The initial guess.
     pub start: P,
     /// The function there.
     pub value: P,
-    /// A lower bound of the slope, if the function is monotone.
+    /// A lower bound of the slope, if the function is monotonic.
     pub slope: P,
-    /// Size of what is summed in the function: below its rounding, zero is zero.
+    /// Magnitude of the terms of the function: a value below its rounding error counts as zero.
     pub size: P,
 }
 
 impl<P: Scalar + PartialOrd> Equation<P> {
-    /// What counts as zero; beyond all numbers nothing does.
+    /// The tolerance of the function; NaN if the magnitude is not finite, so that nothing counts as
+    /// zero.
     fn settled(&self) -> P {
         let settled = self.size * rounding::<P>() * P::from_f64(SLACK);
         if settled.value().is_finite() { settled } else { P::zero() }
     }
 
-    /// The root: exact to rounding, by a bounded number of evaluations. Where the function does not
-    /// change its sign within reach, the last place looked at.
+    /// The root, exact to rounding, with a bounded number of evaluations. Without a change of sign
+    /// within reach it is the last point evaluated.
     pub fn solve(&self, function: impl FnMut(P) -> P) -> P {
         self.solve_above(P::from_f64(f64::NEG_INFINITY), function).unwrap_or(self.start)
     }
 
-    /// The root likewise, if it lies above `least`: the function is negative there.
+    /// The root if it lies above `least`, where the function is negative.
     pub fn solve_above(&self, least: P, mut function: impl FnMut(P) -> P) -> Option<P> {
         let (settled, half) = (self.settled(), P::from_f64(0.5));
         let (mut near, mut f_near) = (self.start, self.value);
@@ -64,11 +65,12 @@ impl<P: Scalar + PartialOrd> Equation<P> {
             if f_far.sign() != f_near.sign() {
                 return Some(narrow(function, [(near, f_near), (far, f_far)], settled));
             }
-            // Further by the secant; twice as far where that has not brought it much nearer.
+            // Secant steps; twice the distance where the last one has not reduced the function
+            // enough.
             let left = f_far / f_near;
             let brought = left > P::zero() && left < half;
             way *= if brought { left / (P::one() - left) } else { P::from_f64(2.0) };
-            // Beside a jump a secant is too steep: onwards by no less than rounding.
+            // Next to a jump a secant step is too short: move by at least the rounding error.
             let shortest = rounding::<P>() * far.abs();
             if way.abs() < shortest {
                 way = way.sign() * shortest;
@@ -79,7 +81,7 @@ impl<P: Scalar + PartialOrd> Equation<P> {
     }
 }
 
-/// Closes an enclosure of a root, whose second end is the latest.
+/// Narrows a bracket of a root, whose second end is the latest.
 fn narrow<P: Scalar + PartialOrd>(
     mut function: impl FnMut(P) -> P,
     [first, second]: [(P, P); 2],
@@ -89,11 +91,12 @@ fn narrow<P: Scalar + PartialOrd>(
     let unit = rounding::<P>();
     let (mut best, mut other) = (second, first);
     let secant = best.1 / (best.1 - other.1);
-    // Beyond all numbers there is none.
+    // A secant of infinite values is no use: bisect.
     let mut share = if secant > P::zero() && secant < one { secant } else { half };
     let mut nearest = nearer(best, other);
     for _ in 0..MOST_NARROWED {
-        // Off both ends by no less than rounding: a flat stretch beside a jump looks like a root.
+        // Stay away from both ends by the rounding error: a flat part next to a jump looks like a
+        // root.
         let span = other.0 - best.0;
         let least = unit * nearest.0.abs() / span.abs();
         if share < least {
@@ -124,13 +127,13 @@ fn narrow<P: Scalar + PartialOrd>(
     nearest.0
 }
 
-/// The end at which the function is smaller.
+/// The end with the smaller function value.
 fn nearer<P: Scalar + PartialOrd>(best: (P, P), other: (P, P)) -> (P, P) {
     if other.1.abs() < best.1.abs() { other } else { best }
 }
 
-/// Share of the way from `a` to `b` at which the inverse quadratic through three points is zero, if
-/// that lies where it is sure to gain.
+/// Position between `a` and `b`, as a share, where the inverse quadratic through three points is
+/// zero, if the interpolation is sure to converge.
 fn interpolated<P: Scalar + PartialOrd>(a: (P, P), b: (P, P), c: (P, P)) -> Option<P> {
     let one = P::one();
     let xi = (a.0 - b.0) / (c.0 - b.0);

@@ -1,11 +1,11 @@
-//! What a joint shall do: strokes there and back, and Fourier series.
+//! Desired motions: strokes back and forth, and Fourier series.
 
 use crate::scalar::Scalar;
 
-/// Most harmonics of a Fourier series.
+/// Largest number of harmonics of a Fourier series.
 pub const HARMONICS: usize = 8;
 
-/// What is desired at one instant.
+/// The desired motion at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reference<P> {
     /// Position (X).
@@ -25,14 +25,14 @@ impl<P: Scalar + PartialOrd> Reference<P> {
 /// A desired motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trajectory<P> {
-    /// There and back again, from rest to rest.
+    /// Back and forth, with rest at both ends.
     Stroke(Stroke<P>),
     /// A periodic motion.
     Fourier(Fourier<P>),
 }
 
 impl<P: Scalar + PartialOrd> Trajectory<P> {
-    /// What is desired at `time` (s).
+    /// The desired motion at `time` (s).
     #[must_use]
     pub fn at(&self, time: P) -> Reference<P> {
         match self {
@@ -42,38 +42,38 @@ impl<P: Scalar + PartialOrd> Trajectory<P> {
     }
 }
 
-/// Moves from one point to another and back, with a rest before each.
+/// Moves from one point to another and back, with a dwell before each move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke<P> {
-    /// Where it starts (X).
+    /// Initial position (X).
     pub from: P,
-    /// Where it turns (X).
+    /// Turning point (X).
     pub to: P,
-    /// How a move goes.
+    /// Velocity profile of a move.
     pub profile: Profile<P>,
-    /// Rest before each move (s).
+    /// Dwell before each move (s).
     pub dwell: P,
 }
 
-/// How a move from rest to rest goes.
+/// The velocity profile of a move from rest to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Profile<P> {
     /// Constant acceleration, constant speed, constant deceleration.
     Trapezoid {
-        /// Speed that is not exceeded (X/s).
+        /// Largest speed (X/s).
         speed: P,
         /// Acceleration (X/s2).
         acceleration: P,
     },
-    /// A polynomial of fifth degree, acceleration zero at both ends.
+    /// A polynomial of fifth degree with zero acceleration at both ends.
     Quintic {
-        /// How long it takes (s).
+        /// Duration of a move (s).
         duration: P,
     },
 }
 
 impl<P: Scalar + PartialOrd> Profile<P> {
-    /// How long a move over `distance > 0` takes (s), and how long it speeds up.
+    /// Duration of a move over `distance > 0` and of its acceleration phase (s).
     fn times(&self, distance: P) -> (P, P) {
         match *self {
             Self::Quintic { duration } => (duration, duration),
@@ -85,7 +85,7 @@ impl<P: Scalar + PartialOrd> Profile<P> {
         }
     }
 
-    /// Way, speed and acceleration along a move over `distance`, `time` after it began.
+    /// Distance, speed and acceleration of a move over `distance`, `time` (s) after its start.
     fn along(&self, distance: P, time: P) -> Reference<P> {
         let (duration, ramp) = self.times(distance);
         if distance.is_zero() || time <= P::zero() {
@@ -140,7 +140,7 @@ fn trapezoid<P: Scalar + PartialOrd>(
 }
 
 impl<P: Scalar + PartialOrd> Stroke<P> {
-    /// How long a move takes, the rest before it included (s).
+    /// Duration of a move, including the dwell before it (s).
     #[must_use]
     pub fn duration(&self) -> P {
         self.dwell + self.profile.times((self.to - self.from).abs()).0
@@ -163,7 +163,7 @@ impl<P: Scalar + PartialOrd> Stroke<P> {
     }
 }
 
-/// How often the whole fits into `x >= 0`.
+/// The integer part of `x >= 0`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)]
 fn whole<P: Scalar + PartialOrd>(x: P) -> f64 {
     x.value() as i64 as f64
@@ -176,9 +176,9 @@ pub struct Fourier<P> {
     pub centre: P,
     /// Angular frequency of the first harmonic (rad/s).
     pub frequency: P,
-    /// Of each harmonic (X).
+    /// Sine coefficient of each harmonic (X).
     pub sine: [P; HARMONICS],
-    /// Of each harmonic (X).
+    /// Cosine coefficient of each harmonic (X).
     pub cosine: [P; HARMONICS],
 }
 

@@ -1,9 +1,10 @@
-//! Whether a closed path of one deflection can give off energy.
+//! Whether a closed cycle of a single deflection can generate energy.
 //!
-//! At a bristle force `f` let `A` be the least work per deflection of all operating points at which
-//! it grows, `B` of those at which it falls. A storage function exists if and only if `A + B >= 0`
-//! at every force that is reached: its slope lies between `-B` and `A`. Where it may be `f` itself,
-//! the storage is `f^2/(2 s0)`, and one condition at each operating point is enough.
+//! At a bristle force `f`, let `A` be the least work per deflection over all operating points at
+//! which the deflection grows, and `B` over those at which it falls. A storage function exists if
+//! and only if `A + B >= 0` at every force that is reached: its slope lies between `-B` and `A`.
+//! Where the slope may be `f` itself, the storage function is `f^2/(2 s0)`, and one condition per
+//! operating point is sufficient.
 
 use std::vec;
 use std::vec::Vec;
@@ -16,46 +17,46 @@ use crate::composed::Composed;
 use crate::scalar::Real;
 use crate::table::Channel;
 
-/// Evaluations that a range of forces gets before it is cut, and by how much more each half gets.
+/// Evaluations per range of forces before it is split, and the extra ones that each half gets.
 const SHARE: (usize, usize) = (600, 200);
 
-/// The forces that a bristle reaches, backwards and forwards (T).
+/// The bristle forces that are reached, in backward and forward motion (T).
 #[derive(Clone, Copy, Debug)]
 pub struct Reach {
-    /// It reaches no force outside.
+    /// No force outside these is reached.
     pub outer: [f64; 2],
-    /// It reaches each force inside.
+    /// Every force inside these is reached.
     pub inner: [f64; 2],
 }
 
-/// What came out.
+/// The result of the search over forces.
 pub enum Outcome {
-    /// No cycle gives off energy; the least margin (T), and whether it is that of two points.
+    /// No cycle generates energy.
     Passive {
-        /// Least dissipation per travel, or least work per deflection up and down.
+        /// Least dissipation per travel, or least work per deflection up and down (T).
         margin: f64,
-        /// Whether a storage other than `f^2/(2 s0)` was needed.
+        /// Whether a storage function other than `f^2/(2 s0)` was needed.
         by_cycles: bool,
     },
-    /// Energy comes out.
+    /// A cycle generates energy.
     Active {
-        /// Around this force (T).
+        /// The bristle force of the cycle (T).
         force: f64,
-        /// The first raises the bristle, the second lowers it.
+        /// The deflection grows at the first and falls at the second.
         points: [Point; 2],
         /// Work per deflection, up and down (T).
         sum: f64,
     },
-    /// Not decided around this force (T).
+    /// Undecided at this force.
     Undecided {
         /// The force (T).
         force: f64,
-        /// Where the bristle grows and falls back with the least work, if it does both.
+        /// Points of least work where the deflection grows and where it falls, if there are both.
         points: Option<[Point; 2]>,
     },
 }
 
-/// A range of forces, and where in the box a cycle may still break the condition.
+/// A range of forces, and the regions in which a cycle may violate the condition.
 struct Range {
     force: Enclosure,
     share: usize,
@@ -63,7 +64,7 @@ struct Range {
     down: Vec<Region>,
 }
 
-/// Looks at every force, until the evaluations are used up.
+/// Examines all forces until the budget of evaluations is spent.
 pub fn look(
     model: &Composed<Enclosure>,
     regions: &[Region],
@@ -105,7 +106,8 @@ pub fn look(
         refine(&mut up, &mut down, range.share);
         budget = budget.saturating_sub(up.evaluations + down.evaluations);
         let sum = up.lower() + down.lower();
-        // Infinity less infinity: the force never grows here, or never falls.
+        // The difference of two infinities: at this force the deflection never grows, or never
+        // falls.
         if sum >= 0.0 || sum.is_nan() {
             margin = margin.min(sum);
             by_cycles = true;
@@ -119,7 +121,7 @@ pub fn look(
             let points = up.best.zip(down.best).map(|(up, down)| [up.1, down.1]);
             return Outcome::Undecided { force: middle, points };
         }
-        // Where one side is so high that no other can make up for it, nothing can break.
+        // Keep only regions that some region of the other side can bring below zero.
         let (up, down) = (up.below(-down.lower()), down.below(-up.lower()));
         for force in
             [Enclosure::new(range.force.lower, middle), Enclosure::new(middle, range.force.upper)]
@@ -131,11 +133,11 @@ pub fn look(
     Outcome::Passive { margin, by_cycles }
 }
 
-/// Cuts on the side where more is unknown, until the sum is decided or the share used up.
+/// Refines the side with the larger uncertainty until the sum is decided or its share is spent.
 fn refine<'a>(up: &mut Search<'a>, down: &mut Search<'a>, share: usize) {
     while up.evaluations + down.evaluations < share && up.lower() + down.lower() < 0.0 {
         let unknown = |search: &Search<'_>| search.upper() - search.lower();
-        // Infinity less infinity: nothing is known yet.
+        // The difference of two infinities: nothing is known yet.
         let upwards = unknown(up).is_nan() || unknown(up) >= unknown(down);
         let order = if upwards { [&mut *up, &mut *down] } else { [&mut *down, &mut *up] };
         let cut = order.into_iter().any(Search::refine);
@@ -145,7 +147,7 @@ fn refine<'a>(up: &mut Search<'a>, down: &mut Search<'a>, share: usize) {
     }
 }
 
-/// Points that break the condition at one force.
+/// Points that violate the condition at one force.
 fn breaking(
     model: &Composed<Enclosure>,
     channels: &[Channel],
@@ -173,7 +175,7 @@ fn breaking(
     broken(&up, &down).then_some(([best_up.1, best_down.1], best_up.0 + best_down.0))
 }
 
-/// Where the bristle grows and falls back with the least work at one force, roughly.
+/// Approximate points of least work where the deflection grows and where it falls, at one force.
 fn least(
     model: &Composed<Enclosure>,
     channels: &[Channel],
@@ -190,7 +192,7 @@ fn least(
     Some([best(&range.up, true)?, best(&range.down, false)?])
 }
 
-/// Work per deflection where the force grows, or where it falls.
+/// Work per deflection where the deflection grows, or where it falls (T).
 fn work(
     model: &Composed<Enclosure>,
     region: &Region,

@@ -1,4 +1,4 @@
-//! Numbers with bounds: every operation rounds outwards.
+//! Interval arithmetic: numbers with bounds, rounded outwards.
 
 use core::cmp::Ordering;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
@@ -6,31 +6,31 @@ use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub};
 use crate::math::f64 as elementary;
 use crate::scalar::Real;
 
-/// How much a library function may be wrong, relative to its value: four units in the last place,
-/// and as many so that values computed at points lie within as well.
+/// Relative error bound of an elementary function: four units in the last place, and four more so
+/// that values computed at points lie inside too.
 const SLACK: f64 = 8.0 * f64::EPSILON;
 
-/// The same for the weights of an exponential step, which take some operations.
+/// The same for the `phi` functions, which take several operations.
 const PHI_SLACK: f64 = 1e-12;
 
-/// All numbers from `lower` to `upper`.
+/// The interval from `lower` to `upper`.
 ///
-/// A law evaluated on enclosures gives an enclosure of all its values, if each of its branches goes
-/// the same way over all of them. Laws branch on the signs of channels, so a channel must not
-/// enclose both signs: see [`pieces`](super::region::pieces).
+/// A law evaluated on enclosures gives an enclosure of all its values, provided that each branch is
+/// the same for the whole interval. Laws branch on the signs of channels, so the interval of a
+/// channel must not contain both signs: see [`pieces`](super::region::pieces).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Enclosure {
-    /// No value is less.
+    /// Lower bound.
     pub lower: f64,
-    /// No value is more.
+    /// Upper bound.
     pub upper: f64,
 }
 
 impl Enclosure {
-    /// Every number.
+    /// All real numbers.
     pub const ALL: Self = Self { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
-    /// From `lower` to `upper`; a bound that is no number bounds nothing.
+    /// From `lower` to `upper`; a bound that is NaN becomes infinite.
     #[must_use]
     pub fn new(lower: f64, upper: f64) -> Self {
         Self {
@@ -39,32 +39,32 @@ impl Enclosure {
         }
     }
 
-    /// One number.
+    /// The interval of one number.
     #[must_use]
     pub const fn point(x: f64) -> Self {
         Self { lower: x, upper: x }
     }
 
-    /// What lies in either.
+    /// The smallest interval that contains both.
     #[must_use]
     pub fn hull(self, other: Self) -> Self {
         Self { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
-    /// The part that is not negative, if there is a positive one.
+    /// The part that is not negative, if it contains a positive number.
     #[must_use]
     pub fn positive_part(self) -> Option<Self> {
         (self.upper > 0.0).then(|| Self { lower: self.lower.max(0.0), upper: self.upper })
     }
 
-    /// `x^2`, which is not negative.
+    /// `x^2`; unlike `x * x` never negative.
     #[must_use]
     pub fn square(self) -> Self {
         let size = self.abs();
         size * size
     }
 
-    /// The values of a growing function, from those at the ends.
+    /// The image under an increasing function.
     #[must_use]
     pub fn growing(self, slack: f64, function: impl Fn(f64) -> f64) -> Self {
         let (low, high) = (function(self.lower), function(self.upper));
@@ -72,7 +72,7 @@ impl Enclosure {
         Self::new((low - low_error).next_down(), (high + high_error).next_up())
     }
 
-    /// The values of a growing function that has the sign of its argument.
+    /// The image under an increasing function that has the sign of its argument.
     fn growing_through_zero(self, function: impl Fn(f64) -> f64) -> Self {
         let mut values = self.growing(SLACK, function);
         if self.lower >= 0.0 {
@@ -99,7 +99,7 @@ impl Enclosure {
         }
     }
 
-    /// Whether `phase + 2 pi k` is among the values for some whole `k`, or nearly so.
+    /// Whether the interval contains `phase + 2 pi k` for some integer `k`, up to rounding.
     fn passes(self, phase: f64) -> bool {
         let turn = core::f64::consts::TAU;
         let slack = 1e-12 * (1.0 + self.lower.abs().max(self.upper.abs()));
@@ -107,7 +107,7 @@ impl Enclosure {
         phase + turns * turn <= self.upper + slack
     }
 
-    /// Sine or cosine, whose crests and troughs are at these phases.
+    /// Sine or cosine, with its maxima at `crest` and its minima at `trough`, modulo 2 pi.
     fn wave(self, crest: f64, trough: f64, function: impl Fn(f64) -> f64) -> Self {
         if !(self.lower.is_finite() && self.upper.is_finite()) {
             return Self { lower: -1.0, upper: 1.0 };
@@ -135,7 +135,7 @@ fn sum(a: f64, b: f64) -> Enclosure {
     }
 }
 
-/// Bounds of `a b`, on the right side of zero; nothing times infinity is nothing.
+/// Bounds of `a b`, on the right side of zero; zero times infinity is zero.
 fn product(a: f64, b: f64) -> Enclosure {
     if a == 0.0 || b == 0.0 {
         return Enclosure::point(0.0);
@@ -207,7 +207,7 @@ impl MulAssign for Enclosure {
     }
 }
 
-/// Only where it holds for all values alike.
+/// Defined only where the order is the same for all values.
 impl PartialOrd for Enclosure {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         if self.upper < other.lower {
@@ -238,7 +238,7 @@ impl Real for Enclosure {
         self
     }
 
-    /// Of a finite number within, which is 0 only where nothing else is.
+    /// Tests one finite number of the interval, which is 0 only if the interval is zero.
     fn every(self, mut test: impl FnMut(f64) -> bool) -> bool {
         let (lower, upper) = (self.lower.max(-f64::MAX), self.upper.min(f64::MAX));
         let middle = 0.5 * lower + 0.5 * upper;
@@ -326,14 +326,14 @@ impl Real for Enclosure {
         self.within(0.0, f64::INFINITY).growing(SLACK, elementary::ln)
     }
 
-    /// In each of base and exponent it grows or falls all the way: the extremes are at corners.
+    /// Monotonic in the base and in the exponent: the extremes are at the corners.
     fn powf(self, p: Self) -> Self {
         let base = self.within(0.0, f64::INFINITY);
         let corner = |x: f64, p: f64| Self::point(elementary::powf(x, p));
         let low = corner(base.lower, p.lower).hull(corner(base.lower, p.upper));
         let high = corner(base.upper, p.lower).hull(corner(base.upper, p.upper));
         let power = low.hull(high).growing(SLACK, |x| x).within(0.0, f64::INFINITY);
-        // Laws put a large number in place of one that is beyond all.
+        // Laws replace an infinite power by a large number.
         let lower = if power.upper < f64::MAX { power.lower } else { power.lower.min(1e30) };
         Self { lower, upper: power.upper }
     }

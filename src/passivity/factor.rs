@@ -1,13 +1,13 @@
-//! How much of one friction another may cancel without ever exceeding it.
+//! The largest share of friction that a compensator may cancel without generating energy.
 //!
-//! A compensator that gives `c` times its own friction `g` leaves `f - c g`. In steady sliding that
-//! takes energy at every operating point if and only if `c g <= f` along the motion, so the largest
-//! such `c` is the least value of `f/g` over the points at which `g > 0`; where `g` brakes by
-//! itself, any `c` will do as long as `f` does. The least value is bounded by subdivision.
+//! A compensator that applies `c` times its model `g` leaves `f - c g`. In steady sliding this
+//! dissipates at every operating point if and only if `c g <= f` along the motion, so the largest
+//! such `c` is the minimum of `f/g` over the points with `g > 0`; where `g` brakes, any `c` is
+//! admissible as long as `f` dissipates. Branch and bound gives bounds of the minimum.
 //!
-//! Where `g` is `f` with other numbers, the mean value theorem gives a second bound,
-//! `f/g >= 1 + (sum_p df/dp (p - p0))/g` with the derivatives over all numbers that are possible: it
-//! closes in faster, since both sides of the ratio no longer vary by themselves.
+//! Where `g` is `f` with other parameters, the mean value theorem gives a second bound, `f/g >= 1 +
+//! (sum_p df/dp (p - p0))/g`, with the derivatives enclosed over all possible parameters. It
+//! converges faster, because numerator and denominator no longer vary independently.
 
 use std::vec::Vec;
 
@@ -21,25 +21,25 @@ use crate::error::ModelError;
 use crate::scalar::Dual;
 use crate::table::Channel;
 
-/// How close to each other the bounds have to be, relative to them.
+/// Relative distance of the bounds at which the search ends.
 const CLOSE: f64 = 5e-3;
 
-/// Derivatives that are carried along in one evaluation.
+/// Number of derivatives per evaluation.
 const AT_ONCE: usize = 8;
 
-/// The largest factor.
+/// The largest admissible factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor {
-    /// With this one the friction is nowhere exceeded: proved. Infinite where nothing is cancelled.
+    /// Proved: with this factor friction is nowhere exceeded. Infinite where nothing is cancelled.
     pub proved: f64,
-    /// What the same bound comes to at the single `point`.
+    /// The factor that is admissible at `point` alone.
     pub at_point: f64,
-    /// The point that stands in the way.
+    /// The point that limits the factor.
     pub point: Option<Point>,
 }
 
-/// The largest factor of a compensator (a model and its values) for a friction whose parameters
-/// are known to lie within bounds.
+/// The largest factor of a compensator (a model and its parameter values) for friction whose
+/// parameters are known to lie within bounds.
 ///
 /// # Errors
 /// A model or a box that cannot be used.
@@ -71,7 +71,7 @@ pub fn largest(
     Ok(Factor { proved: search.lower(), at_point, point })
 }
 
-/// A compensator and the friction that it works against.
+/// A compensator and the friction that it compensates.
 struct Pair {
     cancels: Composed<Enclosure>,
     resists: Composed<Enclosure>,
@@ -79,8 +79,8 @@ struct Pair {
 }
 
 impl Pair {
-    /// A lower bound of the factor over a region, as a single number: at a point as well it is the
-    /// least of all possible frictions that counts. `None` where any factor will do.
+    /// A lower bound of the factor over a region. Even at a single point it is the minimum over all
+    /// possible parameters. `None` where any factor is admissible.
     fn share(&self, region: &Region) -> Option<Enclosure> {
         let (cancelled, there) = (sliding(&self.cancels, region), sliding(&self.resists, region));
         if cancelled.upper <= 0.0 && there.lower >= 0.0 {
@@ -95,15 +95,15 @@ impl Pair {
     }
 }
 
-/// How far a model's friction may be from that with its nominal values.
+/// The difference of friction from its nominal value when its parameters vary.
 struct Spread {
-    /// With derivatives by some parameters, and how far these may be off.
+    /// The model with derivatives with respect to some parameters, and the deviations of these.
     parts: Vec<(Composed<Dual<Enclosure, AT_ONCE>>, Vec<Enclosure>)>,
 }
 
 impl Spread {
     fn of(spec: &Spec, values: &[f64], bounds: &[Enclosure]) -> Result<Self, ModelError<'static>> {
-        // The theorem speaks of all numbers between the nominal ones and the others.
+        // The mean value theorem needs all parameters between the nominal and the possible ones.
         let between: Vec<_> =
             bounds.iter().zip(values).map(|(x, &v)| x.hull(Enclosure::point(v))).collect();
         let uncertain: Vec<_> =
@@ -120,7 +120,7 @@ impl Spread {
         Ok(Self { parts })
     }
 
-    /// The friction in sliding minus the nominal one, along the motion (T).
+    /// Friction in sliding minus the nominal friction, along the motion (T).
     fn change(&self, region: &Region) -> Enclosure {
         let mut sum = Enclosure::point(0.0);
         for (model, off) in &self.parts {
@@ -132,7 +132,7 @@ impl Spread {
     }
 }
 
-/// All channels that the model reads have a side, and none holds its pole.
+/// Checks that every channel the model reads has a side, and that none contains the law's pole.
 fn check_sides(spec: &Spec, sides: &[Side]) -> Result<(), PassivityError> {
     for channel in spec.channels() {
         let side = sides.iter().find(|side| side.channel == channel);

@@ -1,4 +1,4 @@
-//! What friction does along the motion, over a box or at a point.
+//! Friction along the direction of motion, over a box or at a point.
 
 use super::enclosure::Enclosure;
 use crate::composed::Composed;
@@ -6,16 +6,16 @@ use crate::dynamics::Approach;
 use crate::sample::Sample;
 use crate::scalar::{Real, Scalar};
 
-/// How far the slope of an approach may be wrong: the sum of a few operations at a point.
+/// Error bound of the slope of an approach: a few rounded operations at a point.
 const SLOPE_SLACK: f64 = 1e-14;
 
-/// A model with one deflection, along the direction of motion: the power it takes is
-/// `|v| (g + drag slope + resistance)` and `df/dt = s0 |v| slope`, with `g` the bristle's force.
+/// A model with one deflection, along the direction of motion: the power it dissipates is `|v| (g +
+/// drag slope + resistance)` and `df/dt = s0 |v| slope`, with `g` the bristle force.
 #[derive(Clone, Copy, Debug)]
 pub struct Bristled<S> {
     /// Dry magnitude `D` (T).
     pub dry: S,
-    /// `zeta`, the parts beside the bristle (T).
+    /// `zeta`, the friction in parallel with the bristle (T).
     pub resistance: S,
     /// Damping times speed (T).
     pub drag: S,
@@ -23,7 +23,7 @@ pub struct Bristled<S> {
 }
 
 impl<S: Scalar> Bristled<S> {
-    /// `None` where the model's state is not a single deflection.
+    /// `None` if the state of the model is not a single deflection.
     pub fn of(model: &Composed<S>, sample: &Sample<S::Plain>) -> Option<Self> {
         let deflection = model.deflection(sample)?;
         let split = model.split(sample);
@@ -35,7 +35,7 @@ impl<S: Scalar> Bristled<S> {
         })
     }
 
-    /// The bristle's force along the motion in sliding (T).
+    /// The bristle force along the motion in steady sliding (T).
     pub fn strength(&self) -> S {
         match self.approach {
             Approach::Smoothed(sign) => self.dry * sign,
@@ -43,13 +43,13 @@ impl<S: Scalar> Bristled<S> {
         }
     }
 
-    /// Whether the slope is `1 - x`, with `dz/dt = v - s0 |v|/D z`.
+    /// Whether the slope is `1 - x`, as of `dz/dt = v - s0 |v|/D z`.
     pub fn is_linear(&self) -> bool {
         matches!(self.approach, Approach::Linear)
     }
 
-    /// The way on which the deflection grows along the motion, or on which it falls back, for a
-    /// force `g` along the motion (T).
+    /// The leg of a cycle on which the deflection grows along the motion, or on which it falls
+    /// back, at a bristle force `g` along the motion (T).
     pub fn leg(&self, force: S::Plain, grows: bool) -> Leg<S> {
         let slope = self.approach.slope(self.dry.divide(force));
         let load = self.resistance.shift(force);
@@ -62,8 +62,8 @@ impl<S: Scalar> Bristled<S> {
 }
 
 impl Bristled<Enclosure> {
-    /// Power over `|dz/dt|` (T) where the deflection grows along the motion, and where it falls
-    /// back, for a force `g` along the motion; `None` where that does not happen.
+    /// Power over `|dz/dt|` (T) where the deflection grows along the motion and where it falls
+    /// back, at a bristle force `g` along the motion; `None` where it does not do so.
     pub fn work_per_deflection(&self, force: Enclosure) -> [Option<Enclosure>; 2] {
         let slope = self.slope(force / self.dry);
         let load = force + self.resistance;
@@ -72,14 +72,14 @@ impl Bristled<Enclosure> {
         [grows, falls]
     }
 
-    /// Power over `|v|` beyond what goes into `f^2/(2 s0)` (T).
+    /// Power over `|v|` beyond the increase of `f^2/(2 s0)` (T).
     pub fn dissipated(&self, force: Enclosure) -> Enclosure {
         let x = force / self.dry;
         let slope = self.slope(x);
         let sheared = match self.approach {
             Approach::Linear => force.square() / self.dry,
             Approach::Smoothed(_) => force * (Enclosure::point(1.0) - slope),
-            // What is left of the slope has the sign of the force.
+            // 1 - slope has the sign of the force.
             Approach::Power(_) | Approach::Elastoplastic(_) => {
                 let sheared = force * (Enclosure::point(1.0) - slope);
                 Enclosure::new(sheared.lower.max(0.0), sheared.upper.max(0.0))
@@ -88,7 +88,7 @@ impl Bristled<Enclosure> {
         sheared + self.drag * slope + self.resistance
     }
 
-    /// The slope does not grow with `x`.
+    /// The slope decreases with `x`, or is constant.
     fn slope(&self, x: Enclosure) -> Enclosure {
         let at = |x: f64| {
             if x.is_infinite() {
@@ -107,19 +107,19 @@ impl Bristled<Enclosure> {
     }
 }
 
-/// A deflection on its way up or down.
+/// A leg of a cycle: the deflection grows or falls.
 #[derive(Clone, Copy, Debug)]
 pub struct Leg<S> {
-    /// Friction in which the pace has no part (T).
+    /// Friction apart from the damping of the bristle (T).
     pub load: S,
-    /// Deflection over travel; below zero it goes the other way.
+    /// Rate of deflection over velocity; negative where the deflection moves the other way.
     pub pace: S,
-    /// Work per deflection of the damping (T).
+    /// Work of the damping per deflection (T).
     pub drag: S,
 }
 
 impl<S: Scalar> Leg<S> {
-    /// Power over `|dz/dt|` (T); `None` where the deflection does not go this way.
+    /// Power over `|dz/dt|` (T); `None` where the deflection moves the other way.
     pub fn work(self) -> Option<S> {
         (self.pace.value() > 0.0).then(|| self.load / self.pace + self.drag)
     }

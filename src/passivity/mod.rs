@@ -1,19 +1,19 @@
-//! Whether a model can give off energy, proved over a box of operating points, never by samples.
+//! Whether a model can generate energy: proved over a box of operating points, not sampled.
 //!
-//! | module | what lives there |
+//! | module | content |
 //! |---|---|
-//! | [`enclosure`] | numbers with bounds, rounded outwards: a law evaluated on them is bounded |
-//! | [`region`] | boxes of operating points, cut so that laws do not branch inside |
-//! | [`search`] | the least value over boxes, between bounds |
-//! | `friction` | what friction does along the motion |
-//! | [`cycles`] | the exact condition on a single deflection |
-//! | [`replay`] | counterexamples, carried out by the exact step |
-//! | [`factor`] | how much of one friction another may cancel |
-//! | [`requirement`] | what it all asks of the parameters, for a fit |
-//! | [`spread`] | the same at points over the box |
+//! | [`enclosure`] | interval arithmetic: a law evaluated on intervals is bounded |
+//! | [`region`] | boxes of operating points, split so that laws do not branch inside |
+//! | [`search`] | minimum over boxes by branch and bound |
+//! | `friction` | friction along the motion |
+//! | [`cycles`] | the exact condition for a single deflection |
+//! | [`replay`] | counterexamples, simulated with the exact step |
+//! | [`factor`] | the largest share of friction that may be cancelled |
+//! | [`requirement`] | conditions on the parameters, for a fit |
+//! | [`spread`] | these conditions at points spread over the box |
 //!
-//! In each motion of the box velocity, temperature, load ... may change at any time in any way.
-//! Speeds below [`LEAST`](region::LEAST) count as rest.
+//! All motions within the box are covered: velocity, temperature, load ... may change at any time
+//! in any way. Speeds below [`LEAST`](region::LEAST) count as rest.
 
 pub mod cycles;
 pub mod enclosure;
@@ -42,34 +42,34 @@ use replay::Counterexample;
 use requirement::Requirement;
 use search::Search;
 
-/// How close a reported margin is to the least value, relative to it.
+/// Relative accuracy of a reported margin.
 const CLOSE: f64 = 1e-3;
 
-/// Share of the largest speed above which a counterexample is looked for first: one that a joint
-/// could carry out.
+/// Share of the largest speed above which counterexamples are searched first: a real joint can
+/// follow them.
 const BRISK: f64 = 1e-3;
 
-/// What a proof rests on, or what stands in its way.
+/// A condition of passivity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
     /// Friction in steady sliding opposes the motion.
     Sliding,
     /// `0 <= s1 <= 4 D/|v|` (Tadese et al. 2021, property 1, i).
     Damping,
-    /// What is beside the bristle opposes the motion (property 1, ii).
+    /// Friction in parallel with the bristle opposes the motion (property 1, ii).
     Resistance,
-    /// More is dissipated than goes into `f^2/(2 s0)`.
+    /// The model dissipates more than it stores in `f^2/(2 s0)`.
     Storage,
-    /// No cycle of the deflection gives off energy.
+    /// No cycle of the deflection generates energy.
     Cycle,
-    /// Elements of constant strength, each a spring and a slider.
+    /// Elements of constant strength: springs and sliders in parallel.
     Elements,
-    /// None is known for states of this kind.
+    /// No condition is known for this kind of state.
     Unknown,
 }
 
 impl Condition {
-    /// The name users read.
+    /// The name shown to users.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -84,44 +84,44 @@ impl Condition {
     }
 }
 
-/// A condition and by how much it holds.
+/// A condition and its margin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Margin {
-    /// Which.
+    /// The condition.
     pub condition: Condition,
-    /// No operating point has less (T).
+    /// Lower bound of the margin over the box (T).
     pub lower: f64,
-    /// Some operating point has no more (T), where one has been looked for.
+    /// Upper bound of the least margin: that of `point` (T); `None` if not searched.
     pub upper: Option<f64>,
-    /// That point.
+    /// The point of the upper bound.
     pub point: Option<Point>,
 }
 
-/// The answer.
+/// The result of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// `None`: cannot decide.
+    /// Whether the model is passive; `None` if undecided.
     pub passive: Option<bool>,
-    /// What decided, or could not.
+    /// The condition that decided, or that could not be decided.
     pub condition: Condition,
-    /// All that was looked at.
+    /// The margins of all conditions that were checked.
     pub margins: Vec<Margin>,
-    /// What breaks passivity.
+    /// A motion that generates energy.
     pub counterexample: Option<Counterexample>,
-    /// What is missed, or could not be decided; where one is known.
+    /// The violated or undecided requirement, if it can be stated at single points.
     pub open: Option<Requirement>,
 }
 
-/// What cannot be asked.
+/// Why passivity cannot be checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PassivityError {
-    /// The model itself cannot be used.
+    /// The model cannot be used.
     Model(ModelError<'static>),
-    /// The box has no range of a channel that the model reads.
+    /// The box gives no range for a channel that the model reads.
     Missing(Channel),
-    /// The temperature at which the law has no limit is in the box (degC).
+    /// The box contains the pole of the law (degC).
     Pole(f64),
-    /// Dry friction is not positive at a point, where a bristle cannot be.
+    /// A point and its dry friction, which is not positive there: a bristle needs a strength.
     NoBristle(Point, f64),
 }
 
@@ -149,9 +149,10 @@ impl From<ModelError<'static>> for PassivityError {
     }
 }
 
-/// Whether the model is passive over the box, with so many evaluations at most.
+/// Checks whether the model is passive over the box, with at most `budget` evaluations.
 ///
-/// All of the model counts as friction, a constant torque too: leave out what is none.
+/// The whole model counts as friction, a constant torque too: leave out effects that are not
+/// friction.
 ///
 /// # Errors
 /// A model or a box that cannot be used.
@@ -168,8 +169,8 @@ pub fn check(
     Ok(verdict)
 }
 
-/// Requirements on the parameters at points spread over the box, the worst of each kind: with them
-/// a fit begins. None of a model whose state is more than a single deflection.
+/// Requirements on the parameters at points spread over the box, the worst of each kind, to start a
+/// constrained fit. Empty if the state of the model is more than a single deflection.
 ///
 /// # Errors
 /// A model or a box that cannot be used.
@@ -221,7 +222,7 @@ impl<'a> Task<'a> {
         Ok(Self { spec, bounded, exact, channels, regions, budget })
     }
 
-    /// Whether its state is a single deflection.
+    /// Whether the state is a single deflection.
     fn has_bristle(&self) -> bool {
         self.bounded.has_state()
             && !self.lags()
@@ -271,7 +272,7 @@ impl<'a> Task<'a> {
         Ok(verdict)
     }
 
-    /// A bristle has to have some strength everywhere.
+    /// Checks that dry friction is positive everywhere.
     fn check_strength(&self) -> Result<(), PassivityError> {
         let dry = |region: &Region| Some(self.bounded.split(region).dry());
         let mut search = Search::over(&self.regions, &self.channels, &dry);
@@ -324,7 +325,7 @@ impl<'a> Task<'a> {
         }
     }
 
-    /// Whether a cycle has been found that gives off energy when it is carried out.
+    /// Whether a cycle was found that generates energy when simulated.
     fn broken_by(&self, outcome: &Outcome, reach: Reach, verdict: &mut Verdict) -> bool {
         let Outcome::Active { force, points: [up, down], sum } = outcome else { return false };
         verdict.open = Some(Requirement::Cycle { force: *force, up: *up, down: *down });
@@ -343,7 +344,7 @@ impl<'a> Task<'a> {
         true
     }
 
-    /// The largest force of sliding in each direction is the largest that is reached.
+    /// The forces that are reached: up to the largest force of steady sliding in each direction.
     fn reach(&self) -> Reach {
         let strongest = |forward: bool| {
             let regions: Vec<_> = self
@@ -362,7 +363,7 @@ impl<'a> Task<'a> {
         Reach { outer: [-backward.0, forward.0], inner: [-backward.1, forward.1] }
     }
 
-    /// The least value over the box.
+    /// The minimum over the box.
     fn least(&self, condition: Condition, function: impl Fn(&Region) -> Enclosure) -> Margin {
         let function = |region: &Region| Some(function(region));
         let mut search = Search::over(&self.regions, &self.channels, &function);
@@ -379,32 +380,33 @@ impl<'a> Task<'a> {
         Margin { condition, lower, upper, point }
     }
 
-    /// The velocities of the box.
+    /// The range of velocity of the box.
     fn speeds(&self) -> [f64; 2] {
         let ends = self.regions.iter().map(|region| region.velocity);
         let hull = ends.reduce(Enclosure::hull).unwrap_or(Enclosure::point(0.0));
         [hull.lower, hull.upper]
     }
 
-    /// Whether the Stribeck curve lags behind the velocity.
+    /// Whether the Stribeck curve lags the velocity.
     fn lags(&self) -> bool {
         self.spec.effects().contains(EffectId::FrictionalLag)
     }
 
-    /// Whether all that the bristle depends on can change at any time: position and time cannot.
+    /// Whether the bristle depends only on channels that can change arbitrarily, unlike position
+    /// and time.
     fn is_free(&self) -> bool {
         let bound = [Channel::Position, Channel::Time];
         !self.channels.iter().any(|channel| bound.contains(channel))
     }
 
-    /// Whether a law branches on more than the signs of channels, which enclosures cannot follow.
+    /// Whether a law branches on more than the signs of channels, which intervals cannot follow.
     fn branches(&self) -> bool {
         let smoothed = |own: &Formula| own.terms().any(|term| term.kind == TermKind::Smoothed);
         let formula = |own: &Formula| own.compares() || (self.bounded.has_state() && smoothed(own));
         self.spec.law() == LawId::BamM6 || self.spec.own().is_some_and(formula)
     }
 
-    /// Elements in parallel whose strength does not change: springs and sliders.
+    /// Whether the state consists of parallel elements of constant strength: springs and sliders.
     fn constant_elements(&self) -> bool {
         self.spec.law() == LawId::Gms
             && self.spec.effects() == EffectSet::NONE

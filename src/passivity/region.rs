@@ -1,4 +1,4 @@
-//! Boxes of operating points, cut so that laws do not branch inside them.
+//! Boxes of operating points, split so that laws do not branch inside them.
 
 use std::vec;
 use std::vec::Vec;
@@ -7,7 +7,8 @@ use super::enclosure::Enclosure;
 use crate::sample::Sample;
 use crate::table::Channel;
 
-/// What is smaller counts as zero: far below all that moves, far above where products underflow.
+/// Smaller values count as zero: far below any motion, far above the range where products
+/// underflow.
 pub const LEAST: f64 = 1e-30;
 
 /// A box of operating points; a channel that is not read is zero.
@@ -16,20 +17,20 @@ pub type Region = Sample<Enclosure>;
 /// One operating point.
 pub type Point = Sample<f64>;
 
-/// A channel's range.
+/// The range of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Side {
-    /// Which channel.
+    /// The channel.
     pub channel: Channel,
-    /// Its least value.
+    /// Lower bound.
     pub lower: f64,
-    /// Its largest value.
+    /// Upper bound.
     pub upper: f64,
 }
 
-/// The sides' product, cut at zero in every channel, without rest.
+/// The product of the sides, split at zero in every channel, without rest.
 ///
-/// Laws branch on the signs of channels: in a piece every channel has one.
+/// Laws branch on the signs of channels: in each piece every channel has one sign.
 #[must_use]
 pub fn pieces(sides: &[Side]) -> Vec<Region> {
     let mut made = vec![Sample::at(Enclosure::point(0.0))];
@@ -51,14 +52,14 @@ fn parts(side: &Side) -> Vec<Enclosure> {
     if side.upper >= LEAST {
         parts.push(Enclosure::new(side.lower.max(LEAST), side.upper));
     }
-    // Rest dissipates nothing and produces nothing.
+    // At rest nothing is dissipated or generated.
     if side.channel != Channel::Velocity && side.lower < LEAST && side.upper > -LEAST {
         parts.push(Enclosure::point(0.0));
     }
     parts
 }
 
-/// A sample with another value of a channel.
+/// The sample with another value of one channel.
 pub fn set<P: Copy>(sample: &Sample<P>, channel: Channel, value: P) -> Sample<P> {
     let mut changed = *sample;
     let own = match channel {
@@ -76,7 +77,7 @@ pub fn set<P: Copy>(sample: &Sample<P>, channel: Channel, value: P) -> Sample<P>
     changed
 }
 
-/// Another number in each channel.
+/// Applies `change` to every channel.
 fn map<P: Copy, Q>(sample: &Sample<P>, change: impl Fn(P) -> Q) -> Sample<Q> {
     Sample {
         velocity: change(sample.velocity),
@@ -91,25 +92,25 @@ fn map<P: Copy, Q>(sample: &Sample<P>, change: impl Fn(P) -> Q) -> Sample<Q> {
     }
 }
 
-/// The point as a region, so that what is computed there is bounded too.
+/// The point as a region, to bound the rounding errors of what is computed there.
 #[must_use]
 pub fn at(point: &Point) -> Region {
     map(point, Enclosure::point)
 }
 
-/// The middle of a region.
+/// The midpoint of a region.
 #[must_use]
 pub fn middle_of(region: &Region) -> Point {
     map(region, middle)
 }
 
-/// Points of a region that are worth a look: its middle and two opposite corners.
+/// Trial points of a region: its midpoint and two opposite corners.
 #[must_use]
 pub fn probes(region: &Region) -> [Point; 3] {
     [middle_of(region), map(region, |x| x.lower), map(region, |x| x.upper)]
 }
 
-/// Both halves of a region along a channel; `None` where there is nothing between its ends.
+/// Both halves of a region along a channel; `None` where no number lies between its ends.
 #[must_use]
 pub fn halves(region: &Region, channel: Channel) -> Option<[Region; 2]> {
     let whole = region.channel(channel);
@@ -121,7 +122,7 @@ pub fn halves(region: &Region, channel: Channel) -> Option<[Region; 2]> {
     })
 }
 
-/// What of the regions is faster than this speed, either way.
+/// The parts of the regions above this speed, in both directions.
 #[must_use]
 pub fn faster_than(regions: &[Region], speed: f64) -> Vec<Region> {
     let fast = |region: &Region| {
@@ -136,13 +137,13 @@ pub fn faster_than(regions: &[Region], speed: f64) -> Vec<Region> {
     regions.iter().filter_map(fast).collect()
 }
 
-/// The region without width in a channel.
+/// The region reduced to the midpoint in one channel.
 #[must_use]
 pub fn flattened(region: &Region, channel: Channel) -> Region {
     set(region, channel, Enclosure::point(middle(region.channel(channel))))
 }
 
-/// The middle, by ratio where the ends differ by decades.
+/// The midpoint: geometric where the ends differ by decades.
 fn middle(x: Enclosure) -> f64 {
     let (near, far) = (x.lower.abs().min(x.upper.abs()), x.lower.abs().max(x.upper.abs()));
     let one_sign = x.lower > 0.0 || x.upper < 0.0;

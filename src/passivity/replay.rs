@@ -1,4 +1,4 @@
-//! Counterexamples, carried out by the model's own exact step.
+//! Counterexamples, simulated with the exact step of the model.
 
 use core::iter::successors;
 use std::vec::Vec;
@@ -7,50 +7,50 @@ use super::region::Point;
 use crate::composed::Composed;
 use crate::dynamics::State;
 
-/// An operating point that is held for a while.
+/// An operating point held constant for some time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hold {
     /// The point.
     pub point: Point,
-    /// How long (s).
+    /// Duration (s).
     pub duration: f64,
 }
 
-/// Motions after which the model has given off energy and is as it was before.
+/// A motion in which the model generates energy and ends in the state in which it began.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Counterexample {
-    /// Deflection at the start and at the end (X), of a model that has one; else the state in
-    /// which it slides.
+    /// Deflection at the start and at the end (X); `None` for steady sliding or a model without a
+    /// deflection.
     pub deflection: Option<f64>,
-    /// What is held, one after the other.
+    /// The operating points, in their order.
     pub holds: Vec<Hold>,
-    /// Work that the model takes (J): negative.
+    /// Work done on the model (J): negative.
     pub work: f64,
 }
 
-/// How long a point at which sliding gives off energy is held (s).
+/// Duration of a counterexample in steady sliding (s).
 const LONG: f64 = 1.0;
 
-/// Share of the energy in the bristle at its largest deflection that is enough to be shown.
+/// Share of the largest energy stored in the bristle that suffices as generated energy.
 const ENOUGH: f64 = 0.01;
 
-/// Sizes of the cycle that are tried, each half of the one before.
+/// Number of cycle sizes that are tried, each half of the one before.
 const SIZES: usize = 40;
 
-/// The most halvings of the largest speed that are tried.
+/// Largest number of halvings of the speed.
 const HALVINGS: usize = 100;
 
-/// Of two counterexamples the one that yields more.
+/// The counterexample that generates more energy.
 fn better(best: Counterexample, other: Counterexample) -> Counterexample {
     if other.work < best.work { other } else { best }
 }
 
-/// A number, half of it, a quarter ...
+/// `first`, half of it, a quarter ...
 fn halvings(first: f64, count: usize) -> impl Iterator<Item = f64> {
     successors(Some(first), |x| Some(0.5 * x)).take(count)
 }
 
-/// The point at these speeds: its own, and faster ones in powers of two up to `fastest`.
+/// The point at its own speed, and at higher ones in powers of two up to `fastest`.
 fn faster(point: &Point, fastest: f64) -> impl Iterator<Item = Point> {
     let own = *point;
     let speed = own.velocity.abs();
@@ -59,7 +59,7 @@ fn faster(point: &Point, fastest: f64) -> impl Iterator<Item = Point> {
     )
 }
 
-/// Holds a point in steady sliding, at the speed of its direction that yields most.
+/// Steady sliding at a point, at the speed that generates most energy.
 pub fn sliding(
     model: &Composed<f64>,
     point: &Point,
@@ -76,11 +76,11 @@ pub fn sliding(
     faster(point, limit).map(held).fold(held(*point), better)
 }
 
-/// A cycle around a bristle force `force` (T): it grows at `up` and falls back at `down`, and never
-/// exceeds what is reached. `None` if none yields anything.
+/// A cycle around a bristle force `force` (T) that stays within the forces that are reached: the
+/// deflection grows at `up` and falls at `down`. `None` if no such cycle generates energy.
 ///
-/// The slower the motion, the more it may yield. Of all speeds of the box the fastest are taken that
-/// yield half as much, or as much as is enough.
+/// A slower motion may generate more energy. Of all speeds of the box the fastest is chosen that
+/// gives half the maximum, or enough.
 pub fn cycle(
     model: &Composed<f64>,
     force: f64,
@@ -129,14 +129,14 @@ fn between(
     let holds =
         [Hold { point: *up, duration: rise }, Hold { point: *down, duration: fall }].to_vec();
     let (work, end) = work(model, Some(low), &holds);
-    // What is still in the bristle where the cycle does not close to the last digit.
+    // Energy still stored because the cycle closes only up to rounding.
     let stiffness = model.deflection(up)?.stiffness;
     let left = stiffness * low.abs().max(high.abs()) * (end - low).abs();
     (work + 2.0 * left < 0.0).then_some(Counterexample { deflection: Some(low), holds, work })
 }
 
-/// The work that the model takes (J), and the deflection at the end; from this deflection on, or
-/// sliding already.
+/// The work done on the model (J) and the final deflection, from this deflection or from steady
+/// sliding.
 #[must_use]
 pub fn work(model: &Composed<f64>, deflection: Option<f64>, holds: &[Hold]) -> (f64, f64) {
     let mut state = match (deflection, holds.first()) {
@@ -152,7 +152,8 @@ pub fn work(model: &Composed<f64>, deflection: Option<f64>, holds: &[Hold]) -> (
     (work, state.bristle.z)
 }
 
-/// How long the deflection takes from `from` to `to` at this point; `None` if it does not get there.
+/// The time for the deflection to go from `from` to `to` at this point; `None` if it does not get
+/// there.
 fn duration(model: &Composed<f64>, from: f64, to: f64, point: &Point) -> Option<f64> {
     let passed = |dt: f64| {
         let mut state = State::deflected(from);

@@ -1,7 +1,7 @@
-//! What passivity asks of the parameters of a model at single operating points.
+//! Conditions of passivity on the parameters of a model, at single operating points.
 //!
-//! Each requirement is necessary: a model that misses one gives off energy. All of them over a whole
-//! box are sufficient, so a fit that meets those that matter may end in a proof.
+//! Each is necessary: a model that violates one generates energy. Together over a whole box they
+//! are sufficient, so a fit constrained by the worst of them may end in a proof.
 
 use std::vec::Vec;
 
@@ -11,31 +11,31 @@ use crate::composed::{Composed, Spec};
 use crate::error::ModelError;
 use crate::scalar::{Dual, Real, Scalar};
 
-/// Derivatives that are carried along in one evaluation.
+/// Number of derivatives per evaluation.
 const AT_ONCE: usize = 8;
 
-/// Holds where its margin is not negative.
+/// A condition that holds where its margin is not negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Requirement {
-    /// A bristle has some strength: margin in T.
+    /// Dry friction is positive: margin in T.
     Strength(Point),
     /// Friction in steady sliding opposes the motion: margin in T.
     Sliding(Point),
-    /// A bristle that grows at one point and falls back at the other, around this force (T), takes
-    /// work; the margin is that work per travel (T). Of a leg on which it does not move so, the
-    /// bristle stands, which asks no more than sliding does.
+    /// A cycle around this force in which the deflection grows at one point and falls at the other
+    /// dissipates; the margin is the work per travel (T). On a leg where the deflection would move
+    /// the other way it is constant, and the condition is that of sliding.
     Cycle {
-        /// The bristle's force (T).
+        /// The bristle force (T).
         force: f64,
-        /// Where it grows.
+        /// The deflection grows here.
         up: Point,
-        /// Where it falls back.
+        /// The deflection falls here.
         down: Point,
     },
 }
 
 impl Requirement {
-    /// The name users read.
+    /// The name shown to users.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ impl Requirement {
         }
     }
 
-    /// The operating points that it is about.
+    /// The operating points of the condition.
     #[must_use]
     pub fn points(&self) -> Vec<Point> {
         match *self {
@@ -54,7 +54,7 @@ impl Requirement {
         }
     }
 
-    /// By how much it is met.
+    /// The margin (T).
     pub fn margin<S: Scalar<Plain = f64>>(&self, model: &Composed<S>) -> S {
         match self {
             Self::Strength(point) => model.split(point).dry(),
@@ -75,10 +75,10 @@ impl Requirement {
         }
     }
 
-    /// The margin, and its derivatives by all parameters.
+    /// The margin, and its derivatives with respect to all parameters.
     ///
     /// # Errors
-    /// Values at which the model cannot be evaluated.
+    /// Parameter values at which the model cannot be evaluated.
     pub fn gradient(
         &self,
         spec: &Spec,
@@ -104,7 +104,7 @@ impl Requirement {
     }
 }
 
-/// The bristle at a point on its way up or down; it stands where it would go the other way.
+/// The leg of a cycle at a point; the bristle slides where its deflection would move the other way.
 fn leg<S: Scalar<Plain = f64>>(
     model: &Composed<S>,
     point: &Point,
@@ -117,6 +117,6 @@ fn leg<S: Scalar<Plain = f64>>(
     if leg.pace.value() > 0.0 {
         return Some(leg);
     }
-    // Where it stands it slides, whatever force the cycle is around.
+    // The bristle slides with its full strength, whatever the force of the cycle.
     Some(Leg { load: bristled.strength() + bristled.resistance, pace: S::zero(), ..leg })
 }

@@ -1,4 +1,4 @@
-//! The least value of a function over boxes, between bounds: branch and bound.
+//! The minimum of a function over boxes, with bounds: branch and bound.
 
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -8,25 +8,26 @@ use super::enclosure::Enclosure;
 use super::region::{Point, Region, at, flattened, halves, probes};
 use crate::table::Channel;
 
-/// What is known of the least value of a function.
+/// Bounds of the minimum of a function.
 pub struct Search<'a> {
     function: &'a dyn Fn(&Region) -> Option<Enclosure>,
     channels: &'a [Channel],
     leaves: BinaryHeap<Leaf>,
-    /// The least value that a point has (its upper bound), and that point.
+    /// The least value found at a point (an upper bound of the minimum), and that point.
     pub best: Option<(f64, Point)>,
-    /// Evaluations so far.
+    /// Number of evaluations so far.
     pub evaluations: usize,
 }
 
-/// A region and a lower bound of the function over it; the lowest comes first.
+/// A region and a lower bound of the function over it; the heap returns the lowest first.
 struct Leaf {
     lower: f64,
     region: Region,
 }
 
 impl<'a> Search<'a> {
-    /// Over these regions; where the function is `None` it has no value in the whole region.
+    /// A search over these regions; where the function is `None` it has no value in the whole
+    /// region.
     pub fn over(
         regions: &[Region],
         channels: &'a [Channel],
@@ -40,17 +41,17 @@ impl<'a> Search<'a> {
         search
     }
 
-    /// No value is less; infinite where there is no value at all.
+    /// Lower bound of the minimum; infinite if the function has no value anywhere.
     pub fn lower(&self) -> f64 {
         self.leaves.peek().map_or(f64::INFINITY, |leaf| leaf.lower)
     }
 
-    /// Some point has a value that is not more; infinite where none has been found.
+    /// Upper bound of the minimum; infinite if no value was found.
     pub fn upper(&self) -> f64 {
         self.best.map_or(f64::INFINITY, |(value, _)| value)
     }
 
-    /// Cuts the region with the lowest bound; `false` if nothing is left to cut.
+    /// Splits the region with the lowest bound; `false` if none can be split.
     pub fn refine(&mut self) -> bool {
         let Some(leaf) = self.leaves.pop() else { return false };
         match self.widest(&leaf.region) {
@@ -65,8 +66,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The halves along the channel that matters most: that without whose width the bound would be
-    /// highest. Where none shows, the relatively widest.
+    /// The halves along the channel that matters most: the one without whose width the bound would
+    /// be highest; if none matters, the one that is relatively widest.
     fn widest(&mut self, region: &Region) -> Option<[Region; 2]> {
         self.evaluations += self.channels.len();
         let cuts = self.channels.iter().filter_map(|&channel| {
@@ -80,7 +81,7 @@ impl<'a> Search<'a> {
         cuts.max_by(order).map(|(_, _, halves)| halves)
     }
 
-    /// Cuts until `enough`, or until the evaluations are used up.
+    /// Splits regions until `enough`, or until the budget of evaluations is spent.
     pub fn run(&mut self, budget: usize, enough: impl Fn(&Self) -> bool) {
         while self.evaluations < budget && !enough(self) {
             if !self.refine() {
@@ -89,7 +90,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The regions in which the function may be less than `limit`.
+    /// The regions in which the function may be below `limit`.
     pub fn below(&self, limit: f64) -> Vec<Region> {
         self.leaves.iter().filter(|leaf| leaf.lower < limit).map(|leaf| leaf.region).collect()
     }

@@ -1,4 +1,4 @@
-//! Requirements at points spread over a box: nothing is proved by them, they lead a fit.
+//! Conditions of passivity at points spread over a box. They prove nothing; they guide a fit.
 
 use core::iter::successors;
 use std::vec;
@@ -11,19 +11,20 @@ use crate::composed::Composed;
 use crate::scalar::Real;
 use crate::table::Channel;
 
-/// Speeds of a region, each half of the one before.
+/// Number of speeds per region, each half of the one before.
 const SPEEDS: usize = 28;
 
-/// Values of a channel along which friction may rise and fall several times, and of any other.
+/// Number of values of a channel along which friction may oscillate, and of any other.
 const VALUES: (usize, usize) = (13, 5);
 
-/// Forces of a bristle, evenly over all that it reaches.
+/// Number of bristle forces, evenly spaced over those that are reached.
 const EVEN_FORCES: u8 = 24;
 
-/// Forces either way, each half of the one before: around zero the work of both legs cancels.
+/// Number of forces in each direction, each half of the one before: around zero the work of the two
+/// legs cancels.
 const SMALL_FORCES: usize = 10;
 
-/// Of each region the least strength and sliding friction, and around each force the worst cycle.
+/// The least strength and sliding friction of each region, and the worst cycle around each force.
 #[must_use]
 pub fn worst(
     model: &Composed<f64>,
@@ -52,7 +53,7 @@ fn least(points: &[Point], value: impl Fn(&Point) -> f64) -> Option<Point> {
     valued.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| *point)
 }
 
-/// Around each force the points where the bristle grows and falls back with the least work.
+/// The points of least work where the deflection grows and where it falls, around each force.
 fn cycles(model: &Composed<f64>, points: &[Point]) -> Vec<Requirement> {
     let bristles: Vec<_> =
         points.iter().filter_map(|point| Some((*point, Bristled::of(model, point)?))).collect();
@@ -79,12 +80,12 @@ fn cycles(model: &Composed<f64>, points: &[Point]) -> Vec<Requirement> {
         .collect()
 }
 
-/// A number, half of it, a quarter ...
+/// `first`, half of it, a quarter ...
 fn halvings(first: f64) -> impl Iterator<Item = f64> {
     successors(Some(first), |x| Some(0.5 * x))
 }
 
-/// All combinations of values of the channels, with speeds over decades.
+/// All combinations of the values of the channels, with speeds over decades.
 fn points(region: &Region, channels: &[Channel]) -> Vec<Point> {
     let mut made = vec![middle_of(region)];
     for &channel in channels {
