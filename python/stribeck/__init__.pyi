@@ -12,7 +12,9 @@ from .diagnosis.improve import Addition, Improvement, add, improve
 from .diagnosis.result import Diagnosis, Finding
 from .diagnosis.run import diagnose
 from .exporters.export import Export, export
-from .fitting.fit import Fit, evaluate, fit
+from .fitting.evaluate import evaluate
+from .fitting.fit import fit
+from .fitting.result import Fit
 from .identify.estimates import Estimate
 from .models.catalog import catalog, effects, laws
 from .models.model import Model, Parameter, law, model

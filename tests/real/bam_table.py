@@ -13,7 +13,7 @@ import numpy as np
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.signal import butter, sosfiltfilt
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = "../shared/data/bam_xl330/xl330_pendulum.parquet"

@@ -2,7 +2,8 @@
 
 python tests/studies/compensation.py [FIGURE.png]
 
-The experiments of Tadese et al. 2021, section V-B, on the joint 2 of tests/python/fitting/methods/indy.py.
+The experiments of Tadese et al. 2021, section V-B, on joint 2 of
+tests/python/fitting/methods/indy.py.
 Its friction is known only to what moves it: the comprehensive model is identified by three steps
 on noisy recordings of it, LuGre on noisy points without load at room temperature.
 """
@@ -18,8 +19,8 @@ from pathlib import Path
 import numpy as np
 import polars as pl
 import stribeck as sb
-from stribeck.fitting.fit import Fit
 from stribeck.fitting.methods.three_step import three_step_fit
+from stribeck.fitting.result import Fit
 from stribeck.motion.compensate.factor import Factor, largest_factor
 from stribeck.motion.compensate.loop import Compensator
 from stribeck.motion.compensate.teaching import Guidance, Teaching, teach

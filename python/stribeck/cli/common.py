@@ -13,7 +13,9 @@ import click
 
 from stribeck.base.errors import RecordingError
 from stribeck.diagnosis.result import Finding
-from stribeck.fitting.fit import Fit, evaluate, fit
+from stribeck.fitting.evaluate import evaluate
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model_file import ModelFile, read_model_file, write_whole
 from stribeck.recording.load import read
 from stribeck.recording.recording import Recording

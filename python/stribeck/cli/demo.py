@@ -14,7 +14,7 @@ from stribeck.diagnosis.compare import Comparison, compare
 from stribeck.diagnosis.improve import Improvement, improve
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.words import physically
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model_file import write_whole
 from stribeck.motion.generate.demo import DEMO, demo_path, demo_recording
 from stribeck.recording.load import read

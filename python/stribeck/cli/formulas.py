@@ -11,7 +11,8 @@ import click
 
 from stribeck.base.errors import SpecError, nearest
 from stribeck.cli.common import is_model_file, say
-from stribeck.fitting.fit import Fit, fit
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.choices import Choices
 from stribeck.models.formula_law import LAW, FormulaTerms, declarations, effect_terms, is_formula
 from stribeck.models.model import Model, check_terms, law, model

@@ -19,13 +19,13 @@ from stribeck.cli.common import (
     say,
     seed_option,
 )
-from stribeck.fitting.fit import Fit
 from stribeck.fitting.methods.arm import arm_fit
 from stribeck.fitting.methods.averaging import averaged_points
 from stribeck.fitting.methods.grid import Axis, grid_fit
 from stribeck.fitting.methods.segments import segment_points
 from stribeck.fitting.methods.stretches import Search
 from stribeck.fitting.methods.three_step import three_step_fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 

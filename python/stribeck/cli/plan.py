@@ -20,7 +20,7 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.formulas import Written, written_fit
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model_file import ModelFile, read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stribeck.diagnosis.evidence import added_torque_test
 from stribeck.diagnosis.shape import flexible_columns
 from stribeck.diagnosis.trial import SIGNIFICANCE, Trial
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.pool import threads
 from stribeck.diagnosis.floor import state_features
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 
 Array = NDArray[np.float64]

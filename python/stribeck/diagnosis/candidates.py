@@ -20,7 +20,8 @@ from stribeck.diagnosis.trial import (
     try_effect,
 )
 from stribeck.diagnosis.widen import contained
-from stribeck.fitting.fit import Fit, own_load
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.scaling import check_channels
 from stribeck.models.catalog import effect_ids
 from stribeck.models.formula_law import effect_name

@@ -11,7 +11,8 @@ import polars as pl
 from numpy.typing import NDArray
 
 from stribeck.fitting.energy import electrical_energy
-from stribeck.fitting.fit import Fit, evaluate
+from stribeck.fitting.evaluate import evaluate
+from stribeck.fitting.result import Fit
 from stribeck.identify.figures import relative_residual, rms
 from stribeck.recording.recording import Recording
 

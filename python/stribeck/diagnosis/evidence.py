@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length
 from stribeck.identify.figures import bridged, rms, zero_phase
 from stribeck.identify.periodogram import most_periods

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.pool import threads
 from stribeck.diagnosis.shape import displacement_since_reversal
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import correlation_length
 
 Array = NDArray[np.float64]

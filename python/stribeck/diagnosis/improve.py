@@ -18,7 +18,8 @@ from stribeck.diagnosis.trial import add_effect
 from stribeck.diagnosis.unexplained import Unexplained
 from stribeck.diagnosis.walk import MOST_STEPS, Step, Way, walk
 from stribeck.diagnosis.whole import NEAR, noted, on_all_rows, recounted
-from stribeck.fitting.fit import Fit, fit, on_recording
+from stribeck.fitting.fit import fit, on_recording
+from stribeck.fitting.result import Fit
 from stribeck.identify.transients import transient_rows
 from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import is_formula

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from stribeck.diagnosis.testable import Untestable, untestable
-from stribeck.fitting.fit import fit, own_load
+from stribeck.fitting.fit import fit
+from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.load import read

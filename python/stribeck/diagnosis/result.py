@@ -12,7 +12,7 @@ from stribeck.diagnosis.floor import NoiseFloor
 from stribeck.diagnosis.testable import Untestable
 from stribeck.diagnosis.unexplained import Unexplained
 from stribeck.diagnosis.visibility import Group, SmallestVisible
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 
 
 @dataclass(frozen=True)

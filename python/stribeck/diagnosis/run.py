@@ -14,7 +14,8 @@ from stribeck.diagnosis.trial import SIGNIFICANCE
 from stribeck.diagnosis.unexplained import Unexplained, unexplained
 from stribeck.diagnosis.visibility import visibility
 from stribeck.diagnosis.whole import NEAR, with_all_rows
-from stribeck.fitting.fit import Fit, fit, on_recording
+from stribeck.fitting.fit import fit, on_recording
+from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.recording import Recording

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.widen import widening
-from stribeck.fitting.fit import Fit, own_load
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
 from stribeck.identify.problem import Problem

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.periodogram import FEWEST_PERIODS
 from stribeck.models.model import Model
 from stribeck.recording.derive import Smoother

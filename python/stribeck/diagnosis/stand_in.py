@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from stribeck.diagnosis.beside import held_out_beside
 from stribeck.diagnosis.shape import hats, powers, waves
 from stribeck.diagnosis.trial import Trial
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.catalog import catalog
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 
 Array = NDArray[np.float64]
 

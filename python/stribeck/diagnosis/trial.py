@@ -11,8 +11,10 @@ from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.evidence import Evidence, difference, evidence
 from stribeck.diagnosis.screen import STARTS, Screened, screened, widened
 from stribeck.diagnosis.tangent import MOST_ROWS, orthonormal, rest
-from stribeck.fitting.fit import QUICK, Fit, fit
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.problem import Problem
+from stribeck.identify.search import QUICK
 from stribeck.models.catalog import catalog
 from stribeck.models.formula_law import effect_name
 

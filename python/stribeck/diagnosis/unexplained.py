@@ -15,7 +15,7 @@ from stribeck.diagnosis.bound import Explainable
 from stribeck.diagnosis.compare import regime_rows
 from stribeck.diagnosis.floor import NoiseFloor
 from stribeck.diagnosis.swings import Swings, swings
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 
 #: Share of the squared error from which what is shown counts as structure.

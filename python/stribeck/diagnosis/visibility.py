@@ -16,7 +16,8 @@ from stribeck.diagnosis.power import Demand, ExpectedNoise, Noise, needed_factor
 from stribeck.diagnosis.shape import flexible_columns
 from stribeck.diagnosis.tangent import Beside, Widened, orthonormal, rest, sine
 from stribeck.diagnosis.testable import Untestable
-from stribeck.fitting.fit import Fit, own_load
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.confounded import partners, reason
 from stribeck.identify.figures import rms
 from stribeck.identify.periodogram import most_periods

@@ -17,8 +17,10 @@ from stribeck.diagnosis.run import LEAST_FALL, diagnose
 from stribeck.diagnosis.screen import STARTS
 from stribeck.diagnosis.trial import SIGNIFICANCE, add_effect
 from stribeck.diagnosis.words import where
-from stribeck.fitting.fit import QUICK, Fit, fit
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
+from stribeck.identify.search import QUICK
 
 MOST_STEPS = 8
 

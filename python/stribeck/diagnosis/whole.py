@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 from stribeck.diagnosis.floor import NoiseFloor
 from stribeck.diagnosis.ranking import share_of_unexplained
 from stribeck.diagnosis.result import Diagnosis, Finding
-from stribeck.fitting.fit import QUICK, THOROUGH, Effort, Fit, fit
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
+from stribeck.identify.search import QUICK, THOROUGH, Effort
 from stribeck.recording.recording import Recording
 
 __all__ = ["NEAR", "noted", "on_all_rows", "recounted", "with_all_rows"]

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.shape import ripple_period_of
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.catalog import catalog
 from stribeck.models.model import Model
 

@@ -17,7 +17,7 @@ from stribeck.exporters.fixed.files import FIXED, FixedPrecision, analyse, fixed
 from stribeck.exporters.program import Program
 from stribeck.exporters.rust.files import rust_files
 from stribeck.exporters.vectors import vectors
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile, write_whole
 

@@ -1,1 +1,1 @@
-"""Friction models: a law, its effects, the values of its parameters, and the file that keeps them."""
+"""Friction models: a law, its effects, the values of its parameters, and the model file."""

@@ -26,7 +26,7 @@ else:
     import tomli as tomllib
 
 if TYPE_CHECKING:
-    from stribeck.fitting.fit import Fit
+    from stribeck.fitting.result import Fit
 
 SCHEMA = 1
 TOP_KEYS = {

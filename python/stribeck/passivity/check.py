@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, Protocol
 
 from stribeck import _core
 from stribeck.base.errors import SpecError
-from stribeck.fitting.fit import Fit
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile
 from stribeck.passivity.certificate import Certificate, Counterexample, Margin
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
@@ -19,7 +17,16 @@ from stribeck.passivity.operating_box import Box, operating_box
 BUDGET = 4_000_000
 
 
-def check(model: Model | ModelFile | Fit, box: Box | None = None) -> Certificate:
+class HasModel(Protocol):
+    """A result that holds a model, such as a fit or a model file."""
+
+    @property
+    def model(self) -> Model:
+        """The model."""
+        ...
+
+
+def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     """Certify that a model gives off no energy over an operating box, or break it.
 
     Every motion inside the box counts: velocity, temperature and load may change at any time in any

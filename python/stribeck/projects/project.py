@@ -20,7 +20,8 @@ from stribeck.diagnosis.run import LEAST_FALL
 from stribeck.diagnosis.run import diagnose as diagnose_fit
 from stribeck.diagnosis.walk import MOST_STEPS, Step, Way, walk
 from stribeck.diagnosis.words import where
-from stribeck.fitting.fit import Fit, fit
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
 from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import effect_name, effect_terms, is_formula
 from stribeck.models.model import Model

@@ -10,7 +10,7 @@ import polars as pl
 
 from stribeck.diagnosis.compare import Comparison, compare
 from stribeck.diagnosis.evidence import Difference, difference
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.projects.node import Node
 from stribeck.recording.recording import Recording
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from stribeck.base.errors import ProjectError, nearest
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.projects.node import Node
 
 

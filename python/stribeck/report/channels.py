@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from stribeck.identify.figures import bridged, zero_phase
 
 if TYPE_CHECKING:
-    from stribeck.fitting.fit import Fit
+    from stribeck.fitting.result import Fit
     from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

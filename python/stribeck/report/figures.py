@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from stribeck.diagnosis.improve import Improvement
-    from stribeck.fitting.fit import Fit
+    from stribeck.fitting.result import Fit
     from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

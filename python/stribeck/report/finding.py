@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from stribeck.diagnosis.result import Finding
-    from stribeck.fitting.fit import Fit
+    from stribeck.fitting.result import Fit
 
 #: How the residual is called by what it is taken along.
 ALONG = {None: "", "motion": " · sgn v", "load": " · sgn load"}

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.improve import Improvement
     from stribeck.diagnosis.result import Diagnosis, Finding
     from stribeck.diagnosis.testable import Untestable
-    from stribeck.fitting.fit import Fit
+    from stribeck.fitting.result import Fit
     from stribeck.recording.recording import Recording
 
 

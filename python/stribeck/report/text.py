@@ -37,7 +37,8 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.testable import Untestable
     from stribeck.diagnosis.unexplained import Unexplained
     from stribeck.diagnosis.visibility import Group, SmallestVisible
-    from stribeck.fitting.fit import Estimate, Fit
+    from stribeck.fitting.result import Fit
+    from stribeck.identify.estimates import Estimate
     from stribeck.models.model import Model
     from stribeck.recording.recording import Recording
 
@@ -304,7 +305,7 @@ def fit_text(fit: Fit) -> str:
             if e.why is not None
         ),
         _errors_text(fit),
-        paragraph(PASSIVITY[fit.passive] + cost_sentence(fit)),
+        paragraph(PASSIVITY[fit.passive()] + cost_sentence(fit)),
         trouble,
         notes_text(r.notes, fit.notes),
     )

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.diagnosis import walk as loop
 from stribeck.base.errors import FitError
+from stribeck.diagnosis import walk as loop
 from stribeck.diagnosis.run import diagnose
 from stribeck.diagnosis.walk import Step, Way, walk
 from synthetic import joint, record

@@ -53,7 +53,7 @@ def is_proved(fitted: sb.Fit) -> bool:
 def test_bristle_is_proved_and_its_cost_is_said(tmp_path: Path) -> None:
     recording = recorded(tmp_path, bristle)
     free = sb.fit("lugre", recording, starts=2)
-    assert free.passive is False
+    assert free.passive() is False
     fitted = sb.fit("lugre", recording, starts=2, passive=True)
     assert is_proved(fitted)
     cost = fitted.passive_cost

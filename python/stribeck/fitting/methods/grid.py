@@ -17,11 +17,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, SpecError, nearest
-from stribeck.fitting.fit import Estimate, Fit, evaluate, operating_box
+from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.methods.estimates import estimates, reached_bounds
 from stribeck.fitting.methods.least_absolute import least_absolute, least_total, standard_errors
 from stribeck.fitting.methods.ranges import Ranges
+from stribeck.fitting.operating_box import operating_box
+from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import seen
+from stribeck.identify.estimates import Estimate
 from stribeck.identify.figures import relative_residual, rms
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import model_for

@@ -16,10 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
-from stribeck.fitting.fit import Fit, evaluate, operating_box
+from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.methods.estimates import estimates, reached_bounds
 from stribeck.fitting.methods.least_squares import BoundedLeastSquares
 from stribeck.fitting.methods.presliding import Presliding
+from stribeck.fitting.operating_box import operating_box
+from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
@@ -91,7 +93,7 @@ def three_step_fit(
     spec : str or Model
         ``"tadese_full"``, or another law and effects with load and bristle.
     no_load, loaded : Recording
-        Steady-state points (`stribeck.fitting.methods.segment_points`): over the temperatures, and over
+        Steady-state points (`segment_points`): over the temperatures, and over
         the loads.
     presliding : Recording
         Position and torque while a slow torque below the Coulomb friction swings the joint, read

@@ -11,7 +11,7 @@ import numpy as np
 
 from stribeck import _core
 from stribeck.base.errors import SpecError
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.passivity.friction import friction_part

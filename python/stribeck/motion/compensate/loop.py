@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
 from stribeck.base.errors import SpecError
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.motion.simulate.acting import Acting, friction_of, take_apart

@@ -11,7 +11,7 @@ import polars as pl
 from numpy.typing import ArrayLike
 
 from stribeck.base.errors import SpecError
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.motion.compensate.controller import HInfinity

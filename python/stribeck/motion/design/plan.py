@@ -11,7 +11,7 @@ from stribeck.diagnosis.run import LEAST_FALL
 from stribeck.diagnosis.testable import untestable
 from stribeck.diagnosis.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility import problem_of
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.models.catalog import catalog, check_effect, effect_ids
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, SpecError
 from stribeck.diagnosis.power import ExpectedNoise
-from stribeck.fitting.fit import Fit, own_load
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.covariance import correlation_length
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from stribeck.diagnosis.floor import noise_floor
 from stribeck.diagnosis.improve import improve
-from stribeck.fitting.fit import Fit, fit
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length, sandwich
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model

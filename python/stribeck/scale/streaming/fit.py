@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
-from stribeck.fitting.fit import Fit, needs_own_load
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import needs_own_load
 from stribeck.identify.covariance import correlation_length
 from stribeck.identify.estimates import Estimate, estimates_by_rows
 from stribeck.identify.held_out import Bounded

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
-from stribeck.fitting.fit import operating_box, own_load
+from stribeck.fitting.operating_box import operating_box
+from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.problem import Problem
 from stribeck.identify.triangle import Triangle, triangles
 from stribeck.models.model import Model

@@ -9,7 +9,7 @@ from typing import Any
 import polars as pl
 
 from stribeck.base.errors import StribeckError
-from stribeck.fitting.fit import Fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.estimates import Estimate
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile

@@ -10,8 +10,9 @@ from typing import Any
 from stribeck.diagnosis.improve import improve as improve_in_memory
 from stribeck.diagnosis.run import LEAST_FALL
 from stribeck.diagnosis.run import diagnose as diagnose_in_memory
-from stribeck.fitting.fit import QUICK, Fit
 from stribeck.fitting.fit import fit as fit_in_memory
+from stribeck.fitting.result import Fit
+from stribeck.identify.search import QUICK
 from stribeck.models.model import Model
 from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import gather

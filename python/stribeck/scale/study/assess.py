@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.fitting.energy import Energy, electrical_energy
-from stribeck.fitting.fit import evaluate
+from stribeck.fitting.evaluate import evaluate
 from stribeck.identify.scaling import model_for
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.crew import Desk

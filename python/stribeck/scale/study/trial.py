@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
-from stribeck.fitting.fit import Effort, FittedStart, fit_each
+from stribeck.fitting.each_start import FittedStart, fit_each
 from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.search import Effort
 from stribeck.identify.space import SearchSpace
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording

@@ -14,7 +14,7 @@ from servo_recording import TRUTH, recorded
 from stribeck import _core
 from stribeck.base.errors import FitError, RecordingError, SpecError
 from stribeck.cli.main import cli
-from stribeck.fitting.fit import evaluate
+from stribeck.fitting.evaluate import evaluate
 from stribeck.models.drive import VoltageDrive
 
 

@@ -1,0 +1,110 @@
+"""Fit one model from several starts, and keep where each of them ended."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base.errors import StribeckError
+from stribeck.fitting.fit import fit, rows_to_fit
+from stribeck.fitting.prediction import Prediction
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import needs_own_load
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import bounds as scaled_bounds
+from stribeck.identify.search import Effort, Ended, search_each
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
+
+
+@dataclass(frozen=True)
+class FittedStart:
+    """Where one of several starts ended; its errors as in `Fit`."""
+
+    model: Model
+    rmse: float
+    rmse_held_out: float | None
+    converged: bool
+    outcome: str
+    evaluations: int
+
+    @classmethod
+    def of(cls, fitted: Fit) -> FittedStart:
+        """The same of a fit by itself."""
+        return cls(
+            fitted.model, fitted.rmse, fitted.rmse_held_out, fitted.converged, fitted.outcome,
+            fitted.evaluations,
+        )  # fmt: skip
+
+
+def fit_each(
+    starts: Sequence[Model],
+    recording: Recording,
+    *,
+    transient: NDArray[np.bool_],
+    effort: Effort,
+    seed: int = 0,
+) -> list[FittedStart | StribeckError]:
+    """Where several starts of one model end, or why there is no fit.
+
+    Each start is brought to its own minimum; those that come together on fewer rows go on as one,
+    and their outcome says with which.
+
+    Parameters
+    ----------
+    starts : Models
+        One model with different values; its nonlinear parameters lie between bounds.
+    transient, effort, seed
+        As of `fit`.
+
+    Raises
+    ------
+    FitError
+        As of `fit`, where no start could be fitted.
+    """
+    made = starts[0]
+    rows = rows_to_fit(made, recording, transient)
+    if needs_own_load(made):
+        # Each start finds a load of its own, and with it another problem.
+        def alone(start: Model) -> FittedStart:
+            return FittedStart.of(
+                fit(start, recording, starts=1, seed=seed, transient=transient, effort=effort)
+            )
+
+        return [_said(partial(alone, start)) for start in starts]
+    lower, upper, first = scaled_bounds(made, recording)
+    values = np.stack([start.values for start in starts])
+    at = np.where(np.isfinite(values), np.clip(values, lower, upper), first)
+    ends = search_each(Problem(recording, made, rows), lower, upper, at, effort)
+
+    def reached(end: Ended) -> FittedStart:
+        values, search = end.search.values, end.search
+        model = made.with_values(values)
+        found = Prediction.of(Problem(recording, model, rows), values, lower, upper, effort)
+        return FittedStart(
+            model, found.rmse, found.rmse_held_out, search.converged, search.outcome,
+            end.evaluations,
+        )  # fmt: skip
+
+    ended: dict[int, FittedStart | StribeckError] = {}
+    fits = []
+    for k, end in enumerate(ends):
+        if end.leader == k:
+            ended[k] = _said(partial(reached, end))
+        fitted = ended[end.leader]
+        if isinstance(fitted, FittedStart) and end.leader != k:
+            outcome = f"came to where start {end.leader} went on: {fitted.outcome}"
+            fitted = replace(fitted, outcome=outcome, evaluations=end.evaluations)
+        fits.append(fitted)
+    return fits
+
+
+def _said(work: Callable[[], FittedStart]) -> FittedStart | StribeckError:
+    try:
+        return work()
+    except StribeckError as error:
+        return error

@@ -1,0 +1,74 @@
+"""Compare a model with a recording without refitting it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+
+import numpy as np
+
+from stribeck.base.errors import FitError
+from stribeck.fitting.prediction import refuse_infinite
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
+from stribeck.identify.estimates import Estimate
+from stribeck.identify.figures import relative_residual, rms
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import check_channels
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
+
+
+def evaluate(
+    model: Model,
+    recording: Recording,
+    *,
+    fitted_on: str | None = None,
+    stderr: Mapping[str, float] | None = None,
+) -> Fit:
+    """A model's error on a recording without refitting it.
+
+    Parameters
+    ----------
+    fitted_on : str
+        SHA-256 of the file that the model was fitted on; on that same file there is no
+        held-out figure.
+    """
+    began = time.perf_counter()
+    check_channels(model, recording)
+    if recording.load_torque is not None and model.rigid_body:
+        raise FitError(
+            f"the model {model.spec} holds an identified rigid body, and {recording.path} gives "
+            f"load_torque: use one of them (--map load_torque=... or a model fitted on such data)"
+        )
+    load = own_load(model, recording)
+    problem = Problem(recording, model, np.flatnonzero(recording.moving), load)
+    prediction = problem.predict(model.values)
+    refuse_infinite(problem, prediction)
+    residual = recording.torque - prediction
+    moving = recording.moving
+    same = fitted_on is not None and fitted_on == recording.sha256
+    stored = {
+        p.name: Estimate(
+            p.name, p.symbol, float(value), p.unit, (stderr or {}).get(p.name), None,
+            False, True, *model.bounds.get(p.name, (-np.inf, np.inf)),
+        )
+        for p, value in zip(model.parameters, model.values, strict=True)
+    }  # fmt: skip
+    return Fit(
+        model=model,
+        recording=recording,
+        estimates=stored,
+        prediction=prediction,
+        held_out=prediction,
+        rmse=rms(residual[moving]),
+        rmse_held_out=None if same else rms(residual[moving]),
+        relative_residual=None if same else relative_residual(recording, residual),
+        starts=0,
+        converged=True,
+        outcome="not refitted",
+        evaluations=0,
+        seconds=time.perf_counter() - began,
+        transient=np.zeros(recording.time.size, dtype=bool),
+        load=load,
+    )

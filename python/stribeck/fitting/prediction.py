@@ -1,0 +1,93 @@
+"""What a model predicts on a recording, seen and held out, and its errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base.errors import FitError
+from stribeck.identify.figures import rms
+from stribeck.identify.held_out import Refit, held_out_prediction
+from stribeck.identify.problem import Problem
+from stribeck.identify.search import Effort
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """What a model predicts, seen and unseen, and how far off that is."""
+
+    prediction: Array
+    held_out: Array
+    rmse: float
+    rmse_held_out: float | None
+
+    @classmethod
+    def of(
+        cls,
+        problem: Problem,
+        values: Array,
+        lower: Array,
+        upper: Array,
+        effort: Effort,
+        by: Refit | None = None,
+    ) -> Prediction:
+        """Refuses a model without a finite torque, and a bristle around nothing."""
+        recording = problem.recording
+        prediction = problem.predict(values)
+        refuse_infinite(problem, prediction)
+        if problem.model.has("presliding"):
+            _refuse_slack_bristle(problem)
+        held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact, by=by)
+        moving = recording.moving
+        residual = recording.torque - held_out
+        blocks = np.unique(recording.block[moving]).size
+        has_held_out = blocks >= 2 and bool(np.all(np.isfinite(residual[moving])))
+        counted = moving if recording.counted is None else moving & recording.counted
+        rmse = rms((recording.torque - prediction)[moving])
+        return cls(prediction, held_out, rmse, rms(residual[counted]) if has_held_out else None)
+
+
+def refuse_infinite(problem: Problem, prediction: Array) -> None:
+    """Refuse a model whose torque is not a number somewhere, with the place."""
+    wrong = np.flatnonzero(~np.isfinite(prediction))
+    if wrong.size == 0:
+        return
+    model, recording = problem.model, problem.recording
+    row = wrong[0]
+    values = ", ".join(f"{n} = {v:.6g}" for n, v in zip(model.names, model.values, strict=True))
+    advice = "give other starts or bounds (--start, --bound)" if model.own else "check them"
+    raise FitError(
+        f"{model.spec} predicts no finite torque on {recording.path} at t = "
+        f"{recording.time[row]:.6g} s (velocity {recording.velocity[row]:.6g} "
+        f"{recording.position_unit}/s) with {values}: {advice}"
+    )
+
+
+def _refuse_slack_bristle(problem: Problem) -> None:
+    """A bristle needs a dry friction D > 0 wherever the joint has been; refuse it with the point.
+
+    Where D <= 0 the bristle's deflection has no bound (physics of the bristle: |z| <= D/s0).
+    """
+    recording, moving = problem.recording, problem.recording.moving
+    channels = {
+        name: column[moving]
+        for name in ("position", "acceleration", "temperature")
+        if (column := getattr(recording, name)) is not None
+    }
+    load = problem.load if recording.load_torque is None else recording.load_torque
+    if load is not None:
+        channels["load_torque"] = load[moving]
+    dry = problem.model.split(recording.velocity[moving], **channels)["dry"]
+    worst = int(np.argmin(dry))
+    if dry[worst] <= 0:
+        velocity = recording.velocity[moving][worst]
+        raise FitError(
+            f"{problem.model.spec} has a bristle, but its dry friction is {dry[worst]:.3g} "
+            f"{problem.model.torque_unit} at t = {recording.time[moving][worst]:.4g} s (velocity "
+            f"{velocity:.3g} {recording.position_unit}/s): leave the bristle or the effect that "
+            f"makes it negative out"
+        )

@@ -1,0 +1,108 @@
+"""Find the best parameters; where friction depends on an identified load, to a fixed point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.fitting.rigid_body import needs_own_load, own_load
+from stribeck.identify.figures import rms
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import bounds as scaled_bounds
+from stribeck.identify.scaling import effect_constants
+from stribeck.identify.search import Effort, multi_start
+from stribeck.identify.separable import minimise
+from stribeck.models.catalog import catalog
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class Solution:
+    values: Array
+    load: Array | None
+    lower: Array
+    upper: Array
+    starts: int
+    converged: bool
+    outcome: str
+    evaluations: int
+
+
+def with_own_load(
+    made: Model,
+    recording: Recording,
+    rows: NDArray[np.intp],
+    starts: int,
+    seed: int,
+    effort: Effort,
+) -> tuple[Model, Array | None]:
+    """A first load torque from a fit of friction that does not depend on it."""
+    if not needs_own_load(made):
+        return made, None
+    plain = made if np.all(np.isfinite(made.values)) else _without_load(made)
+    if not np.all(np.isfinite(plain.values)):
+        solved = solve(plain, recording, rows, None, min(starts, 4), seed, effort)
+        plain = plain.with_values(solved.values)
+    load = own_load(plain, recording)
+    constants = dict(made.constants)
+    if "reference_load" not in constants or constants["reference_load"] == 1.0:
+        constants.update(effect_constants("load", recording, load))
+    return replace(made, constants=constants), load
+
+
+def _without_load(model: Model) -> Model:
+    """`model` without what depends on the load; where the law itself does, Coulomb and viscous."""
+    table = catalog()["effects"]
+    reading = [e for e in model.effects if "load_torque" in table[e]["channels"]]
+    reading += [terms.name for terms in model.own if "load_torque" in terms.channels]
+    for effect in reading:
+        model = model.without_effect(effect)
+    if "load_torque" in model.core.needs:
+        model = replace(model, law="coulomb", own=(), effects=(), values=np.empty(0))
+    return model
+
+
+def solve(
+    made: Model,
+    recording: Recording,
+    rows: NDArray[np.intp],
+    load: Array | None,
+    starts: int,
+    seed: int,
+    effort: Effort,
+) -> Solution:
+    """Best values; where friction depends on the identified rigid body, to a fixed point."""
+    lower, upper, first = scaled_bounds(made, recording)
+    known = made.values
+    start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)
+    problem = Problem(recording, made, rows, load)
+    # What is known stays where it is at the start; only the rest is searched at random.
+    unknown = ~np.isfinite(known)
+    varied = unknown if unknown.any() else np.ones_like(unknown)
+    found, used, evaluations = multi_start(
+        problem, lower, upper, start, varied, starts, seed, effort
+    )
+    if load is not None and needs_own_load(made):
+        for _ in range(8):
+            renewed = own_load(made.with_values(found.values), recording)
+            assert renewed is not None
+            moved = rms(renewed - load) / (rms(renewed) or 1.0)
+            load = renewed
+            found = minimise(
+                Problem(recording, made, rows, load),
+                found.values,
+                lower,
+                upper,
+                tolerance=effort.tolerance,
+            )
+            evaluations += found.evaluations
+            if moved < 1e-5:
+                break
+    return Solution(
+        found.values, load, lower, upper, used, found.converged, found.outcome, evaluations
+    )
