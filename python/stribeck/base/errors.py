@@ -1,14 +1,34 @@
-"""Exceptions that carry one plain sentence: what is wrong, where, and what to do."""
+"""Exceptions that carry one plain sentence: what is wrong, where, and what to do.
+
+A sentence that names an option writes it with `option`, as a Python user gives it: a keyword
+argument. The command line spells the same options as flags (`spell_options`)::
+
+    raise RecordingError(f"{path}: no time column: say which with {option('map', 'time=COLUMN')}")
+
+    Python:        ... no time column: say which with `map="time=COLUMN"`
+    command line:  ... no time column: say which with --map time=COLUMN
+
+Without a value, ``f"use {option('where')}"`` gives "use option `where`", or "use --where". Write
+the name with underscores, as in Python, and no article before it.
+"""
 
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+import re
+from collections.abc import Callable, Iterable
 
 __all__ = [
-    "FitError", "ModelFileError", "ProjectError", "RecordingError", "SpecError", "StribeckError",
+    "FitError",
+    "ModelFileError",
+    "ProjectError",
+    "RecordingError",
+    "SpecError",
+    "StribeckError",
     "nearest",
-]  # fmt: skip
+    "option",
+    "spell_options",
+]
 
 
 class StribeckError(ValueError):
@@ -48,3 +68,38 @@ def nearest(name: str, options: Iterable[str]) -> str:
     by_folded = {option.casefold(): option for option in options}
     found = difflib.get_close_matches(name.casefold(), list(by_folded), n=1, cutoff=0.6)
     return f"; did you mean '{by_folded[found[0]]}'?" if found else ""
+
+
+_OPTION = re.compile(
+    r"option `(?P<bare>\w+)`|`(?P<name>\w+)=(?:\"(?P<text>.*?)\"|(?P<number>\S+?))`"
+)
+
+
+def option(name: str, value: str | float | None = None) -> str:
+    """An option as sentences name it, with the value to give or the value that was given.
+
+    Examples
+    --------
+    >>> option("map", "time=COLUMN"), option("gear_ratio", 0.0), option("where")
+    ('`map="time=COLUMN"`', '`gear_ratio=0`', 'option `where`')
+    """
+    if value is None:
+        return f"option `{name}`"
+    return f'`{name}="{value}"`' if isinstance(value, str) else f"`{name}={value:g}`"
+
+
+def spell_options(text: str, spell: Callable[[str, str | None], str]) -> str:
+    """Replace every option that `option` wrote by what `spell` returns for its name and value.
+
+    Examples
+    --------
+    >>> spell_options(f"use {option('where')}", lambda name, value: f"--{name}")
+    'use --where'
+    """
+
+    def replaced(found: re.Match[str]) -> str:
+        if found["bare"] is not None:
+            return spell(found["bare"], None)
+        return spell(found["name"], found["number"] if found["text"] is None else found["text"])
+
+    return _OPTION.sub(replaced, text)

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 import click
 
 from stribeck.base.errors import RecordingError
+from stribeck.cli.flags import with_flags
 from stribeck.diagnosis.result import Finding
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
@@ -41,7 +42,7 @@ def echo_json(value: dict[str, Any]) -> None:
 
 def say(sentence: str) -> None:
     """Progress and warnings go to stderr."""
-    click.echo(sentence, err=True)
+    click.echo(with_flags(sentence), err=True)
 
 
 json_option = click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")

@@ -15,6 +15,7 @@ from stribeck.cli.check import check
 from stribeck.cli.compensate import compensate
 from stribeck.cli.demo import demo
 from stribeck.cli.export import export
+from stribeck.cli.flags import with_flags
 from stribeck.cli.fleet import fleet
 from stribeck.cli.generate import generate
 from stribeck.cli.loop import add, compare, diagnose, fit, improve
@@ -96,5 +97,5 @@ def main() -> None:
 
 
 def _stop(sentence: str) -> None:
-    click.echo(f"stribeck: {sentence}", err=True)
+    click.echo(f"stribeck: {with_flags(sentence)}", err=True)
     sys.exit(2)
