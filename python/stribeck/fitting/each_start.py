@@ -23,7 +23,7 @@ from stribeck.recording.recording import Recording
 
 @dataclass(frozen=True)
 class FittedStart:
-    """Where one of several starts ended; its errors as in `Fit`."""
+    """The end of one of several starts; its errors are those of `Fit`."""
 
     model: Model
     rmse: float
@@ -34,11 +34,15 @@ class FittedStart:
 
     @classmethod
     def of(cls, fitted: Fit) -> FittedStart:
-        """The same of a fit by itself."""
+        """Summarise a fit."""
         return cls(
-            fitted.model, fitted.rmse, fitted.rmse_held_out, fitted.converged, fitted.outcome,
+            fitted.model,
+            fitted.rmse,
+            fitted.rmse_held_out,
+            fitted.converged,
+            fitted.outcome,
             fitted.evaluations,
-        )  # fmt: skip
+        )
 
 
 def fit_each(
@@ -49,10 +53,10 @@ def fit_each(
     effort: Effort,
     seed: int = 0,
 ) -> list[FittedStart | StribeckError]:
-    """Where several starts of one model end, or why there is no fit.
+    """Fit one model from several starts; an error takes the place of a start that failed.
 
-    Each start is brought to its own minimum; those that come together on fewer rows go on as one,
-    and their outcome says with which.
+    Each start is searched to its own minimum. Starts that meet on a subset of the samples continue
+    as one; their outcome names the start that they merged with.
 
     Parameters
     ----------
@@ -69,7 +73,7 @@ def fit_each(
     made = starts[0]
     rows = rows_to_fit(made, recording, transient)
     if needs_own_load(made):
-        # Each start finds a load of its own, and with it another problem.
+        # Each start identifies its own load torque, so the starts do not share one problem.
         def alone(start: Model) -> FittedStart:
             return FittedStart.of(
                 fit(start, recording, starts=1, seed=seed, transient=transient, effort=effort)
@@ -86,9 +90,13 @@ def fit_each(
         model = made.with_values(values)
         found = Prediction.of(Problem(recording, model, rows), values, lower, upper, effort)
         return FittedStart(
-            model, found.rmse, found.rmse_held_out, search.converged, search.outcome,
+            model,
+            found.rmse,
+            found.rmse_held_out,
+            search.converged,
+            search.outcome,
             end.evaluations,
-        )  # fmt: skip
+        )
 
     ended: dict[int, FittedStart | StribeckError] = {}
     fits = []
@@ -97,7 +105,7 @@ def fit_each(
             ended[k] = _said(partial(reached, end))
         fitted = ended[end.leader]
         if isinstance(fitted, FittedStart) and end.leader != k:
-            outcome = f"came to where start {end.leader} went on: {fitted.outcome}"
+            outcome = f"merged with start {end.leader}: {fitted.outcome}"
             fitted = replace(fitted, outcome=outcome, evaluations=end.evaluations)
         fits.append(fitted)
     return fits

@@ -1,7 +1,7 @@
 """Electrical energy of a joint's motor: eqs 7-11 of the review of 25 friction models (2024/25).
 
-A brushless motor is taken as the equivalent direct-current motor. Its power is what heats the
-copper plus what becomes motion.
+A brushless motor is modelled as the equivalent DC motor: its power is copper loss plus mechanical
+power.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class Motor:
     kt
         Torque constant, N m/A.
     gear_ratio
-        Motor turns a joint turn; motor radians per metre of a joint that slides on a screw.
+        Motor turns per joint turn; motor radians per metre for a prismatic joint.
     """
 
     km: float
@@ -43,7 +43,7 @@ class Motor:
 
 @dataclass(frozen=True)
 class Energy:
-    """Electrical energy over the same rows, from measured and from modelled torque, J."""
+    """Electrical energy of the measured and of the modelled torque over the same samples, J."""
 
     measured: float
     modelled: float
@@ -89,7 +89,7 @@ def electrical_power(torque: Array, velocity: Array, motor: Motor) -> Array:
 
 
 def motor_of(recording: Recording) -> Motor | None:
-    """The motor of a recording's joint, or None where something of it is not known."""
+    """The motor of a recording's joint; None if one of its constants is unknown."""
     known: Mapping[str, float] = recording.motor
     if not all(name in known for name in ("km", "kb", "kt", "gear_ratio")):
         return None
@@ -100,22 +100,20 @@ def motor_of(recording: Recording) -> Motor | None:
 
 
 def electrical_energy(recording: Recording, prediction: Array) -> Energy | None:
-    """Energy of the recorded and of the predicted motor torque, over the scored rows (eqs 9, 10).
+    """Energy of the measured and of the predicted motor torque over the scored samples (eqs 9, 10).
 
-    At rest friction is whatever holds the joint, so no model is asked there: rows at rest are left
-    out of both sums.
+    Samples at rest are excluded from both sums: there, friction is whatever holds the joint.
 
     Parameters
     ----------
     prediction : array [n]
-        Motor torque by the model, every row: load torque and friction.
+        Predicted motor torque: load torque plus friction.
 
     Returns
     -------
     Energy or None
-        None where a motor constant or the gear ratio is not known, where the effort is not a torque
-        or force, where only friction was measured, and for steady-state points, which have no
-        duration.
+        None if a motor constant or the gear ratio is unknown, if the effort is not a torque or
+        force, if only friction was measured, or for steady-state points, which have no duration.
     """
     motor = motor_of(recording)
     if motor is None or recording.averaged or recording.torque_unit not in ("N m", "N"):
@@ -132,7 +130,7 @@ def electrical_energy(recording: Recording, prediction: Array) -> Energy | None:
 
 
 def total_energy(energies: Iterable[Energy | None]) -> Energy | None:
-    """Sum over the joints; None where one of them is not known, or there is none."""
+    """Sum over the joints; None if there are none or one of them is unknown."""
     parts = list(energies)
     if not parts or any(part is None for part in parts):
         return None

@@ -26,7 +26,7 @@ def evaluate(
     fitted_on: str | None = None,
     stderr: Mapping[str, float] | None = None,
 ) -> Fit:
-    """A model's error on a recording without refitting it.
+    """Compare a model with a recording without refitting it.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ def evaluate(
     check_channels(model, recording)
     if recording.load_torque is not None and model.rigid_body:
         raise FitError(
-            f"the model {model.spec} holds an identified rigid body, and {recording.path} gives "
-            f"load_torque: use one of them (--map load_torque=... or a model fitted on such data)"
+            f"the model {model.spec} contains an identified rigid body, and {recording.path} "
+            f"has load_torque: use a model that was fitted on data with load_torque"
         )
     load = own_load(model, recording)
     problem = Problem(recording, model, np.flatnonzero(recording.moving), load)
@@ -50,11 +50,18 @@ def evaluate(
     same = fitted_on is not None and fitted_on == recording.sha256
     stored = {
         p.name: Estimate(
-            p.name, p.symbol, float(value), p.unit, (stderr or {}).get(p.name), None,
-            False, True, *model.bounds.get(p.name, (-np.inf, np.inf)),
+            p.name,
+            p.symbol,
+            float(value),
+            p.unit,
+            (stderr or {}).get(p.name),
+            None,
+            False,
+            True,
+            *model.bounds.get(p.name, (-np.inf, np.inf)),
         )
         for p, value in zip(model.parameters, model.values, strict=True)
-    }  # fmt: skip
+    }
     return Fit(
         model=model,
         recording=recording,

@@ -1,4 +1,4 @@
-"""Put the result of a fit together: errors, held-out prediction, notes."""
+"""Assemble the result of a fit: errors, held-out prediction, notes."""
 
 from __future__ import annotations
 
@@ -43,15 +43,15 @@ def finish(
     if marked.any():
         spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, marked))
         notes = (
-            f"no friction model explains the motion at {spans} (an approach move, an abrupt "
-            f"stop?): scored, but not fitted to",
+            f"no friction model explains the motion at {spans} (an approach move or an "
+            f"abrupt stop?): scored, but excluded from the fit",
         )
     if made.rigid_body:
         notes += (f"identified together with the friction: {' and '.join(made.rigid_body)}",)
     held = [n for n, a, b in zip(made.names, lower, upper, strict=True) if a == b]
     if held:
         stated = ", ".join(f"{name} = {made.value(name):.6g}" for name in held)
-        notes += (f"held, not identified: {stated}",)
+        notes += (f"fixed, not identified: {stated}",)
     return Fit(
         model=replace(
             made,

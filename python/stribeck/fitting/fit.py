@@ -39,37 +39,45 @@ def fit(
 ) -> Fit:
     """Identify the parameters of `spec` on `recording` by bounded least squares.
 
-    Linear parameters are eliminated (variable projection), the others searched from `starts`
-    seeded starts; a parameter whose bounds are equal is held. The measured torque is the target as
-    recorded.
+    Linear parameters are eliminated (variable projection); the others are searched from `starts`
+    seeded starts. The measured torque is the target as recorded: it is not filtered or shifted.
 
     Parameters
     ----------
     spec : str or Model
-        ``"coulomb+load"``, a law by formula (``"c1*v + c2*tanh(v/c3)"``), or a model; a model's
-        values are the first start.
+        ``"coulomb+load"``, a law by formula (``"c1*v + c2*tanh(v/c3)"``), or a model. The values of
+        a model are the first start.
     starts, seed : int
-        Random starts of the nonlinear parameters (review of 25 models, eqs 4-5: 20).
-    start, bounds, fix : mappings by parameter name or symbol
-        Where single parameters start, between which bounds they stay (infinite ones are none), and
-        which are held: ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``.
+        Number of random starts of the nonlinear parameters, and the seed of their generator. The
+        default of 20 is that of the review of 25 models (eqs 4-5).
+    start, bounds, fix : mapping from parameter name or symbol
+        Start values, bounds (infinite: unbounded) and fixed values of single parameters:
+        ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``.
     errors : {"robust", "independent"}
-        What standard errors assume of the residual: anything, right for a sampled motion; or that
-        each row errs for itself and all alike, right for separately measured points, which gives
-        the textbook's ``s^2 (J'J)^-1``.
-    transient : bool array [n]
-        Rows that are scored but not fitted to; default: looked for.
+        Noise assumed by the standard errors. ``"robust"`` allows noise that is correlated in time,
+        as in a sampled motion. ``"independent"`` assumes independent noise of equal variance, as
+        in separately measured points, and gives ``s^2 (J'J)^-1``.
+    transient : bool array [n], optional
+        Samples that are scored but excluded from the fit. Detected by default.
     effort : Effort
-        How thoroughly; the default is for results, `QUICK` goes on from roughly known values.
+        Tolerances of the search. The default is for final results; `QUICK` refines values that are
+        roughly known.
     passive : bool
-        Whether the friction has to be passive over the ranges seen, with a proof (`check`). What
-        that costs is `Fit.passive_cost`; a fit that is passive by itself stays as it is.
+        If true, the friction is fitted under passivity conditions until passivity is proved over
+        the operating box (`check`). `Fit.passive_cost` states the increase of the error. A fit
+        that is passive without conditions is returned unchanged.
+
+    Returns
+    -------
+    Fit
 
     Raises
     ------
-    SpecError, FitError
-        Unknown law or effect; a channel that the model needs and the recording lacks; too few
-        moving rows; no values with a proof of passivity.
+    SpecError
+        The law or an effect is unknown.
+    FitError
+        The recording lacks a channel that the model needs, has too few moving samples, or no values
+        with a proof of passivity were found.
     """
     began = time.perf_counter()
     choices = Choices(start or {}, bounds or {}, fix or {})
@@ -87,20 +95,23 @@ def fit(
 
 
 def on_recording(fitted: Fit, recording: Recording | None, seed: int = 0) -> Fit:
-    """`fitted` itself, or its model fitted again where `recording` is another one."""
+    """Return `fitted`, or its model refitted if `recording` is a different one."""
     if recording is None or recording is fitted.recording:
         return fitted
     return fit(fitted.model, recording, seed=seed)
 
 
 def rows_to_fit(made: Model, recording: Recording, marked: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """The rows that move and are no transients; refuses fewer than the model needs."""
+    """Indices of the samples to fit: moving and not transient.
+
+    Raises `FitError` if there are fewer than the free parameters of the model plus two.
+    """
     rows = np.flatnonzero(recording.moving & ~marked)
     lower, upper, _ = scaled_bounds(made, recording)
     fewest = int((lower < upper).sum()) + 2
     if rows.size < fewest:
         raise FitError(
-            f"{recording.path} has {rows.size} rows that move, {made.spec} needs at least "
+            f"{recording.path} has {rows.size} moving samples, {made.spec} needs at least "
             f"{fewest}: record more motion"
         )
     return rows

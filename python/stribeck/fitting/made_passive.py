@@ -1,4 +1,4 @@
-"""Fit again under conditions of passivity, and say what they cost."""
+"""Refit under passivity conditions, and state what they cost."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 
 def made_passive(free: Fit, solution: Solution, effort: Effort) -> Fit:
-    """The fit under conditions of passivity; `free` itself where it is passive."""
+    """Refit under passivity conditions; `free` is returned if it is passive already."""
     if free.passive():
         cost = PassiveCost(False, free.rmse, free.rmse_held_out, 0, 0.0)
         return replace(free, passive_cost=cost)
@@ -38,26 +38,40 @@ def made_passive(free: Fit, solution: Solution, effort: Effort) -> Fit:
         return Problem(recording, free.model, rows, load)
 
     found = impose(
-        Problem(recording, free.model, rows, free.load), solution.values,
-        scaled_bounds(free.model, recording)[2], lower, upper,
+        Problem(recording, free.model, rows, free.load),
+        solution.values,
+        scaled_bounds(free.model, recording)[2],
+        lower,
+        upper,
         box_of=lambda at, load: operating_box(free.model.with_values(at), recording, load),
         renewed=renewed,
-    )  # fmt: skip
+    )
     held = replace(
         solution,
         values=found.values,
         load=found.problem.load,
         converged=found.converged,
-        outcome="converged under conditions of passivity" if found.converged else "not converged",
+        outcome="converged under passivity conditions" if found.converged else "not converged",
         evaluations=solution.evaluations + found.evaluations,
     )
     cost = PassiveCost(
-        True, free.rmse, free.rmse_held_out, len(found.conditions.requirements),
+        True,
+        free.rmse,
+        free.rmse_held_out,
+        len(found.conditions.requirements),
         found.conditions.reserve,
-    )  # fmt: skip
+    )
     seconds = free.seconds + time.perf_counter() - began
     fitted = finish(
-        free.model.with_values(found.values), recording, free.transient, rows, held.load, held,
-        effort, free.errors, seconds, by=Conditioned(lower, upper, found.conditions),
-    )  # fmt: skip
+        free.model.with_values(found.values),
+        recording,
+        free.transient,
+        rows,
+        held.load,
+        held,
+        effort,
+        free.errors,
+        seconds,
+        by=Conditioned(lower, upper, found.conditions),
+    )
     return replace(fitted, passive_cost=cost)

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 def operating_box(
     model: Model, recording: Recording, load: Array | None
 ) -> dict[str, tuple[float, float]]:
-    """Ranges of the channels over the scored rows: where the model has been seen."""
+    """Range of each channel over the scored samples."""
     moving = recording.moving
     given = recording.load_torque is not None
     channels = {

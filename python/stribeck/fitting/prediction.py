@@ -1,4 +1,4 @@
-"""What a model predicts on a recording, seen and held out, and its errors."""
+"""The torque that a model predicts on a recording, fitted and held out, with its errors."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Prediction:
-    """What a model predicts, seen and unseen, and how far off that is."""
+    """Predicted torque of every sample, fitted and held out, and the RMSE of both."""
 
     prediction: Array
     held_out: Array
@@ -35,7 +35,9 @@ class Prediction:
         effort: Effort,
         by: Refit | None = None,
     ) -> Prediction:
-        """Refuses a model without a finite torque, and a bristle around nothing."""
+        """Predict with `values`.
+
+        Raises `FitError` if a torque is not finite, or if a bristle has no dry friction to hold."""
         recording = problem.recording
         prediction = problem.predict(values)
         refuse_infinite(problem, prediction)
@@ -52,14 +54,14 @@ class Prediction:
 
 
 def refuse_infinite(problem: Problem, prediction: Array) -> None:
-    """Refuse a model whose torque is not a number somewhere, with the place."""
+    """Raise `FitError` at the first sample whose predicted torque is not finite."""
     wrong = np.flatnonzero(~np.isfinite(prediction))
     if wrong.size == 0:
         return
     model, recording = problem.model, problem.recording
     row = wrong[0]
     values = ", ".join(f"{n} = {v:.6g}" for n, v in zip(model.names, model.values, strict=True))
-    advice = "give other starts or bounds (--start, --bound)" if model.own else "check them"
+    advice = "give other starts or bounds" if model.own else "check them"
     raise FitError(
         f"{model.spec} predicts no finite torque on {recording.path} at t = "
         f"{recording.time[row]:.6g} s (velocity {recording.velocity[row]:.6g} "
@@ -68,9 +70,9 @@ def refuse_infinite(problem: Problem, prediction: Array) -> None:
 
 
 def _refuse_slack_bristle(problem: Problem) -> None:
-    """A bristle needs a dry friction D > 0 wherever the joint has been; refuse it with the point.
+    """Raise `FitError` at the sample with the least dry friction D if D <= 0 there.
 
-    Where D <= 0 the bristle's deflection has no bound (physics of the bristle: |z| <= D/s0).
+    A bristle needs D > 0: its deflection is bounded by |z| <= D/s0.
     """
     recording, moving = problem.recording, problem.recording.moving
     channels = {
@@ -88,6 +90,6 @@ def _refuse_slack_bristle(problem: Problem) -> None:
         raise FitError(
             f"{problem.model.spec} has a bristle, but its dry friction is {dry[worst]:.3g} "
             f"{problem.model.torque_unit} at t = {recording.time[moving][worst]:.4g} s (velocity "
-            f"{velocity:.3g} {recording.position_unit}/s): leave the bristle or the effect that "
-            f"makes it negative out"
+            f"{velocity:.3g} {recording.position_unit}/s): remove the bristle, or the effect "
+            f"that makes dry friction negative"
         )

@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 
 def own_load(model: Model, recording: Recording) -> Array | None:
-    """Load torque of the rigid body that `model` has identified, every row; None without one."""
+    """Load torque of the identified rigid body of `model`, [n]; None if it has none."""
     if not model.rigid_body:
         return None
     load = np.zeros_like(recording.torque)
@@ -23,7 +23,7 @@ def own_load(model: Model, recording: Recording) -> Array | None:
 
 
 def own_gravity(model: Model, recording: Recording) -> Array | None:
-    """Gravity that `model` has identified, every row; None without one."""
+    """Gravity torque identified by `model`, [n]; None if it has none."""
     if "gravity" not in model.rigid_body or recording.position is None:
         return None
     cosine = model.value("gravity_cos") * np.cos(recording.position)

@@ -1,4 +1,7 @@
-"""Find the best parameters; where friction depends on an identified load, to a fixed point."""
+"""Find the best parameters.
+
+Friction that depends on an identified load torque is solved by fixed-point iteration.
+"""
 
 from __future__ import annotations
 
@@ -41,7 +44,7 @@ def with_own_load(
     seed: int,
     effort: Effort,
 ) -> tuple[Model, Array | None]:
-    """A first load torque from a fit of friction that does not depend on it."""
+    """A first estimate of the load torque, from a fit of friction without load dependence."""
     if not needs_own_load(made):
         return made, None
     plain = made if np.all(np.isfinite(made.values)) else _without_load(made)
@@ -56,7 +59,7 @@ def with_own_load(
 
 
 def _without_load(model: Model) -> Model:
-    """`model` without what depends on the load; where the law itself does, Coulomb and viscous."""
+    """`model` without load-dependent effects; a load-dependent law is replaced by coulomb."""
     table = catalog()["effects"]
     reading = [e for e in model.effects if "load_torque" in table[e]["channels"]]
     reading += [terms.name for terms in model.own if "load_torque" in terms.channels]
@@ -76,12 +79,12 @@ def solve(
     seed: int,
     effort: Effort,
 ) -> Solution:
-    """Best values; where friction depends on the identified rigid body, to a fixed point."""
+    """Search the best values; iterate while friction depends on the identified rigid body."""
     lower, upper, first = scaled_bounds(made, recording)
     known = made.values
     start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)
     problem = Problem(recording, made, rows, load)
-    # What is known stays where it is at the start; only the rest is searched at random.
+    # Known values keep their start in every search; only the others get random starts.
     unknown = ~np.isfinite(known)
     varied = unknown if unknown.any() else np.ones_like(unknown)
     found, used, evaluations = multi_start(

@@ -387,7 +387,7 @@ def test_a_law_of_the_load_finds_the_load_by_itself(tmp_path: Path) -> None:
 
 def test_a_fit_says_whether_it_is_passive(plain: sb.Recording) -> None:
     """A model that pushes in one direction more than friction holds in the other gives energy."""
-    assert sb.fit("coulomb", plain).passive is True
+    assert sb.fit("coulomb", plain).passive() is True
     pushing = sb.model("gaz_a", a1=0.1, a2=-1.0, a3=5.0, a4=50.0, a5=0.0)
     box = {"velocity": (-1.0, 1.0)}
-    assert replace(sb.fit("coulomb", plain), model=replace(pushing, box=box)).passive is False
+    assert replace(sb.fit("coulomb", plain), model=replace(pushing, box=box)).passive() is False

@@ -133,7 +133,7 @@ def test_what_the_catalog_holds_is_held_and_said(plain: sb.Recording) -> None:
     """Simoni's a5 scales all other parameters: it stays 1, or what is said."""
     fitted = sb.fit("simoni", plain, starts=1)
     assert fitted.estimates["scale"].held and fitted.model.value("scale") == 1.0
-    assert "held, not identified: scale = 1" in fitted.notes
+    assert "fixed, not identified: scale = 1" in fitted.notes
     twice = sb.fit("simoni", plain, starts=1, fix={"a5": 2.0})
     assert twice.rmse == pytest.approx(fitted.rmse, rel=1e-9)
     assert twice.model.value("viscous_friction") == pytest.approx(

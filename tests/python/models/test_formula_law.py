@@ -158,7 +158,7 @@ def test_starts_bounds_and_held_values(recording: sb.Recording) -> None:
     for name, value in (("a5", 2.0), ("a1", 1.0)):
         estimate = held.estimates[name]
         assert (estimate.value, estimate.held, estimate.stderr) == (value, True, None)
-    assert "held, not identified: a1 = 1, a5 = 2" in held.notes
+    assert "fixed, not identified: a1 = 1, a5 = 2" in held.notes
     catalog = sb.fit("coulomb+stribeck", recording, fix={"alpha": 2.0})
     assert catalog.model.value("stribeck_exponent") == 2.0
     # What is held stays held when effects are added.
