@@ -7,64 +7,19 @@ import sys
 
 import click
 
-from stribeck.base.errors import StribeckError, nearest
+from stribeck.base.errors import StribeckError
 from stribeck.base.version import __version__
-from stribeck.cli.benchmark import benchmark
-from stribeck.cli.catalog import effects, inspect, models
-from stribeck.cli.check import check
-from stribeck.cli.compensate import compensate
-from stribeck.cli.demo import demo
-from stribeck.cli.export import export
+from stribeck.cli.commands import Commands
 from stribeck.cli.flags import with_flags
-from stribeck.cli.fleet import fleet
-from stribeck.cli.generate import generate
-from stribeck.cli.loop import add, compare, diagnose, fit, improve
-from stribeck.cli.methods import arm, points
-from stribeck.cli.plan import plan
-from stribeck.cli.project import project
-from stribeck.cli.simulate import simulate
-from stribeck.cli.study import study
-from stribeck.cli.validate import validate
-
-
-class Commands(click.Group):
-    """A group that answers a mistyped command with the nearest one."""
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command, or say which one may be meant."""
-        if self.get_command(ctx, args[0]) is None and not args[0].startswith("-"):
-            raise click.UsageError(
-                f"there is no command {args[0]!r}{nearest(args[0], tuple(self.commands))}; "
-                f"`stribeck --help` lists them"
-            )
-        return super().resolve_command(ctx, args)
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="stribeck")
 def cli() -> None:
-    """Which physical effect is your friction model missing?
+    """Find the physical effect that a friction model lacks.
 
     Start with `stribeck demo`, then `stribeck improve DATA`.
     """
-
-
-for command in (demo, inspect, models, effects, fit, compare, diagnose, add, improve, generate):
-    cli.add_command(command)
-cli.add_command(plan)
-cli.add_command(check)
-cli.add_command(export)
-cli.add_command(simulate)
-cli.add_command(compensate)
-cli.add_command(validate)
-cli.add_command(points)
-cli.add_command(arm)
-cli.add_command(study)
-cli.add_command(fleet)
-cli.add_command(benchmark)
-cli.add_command(project)
 
 
 def main() -> None:
@@ -84,7 +39,7 @@ def main() -> None:
         click.echo("stribeck: stopped; nothing was written", err=True)
         sys.exit(130)
     except BrokenPipeError:
-        # The reader (head, less) has gone: nothing to say to it.
+        # The reader of the pipe (head, less) has closed it.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
     except Exception as error:

@@ -1,38 +1,28 @@
-"""Progress of many like pieces of work, on stderr, with the time left."""
+"""Progress of long work on stderr: a bar on a terminal, a line now and then in a file."""
 
 from __future__ import annotations
 
 import sys
 import time
 from types import TracebackType
-from typing import Any
-
-import click
+from typing import TYPE_CHECKING
 
 from stribeck.cli.common import say
 
-#: Where nobody watches, progress is a line at most every so many seconds.
+if TYPE_CHECKING:
+    from rich.progress import Progress as Bar
+    from rich.progress import TaskID
+
+#: Least time between two lines where stderr is not a terminal, s.
 SECONDS_BETWEEN_LINES = 20.0
 
 
-class Progress:
-    """A progress bar with the time left on stderr, or a line now and then where it is a file.
+class _Shown:
+    """What both kinds of progress share: one bar at a time, and the time of the last line."""
 
-    Parameters
-    ----------
-    what : str
-        The pieces of work, in the plural.
-    """
-
-    def __init__(self, what: str = "fits") -> None:
-        self.what = what
-        self.done = self.total = 0
-        self._bar: Any = None
+    def __init__(self) -> None:
+        self._bar: tuple[Bar, TaskID] | None = None
         self._said = time.monotonic()
-        self._began: tuple[float, int] | None = None
-
-    def __enter__(self) -> Progress:
-        return self
 
     def __exit__(
         self,
@@ -42,103 +32,122 @@ class Progress:
     ) -> None:
         self.close()
 
-    def show(self, done: int, total: int) -> None:
-        """Told after each piece."""
-        self.done, self.total = done, total
-        if not sys.stderr.isatty():
-            self._say_now_and_then()
-            return
+    def _update(self, label: str, unit: str, done: int, total: int) -> None:
+        """Move the bar; it starts at the first number told."""
         if self._bar is None:
-            # Of the pieces that are left: those of an earlier run say nothing about the time.
-            self._bar = click.progressbar(
-                length=total - done + 1, label=f"{self.what} ({total})", file=sys.stderr,
-                show_pos=True,
-            )  # fmt: skip
-            self._bar.__enter__()
-        self._bar.update(1)
+            self._bar = _bar(label, unit, done, total)
+        bar, task = self._bar
+        bar.update(task, completed=done)
 
-    def _say_now_and_then(self) -> None:
+    def _line_is_due(self, done: int, total: int) -> bool:
         now = time.monotonic()
-        if self._began is None:
-            self._began = now, self.done
-        if now - self._said < SECONDS_BETWEEN_LINES or self.done == self.total:
-            return
+        if now - self._said < SECONDS_BETWEEN_LINES or done == total:
+            return False
         self._said = now
-        began, before = self._began
-        left = ""
-        if self.done > before:
-            seconds = (now - began) / (self.done - before) * (self.total - self.done)
-            left = f", about {_clock(seconds)} left"
-        say(f"note: {self.done} of {self.total} {self.what}{left}")
+        return True
 
     def close(self) -> None:
-        """Leave the line."""
+        """Stop the bar and leave its line."""
         if self._bar is not None:
-            self._bar.__exit__(None, None, None)
+            self._bar[0].stop()
             self._bar = None
 
 
-class RowProgress:
-    """Rows done of a pass over a data set, how many a second, and the time left, on stderr."""
+def _bar(label: str, unit: str, done: int, total: int) -> tuple[Bar, TaskID]:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeRemainingColumn,
+    )
+
+    bar = Progress(
+        TextColumn(label),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TextColumn(unit),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+    )
+    task = bar.add_task(label, total=total, completed=done)
+    bar.start()
+    return bar, task
+
+
+class Progress(_Shown):
+    """Progress of many pieces of work.
+
+    Parameters
+    ----------
+    what : str
+        The pieces of work, in the plural.
+    """
+
+    def __init__(self, what: str = "fits") -> None:
+        super().__init__()
+        self.what = what
+        self.done = self.total = 0
+        self._began: tuple[float, int] | None = None
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def show(self, done: int, total: int) -> None:
+        """Called after each piece, with the pieces done and their total."""
+        self.done, self.total = done, total
+        if sys.stderr.isatty():
+            self._update("", self.what, done, total)
+            return
+        if self._began is None:
+            self._began = time.monotonic(), done
+        if self._line_is_due(done, total):
+            say(f"note: {done} of {total} {self.what}{self._time_left()}")
+
+    def _time_left(self) -> str:
+        """The time left by the pieces done in this run; pieces of an earlier run tell nothing."""
+        began, before = self._began or (0.0, self.done)
+        if self.done <= before:
+            return ""
+        seconds = (self._said - began) / (self.done - before) * (self.total - self.done)
+        return f", about {_duration(seconds)} left"
+
+
+class RowProgress(_Shown):
+    """Progress of passes over a data set, in samples."""
 
     def __init__(self) -> None:
-        self._pass = self._done = 0
-        self._bar: Any = None
-        self._began = self._said = time.monotonic()
+        super().__init__()
+        self._pass = 0
+        self._began = time.monotonic()
 
     def __enter__(self) -> RowProgress:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self._close()
-
     def show_pass(self, done: int, total: int, number: int) -> None:
-        """Told after each window: rows done and in all, of which pass."""
+        """Called after each window: samples done, their total, and the number of the pass."""
         if number != self._pass:
-            self._close()
-            self._pass, self._done, self._began = number, 0, time.monotonic()
-        step, self._done = done - self._done, done
-        if not sys.stderr.isatty():
-            self._say_now_and_then(done, total)
+            self.close()
+            self._pass, self._began = number, time.monotonic()
+        if sys.stderr.isatty():
+            self._update(f"pass {number}", "samples", done, total)
             return
-        if self._bar is None:
-            self._bar = click.progressbar(
-                length=total, label=f"pass {number}", file=sys.stderr, show_pos=True,
-                item_show_func=lambda item: None if item is None else f"{self._rate():.2g} rows/s",
-            )  # fmt: skip
-            self._bar.__enter__()
-        self._bar.update(step, done)
-
-    def _rate(self) -> float:
-        return self._done / max(time.monotonic() - self._began, 1e-9)
-
-    def _say_now_and_then(self, done: int, total: int) -> None:
-        now = time.monotonic()
-        if now - self._said < SECONDS_BETWEEN_LINES or done == total:
-            return
-        self._said = now
-        rate = self._rate()
-        left = _clock((total - done) / rate)
-        say(f"note: pass {self._pass}: {done} of {total} rows, {rate:.2g} a second, {left} left")
-
-    def _close(self) -> None:
-        """Leave the line."""
-        if self._bar is not None:
-            self._bar.__exit__(None, None, None)
-            self._bar = None
+        if self._line_is_due(done, total):
+            rate = done / max(self._said - self._began, 1e-9)
+            left = _duration((total - done) / rate)
+            say(
+                f"note: pass {number}: {done} of {total} samples, {rate:.2g} per second, about "
+                f"{left} left"
+            )
 
 
-def _clock(seconds: float) -> str:
-    """A duration as people say it.
+def _duration(seconds: float) -> str:
+    """A duration to two digits.
 
     Examples
     --------
-    >>> _clock(50.0), _clock(600.0), _clock(9000.0)
+    >>> _duration(50.0), _duration(600.0), _duration(9000.0)
     ('50 s', '10 min', '2.5 h')
     """
     if seconds < 90.0:

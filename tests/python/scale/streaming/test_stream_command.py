@@ -52,12 +52,15 @@ def test_what_needs_memory_is_refused(folder: Path) -> None:
 def test_progress_tells_the_rate_and_the_time_left(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    clock = iter([0.0, 0.0, 30.0, 30.0, 60.0, 60.0])
-    monkeypatch.setattr("stribeck.cli.progress.time.monotonic", lambda: next(clock))
+    now = [0.0]
+    monkeypatch.setattr("stribeck.cli.progress.time.monotonic", lambda: now[0])
     with RowProgress() as bar:
+        bar.show_pass(0, 900, 1)
+        now[0] = 30.0
         bar.show_pass(300, 900, 1)
+        now[0] = 60.0
         bar.show_pass(600, 900, 1)
     assert capsys.readouterr().err.splitlines() == [
-        "note: pass 1: 300 of 900 rows, 10 a second, 60 s left",
-        "note: pass 1: 600 of 900 rows, 10 a second, 30 s left",
+        "note: pass 1: 300 of 900 samples, 10 per second, about 60 s left",
+        "note: pass 1: 600 of 900 samples, 10 per second, about 30 s left",
     ]
