@@ -12,4 +12,7 @@ array([-2.5,  2.5])
 
 import lazy_loader
 
+from .report import register_renderers as _register_renderers
+
 __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_register_renderers()

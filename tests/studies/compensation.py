@@ -27,7 +27,7 @@ from stribeck.motion.compensate.teaching import Guidance, Teaching, teach
 from stribeck.motion.compensate.tracking import compensate as follow
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Quintic, Trapezoid
-from stribeck.report.files import save_figure
+from stribeck.base.files import save_figure
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "python" / "methods"))
 import indy

@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 import stribeck as sb
-from stribeck.report.files import save_figure
+from stribeck.base.files import save_figure
 from stribeck.scale.fleet.changes import Question
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -208,7 +208,7 @@ def save_fit(fitted: Fit, path: str) -> None:
 
 def save_findings(findings: Sequence[Finding], folder: str | None) -> None:
     """Write the figure behind each finding, named by its effect; None: nowhere."""
-    from stribeck.report.files import save_figure
+    from stribeck.base.files import save_figure
 
     if folder is None:
         return

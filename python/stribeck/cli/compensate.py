@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from stribeck.base.errors import SpecError
+from stribeck.base.files import save_figure
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -34,7 +35,6 @@ from stribeck.motion.compensate.tracking import Tracking
 from stribeck.motion.compensate.tracking import compensate as follow
 from stribeck.motion.simulate.acting import take_apart
 from stribeck.passivity.operating_box import parse_sides
-from stribeck.report.files import save_figure
 
 LARGEST = "largest"
 

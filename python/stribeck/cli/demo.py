@@ -85,8 +85,8 @@ def _make_folder(folder: Path) -> None:
 def write_report(improvement: Improvement, folder: Path) -> dict[str, str]:
     """Write page, picture and model file; return where they are."""
     # Drawing is slow to import, and the commands above it must not wait for it.
+    from stribeck.base.files import save_figure
     from stribeck.report.figures import improvement_figure
-    from stribeck.report.files import save_figure
     from stribeck.report.html import improvement_page
 
     page, picture, model = folder / "report.html", folder / "report.png", folder / "model.toml"

@@ -129,7 +129,7 @@ def fleet(
 
 def _write_pictures(result: Fleet, picture: str | None, report: str | None) -> None:
     if picture is not None:
-        from stribeck.report.files import save_figure
+        from stribeck.base.files import save_figure
 
         save_figure(result.plot(), picture)
         say(f"wrote {picture}")

@@ -138,7 +138,7 @@ def compare(
         fits.append(fit_model(model, recording, starts=starts, seed=seed))
     comparison = compare_fits(fits, recording)
     if picture is not None:
-        from stribeck.report.files import save_figure
+        from stribeck.base.files import save_figure
 
         save_figure(comparison.plot(), picture)
         say(f"wrote {picture}")
@@ -294,7 +294,7 @@ def improve(
         else:
             save_fit(improvement.final, output)
     if picture is not None:
-        from stribeck.report.files import save_figure
+        from stribeck.base.files import save_figure
 
         save_figure(improvement.plot(), picture)
         say(f"wrote {picture}")

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from stribeck.base.errors import SpecError
+from stribeck.base.files import save_figure, write_bytes_whole
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -24,7 +25,6 @@ from stribeck.fitting.result import Fit
 from stribeck.models.model_file import ModelFile, read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes
-from stribeck.report.files import save_figure, write_bytes_whole
 
 FORMATS = (".csv", ".parquet")
 

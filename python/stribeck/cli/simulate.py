@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from stribeck.base.errors import SpecError
+from stribeck.base.files import save_figure, write_bytes_whole
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -31,7 +32,6 @@ from stribeck.motion.simulate.acting import take_apart
 from stribeck.motion.simulate.drive import Controller, Drive, Follow, Pull, Torque
 from stribeck.motion.simulate.joint import Joint, Transmission
 from stribeck.motion.simulate.run import simulate as move
-from stribeck.report.files import save_figure, write_bytes_whole
 
 FORMATS = (".csv", ".parquet")
 #: Of the closed loop of inertia and controller, Hz.

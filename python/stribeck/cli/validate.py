@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from stribeck.base.files import save_figure
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -19,7 +20,6 @@ from stribeck.cli.common import (
 )
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.validation import validate as drive
-from stribeck.report.files import save_figure
 
 
 @click.command()

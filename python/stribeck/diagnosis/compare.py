@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from stribeck.base.shown import Plotted
 from stribeck.fitting.energy import electrical_energy
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.result import Fit
@@ -68,8 +69,8 @@ class Assessment:
         }
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(Plotted):
     """Several models on the same rows of one recording."""
 
     recording: Recording
@@ -105,20 +106,6 @@ class Comparison:
                 for r in (Regime("all", 1.0, a.rmse, a.mean), *a.regimes)
             ]
         )  # fmt: skip
-
-    def plot(self) -> Any:
-        """Residual against each channel."""
-        from stribeck.report.figures import residual_figure
-
-        return residual_figure([assessment.fit for assessment in self.models])
-
-    def __repr__(self) -> str:
-        from stribeck.report.text import comparison_text
-
-        return comparison_text(self)
-
-    def _repr_html_(self) -> str:
-        return str(self.to_frame()._repr_html_())
 
 
 def regime_rows(fit: Fit) -> dict[str, NDArray[np.bool_]]:

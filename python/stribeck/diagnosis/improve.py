@@ -10,6 +10,7 @@ from typing import Any
 import polars as pl
 
 from stribeck.base.pool import on_threads
+from stribeck.base.shown import Plotted, Shown
 from stribeck.diagnosis.floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.run import LEAST_FALL
@@ -28,8 +29,8 @@ from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.recording import Recording
 
 
-@dataclass(frozen=True)
-class Addition:
+@dataclass(frozen=True, repr=False)
+class Addition(Shown):
     """One effect added: the model before and after, on the same rows."""
 
     effect: str
@@ -50,14 +51,9 @@ class Addition:
             "scored": self.after.recording.scored(),
         }
 
-    def __repr__(self) -> str:
-        from stribeck.report.text import addition_text
 
-        return addition_text(self.before, self.after, self.effect)
-
-
-@dataclass(frozen=True)
-class Improvement:
+@dataclass(frozen=True, repr=False)
+class Improvement(Plotted):
     """The way from a base model to one that leaves noise."""
 
     base: Fit
@@ -105,20 +101,6 @@ class Improvement:
         rows += [{"effect": s.finding.effect, "model": s.after.model.spec, "rmse": s.after.rmse,
                   "rmse_held_out": s.after.rmse_held_out} for s in self.steps]  # fmt: skip
         return pl.DataFrame(rows)
-
-    def plot(self) -> Any:
-        """Measured and modelled torque and the residual, before and after."""
-        from stribeck.report.figures import improvement_figure
-
-        return improvement_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.report.text import improvement_text
-
-        return improvement_text(self)
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{self!r}</pre>"
 
 
 def add(

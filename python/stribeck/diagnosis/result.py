@@ -7,6 +7,7 @@ from typing import Any
 
 import polars as pl
 
+from stribeck.base.shown import Plotted
 from stribeck.diagnosis.bound import Explainable
 from stribeck.diagnosis.floor import NoiseFloor
 from stribeck.diagnosis.testable import Untestable
@@ -15,8 +16,8 @@ from stribeck.diagnosis.visibility import Group, SmallestVisible
 from stribeck.fitting.result import Fit
 
 
-@dataclass(frozen=True)
-class Finding:
+@dataclass(frozen=True, repr=False)
+class Finding(Plotted):
     """An effect that passed the test.
 
     Attributes
@@ -49,15 +50,9 @@ class Finding:
             "indistinguishable_from": list(self.indistinguishable_from),
         }
 
-    def plot(self) -> Any:
-        """The residual against the channel in which the effect shows, before and after."""
-        from stribeck.report.finding import finding_figure
 
-        return finding_figure(self)
-
-
-@dataclass(frozen=True)
-class Diagnosis:
+@dataclass(frozen=True, repr=False)
+class Diagnosis(Plotted):
     """What is missing from a model on a recording.
 
     Attributes
@@ -109,18 +104,3 @@ class Diagnosis:
     def to_frame(self) -> pl.DataFrame:
         """The findings as a table."""
         return pl.DataFrame([finding.to_dict() for finding in self.findings])
-
-    def plot(self) -> Any:
-        """Residual against each channel, before the first finding and after."""
-        from stribeck.report.figures import residual_figure
-
-        after = [self.findings[0].fit] if self.findings else []
-        return residual_figure([self.fit, *after])
-
-    def __repr__(self) -> str:
-        from stribeck.report.text import diagnosis_text
-
-        return diagnosis_text(self)
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{self!r}</pre>"

@@ -11,6 +11,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.shown import Plotted
 from stribeck.identify.estimates import Errors, Estimate
 from stribeck.identify.figures import torque_cutoff
 from stribeck.identify.transients import stretches
@@ -22,8 +23,8 @@ from stribeck.recording.recording import Recording
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Fit:
+@dataclass(frozen=True, repr=False)
+class Fit(Plotted):
     """A model identified on a recording.
 
     Attributes
@@ -132,17 +133,3 @@ class Fit:
                 for e in self.estimates.values()
             ]
         )
-
-    def plot(self) -> Any:
-        """Measured and modelled torque, and the residual, as a matplotlib figure."""
-        from stribeck.report.figures import fit_figure
-
-        return fit_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.report.text import fit_text
-
-        return fit_text(self)
-
-    def _repr_html_(self) -> str:
-        return str(self.to_frame()._repr_html_())

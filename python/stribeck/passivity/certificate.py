@@ -7,7 +7,19 @@ from dataclasses import dataclass
 from typing import Any
 
 from stribeck import _core
+from stribeck.base.shown import Shown
 from stribeck.models.model import Model
+
+#: What each condition says.
+MEANING = {
+    "sliding": "friction in steady sliding opposes the motion",
+    "damping": "bristle damping: 0 <= s1 <= 4 D/|v| (Tadese et al. 2021, property 1, i)",
+    "resistance": "what is beside the bristle opposes the motion (property 1, ii)",
+    "storage": "at each operating point more is dissipated than goes into the bristle",
+    "cycle": "no cycle of the bristle gives off energy",
+    "elements": "elements of constant strength, each a spring and a slider",
+    "unknown": "none is known for this kind of model",
+}
 
 
 @dataclass(frozen=True)
@@ -87,8 +99,8 @@ class Counterexample:
         }
 
 
-@dataclass(frozen=True)
-class Certificate:
+@dataclass(frozen=True, repr=False)
+class Certificate(Shown):
     """Whether a model is passive over an operating box.
 
     Attributes
@@ -127,9 +139,17 @@ class Certificate:
     @property
     def why(self) -> str | None:
         """Why nothing could be decided; None where it was."""
-        from stribeck.passivity.text import open_question
-
-        return open_question(self)
+        if self.passive is not None:
+            return None
+        if self.condition == "unknown":
+            return (
+                f"no exact condition is known here for the states or branches of "
+                f"{self.friction.spec}"
+            )
+        return (
+            f"neither a proof nor a counterexample was found for the condition "
+            f"{self.condition!r} ({MEANING[self.condition]}); a smaller box may help"
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON of `stribeck check`."""
@@ -147,8 +167,3 @@ class Certificate:
             "torque_unit": self.friction.torque_unit,
             "why": self.why,
         }
-
-    def __repr__(self) -> str:
-        from stribeck.passivity.text import certificate_text
-
-        return certificate_text(self)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
-from html import escape
 from pathlib import Path
 from typing import Any
 
 import polars as pl
 
 from stribeck.base.errors import ProjectError, SpecError, nearest
+from stribeck.base.shown import Plotted
 from stribeck.diagnosis.floor import NoiseFloor
 from stribeck.diagnosis.improve import add as add_to
 from stribeck.diagnosis.ranking import share_of_unexplained
@@ -40,7 +40,7 @@ def _silent(sentence: str) -> None:
 
 
 @dataclass(frozen=True, repr=False)
-class Project:
+class Project(Plotted):
     """The loop driven by hand: every verb returns the next project, `save` writes it.
 
     Attributes
@@ -378,21 +378,6 @@ class Project:
     def to_frame(self) -> pl.DataFrame:
         """One row a node."""
         return project_frame(self)
-
-    def plot(self) -> Any:
-        """What the base and the current model leave, against each channel."""
-        from stribeck.report.figures import residual_figure
-
-        shown = [node for node in self.tree if node.number in (self.tree.root.number, self.current)]
-        return residual_figure([self.fit_of(node) for node in shown])
-
-    def __repr__(self) -> str:
-        from stribeck.report.project import project_text
-
-        return project_text(self)
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{escape(repr(self))}</pre>"
 
 
 def _check_same(known: Node, effect: str) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from html import escape
 from typing import Any
 
 import polars as pl
 
+from stribeck.base.shown import Plotted
 from stribeck.diagnosis.compare import Comparison, compare
 from stribeck.diagnosis.evidence import Difference, difference
 from stribeck.fitting.result import Fit
@@ -15,8 +15,8 @@ from stribeck.projects.node import Node
 from stribeck.recording.recording import Recording
 
 
-@dataclass(frozen=True)
-class Sides:
+@dataclass(frozen=True, repr=False)
+class Sides(Plotted):
     """Two models of one recording, and whether their held-out errors differ by more than chance.
 
     Attributes
@@ -55,18 +55,6 @@ class Sides:
     def to_frame(self) -> pl.DataFrame:
         """One row a model and regime."""
         return self.comparison.to_frame()
-
-    def plot(self) -> Any:
-        """Residual against each channel."""
-        return self.comparison.plot()
-
-    def __repr__(self) -> str:
-        from stribeck.report.project import sides_text
-
-        return sides_text(self)
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{escape(repr(self))}</pre>"
 
 
 def _error(fitted: Fit) -> float:

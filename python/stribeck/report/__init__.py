@@ -1,1 +1,93 @@
-"""What people see: text for the terminal, figures and pages."""
+"""What people see: text for the terminal, figures and pages.
+
+A result names no renderer; the table below does. It loads nothing: a module of this room is
+imported when a result that it renders is first shown, matplotlib when a figure is drawn.
+"""
+
+from stribeck.base.shown import register
+
+#: Renderers by class and kind, in modules of this room.
+RENDERERS: dict[str, dict[str, str]] = {
+    "stribeck.fitting.result:Fit": {
+        "text": "text:fit_text",
+        "figure": "figures:fit_figure",
+        "notebook": "notebook:frame",
+    },
+    "stribeck.fitting.methods.arm:ArmFit": {
+        "text": "methods:arm_text",
+        "notebook": "notebook:frame",
+    },
+    "stribeck.fitting.methods.steady:SteadyPoints": {
+        "text": "methods:points_text",
+        "notebook": "notebook:frame",
+    },
+    "stribeck.passivity.certificate:Certificate": {"text": "certificate:certificate_text"},
+    "stribeck.diagnosis.compare:Comparison": {
+        "text": "text:comparison_text",
+        "figure": "figures:comparison_figure",
+        "notebook": "notebook:frame",
+    },
+    "stribeck.diagnosis.result:Finding": {
+        "text": "text:finding_text",
+        "figure": "finding:finding_figure",
+    },
+    "stribeck.diagnosis.result:Diagnosis": {
+        "text": "text:diagnosis_text",
+        "figure": "figures:diagnosis_figure",
+    },
+    "stribeck.diagnosis.improve:Addition": {"text": "text:addition_text"},
+    "stribeck.diagnosis.improve:Improvement": {
+        "text": "text:improvement_text",
+        "figure": "figures:improvement_figure",
+    },
+    "stribeck.motion.simulate.result:Simulation": {
+        "text": "simulation:simulation_text",
+        "figure": "simulation_figure:simulation_figure",
+    },
+    "stribeck.motion.simulate.validation:Validation": {
+        "text": "simulation:validation_text",
+        "figure": "simulation_figure:validation_figure",
+    },
+    "stribeck.motion.compensate.tracking:Tracking": {
+        "text": "compensation:tracking_text",
+        "figure": "compensation_figure:tracking_figure",
+    },
+    "stribeck.motion.compensate.factor:Factor": {"text": "compensation:factor_text"},
+    "stribeck.motion.compensate.teaching:Teaching": {"text": "compensation:teaching_text"},
+    "stribeck.motion.design.result:Plan": {
+        "text": "design:plan_text",
+        "figure": "design_figure:plan_figure",
+    },
+    "stribeck.scale.streaming.result:StreamedFit": {
+        "text": "streaming:fit_text",
+        "notebook": "notebook:frame",
+    },
+    "stribeck.scale.streaming.diagnosis:StreamedDiagnosis": {"text": "streaming:diagnosis_text"},
+    "stribeck.scale.streaming.improvement:StreamedImprovement": {
+        "text": "streaming:improvement_text",
+    },
+    "stribeck.scale.study.result:Study": {
+        "text": "study:study_text",
+        "figure": "study_figure:error_figure",
+        "friction_figure": "study_figure:friction_figure",
+        "notebook": "notebook:frame",
+    },
+    "stribeck.scale.fleet.result:Fleet": {
+        "text": "fleet:fleet_text",
+        "figure": "fleet_figure:fleet_figure",
+    },
+    "stribeck.projects.project:Project": {
+        "text": "project:project_text",
+        "figure": "figures:project_figure",
+    },
+    "stribeck.projects.sides:Sides": {
+        "text": "project:sides_text",
+        "figure": "figures:sides_figure",
+    },
+}
+
+
+def register_renderers() -> None:
+    """Make every result of the package printable; the package does it when it is imported."""
+    for shown, renderers in RENDERERS.items():
+        register(shown, **{kind: f"{__name__}.{name}" for kind, name in renderers.items()})

@@ -22,8 +22,12 @@ from stribeck.report.numbers import change_text, plain
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from stribeck.diagnosis.compare import Comparison
     from stribeck.diagnosis.improve import Improvement
+    from stribeck.diagnosis.result import Diagnosis
     from stribeck.fitting.result import Fit
+    from stribeck.projects.project import Project
+    from stribeck.projects.sides import Sides
     from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -147,6 +151,28 @@ def _lines(r: Recording, values: Array) -> Array:
         return drawn
     drawn[np.flatnonzero(np.diff(r.segment)) + 1] = np.nan
     return drawn
+
+
+def comparison_figure(comparison: Comparison) -> Figure:
+    """Residual of each model against each channel."""
+    return residual_figure([assessment.fit for assessment in comparison.models])
+
+
+def sides_figure(sides: Sides) -> Figure:
+    """Residual of both models against each channel."""
+    return comparison_figure(sides.comparison)
+
+
+def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
+    """Residual against each channel, before the first finding and after."""
+    after = [diagnosis.findings[0].fit] if diagnosis.findings else []
+    return residual_figure([diagnosis.fit, *after])
+
+
+def project_figure(project: Project) -> Figure:
+    """Residual of the base and of the current model against each channel."""
+    numbers = (project.tree.root.number, project.current)
+    return residual_figure([project.fit_of(n) for n in project.tree if n.number in numbers])
 
 
 def residual_figure(fits: Sequence[Fit]) -> Figure:

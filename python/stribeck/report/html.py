@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import jinja2
 import numpy as np
 
+from stribeck.base.files import png_bytes
 from stribeck.diagnosis.words import physically
 from stribeck.models.catalog import catalog
 from stribeck.report.figures import improvement_figure
-from stribeck.report.files import png_bytes
 from stribeck.report.finding import finding_figure
 from stribeck.report.numbers import DASH, change_text, confidence_words, percent, plain
 from stribeck.report.text import (

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.bound import Explainable
     from stribeck.diagnosis.compare import Assessment, Comparison
     from stribeck.diagnosis.floor import NoiseFloor
-    from stribeck.diagnosis.improve import Improvement
+    from stribeck.diagnosis.improve import Addition, Improvement
     from stribeck.diagnosis.inspect import Inspection
     from stribeck.diagnosis.result import Diagnosis, Finding
     from stribeck.diagnosis.testable import Untestable
@@ -442,8 +442,9 @@ def _signed(value: float, beside: float) -> str:
     return ("+" if value > 0 else MINUS) + shown if shown.strip("0.") else shown
 
 
-def finding_text(finding: Finding, unit: str, number: int | None = None) -> str:
+def finding_text(finding: Finding, number: int | None = None) -> str:
     """One finding: what, how sure, what it is, where it shows, what it brings."""
+    unit = finding.fit.model.torque_unit
     fall = ""
     if finding.share_of_unexplained is not None:
         fall = (
@@ -624,7 +625,7 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         "unexplained": "Something is missing, but none of the known effects explains it.",
     }[diagnosis.verdict]
     findings = "\n\n".join(
-        finding_text(finding, unit, k) for k, finding in enumerate(diagnosis.findings, 1)
+        finding_text(finding, k) for k, finding in enumerate(diagnosis.findings, 1)
     )
     following = ""
     if diagnosis.findings:
@@ -646,8 +647,9 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
     )
 
 
-def addition_text(before: Fit, after: Fit, effect: str) -> str:
+def addition_text(addition: Addition) -> str:
     """An effect added: error before and after, and the new parameters."""
+    before, after, effect = addition.before, addition.after, addition.effect
     unit = after.model.torque_unit
     have = before.rmse_held_out is not None and after.rmse_held_out is not None
     first = before.rmse_held_out if have else before.rmse
@@ -723,7 +725,7 @@ def improvement_text(improvement: Improvement) -> str:
     r, unit = final.recording, final.model.torque_unit
     floor = improvement.noise_floor
     steps = "\n\n".join(
-        finding_text(step.finding, unit, k) for k, step in enumerate(improvement.steps, 1)
+        finding_text(step.finding, k) for k, step in enumerate(improvement.steps, 1)
     )
     is_structure = improvement.unexplained.is_structure
     stopped = STOPPED[improvement.stopped]

@@ -11,8 +11,9 @@ import pytest
 import stribeck as sb
 from matplotlib.figure import Figure
 from matplotlib.image import imread
+from stribeck.base import files
 from stribeck.base.errors import StribeckError
-from stribeck.report import figures, files
+from stribeck.report import figures
 
 
 def drawn(improvement: sb.Improvement, steady: sb.Fit) -> dict[str, Figure]:

@@ -19,7 +19,7 @@ def every_text(improvement: sb.Improvement, steady: sb.Fit) -> dict[str, str]:
         "steady": text.fit_text(steady),
         "comparison": text.comparison_text(comparison),
         "diagnosis": text.diagnosis_text(improvement.last),
-        "addition": text.addition_text(base, final, "load"),
+        "addition": text.addition_text(sb.Addition("load", base, final)),
         "improvement": text.improvement_text(improvement),
         "model": text.model_text(final.model),
     }

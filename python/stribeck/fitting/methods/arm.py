@@ -23,6 +23,7 @@ import polars as pl
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
+from stribeck.base.shown import Shown
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
 from stribeck.identify.normal import NormalEquations, solve_bounded
@@ -60,8 +61,8 @@ class ArmParameter:
     description: str
 
 
-@dataclass(frozen=True)
-class ArmFit:
+@dataclass(frozen=True, repr=False)
+class ArmFit(Shown):
     """Inertial and friction parameters of a planar two-joint arm.
 
     Attributes
@@ -118,14 +119,6 @@ class ArmFit:
     def to_frame(self) -> pl.DataFrame:
         """The parameters as a table."""
         return pl.DataFrame([vars(p) for p in self.parameters])
-
-    def __repr__(self) -> str:
-        from stribeck.fitting.methods.text import arm_text
-
-        return arm_text(self)
-
-    def _repr_html_(self) -> str:
-        return str(self.to_frame()._repr_html_())
 
 
 def arm_fit(

@@ -12,6 +12,7 @@ import polars as pl
 import tomlkit
 from numpy.typing import NDArray
 
+from stribeck.base.shown import Shown
 from stribeck.identify.covariance import correlation_length
 from stribeck.models.model_file import write_whole
 from stribeck.recording.recording import Recording
@@ -48,8 +49,8 @@ class SteadyPoint:
     temperature: float | None = None
 
 
-@dataclass(frozen=True)
-class SteadyPoints:
+@dataclass(frozen=True, repr=False)
+class SteadyPoints(Shown):
     """Steady-state friction points of one joint, and how they were made.
 
     Examples
@@ -123,14 +124,6 @@ class SteadyPoints:
         if self.recording.torque_unit not in ("N", "N m"):
             said["effort_unit"] = self.recording.torque_unit
         return tomlkit.dumps(said)
-
-    def __repr__(self) -> str:
-        from stribeck.fitting.methods.text import points_text
-
-        return points_text(self)
-
-    def _repr_html_(self) -> str:
-        return str(self.to_frame()._repr_html_())
 
 
 def mean_of(values: Array) -> tuple[float, float]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from stribeck import _core
 from stribeck.base.errors import SpecError
+from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -24,7 +25,7 @@ STANDARD_ERRORS = 1.96
 
 
 @dataclass(frozen=True, repr=False)
-class Factor:
+class Factor(Shown):
     """How much of a compensator's torque is safe.
 
     Attributes
@@ -63,11 +64,6 @@ class Factor:
             "box": {name: list(side) for name, side in self.box.items()},
             "taken_as_exact": list(self.exact),
         }
-
-    def __repr__(self) -> str:
-        from stribeck.motion.compensate.text import factor_text
-
-        return factor_text(self)
 
 
 def largest_factor(

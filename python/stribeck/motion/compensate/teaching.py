@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from stribeck.base.errors import SpecError
+from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -46,7 +47,7 @@ class Guidance:
 
 
 @dataclass(frozen=True, repr=False)
-class Teaching:
+class Teaching(Shown):
     """The same guidance with several compensators.
 
     Attributes
@@ -96,11 +97,6 @@ class Teaching:
                 }
             )
         return {"friction": self.friction.spec, "inertia": self.joint.inertia, "motions": rows}
-
-    def __repr__(self) -> str:
-        from stribeck.motion.compensate.text import teaching_text
-
-        return teaching_text(self)
 
 
 def teach(

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import polars as pl
 from numpy.typing import ArrayLike
 
 from stribeck.base.errors import SpecError
+from stribeck.base.shown import Plotted
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -19,12 +20,9 @@ from stribeck.motion.compensate.loop import Array, Bench, Compensator, Motion
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Trajectory
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 
 @dataclass(frozen=True, repr=False)
-class Tracking:
+class Tracking(Plotted):
     """The same trajectory followed several times.
 
     Attributes
@@ -79,17 +77,6 @@ class Tracking:
     def to_frame(self) -> pl.DataFrame:
         """One row a motion."""
         return pl.DataFrame(self.to_dict()["motions"])
-
-    def plot(self) -> Figure:
-        """The desired position and the tracking errors over time."""
-        from stribeck.motion.compensate.figures import tracking_figure
-
-        return tracking_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.motion.compensate.text import tracking_text
-
-        return tracking_text(self)
 
 
 def compensate(

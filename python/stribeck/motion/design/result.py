@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import polars as pl
 
+from stribeck.base.shown import Plotted
 from stribeck.diagnosis.visibility import Shown
 from stribeck.models.model import Model
 from stribeck.motion.design.motion import Limits, Motion
@@ -77,8 +78,8 @@ class Prospect:
         }
 
 
-@dataclass(frozen=True)
-class Plan:
+@dataclass(frozen=True, repr=False)
+class Plan(Plotted):
     """A motion, and what a recording of it is expected to show.
 
     Attributes
@@ -147,14 +148,3 @@ class Plan:
                 for name in ("time", "position", "velocity", "acceleration")
             }
         )
-
-    def plot(self) -> Any:
-        """Position and speed over time, within their limits, as a matplotlib figure."""
-        from stribeck.motion.design.figures import plan_figure
-
-        return plan_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.motion.design.text import plan_text
-
-        return plan_text(self)

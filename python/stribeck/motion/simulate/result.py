@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from stribeck.base.shown import Plotted
 from stribeck.models.model import Model
 from stribeck.motion.simulate.drive import Drive, Follow
 from stribeck.motion.simulate.joint import Joint
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)
-class Simulation:
+class Simulation(Plotted):
     """A motion: postures at the instants between steps, and means over the steps.
 
     Attributes
@@ -158,14 +156,3 @@ class Simulation:
             },
             "energy_J": self.energy,
         }  # fmt: skip
-
-    def plot(self) -> Figure:
-        """Position, velocity and torques over time."""
-        from stribeck.motion.simulate.figures import simulation_figure
-
-        return simulation_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.motion.simulate.text import simulation_text
-
-        return simulation_text(self)

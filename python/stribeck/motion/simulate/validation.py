@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck.base.errors import SpecError
+from stribeck.base.shown import Plotted
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -20,9 +21,6 @@ from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.run import simulate
 from stribeck.motion.simulate.trajectory import Sampled
 from stribeck.recording.recording import Recording
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Array = NDArray[np.float64]
 
@@ -56,7 +54,7 @@ class Growth:
 
 
 @dataclass(frozen=True, repr=False)
-class Validation:
+class Validation(Plotted):
     """A simulated motion beside the measured one.
 
     Attributes
@@ -125,17 +123,6 @@ class Validation:
                 for g in self.growth
             ],
         }
-
-    def plot(self) -> Figure:
-        """Both positions over time, their difference, and how the error grows."""
-        from stribeck.motion.simulate.figures import validation_figure
-
-        return validation_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.motion.simulate.text import validation_text
-
-        return validation_text(self)
 
 
 def validate(

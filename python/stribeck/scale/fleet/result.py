@@ -9,6 +9,7 @@ from typing import Any
 
 import polars as pl
 
+from stribeck.base.shown import Plotted
 from stribeck.scale.fleet.changes import Changes
 from stribeck.scale.fleet.effects import Effects
 from stribeck.scale.fleet.store import FAILED, RESULTS
@@ -28,8 +29,8 @@ class Failure:
         return {"file": self.file, "joint": self.joint, "reason": self.reason}
 
 
-@dataclass(frozen=True)
-class Fleet:
+@dataclass(frozen=True, repr=False)
+class Fleet(Plotted):
     """A model on every joint of many robots and days.
 
     Attributes
@@ -96,17 +97,3 @@ class Fleet:
     def to_frame(self) -> pl.DataFrame:
         """The data set: one row a joint and file."""
         return self.rows
-
-    def plot(self) -> Any:
-        """Which joints changed, and which effects they have, as a matplotlib figure."""
-        from stribeck.report.fleet_figure import fleet_figure
-
-        return fleet_figure(self)
-
-    def __repr__(self) -> str:
-        from stribeck.report.fleet import fleet_text
-
-        return fleet_text(self)
-
-    def _repr_html_(self) -> str:
-        return f"<pre>{self!r}</pre>"

@@ -18,9 +18,9 @@ from typing import Any
 import polars as pl
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.files import write_bytes_whole
 from stribeck.base.run_folder import MANIFEST, claim, unwritable
 from stribeck.recording.sidecar import sidecar_hash
-from stribeck.report.files import write_bytes_whole
 from stribeck.scale.fleet.task import Answer, File, Task, Work
 
 RESULTS = "results"

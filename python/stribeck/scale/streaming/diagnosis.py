@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from stribeck.base.shown import Shown
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.scale.streaming.improvement import before_and_after
 from stribeck.scale.streaming.result import StreamedFit
@@ -12,8 +13,8 @@ from stribeck.scale.streaming.result import StreamedFit
 __all__ = ["StreamedDiagnosis"]
 
 
-@dataclass(frozen=True)
-class StreamedDiagnosis:
+@dataclass(frozen=True, repr=False)
+class StreamedDiagnosis(Shown):
     """What is missing from a model on a data set.
 
     Attributes
@@ -37,8 +38,3 @@ class StreamedDiagnosis:
         own = self.fit.to_dict()
         made.update({key: own[key] for key in ("rmse", "rmse_held_out", "scored", "data", "notes")})
         return made
-
-    def __repr__(self) -> str:
-        from stribeck.scale.streaming.text import diagnosis_text
-
-        return diagnosis_text(self)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from stribeck.base.shown import Shown
 from stribeck.diagnosis.floor import NoiseFloor
 from stribeck.diagnosis.improve import Improvement
 from stribeck.diagnosis.ranking import share_of_unexplained
@@ -13,8 +14,8 @@ from stribeck.scale.streaming.result import StreamedFit
 __all__ = ["StreamedImprovement"]
 
 
-@dataclass(frozen=True)
-class StreamedImprovement:
+@dataclass(frozen=True, repr=False)
+class StreamedImprovement(Shown):
     """The way from a base model to one that leaves noise.
 
     Attributes
@@ -49,11 +50,6 @@ class StreamedImprovement:
         made["rmse_held_out_base"] = self.fits[0].rmse_held_out
         made.update({key: last[key] for key in ("scored", "data", "notes")})
         return made
-
-    def __repr__(self) -> str:
-        from stribeck.scale.streaming.text import improvement_text
-
-        return improvement_text(self)
 
 
 def before_and_after(

@@ -9,6 +9,7 @@ from typing import Any
 import polars as pl
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
 from stribeck.identify.estimates import Estimate
 from stribeck.models.model import Model
@@ -18,8 +19,8 @@ from stribeck.scale.streaming.dataset import DataSet
 __all__ = ["StreamedFit"]
 
 
-@dataclass(frozen=True)
-class StreamedFit:
+@dataclass(frozen=True, repr=False)
+class StreamedFit(Shown):
     """A model identified on all rows of a data set.
 
     Attributes
@@ -127,11 +128,3 @@ class StreamedFit:
             fitted_on["rmse_held_out"] = self.rmse_held_out
         errors = {n: e.stderr for n, e in self.estimates.items() if e.stderr is not None}
         return ModelFile(self.model, errors, fitted_on)
-
-    def __repr__(self) -> str:
-        from stribeck.scale.streaming.text import fit_text
-
-        return fit_text(self)
-
-    def _repr_html_(self) -> str:
-        return str(self.to_frame()._repr_html_())

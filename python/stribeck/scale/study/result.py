@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import polars as pl
 
+from stribeck.base.shown import Plotted, draw
 from stribeck.fitting.energy import Energy, total_energy
 from stribeck.scale.study.assess import Entry, JointData
 from stribeck.scale.study.plan import GROUPS, Group, Plan, Skipped
 from stribeck.scale.study.trial import Trial
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True)
@@ -33,8 +37,8 @@ class Table:
     rows: tuple[Row, ...]
 
 
-@dataclass(frozen=True)
-class Study:
+@dataclass(frozen=True, repr=False)
+class Study(Plotted):
     """Laws times joints times starts on a recording.
 
     Attributes
@@ -136,19 +140,9 @@ class Study:
             ]
         )  # fmt: skip
 
-    def plot(self, joint: str | None = None) -> Any:
+    def plot(self, joint: str | None = None) -> Figure:
         """Box plots of the torque error of one joint (default: the first)."""
-        from stribeck.scale.study.figures import error_figure
-
-        return error_figure(self, next(iter(self.joints)) if joint is None else joint)
-
-    def __repr__(self) -> str:
-        from stribeck.scale.study.text import study_text
-
-        return study_text(self)
-
-    def _repr_html_(self) -> str:
-        return str(self.to_frame()._repr_html_())
+        return draw(self, joint=next(iter(self.joints)) if joint is None else joint)
 
 
 def make_tables(

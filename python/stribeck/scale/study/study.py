@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import Any
 
 from stribeck.base.errors import FitError, SpecError
+from stribeck.base.files import save_figure
 from stribeck.base.pool import Stopped, worker_count
+from stribeck.base.shown import draw
 from stribeck.models.model_file import write_whole
-from stribeck.report.files import save_figure
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
 from stribeck.scale.study.crew import Crew, Desk, crew_of
 from stribeck.scale.study.plan import REVIEW, STARTS, Job, Plan, make_plan
@@ -144,12 +145,12 @@ def _write(result: Study, crew: Crew) -> None:
 
 def _draw(_: Desk, of: tuple[Study, str | None]) -> None:
     """The pictures of one joint."""
-    from stribeck.scale.study.figures import error_figure, friction_figure
-
     result, joint = of
     name = "" if joint is None else f"_{_plain_name(joint)}"
-    save_figure(error_figure(result, joint), str(result.folder / f"errors{name}.png"))
-    save_figure(friction_figure(result, joint), str(result.folder / f"friction{name}.png"))
+    save_figure(draw(result, joint=joint), str(result.folder / f"errors{name}.png"))
+    save_figure(
+        draw(result, "friction_figure", joint=joint), str(result.folder / f"friction{name}.png")
+    )
 
 
 def _plain_name(joint: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from stribeck.scale.study.figures import error_figure, friction_figure
+from stribeck.report.study_figure import error_figure, friction_figure
 from stribeck.scale.study.result import Study
 from stribeck.scale.study.study import study
 

@@ -13,10 +13,10 @@ import stribeck as sb
 from stribeck.base.errors import SpecError, StribeckError
 from stribeck.base.run_folder import MANIFEST
 from stribeck.fitting.energy import electrical_energy
+from stribeck.report.study import study_text
 from stribeck.scale.study.result import Study
 from stribeck.scale.study.store import FITS
 from stribeck.scale.study.study import study
-from stribeck.scale.study.text import study_text
 
 from .conftest import LAWS
 

@@ -4,18 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from stribeck.passivity.certificate import Certificate, Counterexample, Margin
-
-#: What each condition says.
-MEANING = {
-    "sliding": "friction in steady sliding opposes the motion",
-    "damping": "bristle damping: 0 <= s1 <= 4 D/|v| (Tadese et al. 2021, property 1, i)",
-    "resistance": "what is beside the bristle opposes the motion (property 1, ii)",
-    "storage": "at each operating point more is dissipated than goes into the bristle",
-    "cycle": "no cycle of the bristle gives off energy",
-    "elements": "elements of constant strength, each a spring and a slider",
-    "unknown": "none is known for this kind of model",
-}
+from stribeck.passivity.certificate import MEANING, Certificate, Counterexample, Margin
 
 #: Units of a box's sides other than those of the joint.
 UNITS = {"temperature": "degC", "time": "s"}
@@ -43,21 +32,6 @@ def certificate_text(certificate: Certificate) -> str:
             f"{', '.join(certificate.left_out)} is left out, being none."
         )
     return "\n".join(lines)
-
-
-def open_question(certificate: Certificate) -> str | None:
-    """Why nothing could be decided; None where it was."""
-    if certificate.passive is not None:
-        return None
-    if certificate.condition == "unknown":
-        return (
-            f"no exact condition is known here for the states or branches of "
-            f"{certificate.friction.spec}"
-        )
-    return (
-        f"neither a proof nor a counterexample was found for the condition "
-        f"{certificate.condition!r} ({MEANING[certificate.condition]}); a smaller box may help"
-    )
 
 
 def _verdict(certificate: Certificate) -> str:
