@@ -6,7 +6,6 @@ import subprocess
 import sys
 
 import pytest
-
 import stribeck as sb
 from stribeck.base.shown import Plotted, Shown, register
 from stribeck.report import RENDERERS
