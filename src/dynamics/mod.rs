@@ -43,8 +43,8 @@ pub const LONG: f64 = 1e9;
 pub struct Interval<P> {
     /// The sample, at the end of the step.
     pub sample: Sample<P>,
-    /// Mean velocity over the step (X/s), where it is known, from positions say. It carries the
-    /// state instead of the sample's velocity, which makes the step second order.
+    /// Mean velocity over the step (X/s), if known, for example from positions. The state is
+    /// stepped with it instead of the sample's velocity, which makes the step second order.
     pub mean_velocity: Option<P>,
     /// Length (s); with `dt <= 0` the state is unchanged.
     pub dt: P,

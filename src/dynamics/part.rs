@@ -24,9 +24,9 @@ pub enum Part {
     Load,
     /// Whether the flanks of the gap have parted.
     GapParted,
-    /// The way since they parted.
+    /// The travel since they parted.
     GapWay,
-    /// The momentum that the load is lacking.
+    /// The momentum that the load has not received.
     GapMomentum,
 }
 

@@ -1,10 +1,12 @@
+//! Delay between torque and motion channels.
+
 use super::FrictionEffect;
 use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// Torque and motion that were not recorded at the same instant. It shifts whole columns,
-    /// so `batch` carries it out; at one instant it does nothing.
+    /// Torque and motion channels that were not recorded at the same instant. A delay shifts whole
+    /// columns, which `batch` does; at one instant it has no influence.
     Delay {
         /// Time by which the torque channel lags the motion channels.
         delay: "tau" ["s"] -6.0 .. 6.0, start 0.0, SamplePeriod, Nonlinear;

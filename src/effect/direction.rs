@@ -1,3 +1,5 @@
+//! Friction that depends on the direction of motion.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -19,7 +21,7 @@ impl<S: Real> FrictionEffect<S> for Direction<S> {
         id: "direction",
         group: "friction",
         title: "Direction",
-        what: "Teeth, seals or screw flanks carry differently in the two directions, so the \
+        what: "Teeth, seals or screw flanks carry load differently in the two directions, so the \
                coefficients differ between them.",
         formula: "D + dc sgn v, V + dv |v|",
         needs: "motion in both directions",

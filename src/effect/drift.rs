@@ -1,3 +1,5 @@
+//! Drift of dry friction with time.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -9,7 +11,7 @@ parameters! {
     Drift {
         /// Relative change of dry friction from the start of the recording to its end.
         drift_change: "d" ["1"] -0.9 .. 3.0, start 0.1, None, Nonlinear;
-        /// Time constants that the recording lasts; 0 where friction changes evenly.
+        /// Duration of the recording in time constants; 0 for a linear change.
         drift_curvature: "kt" ["1"] 0.0 .. 30.0, start 2.0, None, Nonlinear;
     }
 }
@@ -37,7 +39,7 @@ impl<S: Real> FrictionEffect<S> for Drift<S> {
         constants: &Constants<S::Plain>,
     ) {
         let share = sample.time / constants.duration;
-        // With `phi_1(x) = expm1(x)/x`, which leaves a straight line at no curvature.
+        // `phi_1(x) = expm1(x)/x` gives the straight line at zero curvature.
         let curvature = -self.drift_curvature;
         let done = curvature.scale(share).phi(1).scale(share) / curvature.phi(1);
         let factor = (self.drift_change * done).shift(S::Plain::one());

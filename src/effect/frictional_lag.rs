@@ -1,3 +1,5 @@
+//! Frictional lag (Hess and Soom 1990).
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::dynamics::{Interval, Lag, State};
@@ -6,11 +8,10 @@ use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// A Stribeck curve that follows the speed late (Hess and Soom 1990), by a first-order lag
-    /// (Armstrong-Helouvry, Dupont and Canudas de Wit 1994). At the steady speeds of a static curve
-    /// it changes nothing.
+    /// A Stribeck curve that lags the speed (Hess and Soom 1990), with a first-order lag
+    /// (Armstrong-Helouvry, Dupont and Canudas de Wit 1994). No influence at constant speed.
     FrictionalLag {
-        /// Time constant by which the Stribeck curve follows the speed.
+        /// Time constant with which the Stribeck curve follows the speed.
         frictional_lag: "tau" ["s"] 0.0 .. 2.0, start 0.05, Time, Nonlinear;
     }
 }
@@ -20,8 +21,8 @@ impl<S: Real> FrictionEffect<S> for FrictionalLag<S> {
         id: "frictional_lag",
         group: "friction",
         title: "Frictional lag",
-        what: "A lubricant film takes time to build up and to give way, so the fall of friction \
-               with speed comes late when the speed changes.",
+        what: "A lubricant film takes time to build up and to break down, so the Stribeck curve \
+               lags the speed.",
         formula: "D + dFs e; tau de/dt = exp(-|v/vs|^alpha) - e",
         needs: "slow motion that speeds up and slows down at different rates",
         beyond: Some("stribeck"),

@@ -1,3 +1,5 @@
+//! Gain error of the torque channel.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::Sample;
@@ -5,9 +7,9 @@ use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// A torque channel that shows too much or too little of all torque, load included.
+    /// A torque channel with a gain error, which applies to the whole torque, load included.
     Gain {
-        /// Relative excess of the torque that is shown over the one that acts.
+        /// Relative error of the measured torque.
         gain: "g" ["1"] -0.5 .. 1.0, start 0.0, None, Nonlinear;
     }
 }
@@ -17,10 +19,10 @@ impl<S: Real> FrictionEffect<S> for Gain<S> {
         id: "gain",
         group: "measurement",
         title: "Gain",
-        what: "The torque constant or gear ratio by which torque was computed is wrong, so the \
-               error grows with the motor torque.",
+        what: "The torque constant or gear ratio by which torque was computed has an error, which \
+               grows with the motor torque.",
         formula: "(1 + g) (tl + tf) - tl",
-        needs: "a load torque that is known beforehand, and varies",
+        needs: "a load torque that is known independently, and varies",
         beyond: None,
         channels: &[Channel::LoadTorque],
         constants: &[],

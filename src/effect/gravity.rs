@@ -1,3 +1,5 @@
+//! Gravity missing from the load torque.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -5,7 +7,7 @@ use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// Gravity that the load torque leaves out.
+    /// Gravity that the load torque does not include.
     Gravity {
         /// Gravity torque at zero angle.
         gravity_cos: "gc" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
@@ -19,7 +21,7 @@ impl<S: Real> FrictionEffect<S> for Gravity<S> {
         id: "gravity",
         group: "rigid body",
         title: "Gravity",
-        what: "Mass, centre of mass or zero angle used for the load torque are wrong.",
+        what: "The mass, centre of mass or zero angle used for the load torque has an error.",
         formula: "tf + gc cos q + gs sin q",
         needs: "a range of position",
         beyond: None,

@@ -1,3 +1,5 @@
+//! Inertia missing from the load torque.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -5,7 +7,7 @@ use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// Inertia that the load torque leaves out.
+    /// Inertia that the load torque does not include.
     Inertia {
         /// Torque per acceleration.
         inertia: "J" ["T s2/X"] -10.0 .. 10.0, start 0.0, Inertia, Additive;
@@ -17,7 +19,7 @@ impl<S: Real> FrictionEffect<S> for Inertia<S> {
         id: "inertia",
         group: "rigid body",
         title: "Inertia",
-        what: "The inertia used for the load torque is wrong, or none was used.",
+        what: "The inertia used for the load torque has an error, or none was used.",
         formula: "tf + J a",
         needs: "acceleration",
         beyond: None,

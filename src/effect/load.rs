@@ -1,3 +1,5 @@
+//! Dry friction that grows with the load.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -13,7 +15,7 @@ parameters! {
         load_exponent: "lp" ["1"] 0.4 .. 2.5, start 1.0, None, Nonlinear;
         /// Height of the Stribeck curve per load, at the reference load.
         load_stribeck: "ls" ["1"] 0.0 .. 10.0, start 0.02, None, Dry, WithStribeck;
-        /// Stribeck velocity of that height over the one without load.
+        /// Ratio of the Stribeck velocity of that height to the one without load.
         load_stribeck_ratio: "lv" ["1"] 0.1 .. 10.0, start 1.0, None, Nonlinear, WithStribeck;
     }
 }

@@ -1,6 +1,7 @@
-//! Effects that can be missing from a law, one file each: what each does to a split.
+//! Effects that can be added to a law, one per file: how each changes a split.
 //!
-//! A new effect is one file here and one row in [`crate::catalog`], placed where it acts.
+//! A new effect is one file here and one entry in [`crate::catalog`], at its place in the order of
+//! action.
 
 mod backlash;
 mod delay;
@@ -53,16 +54,16 @@ use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters};
 
-/// What a file in this folder provides.
+/// The interface of an effect.
 pub trait FrictionEffect<S: Real>: Parameters<S> {
     /// The effect's table.
     const INFO: EffectInfo;
 
-    /// Whether it has a state of its own, beside a bristle's.
+    /// Whether it has a state, separate from that of a bristle.
     const HAS_STATE: bool = false;
 
-    /// Changes the split; effects that are no part of it (a bristle, a gain, a delay) leave it
-    /// alone.
+    /// Changes the split. Effects that do not act on it (a bristle, a gain, a delay) leave it
+    /// unchanged.
     #[inline]
     fn apply(
         &self,
@@ -72,8 +73,8 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
     ) {
     }
 
-    /// As [`apply`](Self::apply), at the end of an interval: what an effect with a state of its
-    /// own does. In steady sliding it does what `apply` says.
+    /// Like [`apply`](Self::apply), at the end of an interval: for effects with a state. In steady
+    /// sliding both are equal.
     #[inline]
     fn apply_over(
         &self,
@@ -85,8 +86,8 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
         self.apply(split, &interval.sample, constants);
     }
 
-    /// What the torque channel shows of `friction` where the way from the motor's current to a
-    /// torque is wrong: it distorts all torque `tl + tf` alike, of which `tl` is known.
+    /// The measured value of a friction torque: effects of the torque channel distort the whole
+    /// torque `tl + tf`, of which `tl` is known.
     #[inline]
     fn measured(
         &self,
@@ -97,7 +98,7 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
         friction
     }
 
-    /// The bristle, if that is what the effect adds.
+    /// The bristle, if the effect adds one.
     #[inline]
     fn bristle(&self) -> Option<Bristle<S>> {
         None

@@ -1,3 +1,5 @@
+//! Rate-dependent friction that is not proportional to speed.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -9,9 +11,9 @@ parameters! {
     NonlinearViscous {
         /// Torque per speed at the reference speed.
         nonlinear_viscous_coefficient: "nc" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
-        /// Exponent of the speed; below 1 friction flattens, above 1 it steepens.
+        /// Exponent of the speed: friction flattens below 1 and steepens above 1.
         nonlinear_viscous_exponent: "n" ["1"] 0.15 .. 4.0, start 2.0, None, Nonlinear;
-        /// Speed about which the curve levels off; far above the motion it never does.
+        /// Speed around which the curve levels off; far above the motion it has no influence.
         nonlinear_viscous_saturation: "vl" ["X/s"] 0.01 .. 50.0, start 10.0, Speed, Nonlinear;
     }
 }
@@ -21,7 +23,7 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
         id: "nonlinear_viscous",
         group: "friction",
         title: "Nonlinear viscous friction",
-        what: "The lubricant shears thin, churns or turns turbulent, so friction is not \
+        what: "The lubricant is shear-thinning, churns or becomes turbulent, so friction is not \
                proportional to speed.",
         formula: "V + nc (|v/vr|/(1 + |v/vl|))^n vr sgn v",
         needs: "a wide range of speed",

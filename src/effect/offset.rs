@@ -1,3 +1,5 @@
+//! A constant torque.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -7,7 +9,7 @@ use crate::table::{EffectInfo, Parameters, parameters};
 parameters! {
     /// A constant torque.
     Offset {
-        /// Torque that is there at any motion.
+        /// Torque that does not depend on the motion.
         offset: "t0" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
     }
 }

@@ -1,3 +1,5 @@
+//! Dry friction that varies along the stroke.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};

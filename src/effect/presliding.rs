@@ -1,3 +1,5 @@
+//! Presliding: a bristle for any static law.
+
 use super::FrictionEffect;
 use crate::dynamics::Bristle;
 use crate::scalar::Real;

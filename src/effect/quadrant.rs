@@ -1,3 +1,5 @@
+//! Load dependence per quadrant: motoring or generating.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -23,10 +25,10 @@ impl<S: Real> FrictionEffect<S> for Quadrant<S> {
         id: "quadrant",
         group: "friction",
         title: "Quadrant",
-        what: "Gear teeth carry differently when the load drives the joint than when it is driven, \
-               so friction under load differs between motoring and generating.",
+        what: "Gear teeth carry load differently when the load drives the joint than when it is \
+               driven, so friction under load differs between motoring and generating.",
         formula: "D + (qc + qv |v|) tl sgn v + qj sgn(v tl) + ql |v tl|",
-        needs: "both signs of power flow, and a load torque that is known beforehand",
+        needs: "both signs of power flow, and a load torque that is known independently",
         beyond: Some("load"),
         channels: &[Channel::LoadTorque],
         constants: &[],

@@ -1,3 +1,5 @@
+//! Torque ripple: a torque that is periodic in position.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -5,7 +7,7 @@ use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// A torque that repeats with position, whichever way the joint moves.
+    /// A torque that is periodic in position, with the same sign in both directions.
     Ripple {
         /// Amplitude along the cosine of the phase.
         ripple_cos: "c1" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
@@ -15,7 +17,7 @@ parameters! {
         ripple_second_cos: "c2" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
         /// Amplitude along the sine of twice the phase.
         ripple_second_sin: "s2" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
-        /// Periods over the length beyond those of the period found beforehand.
+        /// Additional periods over the length, relative to the estimated period.
         ripple_detuning: "d" ["1"] -1.0 .. 1.0, start 0.0, None, Nonlinear;
     }
 }

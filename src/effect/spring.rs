@@ -1,3 +1,5 @@
+//! A spring torque of position.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -5,14 +7,14 @@ use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// A torque of position alone that gravity does not explain, its mean over the stroke taken
-    /// out: that is an offset.
+    /// A torque of position alone that gravity does not explain. It has zero mean over the stroke:
+    /// a mean is an offset.
     Spring {
-        /// Torque that is proportional to position, at the end of the stroke.
+        /// Part proportional to position: torque at the end of the stroke.
         spring_linear: "k1" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
-        /// Torque that bends one way along the stroke, at its end.
+        /// Quadratic part: torque at the end of the stroke.
         spring_quadratic: "k2" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
-        /// Torque that stiffens or softens towards both ends of the stroke, at its end.
+        /// Cubic part: torque at the end of the stroke.
         spring_cubic: "k3" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
     }
 }
@@ -22,7 +24,7 @@ impl<S: Real> FrictionEffect<S> for Spring<S> {
         id: "spring",
         group: "rigid body",
         title: "Spring",
-        what: "A cable pack, a hose or a balancer pulls at the joint, with a torque of position \
+        what: "A cable pack, a hose or a balancer exerts a torque that depends on position \
                alone that gravity does not explain.",
         formula: "tf + k1 u + k2 (3 u^2 - 1)/2 + k3 (5 u^3 - 3 u)/2, \
                   u = 2 (q - start)/length - 1",
@@ -44,7 +46,7 @@ impl<S: Real> FrictionEffect<S> for Spring<S> {
         let stroke = (sample.position - constants.position_start) / constants.position_length;
         let u = stroke + stroke - S::Plain::one();
         let square = u * u;
-        // Legendre's polynomials: of zero mean over the stroke, and each for itself.
+        // Legendre polynomials: zero mean over the stroke, and orthogonal.
         let legendre =
             [u, number(1.5) * square - number(0.5), (number(2.5) * square - number(1.5)) * u];
         let torques = [&self.spring_linear, &self.spring_quadratic, &self.spring_cubic];

@@ -1,3 +1,5 @@
+//! The Stribeck effect.
+
 use super::FrictionEffect;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split, stribeck_curve};
@@ -21,7 +23,7 @@ impl<S: Real> FrictionEffect<S> for Stribeck<S> {
         id: "stribeck",
         group: "friction",
         title: "Stribeck effect",
-        what: "The surfaces part as a lubricant film builds up, so dry friction falls with speed \
+        what: "The surfaces separate as a lubricant film builds up, so dry friction falls with speed \
                at low speed.",
         formula: "D + dFs exp(-|v/vs|^alpha)",
         needs: "slow motion in both directions",

@@ -1,3 +1,5 @@
+//! Temperature dependence of dry friction.
+
 use super::FrictionEffect;
 use super::factor::temperature_factor;
 use crate::constants::Constants;
@@ -8,15 +10,15 @@ use crate::table::{Channel, EffectInfo, Parameters, parameters};
 parameters! {
     /// Dry friction that changes with temperature.
     TemperatureDry {
-        /// Relative fall of dry friction per kelvin at the reference temperature.
+        /// Relative decrease of dry friction per kelvin at the reference temperature.
         temperature_dry_slope: "sd" ["1/K"] -0.1 .. 0.1, start 0.005, None, Nonlinear;
-        /// How fast that fall levels off with temperature.
+        /// How fast that decrease levels off with temperature.
         temperature_dry_curvature: "kd" ["1/K"] -0.1 .. 0.2, start 0.01, None, Nonlinear;
-        /// Relative growth of the Stribeck height per kelvin, apart from the other dry friction.
+        /// Relative increase of the Stribeck height per kelvin, beyond that of all dry friction.
         temperature_dry_height: "sh" ["1/K"] -0.2 .. 0.2, start 0.0, None, Nonlinear, WithStribeck;
-        /// Relative growth of the Stribeck velocity per kelvin.
+        /// Relative increase of the Stribeck velocity per kelvin.
         temperature_dry_velocity: "sw" ["1/K"] -0.2 .. 0.2, start 0.0, None, Nonlinear, WithStribeck;
-        /// Share of that change in what the load adds: 0 none of it, 1 all.
+        /// Share of that change that applies to load-dependent friction: 0 none, 1 all.
         temperature_dry_load: "sl" ["1"] 0.0 .. 1.0, start 1.0, None, Nonlinear, WithLoad;
     }
 }

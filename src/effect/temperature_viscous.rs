@@ -1,3 +1,5 @@
+//! Temperature dependence of viscous friction.
+
 use super::FrictionEffect;
 use super::factor::temperature_factor;
 use crate::constants::Constants;
@@ -6,11 +8,11 @@ use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
 
 parameters! {
-    /// Viscous friction that thins with temperature.
+    /// Viscous friction that falls with temperature.
     TemperatureViscous {
-        /// Relative fall of viscous friction per kelvin at the reference temperature.
+        /// Relative decrease of viscous friction per kelvin at the reference temperature.
         temperature_viscous_slope: "sv" ["1/K"] 0.0 .. 0.1, start 0.01, None, Nonlinear;
-        /// How fast that fall levels off with temperature.
+        /// How fast that decrease levels off with temperature.
         temperature_viscous_curvature: "kv" ["1/K"] 0.0 .. 0.2, start 0.01, None, Nonlinear;
     }
 }

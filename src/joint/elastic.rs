@@ -18,7 +18,7 @@ pub struct Transmission<P> {
     pub stiffness: P,
     /// Damping `c` while the flanks touch (T s/X).
     pub damping: P,
-    /// Play from one flank to the other (X).
+    /// Backlash, from one flank to the other (X).
     pub backlash: P,
 }
 

@@ -30,8 +30,7 @@ pub(super) struct Equation<P> {
 }
 
 impl<P: Scalar + PartialOrd> Equation<P> {
-    /// The tolerance of the function; NaN if the magnitude is not finite, so that nothing counts as
-    /// zero.
+    /// The tolerance of the function; 0 if the magnitude is not finite.
     fn settled(&self) -> P {
         let settled = self.size * rounding::<P>() * P::from_f64(SLACK);
         if settled.value().is_finite() { settled } else { P::zero() }

@@ -1,8 +1,8 @@
-//! Extended friction models of servo actuators: friction that depends on the torque at both ends of
-//! the gearbox, `te` that the environment exerts on the joint and `tm` that the motor exerts.
+//! Extended friction models of servo actuators (BAM): friction depends on the torque at both ends
+//! of the gearbox, `te` that the environment exerts on the joint and `tm` that the motor exerts.
 //!
-//! The formulas take both as given. Where the motor torque is what shall be predicted, it follows
-//! from the balance `tm = tl + tf(te, tm, v)`, which `batch` solves.
+//! The formulas take both as given. Where the motor torque is to be predicted, it follows from the
+//! balance `tm = tl + tf(te, tm, v)`, which `batch` solves.
 
 use super::FrictionLaw;
 use crate::constants::Constants;
@@ -60,7 +60,7 @@ parameters! {
         stribeck_height: "Ks" ["T"] 0.0 .. 10.0, start 0.1, Torque, Dry;
         /// Dry friction per torque across the gearbox, in full sliding.
         load_coulomb: "Kl" ["1"] 0.0 .. 0.55, start 0.1, None, Dry;
-        /// What the Stribeck curve adds to it at rest.
+        /// Height of the Stribeck curve per torque across the gearbox.
         load_stribeck: "Kls" ["1"] 0.0 .. 0.4, start 0.05, None, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
@@ -72,8 +72,8 @@ parameters! {
 }
 
 parameters! {
-    /// M5: M4 with a share of its own for each end of the gearbox, so that driving and being driven
-    /// differ.
+    /// M5: M4 with separate coefficients for each end of the gearbox, so that driving and
+    /// back-driving differ.
     BamM5 {
         /// Dry friction in full sliding without load.
         coulomb_friction: "Kc" ["T"] 0.0 .. 10.0, start 0.2, Torque, Dry;
@@ -83,9 +83,9 @@ parameters! {
         external_coulomb: "Ke" ["1"] 0.0 .. 0.95, start 0.1, None, Nonlinear;
         /// Dry friction per motor torque, in full sliding.
         motor_coulomb: "Km" ["1"] 0.0 .. 0.55, start 0.1, None, Nonlinear;
-        /// What the Stribeck curve adds per external torque at rest.
+        /// Height of the Stribeck curve per external torque.
         external_stribeck: "Kes" ["1"] 0.0 .. 0.95, start 0.05, None, Nonlinear;
-        /// What the Stribeck curve adds per motor torque at rest.
+        /// Height of the Stribeck curve per motor torque.
         motor_stribeck: "Kms" ["1"] 0.0 .. 0.4, start 0.05, None, Nonlinear;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
@@ -97,7 +97,8 @@ parameters! {
 }
 
 parameters! {
-    /// M6: M5 with a quadratic part while the two ends of the gearbox work against each other.
+    /// M6: M5 with a quadratic part while the torques at the two ends of the gearbox oppose each
+    /// other.
     BamM6 {
         /// Dry friction in full sliding without load.
         coulomb_friction: "Kc" ["T"] 0.0 .. 10.0, start 0.2, Torque, Dry;
@@ -107,13 +108,13 @@ parameters! {
         external_coulomb: "Ke" ["1"] 0.0 .. 0.95, start 0.1, None, Nonlinear;
         /// Dry friction per motor torque, in full sliding.
         motor_coulomb: "Km" ["1"] 0.0 .. 0.55, start 0.1, None, Nonlinear;
-        /// What the Stribeck curve adds per external torque at rest.
+        /// Height of the Stribeck curve per external torque.
         external_stribeck: "Kes" ["1"] 0.0 .. 0.95, start 0.05, None, Nonlinear;
-        /// What the Stribeck curve adds per motor torque at rest.
+        /// Height of the Stribeck curve per motor torque.
         motor_stribeck: "Kms" ["1"] 0.0 .. 0.4, start 0.05, None, Nonlinear;
-        /// What the Stribeck curve adds per square of the external torque while the motor drives.
+        /// Stribeck height per square of the external torque while the motor drives.
         external_quadratic: "Kqe" ["1/T"] 0.0 .. 2.0, start 0.02, InverseTorque, Dry;
-        /// What the Stribeck curve adds per square of the motor torque while it is back-driven.
+        /// Stribeck height per square of the motor torque while the joint is back-driven.
         motor_quadratic: "Kqm" ["1/T"] 0.0 .. 2.0, start 0.02, InverseTorque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
@@ -286,7 +287,7 @@ impl<S: Real> FrictionLaw<S> for BamM6<S> {
 }
 
 impl<S: Real> BamM6<S> {
-    /// The smaller of two torques that oppose each other, squared and weighted; at equality none.
+    /// The smaller of two opposing torques, squared and weighted; 0 if they are equal.
     #[inline]
     fn quadratic(&self, sample: &Sample<S::Plain>) -> S {
         let (external, motor) = (sample.external_torque, sample.motor_torque);

@@ -1,4 +1,5 @@
-//! The Stribeck law M0 and its extension by the load, M1; the exponent is a constant.
+//! The Stribeck law M0 and its extension by load, M1 (Bittencourt et al. 2010); the exponent is a
+//! constant.
 
 use super::FrictionLaw;
 use crate::constants::Constants;
@@ -7,7 +8,7 @@ use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Stribeck curve and viscous friction; the second amplitude is the increment.
+    /// Stribeck curve and viscous friction; `Fs` is the height above `Fc`.
     M0 {
         /// Dry friction in full sliding.
         coulomb_friction: "Fc" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
@@ -47,7 +48,7 @@ impl<S: Real> FrictionLaw<S> for M0<S> {
 }
 
 parameters! {
-    /// Coulomb friction and Stribeck height that grow with the load.
+    /// Coulomb friction and a Stribeck height that grow with the load.
     M1 {
         /// Dry friction in full sliding without load.
         coulomb_friction: "Fc0" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;

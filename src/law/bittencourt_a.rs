@@ -1,3 +1,5 @@
+//! Bittencourt's law of Coulomb, Stribeck and viscous friction (Bittencourt et al. 2012).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split, stribeck_curve};
@@ -5,7 +7,7 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Coulomb, Stribeck and viscous friction; the second amplitude is the increment.
+    /// Coulomb, Stribeck and viscous friction; `a2` is the height above `a1`.
     BittencourtA {
         /// Dry friction in full sliding.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;

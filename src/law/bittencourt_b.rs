@@ -1,4 +1,5 @@
-//! Load and temperature in one Stribeck law: the M* of 2010 and its later form.
+//! Load and temperature in one Stribeck law: M* (Bittencourt et al. 2010) and its later form
+//! (Bittencourt and Gunnarsson 2012).
 
 use super::FrictionLaw;
 use crate::constants::Constants;
@@ -7,8 +8,8 @@ use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Two Stribeck curves, one of the load and one of temperature, and viscous friction that
-    /// thins.
+    /// Two Stribeck curves, one of load and one of temperature, and viscous friction that falls
+    /// with temperature.
     BittencourtB {
         /// Dry friction in full sliding without load.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
@@ -28,9 +29,9 @@ parameters! {
         stribeck_velocity: "a8" ["X/s"] -2.0 .. 2.0, start 0.1, Speed, Nonlinear;
         /// Growth of that Stribeck velocity per kelvin.
         stribeck_velocity_slope: "a9" ["X/s/K"] -0.05 .. 0.05, start 0.0, Speed, Nonlinear;
-        /// Torque per speed while hot.
+        /// Torque per speed at high temperature.
         viscous_friction: "a10" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
-        /// Torque per speed above that at 0 degC.
+        /// Additional torque per speed at 0 degC.
         viscous_friction_cold: "a11" ["T s/X"] 0.0 .. 50.0, start 0.1, Damping, Rate;
         /// Temperature over which that falls to 1/e.
         thinning_temperature: "a12" ["K"] 3.0 .. 500.0, start 20.0, None, Nonlinear;
@@ -68,7 +69,7 @@ impl<S: Real> FrictionLaw<S> for BittencourtB<S> {
 }
 
 parameters! {
-    /// The extended model M* of 2010, its exponent a constant.
+    /// The extended model M* of 2010, with a constant exponent.
     MStar {
         /// Dry friction in full sliding without load.
         coulomb_friction: "Fc0" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
@@ -86,9 +87,9 @@ parameters! {
         stribeck_velocity: "vs0" ["X/s"] -2.0 .. 2.0, start 0.1, Speed, Nonlinear;
         /// Growth of that Stribeck velocity per kelvin.
         stribeck_velocity_slope: "vs_T" ["X/s/K"] -0.05 .. 0.05, start 0.0, Speed, Nonlinear;
-        /// Torque per speed while hot.
+        /// Torque per speed at high temperature.
         viscous_friction: "Fv0" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
-        /// Torque per speed above that at 0 degC.
+        /// Additional torque per speed at 0 degC.
         viscous_friction_cold: "Fv_T" ["T s/X"] 0.0 .. 50.0, start 0.1, Damping, Rate;
         /// Temperature over which that falls to 1/e.
         thinning_temperature: "TV" ["K"] 3.0 .. 500.0, start 20.0, None, Nonlinear;
@@ -128,7 +129,7 @@ impl<S: Real> FrictionLaw<S> for MStar<S> {
 const CAPTURES: &[&str] =
     &["coulomb", "viscous", "stribeck", "load", "temperature_viscous", "temperature_dry"];
 
-/// What the two laws share.
+/// The common form of the two laws.
 struct Terms<S> {
     coulomb: S,
     load_coulomb: S,
@@ -141,8 +142,8 @@ struct Terms<S> {
 }
 
 impl<S: Real> Terms<S> {
-    /// A Stribeck velocity that crosses zero with temperature leaves no Stribeck friction there,
-    /// the limit from either side.
+    /// Where the Stribeck velocity crosses zero with temperature there is no Stribeck friction, the
+    /// limit from both sides.
     #[inline]
     fn split(&self, exponent: S, sample: &Sample<S::Plain>) -> Split<S> {
         let (v, temperature) = (sample.velocity, sample.temperature);

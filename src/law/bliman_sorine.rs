@@ -1,3 +1,5 @@
+//! The second-order law of Bliman and Sorine (1995; Olsson et al. 1998).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::dynamics::{Interval, Memory, Relaxation, State, Step};
@@ -6,16 +8,16 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Bliman and Sorine, second order: a fast force along the motion less a slow one, so that
-    /// friction peaks after a reversal. It depends on the distance alone.
+    /// Bliman and Sorine, second order: a fast force along the motion minus a slow one, so that
+    /// friction peaks after a reversal. It depends on the distance, not on the speed.
     BlimanSorine {
         /// Dry friction in full sliding, `f1 - f2`.
         coulomb_friction: "Fc" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// The slow force over the friction in full sliding, `f2/(f1 - f2)`.
+        /// Ratio of the slow force to the friction in full sliding, `f2/(f1 - f2)`.
         overshoot_ratio: "rho" ["1"] 0.0 .. 10.0, start 0.3, None, Nonlinear;
         /// Distance over which the slow force builds up.
         sliding_distance: "eps" ["X"] 1e-6 .. 10.0, start 0.05, Position, Nonlinear;
-        /// Distance over which the fast force builds up, over that of the slow one.
+        /// Ratio of the distance of the fast force to that of the slow one.
         distance_ratio: "eta" ["1"] 0.001 .. 1.0, start 0.3, None, Nonlinear;
     }
 }

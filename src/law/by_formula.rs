@@ -1,3 +1,5 @@
+//! The law given by a formula alone.
+
 use core::marker::PhantomData;
 
 use super::FrictionLaw;
@@ -6,7 +8,7 @@ use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{LawInfo, ParameterInfo, Parameters, Presence};
 
-/// A law without anything of its own: all its terms come from a [formula](crate::formula).
+/// A law without parameters of its own: all terms come from a [formula](crate::formula).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ByFormula<S>(PhantomData<S>);
 

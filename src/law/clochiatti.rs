@@ -1,3 +1,5 @@
+//! Coulomb friction that depends on the direction of power flow (Clochiatti et al. 2024).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -5,7 +7,7 @@ use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Viscous friction, and a smoothed Coulomb friction that depends on where power flows.
+    /// Viscous friction, and smoothed Coulomb friction that depends on the direction of power flow.
     Clochiatti {
         /// Torque per speed.
         viscous_friction: "a1" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
@@ -36,7 +38,7 @@ impl<S: Real> FrictionLaw<S> for Clochiatti<S> {
         let (generating, motoring) =
             (self.coulomb_friction_generating, self.coulomb_friction_motoring);
         let amplitude = S::choose(flow.is_negative(), generating, motoring);
-        // Without motor torque there is no flow of power and, by the formula, no dry friction.
+        // Without motor torque there is no power flow and, by the formula, no dry friction.
         let sign = (v / constants.smoothing_velocity).tanh() * flow.abs();
         Split {
             smoothed_amplitude: amplitude,

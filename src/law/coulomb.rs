@@ -1,3 +1,5 @@
+//! Coulomb and viscous friction.
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};

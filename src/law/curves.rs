@@ -1,4 +1,4 @@
-//! Curves that several laws are made of.
+//! Curves that several laws use.
 
 use crate::sample::StribeckCurve;
 use crate::scalar::Real;
@@ -7,7 +7,7 @@ use crate::scalar::Real;
 #[inline]
 pub fn signed_power<S: Real>(velocity: S::Plain, exponent: S) -> S {
     let power = exponent.exponent_of(velocity.abs());
-    // Beyond all numbers; finite, so that a coefficient of 0 still gives 0.
+    // An infinite power is replaced by a large one, so that a coefficient of 0 still gives 0.
     let power = S::choose(power.is_finite(), power, S::from_f64(1e30)).scale(velocity.sign());
     S::choose(velocity.at_zero(), S::zero(), power)
 }
@@ -18,7 +18,7 @@ pub fn signed_root<P: Real>(velocity: P) -> P {
     velocity.abs().sqrt() * velocity.sign()
 }
 
-/// `1/(1 + exp(-x))`, without overflow on either side.
+/// `1/(1 + exp(-x))`, without overflow for any sign of `x`.
 #[inline]
 pub fn logistic<S: Real>(x: S) -> S {
     let below = x.is_negative();
@@ -27,7 +27,7 @@ pub fn logistic<S: Real>(x: S) -> S {
     S::choose(below, rest / whole, S::one() / whole)
 }
 
-/// `1 - exp(-x)`, without cancellation at small `x`.
+/// `1 - exp(-x)`, without cancellation for small `x`.
 #[inline]
 pub fn saturation<S: Real>(x: S) -> S {
     -(-x).expm1()
@@ -37,7 +37,7 @@ pub fn saturation<S: Real>(x: S) -> S {
 #[inline]
 pub fn gaussian_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S) -> StribeckCurve<S> {
     let ratio = S::choose(velocity.at_zero(), S::zero(), stribeck_velocity.divide(velocity));
-    // Of a number between bounds the square is only known to be positive by its size.
+    // `abs` makes the square of an interval non-negative.
     let ratio = ratio.abs();
     StribeckCurve::of(ratio * ratio, S::from_f64(2.0))
 }

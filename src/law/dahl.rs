@@ -1,3 +1,5 @@
+//! Dahl's law (Dahl 1968).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::dynamics::{Approach, DahlBristle, Deflection, Interval, State, Step};
@@ -6,13 +8,13 @@ use crate::scalar::{Real, Scalar};
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Dahl: a deflection that approaches sliding along a power of what is left.
+    /// Dahl: a deflection that approaches sliding as a power of the remaining distance.
     Dahl {
         /// Torque per deflection before sliding.
         bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
         /// Dry friction in full sliding.
         coulomb_friction: "a2" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Exponent of the approach to sliding: 1 is exponential, more is slower.
+        /// Exponent of the approach to sliding: exponential with 1, slower above 1.
         dahl_exponent: "a3" ["1"] 0.1 .. 50.0, start 1.0, None, Nonlinear;
     }
 }

@@ -1,3 +1,5 @@
+//! Coulomb friction that builds up and static friction that decays with speed (Dong et al. 2021).
+
 use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
@@ -6,7 +8,7 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Viscous friction, Coulomb friction that builds up with speed, static friction that dies out.
+    /// Viscous friction, Coulomb friction that builds up with speed, static friction that decays.
     Dong {
         /// Torque per speed.
         viscous_friction: "a1" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
@@ -14,9 +16,9 @@ parameters! {
         coulomb_friction: "a2" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
         /// How fast Coulomb friction builds up with speed.
         coulomb_steepness: "a3" ["s/X"] 0.5 .. 2000.0, start 20.0, InverseSpeed, Nonlinear;
-        /// Dry friction at the edge of sliding.
+        /// Dry friction at break-away.
         static_friction: "a4" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// How fast static friction dies out with speed.
+        /// How fast static friction decays with speed.
         stribeck_steepness: "a5" ["s/X"] 0.5 .. 2000.0, start 20.0, InverseSpeed, Nonlinear;
     }
 }

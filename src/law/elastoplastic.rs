@@ -1,3 +1,5 @@
+//! The elastoplastic law (Dupont, Hayward, Armstrong and Altpeter 2002).
+
 use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
@@ -18,11 +20,11 @@ parameters! {
         viscous_friction: "s2" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Dry friction in full sliding.
         coulomb_friction: "Fc" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "Fs" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
-        /// Deflection up to which the bristle is elastic, over the one in full sliding.
+        /// Ratio of the deflection up to which the bristle is elastic to that in full sliding.
         breakaway_ratio: "b" ["1"] 0.01 .. 0.99, start 0.5, None, Nonlinear;
     }
 }

@@ -1,4 +1,4 @@
-//! The parameters of laws of several elements in parallel.
+//! Parameters of laws with several elements in parallel.
 
 use crate::dynamics::MOST_ELEMENTS;
 use crate::scalar::Real;
@@ -7,14 +7,14 @@ use crate::table::{ParameterInfo, Presence, Role, Scale};
 /// Friction and stiffness of each element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementParameters<S> {
-    /// What each element carries in sliding (T).
+    /// Force of each element in sliding (T).
     pub friction: [S; MOST_ELEMENTS],
     /// Stiffness of each element (T/X).
     pub stiffness: [S; MOST_ELEMENTS],
 }
 
 impl<S: Real> ElementParameters<S> {
-    /// Fills them in the order of [`TABLE`].
+    /// Reads them in the order of [`TABLE`].
     #[inline]
     pub fn read(next: &mut impl FnMut(Presence) -> S) -> Self {
         let mut read =
@@ -28,7 +28,7 @@ impl<S: Real> ElementParameters<S> {
         read
     }
 
-    /// Dry friction in full sliding (T): never 0, each element has some.
+    /// Dry friction in full sliding (T), never 0: each element has a positive share.
     #[inline]
     pub fn coulomb(&self, count: usize) -> S {
         self.friction[..count.min(MOST_ELEMENTS)].iter().fold(S::zero(), |sum, &part| sum + part)
@@ -37,8 +37,8 @@ impl<S: Real> ElementParameters<S> {
 
 macro_rules! table {
     ($($number:literal starts at $start:literal;)+) => {
-        /// Two rows an element. Stiffnesses start apart from each other, and any first few of them far
-        /// apart: equal elements would stay equal in a fit.
+        /// Two entries per element. The start values of stiffness differ, and those of the first
+        /// few differ widely: equal elements would stay equal in a fit.
         pub const TABLE: &[ParameterInfo] = &[$(
             ParameterInfo {
                 name: concat!("element_friction_", $number),
@@ -87,7 +87,7 @@ table! {
     16 starts at 5.5;
 }
 
-/// The rows of a law's own parameters, then those of its elements.
+/// The table of a law's other parameters, followed by those of its elements.
 pub const fn with_elements<const N: usize>(own: &[ParameterInfo]) -> [ParameterInfo; N] {
     let mut rows = [TABLE[0]; N];
     let mut i = 0;

@@ -1,3 +1,5 @@
+//! Static friction map of a gantry's ball screw (Gantry, Valdiero group, eq 2).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split, StribeckCurve};
@@ -5,11 +7,11 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Static map of a ball screw: Stribeck curve and viscous friction per direction.
+    /// Static map of a ball screw: Stribeck curve, and viscous friction per direction.
     GantryMap {
         /// Dry friction in full sliding.
         coulomb_friction: "Fc" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "Fs" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;

@@ -1,4 +1,4 @@
-//! Sigmoids in place of the sign of the velocity.
+//! Laws with a sigmoid in place of the sign of the velocity (Gaz et al. 2018, 2019).
 
 use super::FrictionLaw;
 use super::curves::{logistic, saturation};
@@ -8,13 +8,13 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Viscous friction, a constant and a sigmoid.
+    /// Viscous friction, a constant torque and a sigmoid.
     GazA {
         /// Torque per speed.
         viscous_friction: "a1" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Torque in backward motion, without its viscous part.
         backward_level: "a2" ["T"] -20.0 .. 10.0, start -0.5, Torque, Additive;
-        /// How much more the torque is in forward motion: twice the dry friction.
+        /// Additional torque in forward motion: twice the dry friction.
         sigmoid_height: "a3" ["T"] 0.0 .. 20.0, start 1.0, Torque, Dry;
         /// How fast the sigmoid rises with velocity.
         sigmoid_steepness: "a4" ["s/X"] 1.0 .. 1e5, start 50.0, InverseSpeed, Nonlinear;
@@ -36,7 +36,8 @@ impl<S: Real> FrictionLaw<S> for GazA<S> {
         captures: &["coulomb", "viscous", "offset"],
     };
 
-    /// `1/(1 + exp(-x)) = 1/2 + tanh(x/2)/2`: half the height is an offset, half of it friction.
+    /// `1/(1 + exp(-x)) = 1/2 + tanh(x/2)/2`: half the height is an offset, the other half
+    /// friction.
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let half = S::Plain::from_f64(0.5);
@@ -53,9 +54,9 @@ impl<S: Real> FrictionLaw<S> for GazA<S> {
 }
 
 parameters! {
-    /// A sigmoid that passes through zero, nothing else.
+    /// A sigmoid that passes through zero.
     GazB {
-        /// Torque between the ends of the sigmoid: the sum of the dry friction either way.
+        /// Torque between the ends of the sigmoid: the sum of dry friction in both directions.
         sigmoid_height: "a1" ["T"] 0.0 .. 40.0, start 2.0, Torque, Dry;
         /// How fast the sigmoid rises with velocity.
         sigmoid_steepness: "a2" ["s/X"] 0.2 .. 1e5, start 5.0, InverseSpeed, Nonlinear;
@@ -77,8 +78,8 @@ impl<S: Real> FrictionLaw<S> for GazB<S> {
         captures: &["coulomb", "direction"],
     };
 
-    /// With `s` the sigmoid, `x = a2 |v|` and `w = a2 a3 sgn v`, the difference is
-    /// `s(x + w) - s(w) = s(-w) s(x + w) (1 - exp(-x))`: a product, in which nothing cancels.
+    /// With `s` the sigmoid, `x = a2 |v|` and `w = a2 a3 sgn v`, the difference is `s(x + w) - s(w)
+    /// = s(-w) s(x + w) (1 - exp(-x))`: a product without cancellation.
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;

@@ -1,3 +1,5 @@
+//! Generalized Maxwell slip (Al-Bender, Lampaert and Swevers 2005).
+
 use super::FrictionLaw;
 use super::elements::{self, ElementParameters};
 use crate::constants::Constants;
@@ -7,7 +9,7 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, ParameterInfo, Parameters, Presence, parameters};
 
 parameters! {
-    /// What the elements of a generalized Maxwell slip law share.
+    /// The parameters that all elements of the generalized Maxwell slip law share.
     Shared {
         /// Height of the Stribeck curve above the friction in full sliding, at rest.
         stribeck_height: "dFs" ["T"] 0.0 .. 10.0, start 0.2, Torque, Dry;
@@ -15,14 +17,14 @@ parameters! {
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
         /// Exponent of the Stribeck curve.
         stribeck_exponent: "alpha" ["1"] 0.5 .. 4.0, start 2.0, None, Nonlinear;
-        /// How fast the force of a sliding element settles.
+        /// Rate at which the force of a sliding element settles.
         attraction: "C" ["T/s"] 0.1 .. 1e6, start 100.0, TorqueRate, Nonlinear;
         /// Torque per speed.
         viscous_friction: "s2" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
     }
 }
 
-/// Generalized Maxwell slip: elements in parallel that stick or slide, with nonlocal memory.
+/// Generalized Maxwell slip: parallel elements that stick or slide, with nonlocal memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gms<S> {
     shared: Shared<S>,

@@ -1,4 +1,4 @@
-//! Coulomb and viscous friction with a third, nonlinear term.
+//! Coulomb and viscous friction with a third, nonlinear term (Grotjahn et al. 2001).
 
 use super::FrictionLaw;
 use crate::constants::Constants;

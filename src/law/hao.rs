@@ -1,4 +1,5 @@
-//! A cubic polynomial of speed, and a factor that is linear in temperature.
+//! Cubic polynomials of speed, with a factor that is linear in temperature (Hao et al. 2021; Simoni
+//! et al. 2019).
 
 use super::FrictionLaw;
 use crate::constants::Constants;
@@ -45,7 +46,7 @@ impl<S: Real> FrictionLaw<S> for HaoA<S> {
 }
 
 parameters! {
-    /// A cubic polynomial of speed, all of it linear in temperature.
+    /// A cubic polynomial of speed, with all friction linear in temperature.
     HaoB {
         /// Dry friction at the base temperature.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
@@ -55,7 +56,7 @@ parameters! {
         quadratic_friction: "a3" ["T s2/X2"] -20.0 .. 20.0, start 0.0, SquareDamping, Rate;
         /// Torque per cube of speed at the base temperature.
         cubic_friction: "a4" ["T s3/X3"] 0.0 .. 20.0, start 0.0, CubicDamping, Rate;
-        /// Relative growth of all friction per kelvin.
+        /// Relative increase of all friction per kelvin.
         temperature_slope: "a5" ["1/K"] -0.2 .. 0.2, start 0.0, None, Nonlinear;
     }
 }
@@ -93,7 +94,7 @@ impl<S: Real> FrictionLaw<S> for HaoB<S> {
 }
 
 parameters! {
-    /// A cubic polynomial of speed times a straight line of temperature.
+    /// A cubic polynomial of speed times a linear function of temperature.
     Simoni {
         /// Dry friction at the base temperature, for a scale of 1.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
@@ -103,9 +104,9 @@ parameters! {
         quadratic_friction: "a3" ["T s2/X2"] -20.0 .. 20.0, start 0.0, SquareDamping, Rate;
         /// Torque per cube of speed at the base temperature, for a scale of 1.
         cubic_friction: "a4" ["T s3/X3"] 0.0 .. 20.0, start 0.0, CubicDamping, Rate;
-        /// Scale of all friction at the base temperature; held at 1 in a fit, as a1..a4 carry it.
+        /// Scale of all friction at the base temperature; fixed at 1 in a fit.
         scale: "a5" ["1"] 0.0 .. 10.0, start 1.0, None, Held;
-        /// Growth of that scale per kelvin.
+        /// Increase of that scale per kelvin.
         scale_slope: "a6" ["1/K"] -0.2 .. 0.2, start 0.0, None, Nonlinear;
     }
 }

@@ -1,3 +1,5 @@
+//! Coulomb and quadratic friction with smoothed signs (Indri et al. 2013).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split, arctangent_sign};
@@ -5,7 +7,8 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Coulomb and quadratic friction with one smoothed sign, a second arc tangent, viscous.
+    /// Coulomb and quadratic friction with a smoothed sign, a second arc tangent, and viscous
+    /// friction.
     IndriA {
         /// Dry friction with the first smoothed sign.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;

@@ -1,3 +1,5 @@
+//! A bristle with a smoothed sign, and damping that falls with speed (Indri et al. 2020).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::dynamics::Bristle;
@@ -5,7 +7,7 @@ use crate::sample::{Sample, Split, arctangent_sign};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
-/// The speed at which the damping grows no more towards rest (X/s).
+/// Below this speed the damping no longer grows (X/s).
 const SLOWEST: f64 = 1e-30;
 
 parameters! {
@@ -15,7 +17,7 @@ parameters! {
         bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
         /// Bristle damping times speed, where the damping falls with speed.
         damping_torque: "a2" ["T"] 0.0 .. 1e3, start 0.0, Torque, Rate;
-        /// Weight of acceleration in that fall.
+        /// Weight of acceleration in that decrease.
         acceleration_weight: "a3" ["1"] 1e-6 .. 1e6, start 1.0, None, Nonlinear;
         /// Bristle damping at high speed.
         bristle_damping: "a4" ["T s/X"] 0.0 .. 100.0, start 0.0, Damping, Rate;
@@ -23,9 +25,9 @@ parameters! {
         sign_steepness: "a5" ["s/X"] 1.0 .. 1e6, start 1e3, InverseSpeed, Nonlinear;
         /// Dry friction at rest.
         coulomb_friction: "a6" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// What dry friction grows by at high speed.
+        /// Increase of dry friction at high speed.
         dry_growth: "a7" ["T"] 0.0 .. 1e3, start 0.1, Torque, Dry;
-        /// How fast it grows with speed.
+        /// How fast it increases with speed.
         dry_growth_rate: "a8" ["s/X"] 0.0 .. 1e3, start 1.0, InverseSpeed, Nonlinear;
         /// Torque per speed.
         viscous_friction: "a9" ["T s/X"] -100.0 .. 100.0, start 0.1, Damping, Rate;
@@ -41,7 +43,7 @@ impl<S: Real> IndriB<S> {
         arctangent_sign(velocity, self.sign_steepness)
     }
 
-    /// `f`; where it is beyond any use next to rest, nothing slips.
+    /// `f`; 0 where it is not finite close to rest, where there is no slip.
     #[inline]
     fn damping(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> S {
         let unit = constants.largest_velocity / constants.largest_acceleration;
@@ -49,7 +51,7 @@ impl<S: Real> IndriB<S> {
         let slowest = S::Plain::from_f64(SLOWEST);
         let speed = S::Plain::choose(speed.is_above(slowest.plain()), speed, slowest);
         let ratio = (sample.acceleration * unit).abs() / speed;
-        // Beyond this ratio the square overflows in single precision and the term is nothing.
+        // Above this ratio the square overflows in single precision; the term is then negligible.
         let most = S::Plain::from_f64(1e15);
         let ratio = S::Plain::choose(ratio.is_below(most.plain()), ratio, most);
         let fall = self.acceleration_weight.scale(ratio * ratio).shift(S::Plain::one()).sqrt();

@@ -1,3 +1,5 @@
+//! Static friction map of a direct-drive arm (Indri et al., eqs 3, 6, 7).
+
 use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
@@ -6,17 +8,17 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Two exponentials of speed and a quadratic, a set of coefficients for each direction.
+    /// Two exponentials of speed and a quadratic, with separate coefficients for each direction.
     IndriStatic {
         /// Dry friction between the two exponentials, while moving forward.
         coulomb_friction_forward: "c0_plus" ["T"] -10.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction that dies out with speed.
+        /// Dry friction that decays with speed.
         stribeck_height_forward: "c1_plus" ["T"] -10.0 .. 10.0, start 0.2, Torque, Dry;
         /// Dry friction that builds up with speed.
         coulomb_rise_forward: "c2_plus" ["T"] -10.0 .. 10.0, start 0.0, Torque, Dry;
         /// Torque per speed.
         viscous_friction_forward: "c3_plus" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
-        /// Torque per square of speed, of the same sign either way.
+        /// Torque per square of speed, with the same sign in both directions.
         quadratic_friction_forward: "c4_plus" ["T s2/X2"]
             -10.0 .. 10.0, start 0.0, SquareDamping, Rate;
         /// Speed at which the first exponential has fallen to 1/e.
@@ -25,13 +27,13 @@ parameters! {
         rise_velocity_forward: "w2_plus" ["X/s"] 0.002 .. 10.0, start 0.2, Speed, Nonlinear;
         /// Dry friction between the two exponentials, while moving backward.
         coulomb_friction_backward: "c0_minus" ["T"] -10.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction that dies out with speed.
+        /// Dry friction that decays with speed.
         stribeck_height_backward: "c1_minus" ["T"] -10.0 .. 10.0, start 0.2, Torque, Dry;
         /// Dry friction that builds up with speed.
         coulomb_rise_backward: "c2_minus" ["T"] -10.0 .. 10.0, start 0.0, Torque, Dry;
         /// Torque per speed.
         viscous_friction_backward: "c3_minus" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
-        /// Torque per square of speed, of the same sign either way.
+        /// Torque per square of speed, with the same sign in both directions.
         quadratic_friction_backward: "c4_minus" ["T s2/X2"]
             -10.0 .. 10.0, start 0.0, SquareDamping, Rate;
         /// Speed at which the first exponential has fallen to 1/e.

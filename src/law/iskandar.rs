@@ -1,3 +1,6 @@
+//! Stribeck curve and a power of speed with coefficients quadratic in temperature (Iskandar and
+//! Wolf 2019).
+
 use super::FrictionLaw;
 use super::curves::{gaussian_curve, quadratic, signed_power};
 use crate::constants::Constants;
@@ -8,31 +11,31 @@ use crate::table::{Channel, LawInfo, Parameters, parameters};
 parameters! {
     /// Stribeck curve and a power of speed, their coefficients quadratic in temperature.
     Iskandar {
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "a1" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Dry friction in full sliding at 0 degC.
         coulomb_friction: "a2" ["T"] -50.0 .. 50.0, start 0.5, Torque, Dry;
-        /// Its slope with temperature there.
+        /// Its linear coefficient in temperature.
         coulomb_friction_slope: "a3" ["T/K"] -5.0 .. 5.0, start 0.0, Torque, Dry;
-        /// Its square in temperature.
+        /// Its quadratic coefficient in temperature.
         coulomb_friction_square: "a4" ["T/K2"] -0.1 .. 0.1, start 0.0, Torque, Dry;
         /// Stribeck velocity at 0 degC.
         stribeck_velocity: "a5" ["X/s"] -5.0 .. 5.0, start 0.1, Speed, Nonlinear;
-        /// Its slope with temperature there.
+        /// Its linear coefficient in temperature.
         stribeck_velocity_slope: "a6" ["X/s/K"] -0.25 .. 0.25, start 0.0, Speed, Nonlinear;
-        /// Its square in temperature.
+        /// Its quadratic coefficient in temperature.
         stribeck_velocity_square: "a7" ["X/s/K2"] -0.005 .. 0.005, start 0.0, Speed, Nonlinear;
         /// Torque per power of speed at 0 degC.
         power_friction: "a8" ["T (s/X)^dv"] -100.0 .. 100.0, start 0.1, RootDamping, Rate;
-        /// Its slope with temperature there.
+        /// Its linear coefficient in temperature.
         power_friction_slope: "a9" ["T (s/X)^dv/K"] -5.0 .. 5.0, start 0.0, RootDamping, Rate;
-        /// Its square in temperature.
+        /// Its quadratic coefficient in temperature.
         power_friction_square: "a10" ["T (s/X)^dv/K2"] -0.1 .. 0.1, start 0.0, RootDamping, Rate;
         /// Exponent dv of speed at 0 degC.
         power_exponent: "a11" ["1"] 0.0 .. 3.0, start 1.0, None, Nonlinear;
-        /// Its slope with temperature there.
+        /// Its linear coefficient in temperature.
         power_exponent_slope: "a12" ["1/K"] -0.02 .. 0.02, start 0.0, None, Nonlinear;
-        /// Its square in temperature.
+        /// Its quadratic coefficient in temperature.
         power_exponent_square: "a13" ["1/K2"] -2e-4 .. 2e-4, start 0.0, None, Nonlinear;
     }
 }
@@ -58,8 +61,8 @@ impl<S: Real> FrictionLaw<S> for Iskandar<S> {
         ],
     };
 
-    /// At the temperatures where `vs` crosses zero no Stribeck friction is left, the limit from
-    /// either side.
+    /// At temperatures where `vs` crosses zero there is no Stribeck friction, the limit from both
+    /// sides.
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;

@@ -1,3 +1,5 @@
+//! A Stribeck law for each combination of signs of velocity and acceleration (Karahan and Karci).
+
 use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
@@ -6,15 +8,15 @@ use crate::scalar::{Mask, Real};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
-    /// A Stribeck law for each of the four sign combinations of velocity and acceleration.
+    /// A Stribeck law for each of the four combinations of signs of velocity and acceleration.
     ///
-    /// Taken from its description in the UR5e review, section 2.1: a decreasing exponential, each
-    /// parameter defined for the four conditions. The exponent, which the description does not
-    /// give, is the usual 2; where the acceleration is 0 the joint counts as accelerating.
+    /// Taken from its description in the UR5e review, section 2.1: a decreasing exponential, with
+    /// each parameter defined for the four conditions. The description does not give the exponent;
+    /// the usual 2 is used. Where the acceleration is 0 the joint counts as accelerating.
     KarahanKarci {
         /// Dry friction in full sliding, v > 0, a >= 0.
         coulomb_friction_forward_accelerating: "Fc_pp" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, v > 0, a >= 0.
+        /// Dry friction at break-away, v > 0, a >= 0.
         static_friction_forward_accelerating: "Fs_pp" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Torque per speed, v > 0, a >= 0.
         viscous_friction_forward_accelerating: "Fv_pp" ["T s/X"]
@@ -24,7 +26,7 @@ parameters! {
             0.002 .. 10.0, start 0.1, Speed, Nonlinear;
         /// Dry friction in full sliding, v > 0, a < 0.
         coulomb_friction_forward_decelerating: "Fc_pm" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, v > 0, a < 0.
+        /// Dry friction at break-away, v > 0, a < 0.
         static_friction_forward_decelerating: "Fs_pm" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Torque per speed, v > 0, a < 0.
         viscous_friction_forward_decelerating: "Fv_pm" ["T s/X"]
@@ -34,7 +36,7 @@ parameters! {
             0.002 .. 10.0, start 0.1, Speed, Nonlinear;
         /// Dry friction in full sliding, v < 0, a <= 0.
         coulomb_friction_backward_accelerating: "Fc_mm" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, v < 0, a <= 0.
+        /// Dry friction at break-away, v < 0, a <= 0.
         static_friction_backward_accelerating: "Fs_mm" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Torque per speed, v < 0, a <= 0.
         viscous_friction_backward_accelerating: "Fv_mm" ["T s/X"]
@@ -44,7 +46,7 @@ parameters! {
             0.002 .. 10.0, start 0.1, Speed, Nonlinear;
         /// Dry friction in full sliding, v < 0, a > 0.
         coulomb_friction_backward_decelerating: "Fc_mp" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, v < 0, a > 0.
+        /// Dry friction at break-away, v < 0, a > 0.
         static_friction_backward_decelerating: "Fs_mp" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Torque per speed, v < 0, a > 0.
         viscous_friction_backward_decelerating: "Fv_mp" ["T s/X"]

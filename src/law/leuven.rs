@@ -1,3 +1,5 @@
+//! The modified Leuven law (Lampaert, Swevers and Al-Bender 2002).
+
 use super::FrictionLaw;
 use super::elements::{self, ElementParameters};
 use crate::constants::Constants;
@@ -7,7 +9,7 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, ParameterInfo, Parameters, Presence, parameters};
 
 parameters! {
-    /// What the elements of a Leuven law share.
+    /// The parameters that all elements of the Leuven law share.
     Shared {
         /// Torque per deflection rate.
         bristle_damping: "s1" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;

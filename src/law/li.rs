@@ -1,3 +1,5 @@
+//! Load squared, powers of speed and temperature (Li et al. 2024).
+
 use super::FrictionLaw;
 use super::curves::{signed_power, signed_root};
 use crate::constants::Constants;
@@ -6,7 +8,7 @@ use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, Pole, parameters};
 
 parameters! {
-    /// Offset, Coulomb friction with the square of the load, two powers of speed, one of them a
+    /// Offset, Coulomb friction with the square of the load, and two powers of speed, one of them a
     /// rational function of temperature.
     Li {
         /// Constant torque.
@@ -17,11 +19,11 @@ parameters! {
         power_friction: "a3" ["T (s/X)^a4"] 0.0 .. 1000.0, start 0.1, RootDamping, Rate;
         /// Exponent of speed.
         power_exponent: "a4" ["1"] 0.05 .. 3.0, start 1.0, None, Nonlinear;
-        /// Torque per root of speed, but for the next two.
+        /// Torque per root of speed, without the next two terms.
         root_friction: "a5" ["T (s/X)^(1/2)"] -100.0 .. 100.0, start 0.0, RootDamping, Rate;
-        /// What temperature adds to it.
+        /// Its increase per kelvin.
         root_friction_slope: "a6" ["T (s/X)^(1/2)/K"] -5.0 .. 5.0, start 0.0, RootDamping, Rate;
-        /// What the inverse cube of temperature adds to it.
+        /// Its increase per inverse cube of temperature.
         root_friction_inverse_cube: "a7" ["T (s/X)^(1/2) K3"]
             -1e6 .. 1e6, start 0.0, RootDamping, Rate;
         /// Dry friction per square of the load.
@@ -53,7 +55,7 @@ impl<S: Real> FrictionLaw<S> for Li<S> {
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let (v, temperature) = (sample.velocity, sample.temperature);
         let inverse = S::Plain::one() / temperature;
-        // One factor at a time: a coefficient of 0 stays 0 however close the pole.
+        // One factor at a time: a coefficient of 0 gives 0 however close the pole is.
         let cold = self.root_friction_inverse_cube.scale(inverse).scale(inverse).scale(inverse);
         let root = self.root_friction + self.root_friction_slope.scale(temperature) + cold;
         Split {

@@ -1,3 +1,5 @@
+//! LuGre (Canudas de Wit et al. 1995).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::dynamics::Bristle;
@@ -6,7 +8,7 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// LuGre: a bristle around a Stribeck curve; the static level is the total.
+    /// LuGre: a bristle with a Stribeck curve; `a5` includes Coulomb friction.
     Lugre {
         /// Torque per deflection before sliding.
         bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
@@ -16,7 +18,7 @@ parameters! {
         viscous_friction: "a3" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Dry friction in full sliding.
         coulomb_friction: "a4" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "a5" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "a6" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;

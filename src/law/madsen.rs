@@ -1,3 +1,5 @@
+//! A Stribeck curve without Coulomb friction, and temperature (Madsen et al. 2021).
+
 use super::FrictionLaw;
 use super::curves::signed_root;
 use crate::constants::Constants;
@@ -6,9 +8,10 @@ use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, Pole, parameters};
 
 parameters! {
-    /// A Stribeck curve down to nothing, a root of speed that depends on temperature, a cubic.
+    /// A Stribeck curve that falls to zero, a root of speed that depends on temperature, and a
+    /// cubic polynomial.
     Madsen {
-        /// Dry friction at the edge of sliding; none is left in full sliding.
+        /// Dry friction at break-away; it falls to zero in full sliding.
         static_friction: "a1" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which dry friction has fallen to 1/e.
         stribeck_velocity: "a2" ["X/s"] 0.002 .. 1000.0, start 1.0, Speed, Nonlinear;
@@ -47,7 +50,7 @@ impl<S: Real> FrictionLaw<S> for Madsen<S> {
         let v = sample.velocity;
         let above = sample.temperature - constants.base_temperature;
         let inverse = S::Plain::one() / above;
-        // One factor at a time: a coefficient of 0 stays 0 however close the pole.
+        // One factor at a time: a coefficient of 0 gives 0 however close the pole is.
         let cold = self.root_friction_inverse_cube.scale(inverse).scale(inverse).scale(inverse);
         let root = self.root_friction_slope.scale(above) + cold;
         Split {

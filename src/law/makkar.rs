@@ -1,3 +1,5 @@
+//! Stribeck curve and Coulomb friction as hyperbolic tangents (Makkar et al. 2005).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split};
@@ -5,7 +7,8 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Hyperbolic tangents: a Stribeck curve between two of them, Coulomb friction, viscous.
+    /// Hyperbolic tangents: a Stribeck curve as the difference of two, Coulomb friction; and
+    /// viscous friction.
     Makkar {
         /// Torque of the Stribeck curve between its rise and its fall.
         stribeck_height: "a1" ["T"] -10.0 .. 10.0, start 0.2, Torque, Dry;
@@ -35,8 +38,8 @@ impl<S: Real> FrictionLaw<S> for Makkar<S> {
         captures: &["coulomb", "viscous", "stribeck"],
     };
 
-    /// The signs that are smoothed are `tanh(a2 v)` and `tanh(a5 v)`; `tanh(a3 v)` is the fall of
-    /// the Stribeck curve and stays in the magnitude.
+    /// The smoothed signs are `tanh(a2 v)` and `tanh(a5 v)`; `tanh(a3 v)` is the fall of the
+    /// Stribeck curve and stays in the magnitude.
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;

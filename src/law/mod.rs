@@ -1,10 +1,10 @@
-//! Friction laws, one file each: parameters, table and formula.
+//! Friction laws, one per file: parameters, table and formula.
 //!
-//! A new law is one file here and one row in [`crate::catalog`].
+//! A new law is one file here and one entry in [`crate::catalog`].
 //!
-//! Bounds keep dry friction positive, but not where the paper's coefficients need either sign:
+//! Bounds keep dry friction positive, except where the paper's coefficients need both signs:
 //! `indri_a`, `makkar`, `bittencourt_b`, `m_star`, `hao_b`, `iskandar`, `simoni` and `indri_static`
-//! can take it below zero outside the data. A bristle around such a law is refused there.
+//! can have negative dry friction outside the data. There a bristle for such a law is refused.
 
 mod bam;
 mod bittencourt_2010;
@@ -82,18 +82,18 @@ use crate::sample::{Sample, Split};
 use crate::scalar::{Real, Scalar};
 use crate::table::{LawInfo, Parameters};
 
-/// What a file in this folder provides.
+/// The interface of a law.
 pub trait FrictionLaw<S: Real>: Parameters<S> {
     /// The law's table.
     const INFO: LawInfo;
 
-    /// What the state of a law with a memory consists of.
+    /// The kind of state of a law with memory.
     const MEMORY: Memory = Memory::Deflection;
 
-    /// The torque at one instant, taken apart: in steady sliding where the law has a memory.
+    /// The torque at one instant by its parts; in steady sliding if the law has memory.
     fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S>;
 
-    /// The bristle that its state is at this sample, where it is one.
+    /// The bristle at this sample, if the state is a bristle.
     #[inline]
     fn bristle(
         &self,
@@ -103,7 +103,7 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
         None
     }
 
-    /// The deflection that its state consists of at this sample, where it is a single one.
+    /// The equation of the deflection at this sample, if the state is a single deflection.
     #[inline]
     fn deflection(
         &self,
@@ -116,12 +116,12 @@ pub trait FrictionLaw<S: Real>: Parameters<S> {
         Some(self.bristle(sample, constants)?.deflection(sample.velocity))
     }
 
-    /// Steps over an interval over which the dry magnitude `dry` is held. `split` is that of the
-    /// sample, with what effects have added; its dry magnitude is another where a mean velocity is
-    /// held: the state tends to it towards the end.
+    /// Steps over an interval in which the dry magnitude `dry` is constant. `split` belongs to the
+    /// sample and includes the effects; if the interval has a mean velocity its dry magnitude
+    /// differs from `dry`, and the state follows it towards the end.
     ///
-    /// A law whose `captures` name `presliding` has a memory: it is a bristle or steps by itself; in
-    /// all others dry friction acts along the sign of the velocity.
+    /// A law whose `captures` contain `presliding` has memory: it has a bristle or overrides this
+    /// function. In all others dry friction acts along the sign of the velocity.
     #[inline]
     fn step(
         &self,

@@ -1,3 +1,6 @@
+//! Coulomb friction with the square of the load, and a root of speed with temperature
+//! (Nevmerzhitskiy et al. 2019).
+
 use super::FrictionLaw;
 use super::curves::signed_root;
 use crate::constants::Constants;
@@ -6,17 +9,18 @@ use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Coulomb friction with the square of the load, a root of speed that thins with temperature.
+    /// Coulomb friction with the square of the load, and a root of speed that falls with
+    /// temperature.
     Nevmerzhitskiy {
         /// Dry friction without load.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
         /// Dry friction per square of the load.
         load_square: "a2" ["1/T"] 0.0 .. 10.0, start 0.01, InverseTorque, Dry;
-        /// Torque per root of speed while hot.
+        /// Torque per root of speed at high temperature.
         root_friction: "a3" ["T (s/X)^(1/2)"] 0.0 .. 100.0, start 0.1, RootDamping, Rate;
-        /// Torque per root of speed above that at 0 degC.
+        /// Additional torque per root of speed at 0 degC.
         root_friction_cold: "a4" ["T (s/X)^(1/2)"] 0.0 .. 50.0, start 0.1, RootDamping, Rate;
-        /// Relative fall of that per kelvin.
+        /// Relative decrease of that per kelvin.
         thinning: "a5" ["1/K"] 0.001 .. 0.3, start 0.03, None, Nonlinear;
     }
 }

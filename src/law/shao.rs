@@ -1,3 +1,5 @@
+//! Coulomb friction with a smoothed sign (Shao et al. 2023).
+
 use super::FrictionLaw;
 use crate::constants::Constants;
 use crate::sample::{Sample, Split, arctangent_sign};

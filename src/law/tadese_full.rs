@@ -1,3 +1,5 @@
+//! Temperature, load and direction in one dynamic law (Tadese et al. 2021).
+
 use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
@@ -8,7 +10,7 @@ use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
     /// A bristle of constant strength per direction, with an algebraic thermal part per direction
-    /// and an algebraic load part per quadrant, which jumps at rest.
+    /// and an algebraic load part per quadrant that jumps at rest.
     TadeseFull {
         /// Torque per deflection before sliding.
         bristle_stiffness: "s0" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
@@ -20,7 +22,7 @@ parameters! {
         coulomb_friction_forward: "Fc_plus" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
         /// Dry friction, v < 0.
         coulomb_friction_backward: "Fc_minus" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// What the viscous part tends to at 0 degC, v > 0.
+        /// Limit of the viscous part at high speed, at 0 degC, v > 0.
         viscous_level_forward: "s20_plus" ["T"] 0.0 .. 20.0, start 0.5, Torque, Rate;
         /// Change of that level with temperature, v > 0.
         viscous_level_slope_forward: "s2T_plus" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Rate;
@@ -28,7 +30,7 @@ parameters! {
         viscous_speed_forward: "s30_plus" ["X/s"] 0.0 .. 20.0, start 0.5, Speed, Nonlinear;
         /// Change of that speed with temperature, v > 0.
         viscous_speed_slope_forward: "s3T_plus" ["X/s/K"] -0.5 .. 0.5, start 0.0, Speed, Nonlinear;
-        /// What the viscous part tends to at 0 degC, v < 0.
+        /// Limit of the viscous part at high speed, at 0 degC, v < 0.
         viscous_level_backward: "s20_minus" ["T"] 0.0 .. 20.0, start 0.5, Torque, Rate;
         /// Change of that level with temperature, v < 0.
         viscous_level_slope_backward: "s2T_minus" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Rate;
@@ -37,46 +39,46 @@ parameters! {
         /// Change of that speed with temperature, v < 0.
         viscous_speed_slope_backward: "s3T_minus" ["X/s/K"]
             -0.5 .. 0.5, start 0.0, Speed, Nonlinear;
-        /// What a load adds at high speed whatever its size, v > 0, tl > 0.
+        /// Torque that any load adds at high speed, v > 0, tl > 0.
         load_rise_forward_motoring: "g1_1" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// How fast that rises with speed, v > 0, tl > 0.
         load_rise_rate_forward_motoring: "g2_1" ["s/X"]
             0.01 .. 1e3, start 3.0, InverseSpeed, Nonlinear;
-        /// What a load adds whatever its size and the speed, v > 0, tl > 0.
+        /// Torque that any load adds at any speed, v > 0, tl > 0.
         load_jump_forward_motoring: "g3_1" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// Torque per load near rest, v > 0, tl > 0.
         load_friction_forward_motoring: "l1_1" ["1"] -10.0 .. 10.0, start 0.05, None, Rate;
         /// Growth of that with speed, v > 0, tl > 0.
         load_viscous_forward_motoring: "l2_1" ["s/X"] -10.0 .. 10.0, start 0.0, InverseSpeed, Rate;
-        /// What a load adds at high speed whatever its size, v < 0, tl > 0.
+        /// Torque that any load adds at high speed, v < 0, tl > 0.
         load_rise_backward_generating: "g1_2" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// How fast that rises with speed, v < 0, tl > 0.
         load_rise_rate_backward_generating: "g2_2" ["s/X"]
             0.01 .. 1e3, start 3.0, InverseSpeed, Nonlinear;
-        /// What a load adds whatever its size and the speed, v < 0, tl > 0.
+        /// Torque that any load adds at any speed, v < 0, tl > 0.
         load_jump_backward_generating: "g3_2" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// Torque per load near rest, v < 0, tl > 0.
         load_friction_backward_generating: "l1_2" ["1"] -10.0 .. 10.0, start -0.05, None, Rate;
         /// Growth of that with speed, v < 0, tl > 0.
         load_viscous_backward_generating: "l2_2" ["s/X"]
             -10.0 .. 10.0, start 0.0, InverseSpeed, Rate;
-        /// What a load adds at high speed whatever its size, v < 0, tl < 0.
+        /// Torque that any load adds at high speed, v < 0, tl < 0.
         load_rise_backward_motoring: "g1_3" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// How fast that rises with speed, v < 0, tl < 0.
         load_rise_rate_backward_motoring: "g2_3" ["s/X"]
             0.01 .. 1e3, start 3.0, InverseSpeed, Nonlinear;
-        /// What a load adds whatever its size and the speed, v < 0, tl < 0.
+        /// Torque that any load adds at any speed, v < 0, tl < 0.
         load_jump_backward_motoring: "g3_3" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// Torque per load near rest, v < 0, tl < 0.
         load_friction_backward_motoring: "l1_3" ["1"] -10.0 .. 10.0, start 0.05, None, Rate;
         /// Growth of that with speed, v < 0, tl < 0.
         load_viscous_backward_motoring: "l2_3" ["s/X"] -10.0 .. 10.0, start 0.0, InverseSpeed, Rate;
-        /// What a load adds at high speed whatever its size, v > 0, tl < 0.
+        /// Torque that any load adds at high speed, v > 0, tl < 0.
         load_rise_forward_generating: "g1_4" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// How fast that rises with speed, v > 0, tl < 0.
         load_rise_rate_forward_generating: "g2_4" ["s/X"]
             0.01 .. 1e3, start 3.0, InverseSpeed, Nonlinear;
-        /// What a load adds whatever its size and the speed, v > 0, tl < 0.
+        /// Torque that any load adds at any speed, v > 0, tl < 0.
         load_jump_forward_generating: "g3_4" ["T"] -10.0 .. 10.0, start 0.0, Torque, Rate;
         /// Torque per load near rest, v > 0, tl < 0.
         load_friction_forward_generating: "l1_4" ["1"] -10.0 .. 10.0, start -0.05, None, Rate;

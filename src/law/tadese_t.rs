@@ -1,3 +1,5 @@
+//! LuGre with temperature (Tadese et al. 2022).
+
 use super::FrictionLaw;
 use super::curves::{gaussian_curve, saturation};
 use crate::constants::Constants;
@@ -15,11 +17,11 @@ parameters! {
         bristle_damping: "a2" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;
         /// Dry friction in full sliding.
         coulomb_friction: "a3" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "a4" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "a5" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
-        /// What the viscous part tends to at 0 degC.
+        /// Limit of the viscous part at high speed, at 0 degC.
         viscous_level: "a6" ["T"] -10.0 .. 10.0, start 0.5, Torque, Rate;
         /// Change of that level with temperature.
         viscous_level_slope: "a7" ["T/K"] -0.2 .. 0.2, start 0.0, Torque, Rate;

@@ -1,3 +1,5 @@
+//! Stribeck curve and a power of speed (Wolf and Iskandar 2018).
+
 use super::FrictionLaw;
 use super::curves::signed_power;
 use crate::constants::Constants;
@@ -6,11 +8,11 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// Stribeck curve and a power of speed; the static level is the total.
+    /// Stribeck curve and a power of speed; `a2` includes Coulomb friction.
     Wolf {
         /// Dry friction in full sliding.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "a2" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "a3" ["X/s"] 0.002 .. 10.0, start 0.1, Speed, Nonlinear;

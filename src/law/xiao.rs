@@ -1,3 +1,5 @@
+//! LuGre with load per quadrant (Xiao et al. 2019).
+
 use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
@@ -9,8 +11,8 @@ use crate::table::{Channel, LawInfo, Parameters, parameters};
 parameters! {
     /// LuGre with a load term whose coefficient depends on the signs of load and velocity.
     ///
-    /// Taken from its description in the UR5e review, section 2.2: a fourth term for the load, one
-    /// coefficient for each combination of signs, algebraic as in the law of Tadese et al.
+    /// Taken from its description in the UR5e review, section 2.2: a fourth term for the load, with
+    /// one coefficient per combination of signs, algebraic as in the law of Tadese et al.
     Xiao {
         /// Torque per deflection before sliding.
         bristle_stiffness: "s0" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
@@ -20,7 +22,7 @@ parameters! {
         viscous_friction: "s2" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Dry friction in full sliding.
         coulomb_friction: "Fc" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "Fs" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;

@@ -1,3 +1,5 @@
+//! A power of speed, and a transition from static to Coulomb friction (Zhou et al. 2024).
+
 use super::FrictionLaw;
 use super::curves::{saturation, signed_power};
 use crate::constants::Constants;
@@ -6,7 +8,7 @@ use crate::scalar::Real;
 use crate::table::{LawInfo, Parameters, parameters};
 
 parameters! {
-    /// A power of speed, Coulomb friction that takes over from static friction.
+    /// A power of speed, and static friction that changes into Coulomb friction with speed.
     Zhou {
         /// Torque per power of speed.
         power_friction: "a1" ["T (s/X)^a2"] 0.0 .. 1000.0, start 0.1, RootDamping, Rate;
@@ -18,7 +20,7 @@ parameters! {
         stribeck_velocity: "a4" ["X/s"] 0.002 .. 10.0, start 0.1, Speed, Nonlinear;
         /// Exponent of the Stribeck curve.
         stribeck_exponent: "a5" ["1"] 0.3 .. 4.0, start 2.0, None, Nonlinear;
-        /// Dry friction at the edge of sliding, Coulomb friction included.
+        /// Dry friction at break-away, Coulomb friction included.
         static_friction: "a6" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
     }
 }
@@ -36,8 +38,8 @@ impl<S: Real> FrictionLaw<S> for Zhou<S> {
         captures: &["coulomb", "viscous", "stribeck", "nonlinear_viscous"],
     };
 
-    /// Written as the formula stands, and not as a height above Coulomb friction, so that a small
-    /// static friction keeps its digits beside a large Coulomb friction.
+    /// In the form of the formula, not with a height above Coulomb friction, so that a small static
+    /// friction keeps its digits next to a large Coulomb friction.
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
