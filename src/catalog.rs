@@ -1,4 +1,4 @@
-//! The one list of laws and effects; everything else about them stands in their own files.
+//! The list of laws and effects. Everything else about a law or effect is in its own file.
 
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
@@ -10,7 +10,7 @@ use crate::table::{EffectInfo, LawInfo, Parameters, Presence};
 
 macro_rules! laws {
     ($($law:ident),+; $own:ident) => {
-        /// Which law.
+        /// The id of a law.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs)]
         pub enum LawId {
@@ -18,7 +18,7 @@ macro_rules! laws {
             $own,
         }
 
-        /// A law with its parameters.
+        /// A law with its parameter values.
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(missing_docs)]
         pub enum Law<S> {
@@ -27,7 +27,7 @@ macro_rules! laws {
         }
 
         impl LawId {
-            /// Every law of the catalog: not the one that a formula writes.
+            /// All laws of the catalog, without that of a formula.
             pub const ALL: &[Self] = &[$(Self::$law,)+];
 
             /// Its table.
@@ -39,7 +39,7 @@ macro_rules! laws {
                 }
             }
 
-            /// What its state consists of, if it has a memory.
+            /// The kind of its state, if it has memory.
             #[must_use]
             pub const fn memory(self) -> Memory {
                 match self {
@@ -48,7 +48,7 @@ macro_rules! laws {
                 }
             }
 
-            /// The law with the parameters that `next` yields.
+            /// The law with the parameters that `next` returns.
             #[inline]
             pub fn read<S: Real>(self, next: impl FnMut(Presence) -> S) -> Law<S> {
                 match self {
@@ -59,7 +59,7 @@ macro_rules! laws {
         }
 
         impl<S: Real> Law<S> {
-            /// The torque at one instant, taken apart.
+            /// The torque at one sample, by its parts.
             #[inline(always)]
             pub fn split(
                 &self,
@@ -72,7 +72,8 @@ macro_rules! laws {
                 }
             }
 
-            /// The torque in steady sliding along `direction`: of its parts no more than that needs.
+            /// The torque in steady sliding along `direction`; computes only the parts that this
+            /// needs.
             #[inline]
             pub fn torque(
                 &self,
@@ -86,7 +87,7 @@ macro_rules! laws {
                 }
             }
 
-            /// The bristle that its state is at this sample, where it is one.
+            /// The bristle at this sample, if the state is a bristle.
             #[inline(always)]
             pub fn bristle(
                 &self,
@@ -99,7 +100,7 @@ macro_rules! laws {
                 }
             }
 
-            /// The deflection that its state consists of, where it is a single one.
+            /// The equation of the deflection, if the state is a single deflection.
             #[inline]
             pub fn deflection(
                 &self,
@@ -115,7 +116,7 @@ macro_rules! laws {
                 }
             }
 
-            /// Steps over an interval over which dry friction is held.
+            /// Steps over an interval in which dry friction is constant.
             #[inline]
             pub fn step(
                 &self,
@@ -136,7 +137,7 @@ macro_rules! laws {
 
 macro_rules! effects {
     ($($id:ident: $effect:ident),+ $(,)?) => {
-        /// Which effect.
+        /// The id of an effect.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         #[allow(missing_docs)]
         pub enum EffectId {
@@ -144,7 +145,7 @@ macro_rules! effects {
         }
 
         impl EffectId {
-            /// Every effect, in the order in which they act.
+            /// All effects, in the order in which they act.
             pub const ALL: &[Self] = &[$(Self::$effect,)+];
 
             /// Its table.
@@ -157,7 +158,7 @@ macro_rules! effects {
                 }
             }
 
-            /// Whether it has a state of its own, beside a bristle's.
+            /// Whether it has a state, separate from that of a bristle.
             #[must_use]
             pub const fn has_state(self) -> bool {
                 match self {
@@ -166,7 +167,7 @@ macro_rules! effects {
             }
         }
 
-        /// Effects with their parameters.
+        /// Effects with their parameter values.
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(missing_docs)]
         pub struct Effects<S> {
@@ -175,7 +176,7 @@ macro_rules! effects {
         }
 
         impl<S: Real> Effects<S> {
-            /// The effects of `set`, with the parameters that `next` yields.
+            /// The effects of `set`, with the parameters that `next` returns.
             #[inline]
             pub fn read(set: EffectSet, mut next: impl FnMut(Presence) -> S) -> Self {
                 Self {
@@ -186,19 +187,19 @@ macro_rules! effects {
                 }
             }
 
-            /// Whether there is none.
+            /// Whether there are no effects.
             #[inline]
             pub fn is_empty(&self) -> bool {
                 self.present == EffectSet::NONE
             }
 
-            /// Whether one of them has a state of its own.
+            /// Whether an effect has a state, separate from that of a bristle.
             #[must_use]
             pub fn have_state(&self) -> bool {
                 self.present.iter().any(EffectId::has_state)
             }
 
-            /// Changes the split, each effect in its turn.
+            /// Applies the effects to the split, in their order.
             #[inline]
             pub fn apply(
                 &self,
@@ -211,7 +212,7 @@ macro_rules! effects {
                 })+
             }
 
-            /// As [`apply`](Self::apply), at the end of an interval; steps the states of effects.
+            /// Like [`apply`](Self::apply), at the end of an interval; steps the states of effects.
             #[inline]
             pub fn apply_over(
                 &self,
@@ -225,7 +226,7 @@ macro_rules! effects {
                 })+
             }
 
-            /// What the torque channel shows of `friction`.
+            /// The measured value of a friction torque.
             #[inline]
             pub fn measured(
                 &self,
@@ -240,7 +241,7 @@ macro_rules! effects {
                 friction
             }
 
-            /// The bristle that an effect adds.
+            /// The bristle that an effect adds, if any.
             #[inline]
             pub fn bristle(&self) -> Option<Bristle<S>> {
                 None$(.or_else(|| self.$id.as_ref().and_then(FrictionEffect::bristle)))+
@@ -258,13 +259,13 @@ laws! {
 
 effects! {
     stribeck: Stribeck,
-    // Before all that the curve goes into.
+    // Before all effects that use the Stribeck curve.
     frictional_lag: FrictionalLag,
     load: Load,
     quadrant: Quadrant,
     position: Position,
     direction: Direction,
-    // After all that dry friction depends on: time and temperature change all of it alike.
+    // After all effects on dry friction: time and temperature change all of it.
     drift: Drift,
     temperature_dry: TemperatureDry,
     nonlinear_viscous: NonlinearViscous,

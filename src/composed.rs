@@ -1,4 +1,4 @@
-//! A law and its effects: first which ones ([`Spec`]), then with numbers ([`Composed`]).
+//! A law with effects: a selection ([`Spec`]), and a model with parameter values ([`Composed`]).
 
 use core::fmt;
 
@@ -11,8 +11,7 @@ use crate::sample::{Sample, Split};
 use crate::scalar::{Real, Scalar};
 use crate::table::{self, Channel, ParameterInfo, Pole, Presence, Role};
 
-/// Which law, which terms by formula, which effects, which constants. Displays as
-/// `law+effect+...`.
+/// A selection of law, formula terms, effects and constants. Displays as `law+effect+...`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spec {
     law: LawId,
@@ -22,11 +21,11 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// From ids; the order of effects does not matter. A law of several elements takes their
-    /// number with it: `gms:8`.
+    /// From ids; the order of effects does not matter. The id of a law with several elements
+    /// includes their number: `gms:8`.
     ///
     /// # Errors
-    /// An id that is unknown, an effect named twice or one that the law already has.
+    /// An unknown id, an effect named twice, or an effect that the law already includes.
     pub fn new<'a>(
         law: &'a str,
         effects: impl IntoIterator<Item = &'a str>,
@@ -36,7 +35,7 @@ impl Spec {
         let law = catalog::law(id).ok_or(unknown)?;
         let mut constants = Constants::default();
         if let Some(count) = elements {
-            // A whole number: reading a float would link code that can panic.
+            // Parsed as an integer: parsing a float would link code that can panic.
             let count: u8 = count.parse().map_err(|_| unknown)?;
             if !law.info().constants.contains(&"elements")
                 || constants.set("elements", count.into()) != Some(true)
@@ -48,7 +47,7 @@ impl Spec {
         Ok(Self { law, own: None, effects, constants })
     }
 
-    /// From what it displays as, `law+effect+...`.
+    /// Parses the form that it displays as, `law+effect+...`.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -62,10 +61,10 @@ impl Spec {
         Self::new(law, effects)
     }
 
-    /// A law by formula, with effects by their ids.
+    /// A law given by a formula, with effects by their ids.
     ///
     /// # Errors
-    /// An effect that is unknown or named twice.
+    /// An unknown effect, or an effect named twice.
     pub fn by_formula<'a>(
         formula: &Formula,
         effects: impl IntoIterator<Item = &'a str>,
@@ -75,11 +74,10 @@ impl Spec {
         Ok(Self { law, own: Some(*formula), effects, constants: Constants::default() })
     }
 
-    /// Adds terms by formula to the law, before any effect acts. Their parameters come after those
-    /// of the law.
+    /// Adds formula terms to the law, before effects act. Their parameters follow those of the law.
     ///
     /// # Errors
-    /// All terms by formula together are larger than a formula can be.
+    /// The formula terms together exceed the largest size of a formula.
     pub fn add_terms(&mut self, formula: &Formula) -> Result<(), ModelError<'static>> {
         let joined = match &self.own {
             Some(own) => own.plus(formula).map_err(ModelError::Formula)?,
@@ -92,7 +90,7 @@ impl Spec {
     /// Sets one constant.
     ///
     /// # Errors
-    /// A name that is unknown or a value that cannot be used.
+    /// An unknown name or an inadmissible value.
     pub fn set_constant<'a>(&mut self, name: &'a str, value: f64) -> Result<(), ModelError<'a>> {
         match self.constants.set(name, value) {
             Some(true) => Ok(()),
@@ -107,7 +105,7 @@ impl Spec {
         self.law
     }
 
-    /// The terms by formula, if there are any.
+    /// The formula terms, if there are any.
     #[must_use]
     pub const fn own(&self) -> Option<&Formula> {
         self.own.as_ref()
@@ -119,32 +117,31 @@ impl Spec {
         self.effects
     }
 
-    /// The constants of its law, then those of the effects in their order.
+    /// The constants of the law, then those of the effects in their order.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
         let law = self.law.info().constants.iter();
         let effects = self.effects.iter().flat_map(|effect| effect.info().constants);
         law.chain(effects).filter_map(|&name| Some((name, self.constants.get(name)?)))
     }
 
-    /// Whether law or effects have the effect of this id.
+    /// Whether the law or the effects include the effect with this id.
     #[must_use]
     pub fn has(&self, id: &str) -> bool {
         self.law.info().captures.contains(&id) || self.effects.iter().any(|e| e.info().id == id)
     }
 
-    /// Whether the torque depends on what went before.
+    /// Whether the torque depends on the history.
     #[must_use]
     pub fn has_state(&self) -> bool {
         self.is_presliding() || self.effects.iter().any(EffectId::has_state)
     }
 
-    /// Whether a state stands between dry friction and the torque.
+    /// Whether dry friction acts through a state.
     fn is_presliding(&self) -> bool {
         self.has(EffectId::Presliding.info().id)
     }
 
-    /// What the state between dry friction and the torque consists of; those of effects start by
-    /// themselves.
+    /// The kind of the state through which dry friction acts. States of effects are not included.
     #[must_use]
     pub fn memory(&self) -> Memory {
         match self.law.memory() {
@@ -155,7 +152,7 @@ impl Spec {
         }
     }
 
-    /// Columns it reads.
+    /// The columns that the model reads.
     pub fn channels(&self) -> impl Iterator<Item = Channel> + '_ {
         Channel::ALL.into_iter().filter(|channel| {
             *channel == Channel::Velocity
@@ -165,7 +162,7 @@ impl Spec {
         })
     }
 
-    /// The temperature at which the law has no limit, if there is one (degC).
+    /// The temperature at which the law is singular, if there is one (degC).
     #[must_use]
     pub fn pole(&self) -> Option<f64> {
         self.law.info().pole.map(|pole| match pole {
@@ -174,8 +171,8 @@ impl Spec {
         })
     }
 
-    /// Its parameters: those of the law, those of the terms by formula, then those of the effects
-    /// in the order they act.
+    /// Its parameters: those of the law, those of the formula terms, then those of the effects in
+    /// the order in which they act.
     pub fn parameters(&self) -> impl Iterator<Item = &'static ParameterInfo> + '_ {
         let law = self.law.info().parameters.iter();
         let own = self.own.iter().flat_map(Formula::parameters);
@@ -183,14 +180,15 @@ impl Spec {
         law.chain(own).chain(effects).filter(|parameter| self.includes(parameter.presence))
     }
 
-    /// How many parameters it has.
+    /// Number of parameters.
     #[must_use]
     pub fn parameter_count(&self) -> usize {
         self.parameters().count()
     }
 
-    /// Whether the torque is linear in a parameter, all nonlinear ones held. Where friction depends
-    /// on the motor torque, which itself follows from it, or where that saturates, it is not.
+    /// Whether the torque is linear in a parameter, with all nonlinear ones fixed. It is not where
+    /// friction depends on the motor torque, which itself depends on friction, or where the motor
+    /// torque saturates.
     #[must_use]
     pub fn is_linear(&self, parameter: &ParameterInfo) -> bool {
         let balanced = self.channels().any(|channel| channel == Channel::MotorTorque);
@@ -204,10 +202,10 @@ impl Spec {
         }
     }
 
-    /// The model with these numbers, in the order of [`Spec::parameters`].
+    /// The model with these parameter values, in the order of [`Spec::parameters`].
     ///
     /// # Errors
-    /// A wrong number of values, or a value at which a formula cannot be evaluated.
+    /// A wrong number of values, or a value at which the model cannot be evaluated.
     pub fn with<S: Real>(&self, values: &[S]) -> Result<Composed<S>, ModelError<'static>> {
         table::check(|| self.parameters(), values)?;
         let mut values = values.iter().copied();
@@ -251,7 +249,8 @@ impl fmt::Display for Spec {
     }
 }
 
-/// What stands before a character and what after it. Searches of `core` contain code that can panic.
+/// The text before a character and the text after it. The searches of `core` contain code that can
+/// panic.
 fn cut(text: &str, at: u8) -> (&str, Option<&str>) {
     match text.bytes().position(|byte| byte == at) {
         Some(i) => (text.get(..i).unwrap_or_default(), text.get(i + 1..)),
@@ -259,7 +258,7 @@ fn cut(text: &str, at: u8) -> (&str, Option<&str>) {
     }
 }
 
-/// The effects of these ids, none twice and none that the law has by itself.
+/// The effects with these ids, none of them twice and none that the law includes.
 fn effects_of<'a>(
     law: LawId,
     ids: impl IntoIterator<Item = &'a str>,
@@ -276,7 +275,7 @@ fn effects_of<'a>(
     })
 }
 
-/// A law and its effects with numbers: immutable, its state is kept apart.
+/// A law and its effects with parameter values. Immutable; the state is separate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composed<S: Real> {
     law: Law<S>,
@@ -295,19 +294,19 @@ impl<S: Real> Composed<S> {
         &self.effects
     }
 
-    /// Whether the torque depends on what went before.
+    /// Whether the torque depends on the history.
     #[must_use]
     pub const fn has_state(&self) -> bool {
         self.has_state
     }
 
-    /// What the state between dry friction and the torque consists of.
+    /// The kind of the state through which dry friction acts.
     #[must_use]
     pub const fn memory(&self) -> Memory {
         self.memory
     }
 
-    /// The torque at one instant, taken apart.
+    /// The torque at one sample, by its parts.
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
@@ -315,7 +314,7 @@ impl<S: Real> Composed<S> {
         if self.effects.is_empty() && self.own.is_none() {
             return split;
         }
-        // A copy, so that a law alone need not pass through memory.
+        // A copy, so that a law without effects stays in registers.
         let mut altered = split;
         if let Some(own) = &self.own {
             own.add_to(&mut altered, sample);
@@ -324,7 +323,8 @@ impl<S: Real> Composed<S> {
         altered
     }
 
-    /// The torque of a model without a state as it acts, in steady sliding (T).
+    /// The real torque of a model without state, in steady sliding (T), before effects of the
+    /// torque channel.
     #[inline]
     pub(crate) fn acting_torque(&self, sample: &Sample<S::Plain>) -> S {
         let direction = sample.velocity.sign();
@@ -334,15 +334,15 @@ impl<S: Real> Composed<S> {
         self.split(sample).torque(direction)
     }
 
-    /// The bristle that stands between dry friction and the torque, where it is one.
+    /// The bristle through which dry friction acts, if the state is a bristle.
     #[inline(always)]
     #[must_use]
     pub fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
         self.bristle.or_else(|| self.law.bristle(sample, &self.constants))
     }
 
-    /// The deflection that stands between dry friction and the torque, where its state is a single
-    /// one.
+    /// The equation of the deflection through which dry friction acts, if the state is a single
+    /// deflection.
     #[inline]
     #[must_use]
     pub fn deflection(&self, sample: &Sample<S::Plain>) -> Option<Deflection<S>>
@@ -355,7 +355,7 @@ impl<S: Real> Composed<S> {
         }
     }
 
-    /// As [`split`](Self::split), at the end of an interval; steps the states of effects.
+    /// Like [`split`](Self::split), at the end of an interval; steps the states of effects.
     #[inline]
     fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S> {
         let mut split = self.law.split(&interval.sample, &self.constants);
@@ -366,29 +366,29 @@ impl<S: Real> Composed<S> {
         split
     }
 
-    /// Whether what its state does in a step can be found without it, so that several rows can be
-    /// evaluated side by side: there is none, or that of a bristle alone.
+    /// Whether several samples can be evaluated in parallel, because the effect of a step does not
+    /// depend on the state: without a state, or with only that of a bristle.
     #[must_use]
     pub fn runs_side_by_side(&self) -> bool {
         let is_bristle = || self.bristle(&Sample::at(S::Plain::zero())).is_some();
         !self.has_state || (!self.effects.have_state() && is_bristle())
     }
 
-    /// The torque in steady sliding, where dry friction acts along `sgn v` (T), as it is measured.
+    /// The measured torque in steady sliding, where dry friction acts along `sgn v` (T).
     #[inline]
     #[must_use]
     pub fn static_torque(&self, sample: &Sample<S::Plain>) -> S {
         self.measured(self.split(sample).torque(sample.velocity.sign()), sample)
     }
 
-    /// What the torque channel shows of a friction torque (T).
+    /// The measured value of a friction torque (T): effects of the torque channel are applied.
     #[inline]
     #[must_use]
     pub fn measured(&self, friction: S, sample: &Sample<S::Plain>) -> S {
         self.effects.measured(friction, sample, &self.constants)
     }
 
-    /// The state that a sample held for long leaves behind; at rest one without tension.
+    /// The state after a long time at this sample; a relaxed one at rest.
     #[must_use]
     pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
         let mut state = State::default();
@@ -397,14 +397,15 @@ impl<S: Real> Composed<S> {
         state
     }
 
-    /// Holds `sample` for `dt` (s); a model without a memory has no use for `state` and `dt`.
+    /// Steps over `dt` (s) at `sample`; `state` and `dt` have no influence on a model without
+    /// memory.
     #[inline]
     pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
         self.over(state, &Interval { mean: true, ..Interval::held(*sample, dt) })
     }
 
-    /// As [`step`](Self::step), over an interval. The torque at its end is as it is measured; the
-    /// mean, which does the work, as it acts.
+    /// Like [`step`](Self::step), over an interval. The torque at its end is the measured one; the
+    /// mean is the real one, which does the work.
     #[inline]
     pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
         let split = if self.has_state {

@@ -1,11 +1,11 @@
-//! Fixed numbers of laws and effects: chosen with the recording, kept with the model, never fitted.
+//! Constants of laws and effects: chosen with the recording, stored with the model, never fitted.
 
 use crate::scalar::Real;
 use crate::table::ConstantInfo;
 
 macro_rules! constants {
     ($(#[doc = $description:literal] $field:ident [$unit:literal] = $default:expr, $test:expr;)+) => {
-        /// Constants of a model; those that neither its law nor its effects use are ignored.
+        /// Constants of a model; those that neither its law nor its effects use have no influence.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Constants<S> {
             $(#[doc = $description] pub $field: S,)+
@@ -28,7 +28,7 @@ macro_rules! constants {
         }
 
         impl Constants<f64> {
-            /// The constant of this name.
+            /// The constant with this name.
             #[must_use]
             pub fn get(&self, name: &str) -> Option<f64> {
                 match name {
@@ -37,8 +37,8 @@ macro_rules! constants {
                 }
             }
 
-            /// Sets a constant; `None` if there is none of this name, `Some(false)` if the
-            /// value cannot be used.
+            /// Sets a constant; `None` if the name is unknown, `Some(false)` if the value is
+            /// inadmissible.
             pub fn set(&mut self, name: &str, value: f64) -> Option<bool> {
                 match name {
                     $(stringify!($field) => {
@@ -53,7 +53,7 @@ macro_rules! constants {
                 }
             }
 
-            /// The same constants as another kind of number.
+            /// The same constants in another number type.
             #[inline]
             #[must_use]
             pub fn cast<S: Real>(&self) -> Constants<S> {
@@ -66,9 +66,9 @@ macro_rules! constants {
 constants! {
     /// Temperature at which the temperature factors are 1.
     reference_temperature ["degC"] = 25.0, |_| true;
-    /// Load torque at which every load exponent gives the same friction.
+    /// Load torque at which the load exponent has no influence.
     reference_load ["T"] = 1.0, |x| x > 0.0;
-    /// Speed at which every exponent of speed gives the same.
+    /// Speed at which exponents of speed have no influence.
     reference_velocity ["X/s"] = 1.0, |x| x > 0.0;
     /// Position where the stroke, or a period, starts.
     position_start ["X"] = 0.0, |_| true;
@@ -76,28 +76,28 @@ constants! {
     position_length ["X"] = core::f64::consts::TAU, |x| x > 0.0;
     /// 1 if friction repeats with the length, 0 if the length is the whole stroke.
     position_periodic ["1"] = 1.0, |x| x == 0.0 || x == 1.0;
-    /// Period of a ripple as found beforehand; a fit refines it.
+    /// Estimated period of a ripple; a fit refines it.
     ripple_period ["X"] = 1.0, |x| x > 0.0;
-    /// Time over which drift is counted: that of the recording.
+    /// Duration over which drift is counted: that of the recording.
     duration ["s"] = 3600.0, |x| x > 0.0;
-    /// Torque at which every saturation exponent gives the same excess.
+    /// Torque at which the saturation exponent has no influence.
     reference_torque ["T"] = 1.0, |x| x > 0.0;
-    /// Temperature from which a law counts; outside the data where it has a pole there.
+    /// Origin of temperature of a law; outside the data if the law is singular there.
     base_temperature ["degC"] = 0.0, |_| true;
-    /// Speed over which a law smooths the sign of the velocity.
+    /// Speed over which the law smooths the sign of the velocity.
     smoothing_velocity ["X/s"] = 0.01, |x| x > 0.0;
-    /// Exponent of the Stribeck curve of laws that do not identify it.
+    /// Exponent of the Stribeck curve of laws that do not fit it.
     stribeck_exponent ["1"] = 1.3, |x| x > 0.0;
     /// Largest speed of the motion.
     largest_velocity ["X/s"] = 1.0, |x| x > 0.0;
     /// Largest acceleration of the motion.
     largest_acceleration ["X/s2"] = 1.0, |x| x > 0.0;
-    /// How many elements a law of several has.
+    /// Number of elements of the law.
     elements ["1"] = 4.0, |x| (1.0..=16.0).contains(&x) && x % 1.0 == 0.0;
 }
 
 impl<S: Real> Constants<S> {
-    /// How many elements a law of several has.
+    /// Number of elements of the law.
     #[inline]
     #[must_use]
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]

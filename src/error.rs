@@ -1,4 +1,4 @@
-//! What can be wrong with a model, in one sentence that names the thing and the choices.
+//! Errors of models. Each message is one sentence that names the object and the alternatives.
 
 use core::fmt;
 
@@ -9,30 +9,30 @@ use crate::formula::FormulaError;
 /// Why a model cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ModelError<'a> {
-    /// No law of this id.
+    /// There is no law with this id.
     UnknownLaw(&'a str),
-    /// No effect of this id.
+    /// There is no effect with this id.
     UnknownEffect(&'a str),
     /// The effect is named twice.
     Twice(EffectId),
-    /// The law has this effect by itself.
+    /// The law already includes this effect.
     Captured(LawId, EffectId),
-    /// No constant of this name.
+    /// There is no constant with this name.
     UnknownConstant(&'a str),
-    /// The constant's value cannot be used.
+    /// The value of the constant is inadmissible.
     Constant(&'a str, f64),
     /// The number of parameter values is wrong.
     Count {
-        /// How many the model has.
+        /// Number of parameters of the model.
         expected: usize,
-        /// How many were given.
+        /// Number of values given.
         given: usize,
     },
-    /// A term by formula cannot be used.
+    /// A formula term cannot be used.
     Formula(FormulaError<'a>),
-    /// The formula cannot be evaluated at this value.
+    /// The model cannot be evaluated at this value.
     Value {
-        /// Which parameter.
+        /// The parameter.
         parameter: &'static str,
         /// The value.
         value: f64,

@@ -1,14 +1,15 @@
-//! Friction feedforward in a controller: what to add to the motor torque, whatever the sensors say.
+//! Friction feedforward in a controller: the torque to add to the motor torque, with invalid
+//! readings handled.
 //!
-//! | what comes | what is given | the state |
+//! | reading | torque | state |
 //! |---|---|---|
-//! | a reading | the law's torque at the end of the step, within the limit | goes on |
-//! | the first reading, or the first after a stop | as if its velocity had been held for long | begins anew |
-//! | no reading, NaN, an infinity, a speed that cannot be | the last torque, so many times | stays as it is |
-//! | the same, more often | 0 | forgotten |
+//! | valid | the law's torque at the end of the step, limited | advances |
+//! | the first valid one, or first after a dropout | as after a long time at its velocity | restarts |
+//! | missing, NaN, infinite or too fast | the last torque, up to `held` times | unchanged |
+//! | the same, more often | 0 | discarded |
 //!
-//! Each call takes the same time but for the first after a stop, which takes one step more. The
-//! state only ever sees finite numbers; that of a bristle is within the largest `D/s0`.
+//! Each call takes the same time, except the first after a dropout, which takes one more step. The
+//! state receives finite numbers only; that of a bristle stays within the largest `D/s0`.
 
 use crate::composed::Composed;
 use crate::dynamics::{Interval, LONG, State};
@@ -19,9 +20,9 @@ use crate::sample::Sample;
 use crate::scalar::Scalar;
 use crate::table::Channel;
 
-/// Friction with its parameters, stepped from sample to sample.
+/// Friction with its parameters, evaluated sample by sample.
 pub trait Friction<S: Scalar> {
-    /// The torque (T) at the end of a step of `dt` (s) over which `sample` is held.
+    /// The torque (T) at the end of a step of `dt` (s) at `sample`.
     fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S;
 }
 
@@ -39,40 +40,40 @@ impl<S: Scalar<Plain = S>> Friction<S> for Composed<S> {
     }
 }
 
-/// What a controller allows.
+/// The limits of a controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits<S> {
-    /// Largest torque that is given (T).
+    /// Largest torque (T).
     pub torque: S,
-    /// Largest speed that a joint can have (X/s): a reading beyond it is not believed.
+    /// Largest speed of the joint (X/s): a reading above it is invalid.
     pub speed: S,
-    /// For how many samples in a row without a reading the last torque is given.
+    /// Number of consecutive invalid readings for which the last torque is held.
     pub held: u32,
 }
 
-/// Where a torque comes from.
+/// The origin of a torque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// From the law.
+    /// The law.
     Law,
-    /// From the law, which gives more than is allowed.
+    /// The law, limited.
     Limit,
-    /// From the last reading that could be used.
+    /// The last valid reading.
     Last,
-    /// From nowhere: there is nothing to go by.
+    /// None: no valid reading is recent enough.
     None,
 }
 
-/// What to add to the motor torque.
+/// The torque to add to the motor torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Feed<S> {
     /// The torque (T).
     pub torque: S,
-    /// Where it comes from.
+    /// Its origin.
     pub source: Source,
 }
 
-/// Friction of one joint, sampled with a fixed period.
+/// Friction of one joint, sampled at a fixed period.
 ///
 /// ```
 /// use stribeck::feedforward::{Feedforward, Limits, Source};
@@ -99,7 +100,7 @@ pub struct Feedforward<F, S: Scalar> {
 }
 
 impl<S: Scalar<Plain = S> + PartialOrd, F: Friction<S>> Feedforward<F, S> {
-    /// Friction of a joint of which nothing has been read yet; `period` in s.
+    /// A joint without readings yet; `period` in s.
     ///
     /// # Errors
     /// A period or limit that is not a positive number.
@@ -114,8 +115,8 @@ impl<S: Scalar<Plain = S> + PartialOrd, F: Friction<S>> Feedforward<F, S> {
         Ok(Self { friction, period, limits, state: State::default(), last: None, missed: 0 })
     }
 
-    /// The torque to add until the next sample; `None` where there is no reading. All channels of
-    /// a reading have to be finite: leave those that the law does not read at 0.
+    /// The torque to add until the next sample; `None` for a missing reading. All channels of a
+    /// reading must be finite: leave those that the law does not read at 0.
     #[inline]
     pub fn next(&mut self, reading: Option<&Sample<S>>) -> Feed<S> {
         match reading {
@@ -124,7 +125,7 @@ impl<S: Scalar<Plain = S> + PartialOrd, F: Friction<S>> Feedforward<F, S> {
         }
     }
 
-    /// Its state.
+    /// The state of the law.
     #[must_use]
     pub const fn state(&self) -> &State<S> {
         &self.state
@@ -155,7 +156,7 @@ impl<S: Scalar<Plain = S> + PartialOrd, F: Friction<S>> Feedforward<F, S> {
         Feed { torque, source }
     }
 
-    /// The state of a joint that has had this velocity for long; at rest one without tension.
+    /// The state after a long time at this velocity; a relaxed one at rest.
     #[cold]
     #[inline(never)]
     fn begin(&mut self, sample: &Sample<S>) {

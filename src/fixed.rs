@@ -1,4 +1,4 @@
-//! A law that is chosen when the program is built, for controllers.
+//! A law selected at compile time, for controllers.
 
 use crate::constants::Constants;
 use crate::dynamics::{Interval, State};
@@ -8,9 +8,9 @@ use crate::sample::Sample;
 use crate::scalar::Scalar;
 use crate::table::{self, Presence};
 
-/// One law with its parameters: of the catalog nothing else is linked.
+/// One law with its parameters: no other part of the catalog is linked.
 ///
-/// Gives the bits of [`Composed`](crate::composed::Composed) for a law without effects.
+/// The torque has the bits of [`Composed`](crate::composed::Composed) for a law without effects.
 ///
 /// ```
 /// use stribeck::dynamics::State;
@@ -28,22 +28,22 @@ pub struct FixedLaw<L, S> {
 }
 
 impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> FixedLaw<L, S> {
-    /// A law with the usual constants.
+    /// A law with the default constants.
     #[must_use]
     pub fn new(law: L) -> Self {
         Self::with_constants(law, &Constants::default())
     }
 
-    /// A law with constants of its own.
+    /// A law with these constants.
     #[must_use]
     pub fn with_constants(law: L, constants: &Constants<f64>) -> Self {
         Self { law, constants: constants.cast() }
     }
 
-    /// The law with these numbers, in the order of its table.
+    /// The law with these parameter values, in the order of its table.
     ///
     /// # Errors
-    /// A wrong number of values, or a value at which the formula cannot be evaluated.
+    /// A wrong number of values, or a value at which the law cannot be evaluated.
     pub fn from_values(
         values: &[S],
         constants: &Constants<f64>,
@@ -61,8 +61,8 @@ impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> FixedLaw<L, S> {
         Ok(Self::with_constants(law, constants))
     }
 
-    /// The torque (T) at the end of a step of `dt` (s) over which `sample` is held; a static law has
-    /// no use for `state` and `dt`.
+    /// The torque (T) at the end of a step of `dt` (s) at `sample`; `state` and `dt` have no
+    /// influence on a static law.
     #[inline(always)]
     pub fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
         let interval = Interval::held(*sample, dt);

@@ -1,4 +1,4 @@
-//! What a law sees at one instant, and what it makes of it.
+//! The input of a law at one instant, and its torque by parts.
 
 use crate::scalar::{Mask, Real};
 use crate::table::Channel;
@@ -14,14 +14,14 @@ pub struct Sample<S> {
     pub acceleration: S,
     /// Joint temperature `T` (degC).
     pub temperature: S,
-    /// Load torque `tl` (T): all at the joint that is not friction.
+    /// Load torque `tl` (T): all torque at the joint except friction.
     pub load_torque: S,
-    /// Second derivative of the load torque by time (T/s2).
+    /// Second time derivative of the load torque (T/s2).
     pub load_torque_curvature: S,
     /// Motor torque `tm` (T).
     pub motor_torque: S,
-    /// Torque `te` that the environment exerts on the joint (T): minus the gravity and external
-    /// part of `tl`, without inertia.
+    /// External torque `te` that the environment exerts on the joint (T): minus the gravity and
+    /// external part of `tl`, without inertia.
     pub external_torque: S,
     /// Time since the start of the recording (s).
     pub time: S,
@@ -47,7 +47,7 @@ impl<S: Copy> Sample<S> {
 }
 
 impl<S> Sample<S> {
-    /// From each channel.
+    /// A sample from the value of each channel.
     #[inline]
     #[must_use]
     pub fn of(channel: impl Fn(Channel) -> S) -> Self {
@@ -66,7 +66,7 @@ impl<S> Sample<S> {
 }
 
 impl<S: Real> Sample<S> {
-    /// A sample where only the velocity matters; everything else is zero.
+    /// A sample with this velocity; all other channels are zero.
     #[inline]
     #[must_use]
     pub fn at(velocity: S) -> Self {
@@ -84,8 +84,8 @@ impl<S: Real> Sample<S> {
         }
     }
 
-    /// What holds in the quadrant of velocity and load torque, out of one for each (see
-    /// [`Quadrants`]); at rest and without load, zero.
+    /// The entry of [`Quadrants`] for the signs of velocity and load torque; zero at rest and
+    /// without load.
     #[inline]
     #[must_use]
     pub fn in_quadrant<T: Real<Plain = S, Mask = S::Mask>>(&self, of: &Quadrants<T>) -> T {
@@ -98,7 +98,7 @@ impl<S: Real> Sample<S> {
     }
 }
 
-/// One number for each way that a joint can move and be loaded.
+/// One value for each combination of signs of velocity and load torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadrants<T> {
     /// Forward against the load: motoring.
@@ -111,13 +111,13 @@ pub struct Quadrants<T> {
     pub fourth: T,
 }
 
-/// A friction torque taken apart: dry friction times the direction of motion, a rate-dependent
-/// part and an additive one.
+/// A friction torque by parts: dry friction times the direction of motion, a rate-dependent part
+/// and an additive part.
 ///
-/// The direction is `sgn(v)` in a static law and the bristle's deflection in a dynamic one. Some
-/// laws write dry friction with `atan`, `tanh` or a sigmoid instead of the sign. A static model
-/// takes that torque as it is; a bristle takes its amplitude and drops the smoothing, or it would
-/// leak at rest.
+/// The direction is `sgn(v)` in a static law and the deflection of the bristle in a dynamic one.
+/// Some laws use `atan`, `tanh` or a sigmoid in place of the sign. A static model uses that
+/// smoothed torque; a bristle uses its amplitude without the smoothing, or dry friction would
+/// vanish at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split<S> {
     /// Dry magnitude without the Stribeck part (T).
@@ -128,18 +128,18 @@ pub struct Split<S> {
     pub shape: StribeckCurve<S>,
     /// Dry magnitude that the load adds (T).
     pub load: S,
-    /// Magnitude that dry friction with a smoothed sign tends to (T).
+    /// Limit of the dry friction with a smoothed sign at high speed (T).
     pub smoothed_amplitude: S,
     /// Dry friction with a smoothed sign, the sign included (T).
     pub smoothed_torque: S,
-    /// What vanishes with the velocity and needs no direction, `V(v)` (T).
+    /// Friction that vanishes with the velocity, `V(v)`; its sign is included (T).
     pub rate: S,
-    /// What does not care about motion (T): never dissipation.
+    /// Torque independent of the motion (T): not dissipative.
     pub additive: S,
 }
 
 impl<S: Real> Split<S> {
-    /// No friction at all: what a law fills in.
+    /// No friction, as the initial value of a law.
     #[inline]
     #[must_use]
     pub fn zero() -> Self {
@@ -163,7 +163,7 @@ impl<S: Real> Split<S> {
         self.sharp() + self.smoothed_amplitude
     }
 
-    /// Dry magnitude whose direction is the plain sign of the velocity (T).
+    /// Dry magnitude that is multiplied by the sign of the velocity (T).
     #[inline]
     fn sharp(&self) -> S {
         self.coulomb + self.height * self.shape.value + self.load
@@ -177,12 +177,12 @@ impl<S: Real> Split<S> {
     }
 }
 
-/// Below this value a Stribeck curve has come to its end.
+/// Below this value a Stribeck curve counts as zero.
 const LOWEST: f64 = 1e-30;
 
 /// A Stribeck curve `E = exp(-x)`, `x = |v/vs|^alpha`: 1 at rest, falling to 0 with speed.
 ///
-/// Argument and exponent are kept, so that an effect can move the Stribeck velocity.
+/// Argument and exponent are kept, so that an effect can change the Stribeck velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StribeckCurve<S> {
     /// `E`.
@@ -194,14 +194,14 @@ pub struct StribeckCurve<S> {
 }
 
 impl<S: Real> StribeckCurve<S> {
-    /// The curve with this argument, for a law that has a shorter way to it.
+    /// The curve with this argument.
     #[inline]
     #[must_use]
     pub fn of(argument: S, exponent: S) -> Self {
         Self { value: (-argument).exp(), argument, exponent }
     }
 
-    /// What a law without a Stribeck curve has.
+    /// A constant curve, for a law without a Stribeck curve.
     #[inline]
     #[must_use]
     pub fn flat() -> Self {
@@ -219,11 +219,12 @@ impl<S: Real> StribeckCurve<S> {
         Self { value, argument, exponent: self.exponent }
     }
 
-    /// The curve with the Stribeck velocity multiplied by `factor`, whose sign does not matter.
+    /// The curve with the Stribeck velocity multiplied by `factor`; the sign of `factor` has no
+    /// influence.
     #[inline]
     #[must_use]
     pub fn widened(&self, factor: S) -> Self {
-        // The inverse first: a power that underflows is 0, one that overflows leaves inf/inf.
+        // The reciprocal first: if the power underflows it gives 0, and never inf/inf.
         let narrowed = factor.abs().divide(S::Plain::one()).powf(self.exponent);
         let argument = self.argument;
         let fixed = argument.at_zero().or(argument.is_finite().not());

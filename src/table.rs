@@ -1,4 +1,4 @@
-//! The tables that describe laws and effects, and the macro that ties a table to a struct.
+//! Tables that describe laws and effects, and the macro that generates a table and its struct.
 
 use core::fmt;
 
@@ -21,7 +21,7 @@ pub enum Channel {
 }
 
 impl Channel {
-    /// Every channel.
+    /// All channels.
     pub const ALL: [Self; 9] = [
         Self::Velocity,
         Self::Position,
@@ -34,7 +34,7 @@ impl Channel {
         Self::Time,
     ];
 
-    /// The name users write.
+    /// The name in recordings and commands.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -71,10 +71,10 @@ impl fmt::Display for Channel {
     }
 }
 
-/// What bounds and start of a parameter are multiples of, so that no table depends on units.
+/// The quantity that scales bounds and start of a parameter, so that tables do not depend on units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// As it stands.
+    /// No scaling.
     None,
     /// Largest |velocity| of the recording.
     Speed,
@@ -98,18 +98,18 @@ pub enum Scale {
     InverseTorque,
     /// Torque over the largest |acceleration|.
     Inertia,
-    /// Torque over time: how fast a torque settles, in units of torque times speed over position.
+    /// Torque over time: the rate at which a torque settles, as torque times speed over position.
     TorqueRate,
-    /// The time in which the largest acceleration yields the largest speed.
+    /// The time to reach the largest speed with the largest acceleration.
     Time,
-    /// Its square.
+    /// The square of `Time`.
     SquareTime,
     /// The median time step.
     SamplePeriod,
 }
 
 impl Scale {
-    /// The name users read.
+    /// The name shown to users.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -133,23 +133,23 @@ impl Scale {
     }
 }
 
-/// How a parameter enters the torque when all [`Role::Nonlinear`] ones are held.
+/// How a parameter enters the torque when all [`Role::Nonlinear`] ones are fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Linear in the dry magnitude; linear in the torque unless a bristle stands between.
+    /// Linear in the dry magnitude; linear in the torque unless it acts through a bristle.
     Dry,
     /// Linear in the rate-dependent part (a bristle's damping too, given its state).
     Rate,
     /// Linear in the additive part.
     Additive,
-    /// Anything else.
+    /// Nonlinear.
     Nonlinear,
-    /// Kept at its start in a fit: other parameters carry what it does.
+    /// Fixed at its start in a fit: other parameters have its effect.
     Held,
 }
 
 impl Role {
-    /// The name users read.
+    /// The name shown to users.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -162,20 +162,20 @@ impl Role {
     }
 }
 
-/// When a parameter of an effect is part of a model.
+/// When a parameter is part of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presence {
     /// Always.
     Always,
-    /// If law or effects have a Stribeck curve.
+    /// If the law or an effect has a Stribeck curve.
     WithStribeck,
-    /// If law or effects make dry friction depend on the load.
+    /// If the law or an effect makes dry friction depend on load.
     WithLoad,
-    /// Unless `offset` already explains it.
+    /// Unless the effect `offset` is present, which explains the same torque.
     WithoutOffset,
     /// If the law has at least this many elements.
     Element(u8),
-    /// If a formula mentions it.
+    /// If a formula contains it.
     InFormula,
 }
 
@@ -194,18 +194,18 @@ pub struct ParameterInfo {
     pub upper: f64,
     /// Start of a fit, in multiples of `scale`.
     pub start: f64,
-    /// What the bounds are multiples of.
+    /// The quantity that scales bounds and start.
     pub scale: Scale,
     /// How it enters the torque.
     pub role: Role,
     /// When it is part of the model.
     pub presence: Presence,
-    /// One sentence.
+    /// Description in one sentence.
     pub description: &'static str,
 }
 
 impl ParameterInfo {
-    /// Whether a formula can be evaluated at `value`. Bounds of a fit are narrower: published
+    /// Whether a model can be evaluated at `value`. The bounds of a fit are narrower: published
     /// parameters may lie outside them (even `vs < 0`, of which only `|v/vs|` is used).
     #[must_use]
     pub fn admits(&self, value: f64) -> bool {
@@ -218,10 +218,10 @@ impl ParameterInfo {
     }
 }
 
-/// Whether there is one value for each parameter, at which a formula can be evaluated.
+/// Checks that there is one value for each parameter, at which the model can be evaluated.
 ///
 /// # Errors
-/// A wrong number of values, or a value at which a formula cannot be evaluated.
+/// A wrong number of values, or a value at which the model cannot be evaluated.
 pub(crate) fn check<S: Real, I: Iterator<Item = &'static ParameterInfo>>(
     parameters: impl Fn() -> I,
     values: &[S],
@@ -243,20 +243,20 @@ pub(crate) fn check<S: Real, I: Iterator<Item = &'static ParameterInfo>>(
     Ok(())
 }
 
-/// A fixed number of an effect, chosen with the recording and kept with the model.
+/// A fixed number of a law or an effect, chosen with the recording and stored with the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConstantInfo {
     /// Name.
     pub name: &'static str,
     /// Unit in terms of T, X, s and K.
     pub unit: &'static str,
-    /// Value where none is given.
+    /// Default value.
     pub default: f64,
-    /// One sentence.
+    /// Description in one sentence.
     pub description: &'static str,
 }
 
-/// A temperature at which a law has no limit; it can be used on either side of it alone.
+/// A temperature at which a law is singular; data must lie on one side of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pole {
     /// 0 degC.
@@ -266,7 +266,7 @@ pub enum Pole {
 }
 
 impl Pole {
-    /// The name users read.
+    /// The name shown to users.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -279,7 +279,7 @@ impl Pole {
 /// A friction law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LawInfo {
-    /// Id users write.
+    /// Id.
     pub id: &'static str,
     /// Title.
     pub title: &'static str,
@@ -293,28 +293,28 @@ pub struct LawInfo {
     pub channels: &'static [Channel],
     /// Constants it uses.
     pub constants: &'static [&'static str],
-    /// Temperature at which it has no limit, if there is one.
+    /// Temperature at which it is singular, if there is one.
     pub pole: Option<Pole>,
-    /// Ids of the effects it has by itself.
+    /// Ids of the effects that it includes.
     pub captures: &'static [&'static str],
 }
 
 /// An effect that can be added to a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EffectInfo {
-    /// Id users write.
+    /// Id.
     pub id: &'static str,
-    /// Where the cause lies: friction, measurement, actuator, rigid body, drive.
+    /// Group of the cause: friction, measurement, actuator, rigid body, drive.
     pub group: &'static str,
     /// Title.
     pub title: &'static str,
-    /// The physical cause, in one plain sentence.
+    /// The physical cause in one sentence.
     pub what: &'static str,
     /// Formula in plain text.
     pub formula: &'static str,
     /// What a recording must contain to show it.
     pub needs: &'static str,
-    /// The simpler effect it contains: by itself it would be taken for that one.
+    /// The simpler effect that it extends: alone, it would be mistaken for that one.
     pub beyond: Option<&'static str>,
     /// Columns it reads besides the velocity.
     pub channels: &'static [Channel],
@@ -324,17 +324,17 @@ pub struct EffectInfo {
     pub parameters: &'static [ParameterInfo],
 }
 
-/// A struct of parameters and its table, which `parameters!` writes from one statement.
+/// A struct of parameters and its table, generated by `parameters!`.
 pub trait Parameters<S>: Sized {
-    /// One row a field, in order.
+    /// One entry per field, in order.
     const TABLE: &'static [ParameterInfo];
 
-    /// Fills the fields in order with what `next` yields.
+    /// Reads the fields in order from `next`.
     fn read(next: impl FnMut(Presence) -> S) -> Self;
 }
 
-/// States field, symbol, unit, bounds, start, scale and role of each parameter once; the doc
-/// comment of a field is its description.
+/// Generates a struct of parameters and its table: field, symbol, unit, bounds, start, scale and
+/// role of each parameter; the doc comment of a field is its description.
 macro_rules! parameters {
     (
         $(#[$meta:meta])*

@@ -1,22 +1,22 @@
-//! The loads of a law that depends on the motor torque, where the recording does not give them.
+//! The loads of a law that depends on the motor torque, where the recording does not contain them.
 //!
-//! A fit predicts the motor torque, so that friction which depends on it must not read the
-//! measured one. It follows from the balance `tm = tl + tf(te, tm, v)`, row by row, `tl` being the
-//! load torque and the model's own inertia and gravity. Where friction grows by less than the motor
-//! torque does, `d tf/d tm < 1`, there is exactly one solution. Two other cases exist:
+//! A fit predicts the motor torque, so friction that depends on it must not use the measured one.
+//! It follows from the balance `tm = tl + tf(te, tm, v)` at each sample, with the load torque `tl`
+//! and the model's own inertia and gravity. Where friction grows less than the motor torque, `d
+//! tf/d tm < 1`, there is exactly one solution. There are two other cases:
 //!
 //! - Friction jumps with the motor torque (`bam_m6` where both ends of the gearbox carry the same)
-//!   and the balance lies within the jump: the motor torque stays at the jump, friction is what
+//!   and the balance lies within the jump: the motor torque stays at the jump, and friction
 //!   balances it.
 //! - Friction grows as fast as the motor torque: the joint is self-locking, no motor torque moves
-//!   it and there is no solution. [`torque`](super::torque) refuses such a row. A
-//!   [`gradient`](super::gradient), which a search may ask for at any parameters, goes on with the
-//!   friction at `tm = tl` times [`MOST_AMPLIFIED`]: where the exact solution ends as the slope
-//!   approaches `1 - 1/MOST_AMPLIFIED`, and far from any measurement.
+//!   it and there is no solution. [`torque`](super::torque) refuses such a sample. A
+//!   [`gradient`](super::gradient), which a search may request at any parameters, uses the friction
+//!   at `tm = tl` times [`MOST_AMPLIFIED`]: the limit of the exact solution as the slope approaches
+//!   `1 - 1/MOST_AMPLIFIED`, and far from any measurement.
 //!
-//! Derivatives are those of the implicit function: what a parameter does to friction at fixed loads,
-//! times `1/(1 - d tf/d tm)`. Without an `external_torque`, the environment's torque is minus the
-//! model's own gravity, and moves with its parameters.
+//! Derivatives are those of the implicit function: the derivative of friction at fixed loads, times
+//! `1/(1 - d tf/d tm)`. Without an `external_torque` the external torque is minus the model's own
+//! gravity, and depends on its parameters.
 
 use std::vec::Vec;
 
@@ -29,26 +29,27 @@ use crate::sample::Sample;
 use crate::scalar::{Dual, Real};
 use crate::table::Channel;
 
-/// How much the balance may amplify friction that is there at `tm = tl`; a joint in which it would be
-/// more counts as self-locking.
+/// Largest amplification of the friction at `tm = tl` by the balance; above it a joint counts as
+/// self-locking.
 const MOST_AMPLIFIED: f64 = 100.0;
-/// Steps by Newton's rule before the bracket is halved alone.
+/// Number of Newton steps, after which the bracket is bisected.
 const NEWTON_STEPS: usize = 20;
-/// Steps altogether: halving the widest bracket down to rounding takes fewer.
+/// Number of all steps: bisection of the widest bracket to rounding takes fewer.
 const MOST_STEPS: usize = 120;
-/// How often a bracket is widened: friction that jumps up takes one, self-locking all.
+/// Number of times a bracket is widened: friction that jumps upwards needs one, a self-locking
+/// joint all.
 const MOST_WIDENED: usize = 3;
-/// Rounding errors of a balance, relative to the torques in it.
+/// Rounding error of a balance, relative to its torques.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// What is left where large terms cancel; more at the end of a bracket is a jump.
+/// Residual of a balance where large terms cancel; a larger one at the end of a bracket is a jump.
 const SETTLED: f64 = 1e-9;
 
-/// Derivatives by motor torque and external torque.
+/// Derivatives with respect to motor torque and external torque.
 type Slopes = Dual<f64, 2>;
-/// A model whose parameters are constants while its samples carry [`Slopes`].
+/// A model with constant parameters whose samples carry [`Slopes`].
 type Model = Composed<Dual<Slopes, 0>>;
 
-/// Loads that complete the channels, and how the torque answers to what they depend on.
+/// The missing loads, and the derivatives of the torque with respect to them.
 pub(super) struct Balance {
     motor: Vec<f64>,
     external: Vec<f64>,
@@ -57,29 +58,29 @@ pub(super) struct Balance {
     own_gravity: bool,
 }
 
-/// How the balance of one row ends, and what it makes of the torque at the loads it names.
+/// The result of the balance at one sample, and how the torque depends on the loads there.
 #[derive(Clone, Copy)]
 struct Row {
     outcome: Outcome,
-    /// What multiplies the derivative by a parameter at fixed loads.
+    /// Factor of the derivative at fixed loads.
     gain: f64,
-    /// Derivative by the external torque.
+    /// Derivative with respect to the external torque.
     by_external: f64,
 }
 
-/// How a balance ends.
+/// The result of a balance.
 #[derive(Clone, Copy)]
 enum Outcome {
     /// There is a solution.
     Settled,
-    /// The motor torque stays where friction jumps, and this is the friction.
+    /// The motor torque stays where friction jumps, with this friction.
     Jump(f64),
     /// No motor torque moves the joint.
     Locked,
 }
 
 impl Balance {
-    /// The loads that the model reads and `channels` lack; `None` if they lack none.
+    /// The loads that the model reads and `channels` do not contain; `None` if none are missing.
     pub(super) fn of(
         spec: &Spec,
         values: &[f64],
@@ -122,12 +123,12 @@ impl Balance {
         Ok(Some(balance))
     }
 
-    /// Whether the motor torque has to be solved for.
+    /// Whether the motor torque must be solved for.
     pub(super) fn solves(spec: &Spec, channels: &Channels<'_>) -> bool {
         is_lacking(spec, channels, Channel::MotorTorque)
     }
 
-    /// Whether the model can do without this channel, which it reads.
+    /// Whether a channel that the model reads can be computed if it is missing.
     pub(super) fn provides(spec: &Spec, channel: Channel, columns: &Columns<'_>) -> bool {
         let own = |effect| spec.effects().contains(effect);
         match channel {
@@ -149,7 +150,7 @@ impl Balance {
         }
     }
 
-    /// An error if there is a row that no motor torque moves.
+    /// An error if no motor torque moves the joint at some sample.
     pub(super) fn refuse_locked(&self) -> Result<(), BatchError> {
         let locked = |row: &Row| matches!(row.outcome, Outcome::Locked);
         match self.rows.iter().position(locked) {
@@ -158,7 +159,7 @@ impl Balance {
         }
     }
 
-    /// Turns torques at fixed loads into those of the balance.
+    /// Converts torques at fixed loads into those of the balance.
     pub(super) fn settle(&self, torque: &mut [f64]) {
         for (torque, row) in torque.iter_mut().zip(&self.rows) {
             match row.outcome {
@@ -169,7 +170,8 @@ impl Balance {
         }
     }
 
-    /// Turns derivatives at fixed loads by the `wanted` parameters into those of the balance.
+    /// Converts derivatives at fixed loads with respect to the `wanted` parameters into those of
+    /// the balance.
     pub(super) fn settle_slopes(
         &self,
         spec: &Spec,
@@ -199,7 +201,7 @@ impl Balance {
     }
 }
 
-/// Whether the model reads a channel that is not there.
+/// Whether the model reads a channel that is missing.
 fn is_lacking(spec: &Spec, channels: &Channels<'_>, channel: Channel) -> bool {
     channels.get(channel).is_none() && spec.channels().any(|read| read == channel)
 }
@@ -213,17 +215,17 @@ fn own_gravity_at(model: &Model, position: Slopes) -> Slopes {
     }
 }
 
-/// What the balance of one row is about.
+/// The balance equation of one sample.
 struct OneRow<'m> {
     model: &'m Model,
     sample: Sample<Slopes>,
     load: f64,
 }
 
-/// The balance at some motor torque.
+/// The balance at one motor torque.
 struct Imbalance {
     motor: f64,
-    /// Friction and the model's own rigid body (T).
+    /// Friction and the model's own inertia and gravity (T).
     torque: f64,
     /// `tl + tf - tm` (T).
     excess: f64,
@@ -232,17 +234,17 @@ struct Imbalance {
 }
 
 impl Imbalance {
-    /// Whether only rounding is left.
+    /// Whether the residual is within rounding.
     fn is_settled(&self) -> bool {
         self.excess.abs() <= ROUNDING * (self.torque.abs() + self.motor.abs())
     }
 
-    /// The row that ends here, all that moves the torque at fixed loads amplified by `gain`.
+    /// The result at this motor torque, with derivatives at fixed loads multiplied by `gain`.
     fn ending(&self, outcome: Outcome, gain: f64) -> Row {
         Row { outcome, gain, by_external: gain * self.by_external }
     }
 
-    /// How much more the motor torque must rise than what it has to overcome.
+    /// Increase of the motor torque over the increase of the torque that it overcomes.
     fn amplification(&self) -> f64 {
         1.0 / (1.0 - self.by_motor).max(1.0 / MOST_AMPLIFIED)
     }
@@ -257,11 +259,11 @@ impl OneRow<'_> {
         Imbalance { motor, torque, excess: self.load + torque - motor, by_motor, by_external }
     }
 
-    /// Newton's rule within a bracket.
+    /// Newton's method within a bracket.
     ///
-    /// The excess falls with the motor torque by at least `1/MOST_AMPLIFIED` of it unless friction
-    /// jumps up or the joint is self-locking, so that an excess tells how far away the solution
-    /// can be.
+    /// The excess falls with the motor torque with a slope of at least `1/MOST_AMPLIFIED`, unless
+    /// friction jumps upwards or the joint is self-locking, so an excess bounds the distance of the
+    /// solution.
     fn solve(&self) -> (f64, Row) {
         let unloaded = self.at(self.load);
         let first = self.at(self.load + unloaded.torque);
@@ -292,7 +294,7 @@ impl OneRow<'_> {
         (tried.motor, row)
     }
 
-    /// A jump lies where both ends of the gearbox carry the same, and moves with the external
+    /// A jump is where both ends of the gearbox carry the same torque, and moves with the external
     /// torque, or where the motor torque changes its sign.
     fn jump(&self, motor: f64) -> Row {
         let external = self.sample.external_torque.value;
@@ -302,11 +304,11 @@ impl OneRow<'_> {
     }
 }
 
-/// Motor torques between which the excess changes its sign, once that is known.
+/// An interval of motor torques in which the excess changes its sign, once that is known.
 struct Bracket {
-    /// Here the excess has the sign it had first.
+    /// End at which the excess has its initial sign.
     near: f64,
-    /// Here it has not, or has not been seen yet.
+    /// End at which it has the other sign, or is not yet evaluated.
     far: f64,
     sign: f64,
     is_seen: bool,
@@ -323,7 +325,7 @@ impl Bracket {
         (motor - self.near) * (motor - self.far) < 0.0
     }
 
-    /// Where to look next if nothing better is known.
+    /// The next point if there is no better one.
     fn next(&self) -> f64 {
         if self.is_seen { 0.5 * (self.near + self.far) } else { self.far }
     }

@@ -1,3 +1,5 @@
+//! Columns of a recording as input of a model, their checks, and the time axis.
+
 use core::ops::Range;
 use std::borrow::Cow;
 use std::vec;
@@ -15,7 +17,7 @@ use crate::sample::Sample;
 use crate::scalar::{Real, Scalar};
 use crate::table::Channel;
 
-/// Channels of a recording, one value a row; only the velocity is always needed.
+/// Channels of a recording, one value per sample; only the velocity is always required.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(missing_docs)]
 pub struct Channels<'a> {
@@ -31,7 +33,7 @@ pub struct Channels<'a> {
 }
 
 impl<'a> Channels<'a> {
-    /// The column of a channel, if it is there.
+    /// The column of a channel, if present.
     #[must_use]
     pub fn get(&self, channel: Channel) -> Option<&'a [f64]> {
         match channel {
@@ -47,7 +49,7 @@ impl<'a> Channels<'a> {
         }
     }
 
-    /// The columns of some rows; one that is shorter than they are is empty.
+    /// The columns of some samples; a shorter column becomes empty.
     fn part(&self, rows: &Range<usize>) -> Self {
         let some = |column: &'a [f64]| column.get(rows.clone()).unwrap_or_default();
         Self {
@@ -63,7 +65,7 @@ impl<'a> Channels<'a> {
         }
     }
 
-    /// One row; what is not there is zero.
+    /// One sample; missing channels are zero.
     #[inline]
     pub(super) fn sample<P: Real>(&self, row: usize) -> Sample<P> {
         let at = |column: Option<&[f64]>| match column.and_then(|c| c.get(row)) {
@@ -84,38 +86,39 @@ impl<'a> Channels<'a> {
     }
 }
 
-/// Time since the row before (s).
+/// Time since the previous sample (s).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum TimeStep<'a> {
-    /// Not known: enough for a model without state and delay.
+    /// Unknown: sufficient for a model without state and delay.
     #[default]
     Unknown,
-    /// The same for every row, the first included.
+    /// The same for every sample, the first included.
     Uniform(f64),
-    /// One a row; what is not positive and finite starts a new segment. Where it is infinite the
-    /// row's velocity has been held for long: the joint slides, and its state has settled.
+    /// One per sample; a value that is not positive and finite starts a new segment. An infinite
+    /// value starts one in steady sliding at the sample's velocity, with a settled state.
     Each(&'a [f64]),
 }
 
-/// What a model is run over.
+/// The input of a model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Columns<'a> {
     /// Time step.
     pub dt: TimeStep<'a>,
-    /// The channels as recorded.
+    /// The recorded channels.
     pub channels: Channels<'a>,
-    /// Smoothed channels, which a delay interpolates; where absent the recorded ones are used.
-    /// Interpolating noise would average it, and a delay win where there is none.
+    /// Smoothed channels, which a delay interpolates; recorded ones are used where absent.
+    /// Interpolation averages noise, so a fit would find a delay where there is none.
     pub smooth: Channels<'a>,
-    /// Whether a delay shifts the load torque too: yes where the target is motor torque minus
-    /// load torque, no where the load is a term of the model already or friction was measured. So
-    /// does the balance of a law that depends on the motor torque count it.
+    /// Whether a delay shifts the load torque too: yes if the target is motor torque minus load
+    /// torque, no if the load is a term of the model or friction was measured. The balance of a law
+    /// that depends on the motor torque uses the same rule.
     pub shift_load: bool,
-    /// Mean velocity over each row's step, which carries a bristle; else the row's velocity is
-    /// held over the step. From position differences it does not gather velocity noise.
+    /// Mean velocity over each sample's step, with which a bristle is stepped; otherwise the
+    /// sample's velocity is constant over the step. From position differences it does not
+    /// accumulate velocity noise.
     pub mean_velocity: Option<&'a [f64]>,
-    /// State at the start of every segment, as the model's [`Memory`] says: the deflection of a
-    /// bristle (X) or the forces of the elements (T). Empty for a joint without tension.
+    /// State at the start of every segment, according to the model's [`Memory`]: the deflection of
+    /// a bristle (X) or the forces of the elements (T). Empty for a relaxed state.
     pub state: &'a [f64],
 }
 
@@ -133,7 +136,7 @@ impl Default for Columns<'_> {
 }
 
 impl<'a> Columns<'a> {
-    /// Smoothed where available, as recorded elsewhere.
+    /// Smoothed channels where present, recorded ones elsewhere.
     pub(super) fn smoothed(&self) -> Channels<'a> {
         let (plain, smooth) = (&self.channels, &self.smooth);
         Channels {
@@ -149,7 +152,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// The columns of some rows.
+    /// The columns of some samples.
     pub(crate) fn part(&self, rows: &Range<usize>) -> Self {
         Self {
             dt: match self.dt {
@@ -165,7 +168,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Adds the load torque that a delay shifts along with the friction.
+    /// Adds the load torque that a delay shifts together with friction.
     pub(super) fn add_load(&self, series: &mut [f64]) {
         let load = self.smoothed().load_torque.filter(|_| self.shift_load);
         for (sum, load) in series.iter_mut().zip(load.unwrap_or_default()) {
@@ -173,7 +176,8 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Every column the model reads is there, as long as the velocity, and finite.
+    /// Checks that every column the model reads is present, has the length of the velocity, and is
+    /// finite.
     pub(super) fn check(&self, spec: &Spec) -> Result<(), BatchError> {
         let rows = self.channels.velocity.len();
         if rows == 0 {
@@ -213,7 +217,7 @@ impl<'a> Columns<'a> {
         if finite { Ok(()) } else { Err(BatchError::State) }
     }
 
-    /// The state at the start of every segment; columns that were checked.
+    /// The state at the start of every segment; the columns must be checked.
     pub(super) fn start<S: Scalar>(&self, memory: Memory) -> State<S> {
         let mut given = self.state.iter().map(|&x| S::from_f64(x));
         match memory {
@@ -236,7 +240,7 @@ impl<'a> Columns<'a> {
             TimeStep::Each(dt) if dt.len() != count => {
                 Err(BatchError::Length { column: "dt", length: dt.len(), rows: count })
             }
-            // Without time every row stands alone.
+            // Without time every sample is independent.
             TimeStep::Uniform(0.0) if timed => Ok(Rows::each(&vec![0.0; count])),
             TimeStep::Uniform(dt) if timed => Ok(Rows::uniform(dt, count)),
             TimeStep::Each(dt) if timed => Ok(Rows::each(dt)),
@@ -249,7 +253,7 @@ fn whole(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchE
     if values.len() != rows {
         return Err(BatchError::Length { column, length: values.len(), rows });
     }
-    // All are looked at, without a way out: several at once.
+    // No early exit, so that the loop vectorises.
     let finite = Arch::new().dispatch(
         #[inline(always)]
         || values.iter().fold(true, |all, x| all & x.is_finite()),
@@ -270,19 +274,19 @@ pub(super) struct Rows {
 
 /// Lengths of steps (s).
 enum Steps {
-    /// The same for all rows.
+    /// The same for all samples.
     Uniform(f64),
-    /// One a row; 0 where a segment starts.
+    /// One per sample; 0 where a segment starts.
     Each(Vec<f64>),
 }
 
 impl Rows {
-    /// One segment with one step for all rows.
+    /// One segment with a constant step.
     fn uniform(dt: f64, count: usize) -> Self {
         Self { count, steps: Steps::Uniform(dt), starts: vec![(0, Beginning::Fresh)] }
     }
 
-    /// What is not positive and finite starts a segment, settled where it is infinite.
+    /// A step that is not positive and finite starts a segment, settled if it is infinite.
     fn each(dt: &[f64]) -> Self {
         let mut starts = vec![];
         let steps = dt.iter().enumerate().map(|(row, &dt)| {
@@ -302,7 +306,7 @@ impl Rows {
         self.count
     }
 
-    /// The step that all rows share, if they do.
+    /// The step, if all samples share it.
     pub(super) fn uniform_step(&self) -> Option<f64> {
         match self.steps {
             Steps::Uniform(dt) => Some(dt),
@@ -310,7 +314,7 @@ impl Rows {
         }
     }
 
-    /// One step a row.
+    /// The step of each sample.
     pub(super) fn steps(&self) -> Cow<'_, [f64]> {
         match &self.steps {
             Steps::Uniform(dt) => Cow::Owned(vec![*dt; self.count]),
@@ -318,7 +322,7 @@ impl Rows {
         }
     }
 
-    /// The rows at which segments start, from the first row on, and how.
+    /// The samples at which segments start, with the first one, and how each begins.
     pub(super) fn starts(&self) -> &[(usize, Beginning)] {
         &self.starts
     }

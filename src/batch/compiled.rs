@@ -1,4 +1,4 @@
-//! A model's torque and derivatives as a graph, run over whole columns.
+//! The torque of a model and its derivatives as a graph that runs over whole columns.
 
 use core::ops::Range;
 use std::borrow::Cow;
@@ -14,28 +14,28 @@ use crate::graph::{self, Beginning, Given, Numbers, Operation, Recorded, Recorde
 use crate::scalar::Real;
 use crate::table::Channel;
 
-/// Columns beside the channels: the mean velocity over each row's step, and its length (where that
-/// is the same for all rows, it is one more parameter).
+/// Columns after the channels: the mean velocity over each sample's step, and its length (which is
+/// a parameter if it is the same for all samples).
 const MEAN_VELOCITY: usize = Channel::ALL.len();
 const STEP: usize = MEAN_VELOCITY + 1;
 
-/// Models that are kept for the next call: a fit alternates between few.
+/// Number of compiled models that are kept: a fit alternates between few.
 const KEPT: usize = 16;
 
-/// The torque of a model and its derivatives by some parameters.
+/// The compiled torque of a model and its derivatives with respect to some parameters.
 pub(super) struct Compiled {
     schedule: Schedule,
     width: usize,
 }
 
-/// What a model is compiled for.
+/// What a model is compiled for; the key of the cache.
 #[derive(Clone, PartialEq)]
 struct Purpose {
     spec: Spec,
     wanted: Vec<usize>,
     mean_velocity: bool,
     uniform_step: bool,
-    /// Whether a segment starts with a state that has settled.
+    /// Whether a segment starts with a settled state.
     settles: bool,
 }
 
@@ -44,7 +44,9 @@ thread_local! {
 }
 
 impl Compiled {
-    /// Compiles a model that [can](crate::composed::Composed::runs_side_by_side) be, or finds it compiled.
+    /// Compiles a model for which
+    /// [`runs_side_by_side`](crate::composed::Composed::runs_side_by_side) is true, or finds it in
+    /// the cache.
     pub(super) fn of(
         spec: &Spec,
         wanted: &[usize],
@@ -87,7 +89,7 @@ impl Compiled {
         Self { schedule, width: purpose.wanted.len() }
     }
 
-    /// Torque and derivatives, row by row.
+    /// Torque and derivatives, sample by sample.
     pub(super) fn run(
         &self,
         values: &[f64],
@@ -101,10 +103,10 @@ impl Compiled {
         let mut turned = vec![];
         self.each_block(values, rows, channels, columns, |block, outputs| {
             outputs[0].append_to(&mut torque, block.len());
-            // Where they are still in the first cache.
+            // Block by block, while they are in the first-level cache.
             turned.resize(block.len() * width, 0.0);
             for (k, slope) in outputs[1..].iter().enumerate() {
-                // Turns -0 into 0: which of them it is depends on what else is wanted.
+                // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
                 slope.add_to_each(0.0, turned[k..].iter_mut().step_by(width));
             }
             slopes.extend_from_slice(&turned);
@@ -112,7 +114,7 @@ impl Compiled {
         (torque, slopes)
     }
 
-    /// Hands torque and derivatives of each block of rows over.
+    /// Passes torque and derivatives of each block of samples to `sink`.
     pub(super) fn each_block(
         &self,
         values: &[f64],
@@ -143,8 +145,8 @@ impl Compiled {
     }
 }
 
-/// What the model does in numbers that write it down: the torque, and the dry magnitude that a
-/// bristle's course depends on in several places.
+/// Records the operations of the model: the torque, and the dry magnitude, on which a bristle's
+/// step depends in several places.
 fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> (Recorded<'r>, Option<Recorded<'r>>) {
     let spec = &purpose.spec;
     let column = |index| recorder.number(Operation::Column(index));

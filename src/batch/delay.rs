@@ -1,12 +1,12 @@
-//! Shifting a series in time, within each segment.
+//! Delay of a series, within each segment.
 
 use std::vec::Vec;
 
 use super::columns::Rows;
 
-/// Adds `S(g) - g` to `out`, where `S(g)(t) = g(t - delay)` by linear interpolation, held at the
-/// ends of a segment. `series` and `out` have `width` numbers a row. Yields the derivative of
-/// the first number by the delay.
+/// Adds `S(g) - g` to `out`, where `S(g)(t) = g(t - delay)` by linear interpolation, constant
+/// beyond the ends of a segment. `series` and `out` have `width` numbers per sample. Returns the
+/// derivative of the first number with respect to the delay.
 pub fn shift(rows: &Rows, delay: f64, series: &[f64], width: usize, out: &mut [f64]) -> Vec<f64> {
     let count = rows.count();
     let mut by_delay = Vec::with_capacity(count);
@@ -29,7 +29,8 @@ struct Segment<'a> {
 impl Segment<'_> {
     fn shift(&self, delay: f64, out: &mut [f64], by_delay: &mut Vec<f64>) {
         let last = self.steps.len() - 1;
-        // Times relative to row k and to row i; only differences matter, so neither drifts.
+        // Times relative to samples k and i: only differences matter, so rounding does not
+        // accumulate.
         let mut k = 0;
         let mut ahead = -delay;
         for i in 0..=last {
@@ -51,7 +52,7 @@ impl Segment<'_> {
             by_delay.push(if inside {
                 -self.slope(k)
             } else if ahead == 0.0 {
-                // On a row the interpolation has a corner: the mean of both sides.
+                // At a sample the interpolation has a kink: the mean of both slopes.
                 -0.5 * (self.slope(k.wrapping_sub(1)) + self.slope(k))
             } else {
                 0.0
@@ -63,7 +64,7 @@ impl Segment<'_> {
         &self.series[row * self.width..(row + 1) * self.width]
     }
 
-    /// Slope between a row and the next; 0 beyond the ends.
+    /// Slope between a sample and the next; 0 beyond the ends.
     fn slope(&self, row: usize) -> f64 {
         match self.steps.get(row.wrapping_add(1)) {
             Some(&dt) if row < self.steps.len() => (self.row(row + 1)[0] - self.row(row)[0]) / dt,

@@ -1,92 +1,94 @@
+//! Errors of evaluating a model over columns.
+
 use core::fmt;
 
 use crate::dynamics::Memory;
 use crate::error::ModelError;
 use crate::table::Channel;
 
-/// Why a model cannot be run over columns.
+/// Why a model cannot be evaluated over columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BatchError {
-    /// The model itself.
+    /// The model itself cannot be used.
     Model(ModelError<'static>),
-    /// There is no row.
+    /// There are no samples.
     NoRows,
     /// A column the model reads is missing.
     Missing(Channel),
     /// The model has a state or a delay but no time step was given.
     NoTimeStep,
-    /// A column has another length than the velocity.
+    /// A column and the velocity have different lengths.
     Length {
-        /// Which column.
+        /// The column.
         column: &'static str,
         /// Its length.
         length: usize,
         /// The velocity's length.
         rows: usize,
     },
-    /// Rows to be summed do not fit together.
+    /// Arrays of a least-squares problem have different numbers of rows.
     Unequal {
-        /// Which array.
+        /// The array.
         column: &'static str,
-        /// Its rows.
+        /// Its number of rows.
         length: usize,
-        /// The residual's rows.
+        /// The number of rows of the residual.
         rows: usize,
     },
-    /// A row's group does not exist.
+    /// The group of a sample does not exist.
     Group {
-        /// Row, counted from 0.
+        /// Sample, counted from 0.
         row: usize,
         /// Its group.
         group: u32,
-        /// How many groups there are.
+        /// Number of groups.
         groups: usize,
     },
-    /// A run begins at a row that does not exist.
+    /// A run begins at a sample that does not exist.
     Begin {
-        /// Row, counted from 0.
+        /// Sample, counted from 0.
         begin: usize,
-        /// How many rows there are.
+        /// Number of samples.
         rows: usize,
     },
-    /// The sums of so many groups do not fit into memory.
+    /// The sums of this many groups do not fit into memory.
     TooManyGroups(usize),
     /// A value is NaN or infinite.
     NotFinite {
-        /// Which column.
+        /// The column.
         column: &'static str,
-        /// Row, counted from 0.
+        /// Sample, counted from 0.
         row: usize,
     },
-    /// The state at the start is NaN or infinite.
+    /// The initial state is NaN or infinite.
     State,
-    /// The state at the start has another size than the model's.
+    /// The initial state has the wrong size.
     StateLength {
-        /// What the model's state consists of.
+        /// The kind of the model's state.
         memory: Memory,
-        /// How many values were given.
+        /// Number of values given.
         given: usize,
     },
-    /// Temperatures on both sides of one at which the law has no limit.
+    /// There are temperatures on both sides of the one at which the law is singular.
     Pole {
         /// Id of the law.
         law: &'static str,
         /// That temperature (degC).
         pole: f64,
     },
-    /// No motor torque balances a row.
+    /// No motor torque balances a sample.
     SelfLocking {
-        /// Row, counted from 0.
+        /// Sample, counted from 0.
         row: usize,
     },
-    /// A wanted parameter does not exist.
+    /// A requested derivative has an index that does not exist.
     Wanted {
         /// Its index.
         index: usize,
-        /// How many parameters there are.
+        /// Number of parameters.
         parameters: usize,
     },
-    /// A parameter is wanted twice.
+    /// A derivative is requested twice.
     WantedTwice(usize),
 }
 
@@ -100,7 +102,7 @@ impl fmt::Display for BatchError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Model(error) => error.fmt(f),
-            Self::NoRows => f.write_str("the columns have no rows"),
+            Self::NoRows => f.write_str("the columns have no samples"),
             Self::Missing(channel) => write!(f, "the model needs the column '{channel}'"),
             Self::NoTimeStep => f.write_str("the model needs the time step 'dt'"),
             Self::Length { column, length, rows } => {
@@ -119,34 +121,39 @@ impl fmt::Display for BatchError {
                 write!(f, "the sums of {groups} groups do not fit into memory")
             }
             Self::NotFinite { column, row } => {
-                write!(f, "column '{column}' is not finite at row {row}")
+                write!(f, "column '{column}' is not finite at sample {row}")
             }
-            Self::State => f.write_str("the state at the start is not finite"),
+            Self::State => f.write_str("the initial state is not finite"),
             Self::StateLength { memory: Memory::None, .. } => {
                 f.write_str("the model has no memory: leave its state out")
             }
             Self::StateLength { memory, given } => {
                 let (size, what) = match memory {
                     Memory::Deflection => (1, "the deflection of its bristle"),
-                    _ => (memory.size(), "one force an element"),
+                    _ => (memory.size(), "one force per element"),
                 };
-                write!(f, "values of the state: {given}, but the model takes {size}, {what}")
+                write!(f, "the initial state has {given} values but the model needs {size}, {what}")
             }
             Self::Pole { law, pole } => write!(
                 f,
-                "law '{law}' has no limit at {pole} degC, which the temperatures touch or cross: \
+                "law '{law}' is singular at {pole} degC, which the temperatures touch or cross: \
                  use data on one side of it"
             ),
             Self::SelfLocking { row } => write!(
                 f,
-                "no motor torque moves the joint at row {row}: its friction grows as fast as the \
+                "no motor torque moves the joint at sample {row}: its friction grows as fast as the \
                  motor torque (self-locking); give the column 'motor_torque' or less friction per \
                  load"
             ),
             Self::Wanted { index, parameters } => {
-                write!(f, "parameter {index} is wanted but the model has {parameters}, from 0")
+                write!(
+                    f,
+                    "the derivative with respect to parameter {index} is requested but the model has {parameters}, from 0"
+                )
             }
-            Self::WantedTwice(index) => write!(f, "parameter {index} is wanted twice"),
+            Self::WantedTwice(index) => {
+                write!(f, "the derivative with respect to parameter {index} is requested twice")
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Whole recordings: a model over columns, its gradient, its parts.
+//! Models over whole recordings: torque, gradient, parts of the torque.
 
 mod balance;
 mod columns;
@@ -24,15 +24,16 @@ use balance::Balance;
 use columns::Rows;
 use compiled::Compiled;
 
-/// Derivatives that are carried along in one pass over the rows.
+/// Number of derivatives per pass over the samples.
 const MOST_AT_ONCE: usize = 16;
-/// Rows of a block that is handed over.
+/// Samples per block passed to a sink.
 const AT_ONCE: usize = 256;
 
-/// The friction torque of every row (T): of a model with a memory, at the end of the row's step.
+/// The friction torque of every sample (T); for a model with memory at the end of the sample's
+/// step.
 ///
 /// # Errors
-/// Columns that are missing, of unequal length or not finite; parameters that cannot be used.
+/// Columns that are missing, of unequal length or not finite; inadmissible parameters.
 pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<f64>, BatchError> {
     let (torque, _) = if spec.with(values)?.runs_side_by_side() {
         side_by_side(spec, values, columns, &[], Locked::Refused)?
@@ -42,11 +43,11 @@ pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<
     Ok(torque)
 }
 
-/// As [`torque`], computed in single precision throughout, as a controller without `f64` does. A
-/// delay, which no controller has, is carried out in double precision.
+/// Like [`torque`], in single precision throughout, as a controller without `f64` computes it. A
+/// delay, which no controller has, is applied in double precision.
 ///
 /// # Errors
-/// As [`torque`].
+/// As for [`torque`].
 pub fn torque_single(
     spec: &Spec,
     values: &[f64],
@@ -55,11 +56,11 @@ pub fn torque_single(
     one_by_one::<f32>(spec, values, columns, &[], Locked::Refused).map(|(torque, _)| torque)
 }
 
-/// The friction torque of every row, and its derivatives by the `wanted` parameters (indices into
-/// `values`, by default all of them) in that order, row by row.
+/// The friction torque of every sample, and its derivatives with respect to the `wanted` parameters
+/// (indices into `values`, by default all) in that order, row-major.
 ///
 /// # Errors
-/// As [`torque`]; a derivative that does not exist or is wanted twice.
+/// As for [`torque`]; an index in `wanted` that does not exist or occurs twice.
 pub fn gradient(
     spec: &Spec,
     values: &[f64],
@@ -94,11 +95,11 @@ pub fn gradient(
     Ok((torque, jacobian))
 }
 
-/// As [`gradient`], a block of rows after another: `sink` is handed the torque and each derivative
-/// of these rows, and nothing is kept of them.
+/// Like [`gradient`], block by block: `sink` receives the torque and each derivative of a block of
+/// samples, and none of them is kept.
 ///
 /// # Errors
-/// As [`gradient`].
+/// As for [`gradient`].
 pub(crate) fn blocks(
     spec: &Spec,
     values: &[f64],
@@ -158,7 +159,7 @@ fn gradient_at_once(
     }
 }
 
-/// Dry magnitude, rate part and additive part of every row (T), in steady sliding.
+/// Dry magnitude, rate-dependent part and additive part of every sample (T), in steady sliding.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SplitColumns {
     /// Dry magnitude `D`.
@@ -169,10 +170,10 @@ pub struct SplitColumns {
     pub additive: Vec<f64>,
 }
 
-/// The parts of the torque; a delay plays no role in them.
+/// The parts of the torque; a delay has no influence on them.
 ///
 /// # Errors
-/// As [`torque`].
+/// As for [`torque`].
 pub fn split(
     spec: &Spec,
     values: &[f64],
@@ -192,19 +193,19 @@ pub fn split(
     Ok(parts)
 }
 
-/// What becomes of rows at which no motor torque moves the joint.
+/// Treatment of samples at which no motor torque moves the joint.
 #[derive(Clone, Copy, PartialEq)]
 enum Locked {
-    /// They are an error.
+    /// An error.
     Refused,
-    /// A search goes on with an amplified torque.
+    /// An amplified torque, so that a search can continue.
     Amplified,
 }
 
-/// Torque, and derivatives row by row.
+/// Torque, and derivatives row-major.
 type Results = (Vec<f64>, Vec<f64>);
 
-/// All rows of a block at once, operation by operation.
+/// Evaluates blocks of samples in parallel, operation by operation.
 fn side_by_side(
     spec: &Spec,
     values: &[f64],
@@ -217,7 +218,7 @@ fn side_by_side(
     })
 }
 
-/// A kind of number that rows are run in one after another.
+/// A number type for evaluation sample by sample.
 trait Single: Scalar {
     /// A parameter, with a derivative of 1 in a direction if one is given.
     fn parameter(value: f64, direction: Option<usize>) -> Self;
@@ -251,7 +252,7 @@ impl<const N: usize> Single for Dual<f64, N> {
     }
 }
 
-/// One row after the other; the state starts afresh with every segment.
+/// Evaluates sample by sample; every segment starts from the initial state.
 fn one_by_one<S: Single>(
     spec: &Spec,
     values: &[f64],
@@ -268,7 +269,7 @@ fn one_by_one<S: Single>(
         let mut slopes = Vec::with_capacity(rows.count() * wanted.len());
         evaluate(&model, rows, channels, columns, |t: &S| {
             torque.push(t.value());
-            // Turns -0 into 0: which of them it is depends on what else is wanted.
+            // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
             slopes.extend(t.slopes().iter().take(wanted.len()).map(|d| d + 0.0));
         });
         (torque, slopes)
@@ -304,8 +305,8 @@ fn evaluate<S: Scalar>(
     }
 }
 
-/// What the torque channel shows of what `run` yields: with loads that follow from the balance of
-/// torques, and late by a delay.
+/// The measured torque for the torque that `run` returns: with loads from the balance of torques,
+/// and with the delay.
 fn measured(
     spec: &Spec,
     values: &[f64],

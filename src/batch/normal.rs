@@ -1,24 +1,26 @@
+//! Normal equations, summed in a fixed order.
+
 use std::vec::Vec;
 
 use super::BatchError;
 
-/// Sums of `J'J`, `J'r` and `r'r` over groups of rows.
+/// Sums of `J'J`, `J'r` and `r'r` over groups of samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NormalEquations {
-    /// `J'J`, `groups x p x p`, row by row.
+    /// `J'J`, `groups x p x p`, row-major.
     pub matrix: Vec<f64>,
     /// `J'r`, `groups x p`.
     pub vector: Vec<f64>,
-    /// `r'r`, one a group.
+    /// `r'r`, one per group.
     pub square: Vec<f64>,
 }
 
-/// Sums row after row, so that the same input gives the same bits on every machine.
+/// Sums sample by sample, so that the same input gives the same bits on every machine.
 ///
-/// `jacobian` is `n x parameters`, row by row; `group` holds each row's group.
+/// `jacobian` is `n x parameters`, row-major; `group` is the group of each row.
 ///
 /// # Errors
-/// Lengths that do not fit together, or a group that is not below `groups`.
+/// Inconsistent lengths, or a group that is not below `groups`.
 pub fn normal_equations(
     jacobian: &[f64],
     parameters: usize,

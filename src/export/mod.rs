@@ -1,8 +1,8 @@
-//! A step of a model as a list of operations: what a controller's program is printed from.
+//! One step of a model as a list of operations, from which controller code is generated.
 //!
-//! The model is stepped once, in numbers that write down what is done to them. So every law, every
-//! composition of effects and every formula of a user is exported by its own code, and nothing is
-//! stated twice.
+//! The model is stepped once with numbers that record their operations. Every law, every
+//! combination of effects and every formula is therefore exported from its own code, without a
+//! second implementation.
 
 mod program;
 

@@ -1,3 +1,5 @@
+//! The list of operations of one step.
+
 use std::vec;
 use std::vec::Vec;
 
@@ -7,46 +9,46 @@ use crate::error::ModelError;
 use crate::graph::{self, Format, Id, Operation, Recorder};
 use crate::table::Channel;
 
-/// The column of the time step; those before are channels, those behind numbers of the state.
+/// The column of the time step; channels come before it, numbers of the state after it.
 const TIME_STEP: usize = Channel::ALL.len();
 
-/// A step of a model: from state and sample to torque and state.
+/// One step of a model: from state and sample to torque and state.
 #[derive(Clone, Debug)]
 pub struct Program {
-    /// What is computed, in an order in which it can be; no more than is needed.
+    /// The operations, operands first; none that is not needed.
     pub operations: Vec<Operation>,
-    /// The operation that yields the torque at the end of the step (T).
+    /// The operation that computes the torque at the end of the step (T).
     pub torque: Id,
-    /// The numbers of the state that the torque, now or later, depends on. All start at 0.
+    /// The numbers of the state on which the torque depends, now or later. All start at 0.
     pub states: Vec<StateNumber>,
 }
 
 /// A number of the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateNumber {
-    /// Which.
+    /// The number.
     pub part: Part,
-    /// The operation that yields it at the end of the step.
+    /// The operation that computes it at the end of the step.
     pub after: Id,
 }
 
-/// What a column of a [`Program`] is.
+/// The meaning of a column of a [`Program`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
     /// A channel of the sample.
     Channel(Channel),
     /// Length of the step (s).
     TimeStep,
-    /// A number of the state before the step, by its place among [`Program::states`].
+    /// A number of the state before the step, by its index in [`Program::states`].
     State(usize),
 }
 
 impl Program {
-    /// The step of a model, in the precision `F`: what is known beforehand is computed in it. A
-    /// delay, which shifts whole recordings, is no part of it.
+    /// The step of a model; numbers known while recording are computed in the precision `F`. A
+    /// delay, which shifts whole recordings, is not included.
     ///
     /// # Errors
-    /// A formula that is larger than a formula can be.
+    /// The formula terms exceed the largest size of a formula.
     pub fn of<F: Format>(spec: &Spec) -> Result<Self, ModelError<'static>> {
         let recorder = Recorder::default();
         let number = |operation| recorder.number::<F>(operation);
@@ -66,7 +68,7 @@ impl Program {
         Ok(Self { operations: recorder.operations(), torque, states }.pruned())
     }
 
-    /// What a column is.
+    /// The meaning of a column.
     #[must_use]
     pub fn input(column: usize) -> Input {
         match Channel::ALL.get(column) {
@@ -76,7 +78,7 @@ impl Program {
         }
     }
 
-    /// Without what the torque never depends on.
+    /// Removes operations and states that the torque never depends on.
     fn pruned(self) -> Self {
         let mut needed = vec![false; self.operations.len()];
         let mut held = vec![false; self.states.len()];

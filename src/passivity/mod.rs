@@ -129,8 +129,8 @@ impl fmt::Display for PassivityError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Model(error) => error.fmt(f),
-            Self::Missing(channel) => write!(f, "the box has no range of {channel}"),
-            Self::Pole(at) => write!(f, "the box holds {at} degC, where the law has no limit"),
+            Self::Missing(channel) => write!(f, "the box gives no range for {channel}"),
+            Self::Pole(at) => write!(f, "the box contains {at} degC, where the law is singular"),
             Self::NoBristle(point, dry) => write!(
                 f,
                 "a bristle needs dry friction above zero, but it is {dry:.4} at velocity {:.4}, \

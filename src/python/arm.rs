@@ -1,3 +1,5 @@
+//! Python interface: simulation of a planar arm.
+
 use std::format;
 use std::vec::Vec;
 
@@ -24,7 +26,7 @@ pub(super) struct Inertial {
     moment_y: f64,
 }
 
-/// What acts in each step: columns [steps, 2].
+/// Inputs of the steps: columns [steps, 2].
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Acting<'py> {
@@ -34,7 +36,7 @@ pub(super) struct Acting<'py> {
     desired_velocity: PyArrayLike2<'py, f64>,
 }
 
-/// The columns of [`Acting`], row by row.
+/// The columns of [`Acting`], step by step.
 struct Columns {
     torque: Vec<[f64; 2]>,
     temperature: Vec<[f64; 2]>,
@@ -53,7 +55,7 @@ impl Columns {
         let count = columns.torque.len();
         let others = [&columns.temperature, &columns.desired_position, &columns.desired_velocity];
         if others.iter().any(|column| column.len() != count) {
-            return Err(ModelError::new_err("columns that act on an arm differ in length"));
+            return Err(ModelError::new_err("the input columns of an arm have different lengths"));
         }
         Ok(columns)
     }
@@ -70,13 +72,15 @@ impl Columns {
 fn rows(columns: &PyArrayLike2<'_, f64>) -> PyResult<Vec<[f64; 2]>> {
     let view = columns.as_array();
     if view.ncols() != 2 {
-        return Err(ModelError::new_err("an arm has two joints"));
+        return Err(ModelError::new_err(
+            "the columns of an arm need two values per step, one per joint",
+        ));
     }
     Ok(view.outer_iter().map(|row| [row[0], row[1]]).collect())
 }
 
-/// Moves a planar arm step by step: dict of `position`, `velocity` [n + 1, 2], and, a step, `torque`,
-/// `load_torque`, `friction_torque`, `motor_work` and `friction_work` [n, 2].
+/// Simulates a planar arm step by step: dict of `position`, `velocity` [n + 1, 2], and per step
+/// `torque`, `load_torque`, `friction_torque`, `motor_work` and `friction_work` [n, 2].
 #[pyfunction]
 #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
 pub(super) fn simulate_arm<'py>(
@@ -125,7 +129,7 @@ fn matrix<'py>(
     Ok(matrix.into_pyarray(py))
 }
 
-/// A motion: postures at the instants between steps, and means over the steps.
+/// A simulated motion: postures between steps, and means over the steps.
 struct Motion {
     postures: Vec<ArmPosture<f64>>,
     motor: Vec<[f64; 2]>,
@@ -159,7 +163,7 @@ fn run(
         let [first, second] = friction;
         let taken = arm.step([first, second], &mut states, &mut posture, &push, dt);
         if !posture.position.iter().chain(&posture.velocity).all(|x| x.is_finite()) {
-            let message = format!("the motion is beyond all numbers after {time} s");
+            let message = format!("the motion is not finite after {time} s");
             return Err(ModelError::new_err(message));
         }
         motion.postures.push(posture);

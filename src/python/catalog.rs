@@ -1,3 +1,5 @@
+//! Python interface: the catalog.
+
 use std::vec::Vec;
 
 use pyo3::prelude::*;
@@ -7,7 +9,7 @@ use crate::catalog::{EffectId, LawId};
 use crate::constants::CONSTANTS;
 use crate::table::{EffectInfo, LawInfo, ParameterInfo, Pole};
 
-/// Every law, effect and constant: lists of dicts under `laws`, `effects` and `constants`.
+/// All laws, effects and constants: lists of dicts under `laws`, `effects` and `constants`.
 #[pyfunction]
 pub fn catalog(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let laws: Vec<_> = LawId::ALL.iter().map(|id| law(py, id.info())).collect::<PyResult<_>>()?;
@@ -62,7 +64,7 @@ fn parameters<'py>(py: Python<'py>, table: &[ParameterInfo]) -> PyResult<Vec<Bou
     table.iter().map(|info| parameter(py, info)).collect()
 }
 
-/// One row of a parameter table.
+/// One entry of a parameter table.
 pub(super) fn parameter<'py>(
     py: Python<'py>,
     info: &ParameterInfo,

@@ -1,3 +1,5 @@
+//! Python interface: columns of a recording.
+
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::format;
@@ -11,10 +13,10 @@ use super::ModelError;
 use crate::batch::{Channels, Columns, TimeStep};
 use crate::table::Channel;
 
-/// Anything NumPy makes a vector of floats from.
+/// Anything that NumPy converts to a vector of floats.
 pub(super) type Array<'py> = PyArrayLike1<'py, f64, AllowTypeChange>;
 
-/// Borrowed where the memory is contiguous, copied where it is strided.
+/// Borrowed if the memory is contiguous, otherwise copied.
 pub(super) fn contiguous<'a>(array: &'a Array<'_>) -> Cow<'a, [f64]> {
     match array.as_slice() {
         Ok(slice) => Cow::Borrowed(slice),
@@ -22,14 +24,14 @@ pub(super) fn contiguous<'a>(array: &'a Array<'_>) -> Cow<'a, [f64]> {
     }
 }
 
-/// One time step for all rows, or one a row.
+/// One time step for all samples, or one per sample.
 #[derive(FromPyObject)]
 pub(super) enum Dt<'py> {
     Uniform(f64),
     Each(Array<'py>),
 }
 
-/// A state at the start: one number, or one a part.
+/// An initial state: one number, or one per element.
 #[derive(FromPyObject)]
 pub(super) enum Start<'py> {
     Single(f64),
@@ -37,7 +39,7 @@ pub(super) enum Start<'py> {
 }
 
 impl Start<'_> {
-    /// The numbers; none of a joint without tension, which fits every model.
+    /// The numbers; empty for a relaxed state, which fits every model.
     fn values(&self) -> Cow<'_, [f64]> {
         match self {
             Self::Single(z) if *z == 0.0 => Cow::Borrowed(&[]),
@@ -47,7 +49,7 @@ impl Start<'_> {
     }
 }
 
-/// The arguments that `torque`, `gradient` and `split` share; elsewhere a dict of them.
+/// The common arguments of `torque`, `gradient` and `split`; a dict of them elsewhere.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Arguments<'py> {
@@ -80,7 +82,7 @@ pub(super) struct Arguments<'py> {
 }
 
 impl Arguments<'_> {
-    /// Runs `work` on the columns without holding the interpreter.
+    /// Runs `work` on the columns without holding the interpreter lock.
     pub(super) fn detached<T: Send>(
         &self,
         py: Python<'_>,

@@ -1,3 +1,5 @@
+//! Python interface: simulation of friction compensation.
+
 use std::collections::BTreeMap;
 use std::string::String;
 use std::vec::Vec;
@@ -20,7 +22,7 @@ use crate::passivity::enclosure::Enclosure;
 use crate::passivity::factor;
 use crate::sample::Sample;
 
-/// What a loop is given, a row a step.
+/// Inputs of a control loop, one row per step.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Given<'py> {
@@ -30,7 +32,7 @@ pub(super) struct Given<'py> {
     temperature: Array<'py>,
 }
 
-/// A compensator by feedback or by feedforward.
+/// A compensator with feedback or feedforward.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Cancels<'py> {
@@ -40,8 +42,8 @@ pub(super) struct Cancels<'py> {
     feedback: bool,
 }
 
-/// What is seen of a joint: exactly where it is and how fast it moves, or an encoder's steps and
-/// their differences.
+/// The measurement of a joint: exact position and velocity, or an encoder's steps and their
+/// differences.
 struct Encoder {
     resolution: f64,
     last: Option<f64>,
@@ -58,18 +60,18 @@ impl Encoder {
     }
 }
 
-/// What the loop consists of besides the joint.
+/// The control loop without the joint.
 struct Loop<'a> {
     encoder: Encoder,
     controller: Controller<f64>,
     compensator: Option<Compensator<'a, f64>>,
     feedback: bool,
     observer: Option<Observer<f64>>,
-    /// Whether the controller is a hand that guides the joint.
+    /// Whether a hand guides the joint instead of a controller.
     guided: bool,
 }
 
-/// What happened.
+/// The simulated signals.
 struct Course {
     postures: Vec<Posture<f64>>,
     taken: Vec<Taken<f64>>,
@@ -80,9 +82,10 @@ struct Course {
 }
 
 /// Moves a joint along a desired motion with gravity and a share of its friction compensated, by a
-/// controller or, `guided`, by a hand that pulls like one: dict of `position` and `velocity`
-/// [n + 1], and, a step, `torque` of the motor, `controller_torque`, `compensation`, `observed`,
-/// `load_torque` and `friction_torque` [n]. With a `resolution` the joint is seen by an encoder.
+/// controller or, if `guided`, by a hand that acts like one: dict of `position` and `velocity` [n +
+/// 1], and per step `torque` of the motor, `controller_torque`, `compensation`, `observed`,
+/// `load_torque` and `friction_torque` [n]. With a `resolution` the joint is measured by an
+/// encoder.
 #[pyfunction]
 #[pyo3(signature = (model, values, joint, given, dt, controller, compensator=None,
     bandwidth=None, guided=false, resolution=0.0))]
@@ -143,7 +146,9 @@ fn rows(given: &Given<'_>) -> PyResult<Vec<Reference<f64>>> {
         [&given.position, &given.velocity, &given.acceleration].map(contiguous);
     let count = contiguous(&given.temperature).len();
     if [&position, &velocity, &acceleration].iter().any(|column| column.len() != count) {
-        return Err(ModelError::new_err("columns that a loop is given differ in length"));
+        return Err(ModelError::new_err(
+            "the input columns of a control loop have different lengths",
+        ));
     }
     Ok((0..count)
         .map(|k| Reference {
@@ -169,7 +174,8 @@ impl Loop<'_> {
             Posture { position: first.position, velocity: first.velocity }
         });
         course.postures.push(at);
-        // Of the step before: what acted beside friction, and the velocity seen at its start.
+        // Of the previous step: the torque apart from friction, and the velocity measured at its
+        // start.
         let (mut known, mut before) = (0.0, at.velocity);
         for (k, (wanted, &temperature)) in desired.iter().zip(temperature).enumerate() {
             #[allow(clippy::cast_precision_loss)]
@@ -199,7 +205,7 @@ impl Loop<'_> {
             let taken = joint::step(friction, &mut state, &mut body, dt);
             at = body.posture;
             if !(at.position.is_finite() && at.velocity.is_finite()) {
-                let message = std::format!("the motion is beyond all numbers after {time} s");
+                let message = std::format!("the motion is not finite after {time} s");
                 return Err(ModelError::new_err(message));
             }
             (known, before) = (motor - gravity - compensation, seen.velocity);
@@ -213,7 +219,7 @@ impl Loop<'_> {
         Ok(course)
     }
 
-    /// What the compensator is given: the motion that is seen, or the desired one.
+    /// The input of the compensator: the measured or the desired motion.
     fn sample(
         &self,
         joint: &Joint<f64>,
@@ -239,7 +245,7 @@ impl Loop<'_> {
         }
     }
 
-    /// What the desired acceleration takes; of a hand's intention nobody knows.
+    /// The torque of the desired acceleration; unknown if a hand guides the joint.
     fn inertial(&self, joint: &Joint<f64>, wanted: &Reference<f64>) -> f64 {
         if self.guided { 0.0 } else { joint.inertia * wanted.acceleration }
     }
@@ -258,8 +264,8 @@ impl Course {
     }
 }
 
-/// The largest share of a compensator that nowhere exceeds a friction whose parameters lie between
-/// bounds: what is proved, what the bound comes to at one point, and that point.
+/// The largest share of a compensator that nowhere exceeds friction whose parameters lie within
+/// bounds: the proved share, the share at one point, and that point.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(super) fn largest_factor<'py>(

@@ -1,3 +1,5 @@
+//! Python interface: exported programs and elementary functions.
+
 use std::format;
 use std::string::String;
 use std::vec::Vec;
@@ -10,8 +12,8 @@ use crate::composed::Spec;
 use crate::export::{Binary, Input, Operation, Program, Unary};
 use crate::math;
 
-/// A step of a model as a dict: `operations`, each its name, the operations that it takes its
-/// numbers from and what else it says; `torque`, which of them is the torque; `states`, a dict each.
+/// One step of a model as a dict: `operations`, each with its name, the indices of its operands and
+/// its other data; `torque`, the index of the torque; `states`, one dict each.
 pub(super) fn program<'py>(
     py: Python<'py>,
     spec: &Spec,
@@ -45,7 +47,7 @@ pub(super) fn program<'py>(
     Ok(dict)
 }
 
-/// What an operation is called, and what it says beside its operands.
+/// The name of an operation, and its data apart from the operands.
 fn said(py: Python<'_>, operation: Operation) -> PyResult<(&'static str, Bound<'_, PyAny>)> {
     let none = || py.None().into_bound(py);
     Ok(match operation {
@@ -104,7 +106,7 @@ fn binary(operation: Binary) -> &'static str {
     }
 }
 
-/// The constants and polynomials behind the elementary functions, lists by name.
+/// The constants and polynomials of the elementary functions, lists by name.
 #[pyfunction]
 #[pyo3(signature = (*, single=false))]
 pub fn elementary_constants(py: Python<'_>, single: bool) -> PyResult<Bound<'_, PyDict>> {
@@ -123,11 +125,11 @@ pub fn elementary_constants(py: Python<'_>, single: bool) -> PyResult<Bound<'_, 
     Ok(dict)
 }
 
-/// An elementary function of numbers, as the laws compute it: `power` takes `other` as exponents.
+/// An elementary function with the bits that the laws compute: `power` uses `other` as exponents.
 /// With `single` everything is computed in single precision.
 ///
 /// # Errors
-/// A function that is unknown.
+/// An unknown function.
 #[pyfunction]
 #[pyo3(signature = (function, x, other=Vec::new(), *, single=false))]
 #[allow(clippy::needless_pass_by_value)]

@@ -1,3 +1,5 @@
+//! Python interface: formulas.
+
 use std::string::{String, ToString};
 use std::vec::Vec;
 
@@ -8,7 +10,7 @@ use super::refuse;
 use crate::formula::{self, Operation};
 use crate::table::Channel;
 
-/// Terms of friction written as text. Nothing of the text is executed as code.
+/// Friction terms given as text. No text is executed as code.
 #[pyclass(frozen, module = "stribeck._core")]
 pub struct Formula {
     formula: formula::Formula,
@@ -24,7 +26,7 @@ impl Formula {
         Ok(Self { formula, names })
     }
 
-    /// Its parameters' names, in the order in which the text mentions them.
+    /// The names of its parameters, in the order of their first use in the text.
     #[getter]
     fn names(&self) -> Vec<String> {
         self.names.clone()
@@ -43,7 +45,7 @@ impl Formula {
         read.map(Channel::name).collect()
     }
 
-    /// The program in postfix order: what to do, and with what.
+    /// The program in postfix order: operations and their data.
     #[getter]
     fn operations<'py>(&self, py: Python<'py>) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>)>> {
         let program = self.formula.program();
@@ -72,8 +74,8 @@ impl Formula {
         program.operations().iter().map(step).collect()
     }
 
-    /// The terms of its sum, one dict each: `kind`, `negative`, and the ranges of operations
-    /// `part` (all of it) and `direction` (its factor `sgn v`, sharp or smoothed).
+    /// Its terms, one dict each: `kind`, `negative`, and the ranges of operations `part` (the whole
+    /// term) and `direction` (its factor `sgn v`, exact or smoothed).
     #[getter]
     fn terms<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         let term = |term: &formula::Term| {

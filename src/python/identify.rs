@@ -1,3 +1,5 @@
+//! Python interface: identification.
+
 use std::vec::Vec;
 
 use numpy::ndarray::Array3;
@@ -11,7 +13,7 @@ use super::{ModelError, refuse};
 use crate::batch::BatchError;
 use crate::identify::{self, Bounds, LeastSquares, Outcome, Problem, Search, Steps, Triangle};
 
-/// A model's measured torque, with the columns that it is run over: a dict.
+/// A measured torque, with the columns that the model reads: a dict.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Measured<'py> {
@@ -21,12 +23,12 @@ pub struct Measured<'py> {
     begins: Vec<usize>,
     moving: PyArrayLike1<'py, bool, AllowTypeChange>,
     torque_norm: f64,
-    /// On how many threads to go through starts and rows.
+    /// Number of threads for starts and samples.
     threads: usize,
 }
 
 impl Measured<'_> {
-    /// Runs `work` on the problem without holding the interpreter.
+    /// Runs `work` on the problem without holding the interpreter lock.
     fn detached<T: Send>(
         &self,
         py: Python<'_>,
@@ -56,7 +58,7 @@ impl Measured<'_> {
     }
 }
 
-/// Between what the parameters are sought: a dict.
+/// Bounds and kinds of the parameters: a dict.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Within<'py> {
@@ -74,7 +76,7 @@ impl Within<'_> {
         let (lower, upper) = (contiguous(&self.lower), contiguous(&self.upper));
         let (linear, logarithmic) = (&self.linear[..], &self.logarithmic[..]);
         if [lower.len(), upper.len(), linear.len(), logarithmic.len()] != [size; 4] {
-            return Err(ModelError::new_err("bounds and starts are of unequal length"));
+            return Err(ModelError::new_err("bounds and starts have different lengths"));
         }
         let bounds = Bounds { lower: &lower, upper: &upper, linear, logarithmic };
         let steps = Steps { tolerance: self.tolerance, most: self.most, damping: self.damping };
@@ -82,7 +84,7 @@ impl Within<'_> {
     }
 }
 
-/// Triangular factors of `[J r]` over `groups` groups of rows, array `[groups, p + 1, p + 1]`.
+/// Triangular factors of `[J r]` over `groups` groups of samples, array `[groups, p + 1, p + 1]`.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn triangle<'py>(
@@ -102,8 +104,8 @@ pub fn triangle<'py>(
     stacked(py, &made, p + 1)
 }
 
-/// The same of a model linearised at `values` by the parameters `wanted`, times `slope`; None where
-/// it means nothing or is not finite.
+/// The same for a model linearised at `values` with respect to the parameters `wanted`, times
+/// `slope`; None where it is not finite.
 #[pyfunction]
 #[pyo3(signature = (model, measured, groups, values, wanted, slope))]
 #[allow(clippy::needless_pass_by_value)]
@@ -118,7 +120,7 @@ pub fn triangles_of<'py>(
 ) -> PyResult<Option<Bound<'py, PyArray3<f64>>>> {
     let (values, slope) = (contiguous(&values), contiguous(&slope));
     if slope.len() != wanted.len() {
-        return Err(ModelError::new_err("'wanted' and 'slope' are of unequal length"));
+        return Err(ModelError::new_err("'wanted' and 'slope' have different lengths"));
     }
     let made = measured.detached(py, model, groups, measured.threads, |problem| {
         problem.triangles(&values, &wanted, &slope)
@@ -136,7 +138,7 @@ fn stacked<'py>(
     Ok(factors.into_pyarray(py))
 }
 
-/// Whether the joint slides already where each run begins in motion, list of bool.
+/// Whether each run that begins in motion begins in steady sliding, list of bool.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn slides<'py>(
@@ -149,8 +151,8 @@ pub fn slides<'py>(
     measured.detached(py, model, 1, 1, |problem| problem.slides(&values))
 }
 
-/// Values, their sum of squares, whether the search converged, how it ended, evaluations, and the
-/// parameters that it was blind to at its end.
+/// Values, their sum of squares, whether the search converged, why it ended, evaluations, and the
+/// parameters without influence at its end.
 type Found<'py> = (Bound<'py, PyArray1<f64>>, f64, bool, &'static str, usize, Vec<usize>);
 
 fn found(py: Python<'_>, search: Search) -> Found<'_> {
@@ -164,8 +166,8 @@ fn found(py: Python<'_>, search: Search) -> Found<'_> {
     (values.into_pyarray(py), square, converged, outcome, evaluations, blind)
 }
 
-/// Searches from each of `starts`, array `[k, p]`, on as many threads: which one runs where
-/// changes nothing.
+/// Searches from each of `starts`, array `[k, p]`, on several threads: the results do not depend on
+/// their number.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn search<'py>(
@@ -189,7 +191,7 @@ pub fn search<'py>(
     Ok(ended.into_iter().map(|search| found(py, search)).collect())
 }
 
-/// As `search`, from one start, of any object with `triangle` and `torque_norm`.
+/// Like `search`, from one start, for any object with `triangle` and `torque_norm`.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn search_by<'py>(
@@ -205,7 +207,7 @@ pub fn search_by<'py>(
     Ok(found(py, ended))
 }
 
-/// A problem that Python linearises.
+/// A problem that a Python object linearises.
 struct Called<'py>(Bound<'py, PyAny>);
 
 impl LeastSquares for Called<'_> {
@@ -251,7 +253,9 @@ pub fn bounded_least_squares<'py>(
     let matrix = matrix.as_array();
     let (right, lower, upper) = (contiguous(&right), contiguous(&lower), contiguous(&upper));
     if [matrix.ncols(), upper.len()] != [lower.len(); 2] || matrix.nrows() != right.len() {
-        return Err(ModelError::new_err("matrix, right side and bounds do not fit together"));
+        return Err(ModelError::new_err(
+            "matrix, right-hand side and bounds have inconsistent sizes",
+        ));
     }
     let rows = row_by_row(&matrix);
     let best = identify::bounded_least_squares(&rows, &right, &lower, &upper);

@@ -1,3 +1,5 @@
+//! Python interface: simulation of a joint.
+
 use std::borrow::Cow;
 use std::format;
 use std::vec::Vec;
@@ -16,7 +18,7 @@ use crate::joint::{
     Posture, Profile, Push, Reference, Stroke, Taken, Trajectory, Transmission,
 };
 
-/// Sizes of a joint.
+/// Parameters of a joint.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Sizes {
@@ -36,7 +38,7 @@ impl Sizes {
     }
 }
 
-/// What is between motor and load.
+/// The transmission between motor and load.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Apart {
@@ -57,14 +59,14 @@ impl Apart {
     }
 }
 
-/// A joint on its way.
+/// A joint within a step.
 enum Mechanism {
     Rigid(Joint<f64>, Posture<f64>),
     Elastic(ElasticJoint<f64>, ElasticPosture<f64>),
 }
 
 impl Mechanism {
-    /// Where the motor is, and where the load.
+    /// The postures of motor and load.
     fn postures(&self) -> [Posture<f64>; 2] {
         match self {
             Self::Rigid(_, posture) => [*posture; 2],
@@ -119,7 +121,7 @@ impl Gains {
     }
 }
 
-/// What acts in each step: columns of equal length.
+/// Inputs of the steps: columns of equal length.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(super) struct Acting<'py> {
@@ -171,7 +173,7 @@ impl<'a> Columns<'a> {
             &columns.desired_velocity,
         ];
         if others.iter().any(|column| column.len() != columns.torque.len()) {
-            return Err(ModelError::new_err("columns that act on a joint differ in length"));
+            return Err(ModelError::new_err("the input columns of a joint have different lengths"));
         }
         Ok(columns)
     }
@@ -196,16 +198,16 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// A motion: postures at the instants between steps, and means over the steps.
+/// A simulated motion: postures between steps, and means over the steps.
 struct Motion {
     postures: Vec<[Posture<f64>; 2]>,
     motor: Vec<f64>,
     taken: Vec<Taken<f64>>,
 }
 
-/// Moves a joint with friction step by step: dict of `position`, `velocity`, `load_position` and
-/// `load_velocity` [n + 1], and, a step, `torque`, `load_torque`, `friction_torque` and the works `motor_work`, `environment_work`,
-/// `friction_work` [n].
+/// Simulates a joint with friction step by step: dict of `position`, `velocity`, `load_position`
+/// and `load_velocity` [n + 1], and per step `torque`, `load_torque`, `friction_torque` and the
+/// works `motor_work`, `environment_work`, `friction_work` [n].
 #[pyfunction]
 #[pyo3(signature = (model, values, joint, acting, start, deflection, controller=None,
     transmission=None))]
@@ -277,7 +279,7 @@ fn run(
         let taken = mechanism.step(friction, &mut state, &push, dt);
         at = mechanism.postures();
         if !at.iter().all(|at| at.position.is_finite() && at.velocity.is_finite()) {
-            let message = format!("the motion is beyond all numbers after {} s", columns.time[k]);
+            let message = format!("the motion is not finite after {} s", columns.time[k]);
             return Err(ModelError::new_err(message));
         }
         motion.postures.push(at);
@@ -287,7 +289,7 @@ fn run(
     Ok(motion)
 }
 
-/// Position, velocity and acceleration of a reference, one array each.
+/// Position, velocity and acceleration of a desired motion, one array each.
 type Desired<'py> =
     (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
@@ -298,8 +300,8 @@ fn desired<'py>(py: Python<'py>, trajectory: &Trajectory<f64>, time: &[f64]) -> 
     (column(|r| r.position), column(|r| r.velocity), column(|r| r.acceleration))
 }
 
-/// A stroke there and back with trapezoidal speed (limits are speed and acceleration), or by
-/// polynomials of fifth degree (the limit is their duration).
+/// A stroke back and forth with trapezoidal speed (two limits: speed and acceleration), or a
+/// polynomial of fifth degree (one limit: duration).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(super) fn stroke<'py>(
@@ -312,14 +314,14 @@ pub(super) fn stroke<'py>(
     let profile = match limits[..] {
         [speed, acceleration] => Profile::Trapezoid { speed, acceleration },
         [duration] => Profile::Quintic { duration },
-        _ => return Err(ModelError::new_err("a stroke has one limit or two")),
+        _ => return Err(ModelError::new_err("a stroke needs one limit or two")),
     };
     let stroke = Stroke { from: ends.0, to: ends.1, profile, dwell };
     let duration = stroke.duration();
     Ok((desired(py, &Trajectory::Stroke(stroke), &contiguous(&time)), duration))
 }
 
-/// A Fourier series about a centre.
+/// A Fourier series around a centre.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(super) fn fourier<'py>(
@@ -331,7 +333,7 @@ pub(super) fn fourier<'py>(
     cosine: Vec<f64>,
 ) -> PyResult<Desired<'py>> {
     if sine.len() > HARMONICS || cosine.len() > HARMONICS {
-        let message = format!("a Fourier series has {HARMONICS} harmonics at most");
+        let message = format!("a Fourier series has at most {HARMONICS} harmonics");
         return Err(ModelError::new_err(message));
     }
     let filled = |given: &[f64]| {

@@ -1,4 +1,4 @@
-//! The extension module `stribeck._core`: a thin adapter, no mathematics.
+//! The extension module `stribeck._core`: a thin interface without mathematics.
 
 mod arm;
 mod catalog;

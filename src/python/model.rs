@@ -1,3 +1,5 @@
+//! Python interface: models.
+
 use std::collections::BTreeMap;
 use std::format;
 use std::string::{String, ToString};
@@ -17,12 +19,12 @@ use crate::composed::Spec;
 use crate::formula::Formula;
 use crate::table::Presence;
 
-/// A friction law with effects and terms by formula. Which parameters it has is fixed; their
-/// values are arguments.
+/// A friction law with effects and formula terms. Its parameters are fixed; their values are
+/// arguments.
 #[pyclass(frozen, module = "stribeck._core")]
 pub struct Model {
     pub(super) spec: Spec,
-    /// What the parameters of formulas are called, and what the formulas call them.
+    /// Names of the formula parameters in the model, and in the formulas.
     own: Vec<(String, String)>,
 }
 
@@ -42,7 +44,7 @@ impl Model {
         for (text, names) in &own {
             let (formula, symbols) = Formula::parse(text).map_err(refuse)?;
             if names.len() != symbols.as_slice().len() {
-                let message = format!("'{text}' has not {} parameters", names.len());
+                let message = format!("'{text}' does not have {} parameters", names.len());
                 return Err(ModelError::new_err(message));
             }
             let symbols = symbols.as_slice().iter().map(ToString::to_string);
@@ -92,19 +94,19 @@ impl Model {
         self.spec.constants().collect()
     }
 
-    /// Whether the torque depends on what went before.
+    /// Whether the torque depends on the history.
     #[getter]
     fn has_state(&self) -> bool {
         self.spec.has_state()
     }
 
-    /// How many numbers its state has.
+    /// Number of values of its state.
     #[getter]
     fn state_size(&self) -> usize {
         self.spec.memory().size()
     }
 
-    /// Columns it reads.
+    /// Columns that it reads.
     #[getter]
     fn needs(&self) -> Vec<&'static str> {
         self.spec.channels().map(crate::table::Channel::name).collect()
@@ -129,16 +131,16 @@ impl Model {
             .collect()
     }
 
-    /// A step of the model as a list of operations, to print programs from: dict of `operations`
-    /// (name, operands, what else is said), `torque` (which operation) and `states` (dicts). With
-    /// `single` what is known beforehand is computed in single precision.
+    /// One step of the model as a list of operations, to generate code from: dict of `operations`
+    /// (name, operands, data), `torque` (index) and `states` (dicts). With `single` numbers known
+    /// beforehand are computed in single precision.
     #[pyo3(signature = (*, single=false))]
     fn program<'py>(&self, py: Python<'py>, single: bool) -> PyResult<Bound<'py, PyDict>> {
         program(py, &self.spec, single)
     }
 
-    /// Friction torque of every row; with a memory, at the end of the row's step. `single` computes
-    /// in single precision throughout.
+    /// Friction torque of every sample; with memory, at the end of the sample's step. `single`
+    /// computes in single precision throughout.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
         load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false))]
@@ -186,8 +188,8 @@ impl Model {
         Ok(torque.into_pyarray(py))
     }
 
-    /// Friction torque of every row and its derivatives by the `wanted` parameters (indices, by
-    /// default all) in that order, one column each.
+    /// Friction torque of every sample and its derivatives with respect to the `wanted` parameters
+    /// (indices, by default all) in that order, one column each.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
         load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None))]

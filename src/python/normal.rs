@@ -1,3 +1,5 @@
+//! Python interface: normal equations.
+
 use std::borrow::Cow;
 use std::string::ToString;
 
@@ -13,7 +15,7 @@ use crate::batch::{self, NormalEquations};
 
 type Sums<'py> = (Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>);
 
-/// Sums of `J'J`, `J'r` and `r'r` over `groups` groups of rows, row after row.
+/// Sums of `J'J`, `J'r` and `r'r` over `groups` groups of samples, sample by sample.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn normal_equations<'py>(

@@ -1,3 +1,5 @@
+//! Python interface: passivity.
+
 use std::collections::BTreeMap;
 use std::string::{String, ToString};
 use std::vec::Vec;
@@ -15,8 +17,8 @@ use crate::passivity::replay::{self, Counterexample, Hold};
 use crate::passivity::{PassivityError, Verdict, check, requirement};
 use crate::table::Channel;
 
-/// Whether a model is passive over a box, all of it being friction: dict of `passive`, `condition`,
-/// `margins` and `counterexample`.
+/// Whether a model is passive over a box, with all of it as friction: dict of `passive`,
+/// `condition`, `margins` and `counterexample`.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(super) fn passivity<'py>(
@@ -32,8 +34,8 @@ pub(super) fn passivity<'py>(
     written(py, &verdict, &model.spec.channels().collect::<Vec<_>>())
 }
 
-/// Of a model over a box: whether it is passive, the condition that decides, and the requirement
-/// that is missed or open.
+/// For a model over a box: whether it is passive, the deciding condition, and the requirement that
+/// is violated or undecided.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(super) fn missed<'py>(
@@ -56,7 +58,7 @@ pub(super) fn missed<'py>(
     }
 }
 
-/// What passivity asks at points spread over a box, the worst of each kind.
+/// Requirements at points spread over a box, the worst of each kind.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(super) fn requirements<'py>(
@@ -74,7 +76,7 @@ pub(super) fn requirements<'py>(
     Ok(found.into_iter().map(own).collect())
 }
 
-/// The margins (T) of requirements, and their derivatives by all parameters.
+/// The margins (T) of requirements, and their derivatives with respect to all parameters.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, clippy::type_complexity)]
 pub(super) fn margins<'py>(
@@ -95,7 +97,7 @@ pub(super) fn margins<'py>(
     Ok((margins.into_pyarray(py), slopes.into_pyarray(py)))
 }
 
-/// What passivity asks of the parameters at single operating points.
+/// A condition of passivity on the parameters at single operating points.
 #[pyclass(frozen, module = "stribeck._core")]
 pub(super) struct Requirement {
     asked: requirement::Requirement,
@@ -110,13 +112,13 @@ impl Requirement {
         self.asked.name()
     }
 
-    /// The operating points that it is about.
+    /// The operating points of the condition.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
         self.asked.points().iter().map(|p| point(py, p, &self.channels)).collect()
     }
 
-    /// The bristle's force, of a cycle (T).
+    /// The bristle force of a cycle (T).
     #[getter]
     fn force(&self) -> Option<f64> {
         match self.asked {
@@ -137,8 +139,8 @@ pub(super) fn operating_box(sides: BTreeMap<String, (f64, f64)>) -> PyResult<Vec
     sides.into_iter().map(side).collect()
 }
 
-/// The work that a model takes over steps that are held one after the other (J), from a
-/// deflection on or else sliding already, by its exact step, and the deflection at the end.
+/// The work done on a model over a sequence of constant samples (J), from a deflection or from
+/// steady sliding, and the final deflection.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(super) fn work(

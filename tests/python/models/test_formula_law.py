@@ -100,7 +100,7 @@ def test_parameters_may_be_declared() -> None:
         ("c1*tan h(v)", "tan' is a function"),
         ("__import__('os').system('true')", "'__import__' is not a function"),
         ("c1.__class__*v", "'.' is not a number, at position 3"),
-        ("c1*v; c2", "';' means nothing in a formula, at position 5"),
+        ("c1*v; c2", "';' is not allowed in a formula, at position 5"),
         ("v*2", "has no parameter to identify"),
         ("", "the formula is empty"),
         ("c1*v + stribeck", "'stribeck' in 'c1*v + stribeck' is a law or an effect"),
