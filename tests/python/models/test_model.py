@@ -179,7 +179,7 @@ def test_laws_of_several_elements_start_from_several_forces() -> None:
     assert m.torque([0.1], dt=0.01, state=[1.95, -0.2]) == pytest.approx([2.0 - 0.2 + 0.9])
     assert m.torque([0.0], dt=0.01, state=0.0) == [0.0]
     for given in (0.3, [0.3], [0.1, 0.2, 0.3]):
-        with pytest.raises(ValueError, match="the model takes 2, one force an element"):
+        with pytest.raises(ValueError, match="the model needs 2, one force per element"):
             m.torque([0.0], dt=0.01, state=given)
     with pytest.raises(ValueError, match="the model has no memory"):
         sb.model("coulomb", a1=1.0, a2=2.0).torque([0.1], state=[1e-3])
