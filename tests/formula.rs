@@ -231,8 +231,8 @@ fn refusals_say_what_and_where() {
         ("", "the formula is empty"),
         ("  ", "the formula is empty"),
         ("2*v", "the formula has no parameter to identify: every name in it is a channel"),
-        ("c1*v + $", "'$' means nothing in a formula, at position 8"),
-        ("c1 = v", "'=' means nothing in a formula, at position 4"),
+        ("c1*v + $", "'$' is not allowed in a formula, at position 8"),
+        ("c1 = v", "'=' is not allowed in a formula, at position 4"),
         ("c1*1.2.3", "'1.2.3' is not a number, at position 4"),
         ("c1*2x", "'2x' is not a number, at position 4"),
         ("c1*", "a value is missing at the end, at position 4"),
@@ -241,20 +241,20 @@ fn refusals_say_what_and_where() {
         ("c1 v", "an operator is missing before 'v' at position 4"),
         ("c1(v)", "'c1' is not a function, at position 1"),
         ("c1*(v + 2", "the bracket '(' is never closed, at position 4"),
-        ("c1*v)", "')' closes no bracket, at position 5"),
-        ("c1*(v]", "']' closes no bracket, at position 6"),
-        ("c1, v", "',' closes no bracket, at position 3"),
+        ("c1*v)", "')' has no opening bracket, at position 5"),
+        ("c1*(v]", "']' has no opening bracket, at position 6"),
+        ("c1, v", "',' has no opening bracket, at position 3"),
         ("c1*tanhh(v)", "'tanhh' is not a function (did you mean 'tanh'?), at position 4"),
         ("c1*tnah(v)", "'tnah' is not a function (did you mean 'tanh'?), at position 4"),
         (
             "c1*velocty",
-            "'velocty' is unknown (did you mean 'velocity'? a parameter needs a name \
-                        that is less like it), at position 4",
+            "'velocty' is unknown (did you mean 'velocity'? if it is a parameter, give it a \
+                        more distinct name), at position 4",
         ),
         (
             "c1*Tanh",
-            "'Tanh' is unknown (did you mean 'tanh'? a parameter needs a name that is less like \
-                  it), at position 4",
+            "'Tanh' is unknown (did you mean 'tanh'? if it is a parameter, give it a more \
+                  distinct name), at position 4",
         ),
         (
             "c1*e",
@@ -267,11 +267,11 @@ fn refusals_say_what_and_where() {
                      on time, at position 4",
         ),
         ("c1*exp", "'exp' is a function (write exp(...)), at position 4"),
-        ("c1*exp(v, 2)", "exp takes 1 value, not 2, at position 4"),
-        ("c1*pow(v)", "pow takes 2 values, not 1, at position 4"),
-        ("c1*(1/0)", "this makes no finite number, at position 6"),
-        ("c1*1e999", "this makes no finite number, at position 4"),
-        ("c1*ä", "'ä' means nothing in a formula, at position 4"),
+        ("c1*exp(v, 2)", "exp takes 1 argument, not 2, at position 4"),
+        ("c1*pow(v)", "pow takes 2 arguments, not 1, at position 4"),
+        ("c1*(1/0)", "the result is not a finite number, at position 6"),
+        ("c1*1e999", "the result is not a finite number, at position 4"),
+        ("c1*ä", "'ä' is not allowed in a formula, at position 4"),
     ];
     for (text, sentence) in refusals {
         assert_eq!(refusal(text), sentence, "{text}");

@@ -485,13 +485,13 @@ fn boxes_that_cannot_be_asked_are_refused() {
     let refused = |spec: &str, values: &[f64], sides: &[Side]| {
         check(&made(spec), values, sides, BUDGET).unwrap_err().to_string()
     };
-    assert_eq!(refused("coulomb", &[0.5, 2.0], &[]), "the box has no range of velocity");
+    assert_eq!(refused("coulomb", &[0.5, 2.0], &[]), "the box gives no range for velocity");
     let spec = made("li");
     let mut sides = wide();
     sides[3] = side(Channel::Temperature, -5.0, 5.0);
     assert_eq!(
         refused("li", &common::values(&spec), &sides),
-        "the box holds 0 degC, where the law has no limit"
+        "the box contains 0 degC, where the law is singular"
     );
     let weak = refused("lugre", &[1e4, 1.0, 0.1, 1.0, -0.5, 0.1, 2.0], &speed(1.0));
     assert!(weak.starts_with("a bristle needs dry friction above zero"), "{weak}");

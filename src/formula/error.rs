@@ -74,8 +74,8 @@ impl fmt::Display for FormulaError<'_> {
             }
             Reason::Mistyped(name, near) => write!(
                 f,
-                "'{name}' is unknown (did you mean '{near}'? a parameter needs a name that is \
-                 less like it),"
+                "'{name}' is unknown (did you mean '{near}'? if it is a parameter, give it \
+                 a more distinct name),"
             ),
             Reason::Ambiguous(name) => write!(
                 f,
