@@ -1,5 +1,5 @@
-//! Time per sample of the kernels that a fit and a controller spend their time in.
-// The inputs need not be the same bits everywhere.
+//! Time per sample of the kernels in which a fit and a controller spend their time.
+// Inputs may have different bits on different machines.
 #![allow(clippy::disallowed_methods)]
 
 use std::f64::consts::TAU;

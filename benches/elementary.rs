@@ -1,6 +1,6 @@
-//! Time per element of the elementary functions: one after the other, in a packed loop, and against
-//! `libm` and the standard library.
-// What is compared is what the core must not use.
+//! Time per element of the elementary functions: one number at a time, in a vectorised loop, and
+//! for comparison `libm` and the standard library.
+// The functions compared with are banned in the crate.
 #![allow(clippy::disallowed_methods)]
 
 use std::hint::black_box;
@@ -9,11 +9,11 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 use stribeck::math;
 
-/// Elements; two columns of them fit the first cache.
+/// Number of elements; two columns of them fit into the first-level cache.
 const COUNT: usize = 1024;
 
-/// Runs the same loop with the registers of AVX2, eight lanes at a time: two chains of operations
-/// side by side.
+/// Compiles the same loop for AVX2 with eight lanes, so that two chains of operations run in
+/// parallel.
 macro_rules! packed {
     ($float:ident, $function:expr) => {{
         #[cfg_attr(target_arch = "x86_64", target_feature(enable = "avx2"))]
@@ -31,7 +31,7 @@ macro_rules! compare {
     ($group:expr, $float:ident, $low:expr, $high:expr,
      own: $own:expr, libm: $libm:expr, std: $std:expr) => {{
         let group: &mut BenchmarkGroup<WallTime> = $group;
-        // In no order that a branch could be guessed from.
+        // In an order that branch prediction cannot learn.
         let turn = |i: usize| (i * 7919 % COUNT) as $float / COUNT as $float;
         let arguments: Vec<$float> = (0..COUNT).map(|i| $low + ($high - $low) * turn(i)).collect();
         let mut values = arguments.clone();
@@ -52,7 +52,7 @@ macro_rules! compare {
         }
         let packed = packed!($float, $own);
         group.bench_function(concat!(stringify!($float), " packed"), |b| {
-            // SAFETY: the processor has it.
+            // SAFETY: the processor supports AVX2.
             b.iter(|| unsafe { packed(black_box(&arguments), black_box(&mut values)) });
         });
     }};
@@ -93,7 +93,7 @@ benchmark!(sin_cos, -5.0, 5.0,
     libm: |x| sum(libm::sincos(x)), |x| sum(libm::sincosf(x)),
     std: |x| sum(x.sin_cos()), |x| sum(x.sin_cos()));
 
-/// One number that needs both.
+/// A single number that depends on both.
 #[inline(always)]
 fn sum<T: std::ops::Add<Output = T>>((sin, cos): (T, T)) -> T {
     sin + cos

@@ -1,5 +1,6 @@
-//! One joint under position control at 4 kHz, as it runs on a microcontroller: read, friction
-//! feedforward, torque out. The sensor drops out now and then; the joint here is simulated.
+//! One joint under position control at 4 kHz, as on a microcontroller: read the sensor, compute
+//! friction feedforward, apply the torque. The sensor drops out now and then; the joint is
+//! simulated.
 //!
 //! cargo run --example control_loop
 
@@ -11,7 +12,7 @@ use stribeck::sample::Sample;
 
 const PERIOD: f32 = 2.5e-4;
 
-/// As identified on the bench (`stribeck fit --model lugre`).
+/// Identified on a test bench (`stribeck fit --model lugre`).
 const FRICTION: Lugre<f32> = Lugre {
     bristle_stiffness: 2000.0,
     bristle_damping: 4.0,
@@ -24,7 +25,7 @@ const FRICTION: Lugre<f32> = Lugre {
 
 const LIMITS: Limits<f32> = Limits { torque: 8.0, speed: 6.0, held: 8 };
 
-/// Stands for encoder, motor and mechanics.
+/// Simulates encoder, motor and mechanics.
 struct Joint {
     position: f32,
     velocity: f32,
@@ -35,7 +36,7 @@ struct Joint {
 impl Joint {
     const INERTIA: f32 = 0.2;
 
-    /// What the encoder says, if it says anything.
+    /// The reading of the encoder, unless it drops out.
     fn read(&self, k: u32) -> Option<Sample<f32>> {
         let broken = k % 5000 > 4980;
         (!broken).then(|| Sample { position: self.position, ..Sample::at(self.velocity) })
@@ -48,14 +49,14 @@ impl Joint {
     }
 }
 
-/// A slow motion to and fro: position and velocity.
+/// A slow oscillation: position and velocity.
 fn desired(k: u32) -> (f32, f32) {
     let time = k as f32 * PERIOD;
     let (sin, cos) = stribeck::math::f32::sin_cos(time);
     (0.3 * (1.0 - cos), 0.3 * sin)
 }
 
-/// The root mean square error of position (rad), and how many torques the law did not give.
+/// The root mean square error of position (rad), and the number of torques without a reading.
 fn track(compensate: bool) -> Result<(f32, u32), ModelError<'static>> {
     let mut friction = Feedforward::new(FixedLaw::new(FRICTION), PERIOD, LIMITS)?;
     let mut joint = Joint {
@@ -67,15 +68,15 @@ fn track(compensate: bool) -> Result<(f32, u32), ModelError<'static>> {
     let (mut last, mut squares, mut bridged) = (Sample::at(0.0), 0.0, 0);
     const STEPS: u32 = 40_000;
     for k in 0..STEPS {
-        // Read.
+        // Read the sensor.
         let (position, velocity) = desired(k);
         let reading = joint.read(k);
         last = reading.unwrap_or(last);
-        // Friction, at the velocity that is wanted: it does not feed back what the sensor adds.
+        // Friction at the desired velocity: sensor noise is not fed back.
         let wanted = reading.map(|read| Sample { velocity, ..read });
         let feed = friction.next(wanted.as_ref());
         bridged += u32::from(matches!(feed.source, Source::Last | Source::None));
-        // Torque out.
+        // Apply the torque.
         let feedback = 60.0 * (position - last.position) + 4.0 * (velocity - last.velocity);
         joint.drive(feedback + if compensate { feed.torque } else { 0.0 });
         squares += (position - joint.position) * (position - joint.position);

@@ -1,4 +1,4 @@
-/* Friction feedforward in C: a joint that reverses, a sensor that fails. */
+/* Friction feedforward in C: a joint that reverses, and missing readings. */
 #include <stdio.h>
 
 #include "stribeck.h"
@@ -26,7 +26,7 @@ int main(void)
     size_t i;
 
     if (stribeck_version() != STRIBECK_VERSION) {
-        fprintf(stderr, "header and library do not belong together\n");
+        fprintf(stderr, "header and library have different versions\n");
         return 2;
     }
     stribeck_status status = stribeck_joint_init_f32(&joint, &settings);

@@ -1,4 +1,4 @@
-// What the library says of settings that cannot be used, and a joint in double precision.
+// Messages of the library for invalid settings, and a joint in double precision.
 #include <array>
 #include <cmath>
 #include <iostream>

@@ -7,17 +7,17 @@
 #include <stdint.h>
 
 /**
- * Version of this interface: a program and a library belong together where `stribeck_version()`
- * returns it.
+ * Version of this interface: a program is compatible with a library for which `stribeck_version()`
+ * returns the same value.
  */
 #define STRIBECK_VERSION 1
 
 /**
- * How a call went.
+ * The result of a call.
  */
 typedef enum {
   /**
-   * As it should.
+   * Success.
    */
   STRIBECK_STATUS_OK = 0,
   /**
@@ -29,7 +29,8 @@ typedef enum {
    */
   STRIBECK_STATUS_NOT_INITIALISED = 2,
   /**
-   * The model names a law or an effect that is unknown, twice there or in the law already.
+   * The model contains an unknown law or effect, or an effect that is named twice or part of the
+   * law.
    */
   STRIBECK_STATUS_UNKNOWN_MODEL = 3,
   /**
@@ -41,7 +42,7 @@ typedef enum {
    */
   STRIBECK_STATUS_PARAMETER_VALUE = 5,
   /**
-   * A constant is unknown or cannot have this value.
+   * A constant is unknown, or its value is inadmissible.
    */
   STRIBECK_STATUS_CONSTANT = 6,
   /**
@@ -51,30 +52,30 @@ typedef enum {
 } stribeck_status;
 
 /**
- * Where a torque comes from.
+ * The origin of a torque.
  */
 typedef enum {
   /**
-   * From the model.
+   * The model.
    */
   STRIBECK_SOURCE_LAW = 0,
   /**
-   * From the model, which gives more than the limit.
+   * The model, limited.
    */
   STRIBECK_SOURCE_LIMIT = 1,
   /**
-   * From the last reading that could be used.
+   * The last valid reading.
    */
   STRIBECK_SOURCE_LAST = 2,
   /**
-   * From nowhere: there is nothing to go by, the torque is 0.
+   * None: no valid reading is recent enough; the torque is 0.
    */
   STRIBECK_SOURCE_NONE = 3,
 } stribeck_source;
 
 /**
- * Friction of one joint with its state: room that the caller owns. Its contents may change from
- * version to version.
+ * Friction of one joint with its state, in memory that the caller owns. The layout may change
+ * between versions.
  */
 typedef struct {
   uint64_t tag;
@@ -82,7 +83,7 @@ typedef struct {
 } stribeck_joint_f64;
 
 /**
- * A constant of a model, by its name.
+ * A constant of a model.
  */
 typedef struct {
   /**
@@ -96,7 +97,7 @@ typedef struct {
 } stribeck_constant;
 
 /**
- * What a joint is made from. Pointers are read by the function that makes a joint alone.
+ * Settings of a joint. The pointers are read only by the function that initialises it.
  */
 typedef struct {
   /**
@@ -108,15 +109,15 @@ typedef struct {
    */
   const double *parameters;
   /**
-   * How many parameters.
+   * Number of parameters.
    */
   size_t parameter_count;
   /**
-   * Constants that are not the usual ones; may be null.
+   * Constants that differ from their defaults; may be null.
    */
   const stribeck_constant *constants;
   /**
-   * How many constants.
+   * Number of constants.
    */
   size_t constant_count;
   /**
@@ -124,21 +125,21 @@ typedef struct {
    */
   double period;
   /**
-   * Largest torque that is given (N m or N).
+   * Largest torque (N m or N).
    */
   double torque_limit;
   /**
-   * Largest speed that the joint can have: a reading beyond it is not believed.
+   * Largest speed of the joint: a reading above it is invalid.
    */
   double speed_limit;
   /**
-   * For how many samples in a row without a reading the last torque is given.
+   * Number of consecutive missing or invalid readings for which the last torque is held.
    */
   uint32_t held;
 } stribeck_settings_f64;
 
 /**
- * What is read at one instant, in SI units. Channels that the model does not read: 0.
+ * The inputs at one instant, in SI units. Channels that the model does not read are 0.
  */
 typedef struct {
   /**
@@ -158,11 +159,11 @@ typedef struct {
    */
   double temperature;
   /**
-   * Load torque: all at the joint that is not friction (N m or N).
+   * Load torque: all torque at the joint except friction (N m or N).
    */
   double load_torque;
   /**
-   * Second derivative of the load torque by time (N m/s2 or N/s2).
+   * Second time derivative of the load torque (N m/s2 or N/s2).
    */
   double load_torque_curvature;
   /**
@@ -170,7 +171,7 @@ typedef struct {
    */
   double motor_torque;
   /**
-   * Torque of the environment on the joint, without inertia (N m or N).
+   * External torque of the environment on the joint, without inertia (N m or N).
    */
   double external_torque;
   /**
@@ -180,8 +181,8 @@ typedef struct {
 } stribeck_sample_f64;
 
 /**
- * Friction of one joint with its state: room that the caller owns. Its contents may change from
- * version to version.
+ * Friction of one joint with its state, in memory that the caller owns. The layout may change
+ * between versions.
  */
 typedef struct {
   uint64_t tag;
@@ -189,7 +190,7 @@ typedef struct {
 } stribeck_joint_f32;
 
 /**
- * What a joint is made from. Pointers are read by the function that makes a joint alone.
+ * Settings of a joint. The pointers are read only by the function that initialises it.
  */
 typedef struct {
   /**
@@ -201,15 +202,15 @@ typedef struct {
    */
   const float *parameters;
   /**
-   * How many parameters.
+   * Number of parameters.
    */
   size_t parameter_count;
   /**
-   * Constants that are not the usual ones; may be null.
+   * Constants that differ from their defaults; may be null.
    */
   const stribeck_constant *constants;
   /**
-   * How many constants.
+   * Number of constants.
    */
   size_t constant_count;
   /**
@@ -217,21 +218,21 @@ typedef struct {
    */
   float period;
   /**
-   * Largest torque that is given (N m or N).
+   * Largest torque (N m or N).
    */
   float torque_limit;
   /**
-   * Largest speed that the joint can have: a reading beyond it is not believed.
+   * Largest speed of the joint: a reading above it is invalid.
    */
   float speed_limit;
   /**
-   * For how many samples in a row without a reading the last torque is given.
+   * Number of consecutive missing or invalid readings for which the last torque is held.
    */
   uint32_t held;
 } stribeck_settings_f32;
 
 /**
- * What is read at one instant, in SI units. Channels that the model does not read: 0.
+ * The inputs at one instant, in SI units. Channels that the model does not read are 0.
  */
 typedef struct {
   /**
@@ -251,11 +252,11 @@ typedef struct {
    */
   float temperature;
   /**
-   * Load torque: all at the joint that is not friction (N m or N).
+   * Load torque: all torque at the joint except friction (N m or N).
    */
   float load_torque;
   /**
-   * Second derivative of the load torque by time (N m/s2 or N/s2).
+   * Second time derivative of the load torque (N m/s2 or N/s2).
    */
   float load_torque_curvature;
   /**
@@ -263,7 +264,7 @@ typedef struct {
    */
   float motor_torque;
   /**
-   * Torque of the environment on the joint, without inertia (N m or N).
+   * External torque of the environment on the joint, without inertia (N m or N).
    */
   float external_torque;
   /**
@@ -277,21 +278,21 @@ extern "C" {
 #endif // __cplusplus
 
 /**
- * Makes a joint of which nothing has been read yet.
+ * Initialises a joint without readings.
  *
  * # Safety
- * The pointers are null or point to what their types say, `parameters` and `constants` to as many
- * elements as the counts say, strings end in 0.
+ * Every pointer is null or points to what its type says, `parameters` and `constants` to as many
+ * elements as the counts say; strings end in 0.
  */
 stribeck_status stribeck_joint_init_f64(stribeck_joint_f64 *joint,
                                         const stribeck_settings_f64 *settings);
 
 /**
- * The torque to add until the next sample. A null `sample` is a reading that has not come; one that
- * is not finite, or too fast, counts as that. `source` may be null.
+ * The torque to add until the next sample. A null `sample` is a missing reading; one that is not
+ * finite or too fast counts as missing. `source` may be null.
  *
  * # Safety
- * The pointers are null or point to what their types say.
+ * Every pointer is null or points to what its type says.
  */
 stribeck_status stribeck_joint_next_f64(stribeck_joint_f64 *joint,
                                         const stribeck_sample_f64 *sample,
@@ -299,21 +300,21 @@ stribeck_status stribeck_joint_next_f64(stribeck_joint_f64 *joint,
                                         stribeck_source *source);
 
 /**
- * Makes a joint of which nothing has been read yet.
+ * Initialises a joint without readings.
  *
  * # Safety
- * The pointers are null or point to what their types say, `parameters` and `constants` to as many
- * elements as the counts say, strings end in 0.
+ * Every pointer is null or points to what its type says, `parameters` and `constants` to as many
+ * elements as the counts say; strings end in 0.
  */
 stribeck_status stribeck_joint_init_f32(stribeck_joint_f32 *joint,
                                         const stribeck_settings_f32 *settings);
 
 /**
- * The torque to add until the next sample. A null `sample` is a reading that has not come; one that
- * is not finite, or too fast, counts as that. `source` may be null.
+ * The torque to add until the next sample. A null `sample` is a missing reading; one that is not
+ * finite or too fast counts as missing. `source` may be null.
  *
  * # Safety
- * The pointers are null or point to what their types say.
+ * Every pointer is null or points to what its type says.
  */
 stribeck_status stribeck_joint_next_f32(stribeck_joint_f32 *joint,
                                         const stribeck_sample_f32 *sample,
@@ -321,20 +322,20 @@ stribeck_status stribeck_joint_next_f32(stribeck_joint_f32 *joint,
                                         stribeck_source *source);
 
 /**
- * The version that the library has.
+ * The version of the library.
  */
 uint32_t stribeck_version(void);
 
 /**
- * How many parameters a model has.
+ * Number of parameters of a model.
  *
  * # Safety
- * The pointers are null or point to what their types say; the string ends in 0.
+ * Every pointer is null or points to what its type says; the string ends in 0.
  */
 stribeck_status stribeck_parameter_count(const char *model, size_t *count);
 
 /**
- * What a status means, in English. Any number may be given: C does not check what is in an enum.
+ * The message of a status. Any number may be passed: C does not check the values of an enum.
  */
 const char *stribeck_message(int32_t status);
 

@@ -4,20 +4,20 @@ use crate::joint::{
     StribeckJoint, StribeckSample, StribeckSettings, StribeckSource, StribeckStatus, init, next,
 };
 
-/// What is read at one instant, in double precision.
+/// The inputs at one instant, in double precision.
 pub type StribeckSampleF64 = StribeckSample<f64>;
 
-/// What a joint in double precision is made from.
+/// Settings of a joint in double precision.
 pub type StribeckSettingsF64 = StribeckSettings<f64>;
 
 /// A joint in double precision.
 pub type StribeckJointF64 = StribeckJoint<384>;
 
-/// Makes a joint of which nothing has been read yet.
+/// Initialises a joint without readings.
 ///
 /// # Safety
-/// The pointers are null or point to what their types say, `parameters` and `constants` to as many
-/// elements as the counts say, strings end in 0.
+/// Every pointer is null or points to what its type says, `parameters` and `constants` to as many
+/// elements as the counts say; strings end in 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stribeck_joint_init_f64(
     joint: *mut StribeckJoint<384>,
@@ -27,11 +27,11 @@ pub unsafe extern "C" fn stribeck_joint_init_f64(
     unsafe { init(joint, settings) }
 }
 
-/// The torque to add until the next sample. A null `sample` is a reading that has not come; one that
-/// is not finite, or too fast, counts as that. `source` may be null.
+/// The torque to add until the next sample. A null `sample` is a missing reading; one that is not
+/// finite or too fast counts as missing. `source` may be null.
 ///
 /// # Safety
-/// The pointers are null or point to what their types say.
+/// Every pointer is null or points to what its type says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stribeck_joint_next_f64(
     joint: *mut StribeckJoint<384>,

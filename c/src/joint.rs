@@ -1,4 +1,4 @@
-//! What both precisions share.
+//! Types and functions generic over the precision.
 
 use core::ffi::{CStr, c_char};
 use core::mem::{align_of, size_of};
@@ -10,43 +10,44 @@ use stribeck::feedforward::{Feedforward, Limits, Source};
 use stribeck::sample::Sample;
 use stribeck::scalar::Scalar;
 
-/// How a call went.
+/// The result of a call.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StribeckStatus {
-    /// As it should.
+    /// Success.
     Ok = 0,
     /// A pointer is null.
     NullPointer = 1,
     /// The joint has not been initialised.
     NotInitialised = 2,
-    /// The model names a law or an effect that is unknown, twice there or in the law already.
+    /// The model contains an unknown law or effect, or an effect that is named twice or part of the
+    /// law.
     UnknownModel = 3,
     /// The number of parameters is not that of the model.
     ParameterCount = 4,
     /// The model cannot be evaluated with one of the parameters.
     ParameterValue = 5,
-    /// A constant is unknown or cannot have this value.
+    /// A constant is unknown, or its value is inadmissible.
     Constant = 6,
     /// The period or a limit is not a positive number.
     Limit = 7,
 }
 
-/// Where a torque comes from.
+/// The origin of a torque.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StribeckSource {
-    /// From the model.
+    /// The model.
     Law = 0,
-    /// From the model, which gives more than the limit.
+    /// The model, limited.
     Limit = 1,
-    /// From the last reading that could be used.
+    /// The last valid reading.
     Last = 2,
-    /// From nowhere: there is nothing to go by, the torque is 0.
+    /// None: no valid reading is recent enough; the torque is 0.
     None = 3,
 }
 
-/// A constant of a model, by its name.
+/// A constant of a model.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct StribeckConstant {
@@ -56,7 +57,7 @@ pub struct StribeckConstant {
     pub value: f64,
 }
 
-/// What is read at one instant, in SI units. Channels that the model does not read: 0.
+/// The inputs at one instant, in SI units. Channels that the model does not read are 0.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct StribeckSample<S> {
@@ -68,13 +69,13 @@ pub struct StribeckSample<S> {
     pub acceleration: S,
     /// Joint temperature (degC).
     pub temperature: S,
-    /// Load torque: all at the joint that is not friction (N m or N).
+    /// Load torque: all torque at the joint except friction (N m or N).
     pub load_torque: S,
-    /// Second derivative of the load torque by time (N m/s2 or N/s2).
+    /// Second time derivative of the load torque (N m/s2 or N/s2).
     pub load_torque_curvature: S,
     /// Motor torque (N m or N).
     pub motor_torque: S,
-    /// Torque of the environment on the joint, without inertia (N m or N).
+    /// External torque of the environment on the joint, without inertia (N m or N).
     pub external_torque: S,
     /// Time since the start (s).
     pub time: S,
@@ -96,36 +97,36 @@ impl<S: Scalar<Plain = S>> StribeckSample<S> {
     }
 }
 
-/// What a joint is made from. Pointers are read by the function that makes a joint alone.
+/// Settings of a joint. The pointers are read only by the function that initialises it.
 #[repr(C)]
 pub struct StribeckSettings<S> {
     /// Law and effects, as in a model file: `"lugre+load"`.
     pub model: *const c_char,
     /// Parameters in the order of the model file.
     pub parameters: *const S,
-    /// How many parameters.
+    /// Number of parameters.
     pub parameter_count: usize,
-    /// Constants that are not the usual ones; may be null.
+    /// Constants that differ from their defaults; may be null.
     pub constants: *const StribeckConstant,
-    /// How many constants.
+    /// Number of constants.
     pub constant_count: usize,
     /// Sample period (s).
     pub period: S,
-    /// Largest torque that is given (N m or N).
+    /// Largest torque (N m or N).
     pub torque_limit: S,
-    /// Largest speed that the joint can have: a reading beyond it is not believed.
+    /// Largest speed of the joint: a reading above it is invalid.
     pub speed_limit: S,
-    /// For how many samples in a row without a reading the last torque is given.
+    /// Number of consecutive missing or invalid readings for which the last torque is held.
     pub held: u32,
 }
 
 pub type Joint<S> = Feedforward<Composed<S>, S>;
 
-/// What the first word of a joint is once it has been initialised.
+/// The first word of an initialised joint.
 const INITIALISED: u64 = 0x7374_7269_6265_636b;
 
-/// Friction of one joint with its state: room that the caller owns. Its contents may change from
-/// version to version.
+/// Friction of one joint with its state, in memory that the caller owns. The layout may change
+/// between versions.
 #[repr(C)]
 pub struct StribeckJoint<const WORDS: usize> {
     tag: u64,
@@ -133,37 +134,37 @@ pub struct StribeckJoint<const WORDS: usize> {
 }
 
 impl<const WORDS: usize> StribeckJoint<WORDS> {
-    /// Puts a joint there.
+    /// Writes a joint.
     pub fn fill<S: Scalar<Plain = S> + PartialOrd>(&mut self, joint: Joint<S>) {
         const { assert!(size_of::<Joint<S>>() <= 8 * WORDS && align_of::<Joint<S>>() <= 8) };
-        // SAFETY: large enough and aligned, as has just been asserted.
+        // SAFETY: large enough and aligned, as asserted above.
         unsafe { self.words.as_mut_ptr().cast::<Joint<S>>().write(joint) };
         self.tag = INITIALISED ^ size_of::<Joint<S>>() as u64;
     }
 
-    /// The joint, if one has been put there.
+    /// The joint, if one was written.
     pub fn joint<S: Scalar<Plain = S> + PartialOrd>(&mut self) -> Option<&mut Joint<S>> {
         let filled = self.tag == INITIALISED ^ size_of::<Joint<S>>() as u64;
-        // SAFETY: the tag says that `fill` has put one there.
+        // SAFETY: the tag shows that `fill` has written a joint of this type.
         filled.then(|| unsafe { &mut *self.words.as_mut_ptr().cast::<Joint<S>>() })
     }
 }
 
-/// Puts a joint as the settings say into its room.
+/// Initialises a joint from its settings.
 ///
 /// # Safety
-/// The pointers, those in the settings too, are null or point to as much as types and counts say;
+/// Every pointer, also in the settings, is null or points to as much as types and counts say;
 /// strings end in 0.
 pub unsafe fn init<S: Scalar<Plain = S> + PartialOrd, const WORDS: usize>(
     joint: *mut StribeckJoint<WORDS>,
     settings: *const StribeckSettings<S>,
 ) -> StribeckStatus {
     // SAFETY: as for this function.
-    let (room, said) = unsafe { (joint.as_mut(), settings.as_ref()) };
-    let (Some(room), Some(said)) = (room, said) else { return StribeckStatus::NullPointer };
+    let (room, settings) = unsafe { (joint.as_mut(), settings.as_ref()) };
+    let (Some(room), Some(settings)) = (room, settings) else { return StribeckStatus::NullPointer };
     room.tag = 0;
     // SAFETY: as for this function.
-    match unsafe { build(said) } {
+    match unsafe { build(settings) } {
         Ok(joint) => {
             room.fill(joint);
             StribeckStatus::Ok
@@ -172,19 +173,19 @@ pub unsafe fn init<S: Scalar<Plain = S> + PartialOrd, const WORDS: usize>(
     }
 }
 
-/// A joint as the settings say.
+/// A joint from its settings.
 ///
 /// # Safety
-/// Pointers that are not null point to as many elements as the settings say, strings end in 0.
+/// Pointers that are not null point to as many elements as the settings say; strings end in 0.
 unsafe fn build<S: Scalar<Plain = S> + PartialOrd>(
-    said: &StribeckSettings<S>,
+    settings: &StribeckSettings<S>,
 ) -> Result<Joint<S>, StribeckStatus> {
     // SAFETY: as for this function.
     let (mut spec, parameters, constants) = unsafe {
         (
-            spec(said.model)?,
-            array(said.parameters, said.parameter_count)?,
-            array(said.constants, said.constant_count)?,
+            spec(settings.model)?,
+            array(settings.parameters, settings.parameter_count)?,
+            array(settings.constants, settings.constant_count)?,
         )
     };
     for constant in constants {
@@ -193,11 +194,12 @@ unsafe fn build<S: Scalar<Plain = S> + PartialOrd>(
         spec.set_constant(name, constant.value).map_err(|error| status(&error))?;
     }
     let model = spec.with(parameters).map_err(|error| status(&error))?;
-    let limits = Limits { torque: said.torque_limit, speed: said.speed_limit, held: said.held };
-    Feedforward::new(model, said.period, limits).map_err(|_| StribeckStatus::Limit)
+    let limits =
+        Limits { torque: settings.torque_limit, speed: settings.speed_limit, held: settings.held };
+    Feedforward::new(model, settings.period, limits).map_err(|_| StribeckStatus::Limit)
 }
 
-/// The model that a string names.
+/// The model with this name.
 ///
 /// # Safety
 /// The string ends in 0.
@@ -209,7 +211,7 @@ pub unsafe fn spec(model: *const c_char) -> Result<Spec, StribeckStatus> {
 /// One step.
 ///
 /// # Safety
-/// The pointers are null or point to what their types say.
+/// Every pointer is null or points to what its type says.
 pub unsafe fn next<S: Scalar<Plain = S> + PartialOrd, const WORDS: usize>(
     joint: *mut StribeckJoint<WORDS>,
     sample: *const StribeckSample<S>,
@@ -246,7 +248,7 @@ fn status(error: &ModelError<'_>) -> StribeckStatus {
 }
 
 /// # Safety
-/// The string, where there is one, ends in 0.
+/// The string is null or ends in 0.
 unsafe fn text<'a>(string: *const c_char) -> Result<&'a str, StribeckStatus> {
     if string.is_null() {
         return Err(StribeckStatus::NullPointer);
@@ -256,7 +258,7 @@ unsafe fn text<'a>(string: *const c_char) -> Result<&'a str, StribeckStatus> {
 }
 
 /// # Safety
-/// Where the pointer is not null it points to so many elements.
+/// The pointer is null or points to `count` elements.
 unsafe fn array<'a, T>(first: *const T, count: usize) -> Result<&'a [T], StribeckStatus> {
     match (first.is_null(), count) {
         (_, 0) => Ok(&[]),

@@ -1,20 +1,20 @@
-//! Version, messages, and what a model expects.
+//! Version, messages, and the number of parameters of a model.
 
 use core::ffi::{CStr, c_char};
 
 use crate::STRIBECK_VERSION;
 use crate::joint::{StribeckStatus, spec};
 
-/// The version that the library has.
+/// The version of the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn stribeck_version() -> u32 {
     STRIBECK_VERSION
 }
 
-/// How many parameters a model has.
+/// Number of parameters of a model.
 ///
 /// # Safety
-/// The pointers are null or point to what their types say; the string ends in 0.
+/// Every pointer is null or points to what its type says; the string ends in 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn stribeck_parameter_count(
     model: *const c_char,
@@ -32,19 +32,19 @@ pub unsafe extern "C" fn stribeck_parameter_count(
     }
 }
 
-/// What each status means, in its order.
+/// The message of each status, in order.
 const MESSAGES: [&CStr; 8] = [
     c"done",
     c"a pointer is null",
     c"the joint has not been initialised",
-    c"the model names a law or effect that is unknown, twice there or in the law already",
+    c"the model contains an unknown law or effect, or an effect twice",
     c"the number of parameters is not that of the model",
     c"the model cannot be evaluated with a parameter",
-    c"a constant is unknown or cannot have this value",
+    c"a constant is unknown or its value is inadmissible",
     c"the period or a limit is not a positive number",
 ];
 
-/// What a status means, in English. Any number may be given: C does not check what is in an enum.
+/// The message of a status. Any number may be passed: C does not check the values of an enum.
 #[unsafe(no_mangle)]
 pub extern "C" fn stribeck_message(status: i32) -> *const c_char {
     let known = usize::try_from(status).ok().and_then(|status| MESSAGES.get(status));

@@ -1,4 +1,4 @@
-//! What the functions say of pointers and settings that cannot be.
+//! Statuses and messages for invalid pointers and settings.
 
 use core::ptr::{null, null_mut};
 use std::ffi::CStr;
@@ -28,18 +28,18 @@ fn settings(model: &'static CStr) -> StribeckSettingsF64 {
 
 fn init(settings: &StribeckSettingsF64) -> StribeckStatus {
     let mut joint = empty();
-    // SAFETY: both are there.
+    // SAFETY: both pointers are valid.
     unsafe { stribeck_joint_init_f64(&raw mut joint, settings) }
 }
 
-/// A joint of zeros, as C makes one.
+/// A joint of zeros, as C initialises one.
 fn empty() -> StribeckJointF64 {
-    // SAFETY: consists of whole numbers.
+    // SAFETY: consists of integers.
     unsafe { core::mem::zeroed() }
 }
 
 #[test]
-fn settings_that_cannot_be_are_named() {
+fn invalid_settings_are_reported() {
     let with = |change: &dyn Fn(&mut StribeckSettingsF64)| {
         let mut settings = settings(c"coulomb");
         change(&mut settings);
@@ -64,7 +64,7 @@ fn settings_that_cannot_be_are_named() {
 }
 
 #[test]
-fn a_joint_that_is_none_is_refused() {
+fn an_uninitialised_joint_is_refused() {
     let (mut joint, mut torque) = (empty(), 7.0);
     let sample = StribeckSampleF64 {
         velocity: -1.0,
@@ -78,14 +78,14 @@ fn a_joint_that_is_none_is_refused() {
         time: 0.0,
     };
     let mut next = |joint: *mut StribeckJointF64| {
-        // SAFETY: what is not null is there.
+        // SAFETY: pointers that are not null are valid.
         let status =
             unsafe { stribeck_joint_next_f64(joint, &sample, &raw mut torque, null_mut()) };
         (status, torque)
     };
     assert_eq!(next(null_mut()), (StribeckStatus::NullPointer, 7.0));
     assert_eq!(next(&raw mut joint), (StribeckStatus::NotInitialised, 7.0));
-    // SAFETY: both are there.
+    // SAFETY: both pointers are valid.
     let made = unsafe { stribeck_joint_init_f64(&raw mut joint, &settings(c"coulomb")) };
     assert_eq!(made, StribeckStatus::Ok);
     assert_eq!(next(&raw mut joint), (StribeckStatus::Ok, -3.5));
@@ -102,7 +102,7 @@ fn version_messages_and_counts() {
     );
     assert_eq!(message(-1), message(8));
     let mut count = 0;
-    // SAFETY: both are there.
+    // SAFETY: both pointers are valid.
     let status = unsafe { stribeck_parameter_count(c"lugre+load".as_ptr(), &raw mut count) };
     let expected = Spec::new("lugre", ["load"]).expect("a model").parameter_count();
     assert_eq!((status, count), (StribeckStatus::Ok, expected));

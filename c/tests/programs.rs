@@ -1,4 +1,4 @@
-//! The examples compile without a warning, and print what they should.
+//! The examples compile without warnings and print the expected output.
 
 #![cfg(target_os = "linux")]
 
@@ -15,13 +15,13 @@ const LIBRARIES: [&str; 2] = ["libstribeck_c.a", "libstribeck_c.so"];
 
 const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-Wconversion", "-pedantic", "-Werror"];
 
-/// Where cargo has put the libraries.
+/// The folder of the libraries built by cargo.
 fn libraries() -> PathBuf {
     let test = env::current_exe().expect("the test has a path");
     test.parent().expect("target/PROFILE/deps/TEST").to_path_buf()
 }
 
-/// What a program prints that is linked to the library, or nothing without a compiler.
+/// The output of a program linked to the library; `None` without a compiler.
 fn printed(compiler: &str, standard: &str, source: &str, library: &str) -> Option<String> {
     if Command::new(compiler).arg("--version").output().is_err() {
         eprintln!("skipped: there is no {compiler} here");
@@ -42,7 +42,7 @@ fn printed(compiler: &str, standard: &str, source: &str, library: &str) -> Optio
     Some(String::from_utf8(ran.stdout).expect("text"))
 }
 
-/// The same calls as in the program, in Rust: as the program prints numbers, so that none is lost.
+/// The same calls in Rust, with numbers printed as in the program, without loss of digits.
 fn control_loop() -> Vec<(f32, &'static str)> {
     let law = FixedLaw::new(Lugre {
         bristle_stiffness: 2000.0_f32,
@@ -54,7 +54,7 @@ fn control_loop() -> Vec<(f32, &'static str)> {
         stribeck_exponent: 2.0,
     });
     let limits = Limits { torque: 8.0, speed: 6.0, held: 1 };
-    let mut joint = Feedforward::new(law, 0.00025, limits).expect("limits that can be");
+    let mut joint = Feedforward::new(law, 0.00025, limits).expect("valid limits");
     let readings = [Some(0.5), Some(0.01), Some(-0.01), Some(-0.02), None, None];
     let feeds = readings.map(|velocity| joint.next(velocity.map(Sample::at).as_ref()));
     feeds
@@ -73,8 +73,8 @@ fn control_loop() -> Vec<(f32, &'static str)> {
 #[test]
 fn a_control_loop_in_c_has_the_bits_of_rust() {
     for library in LIBRARIES {
-        let Some(said) = printed("cc", "-std=c11", "control_loop.c", library) else { continue };
-        let rows: Vec<(f32, &str)> = said
+        let Some(output) = printed("cc", "-std=c11", "control_loop.c", library) else { continue };
+        let rows: Vec<(f32, &str)> = output
             .lines()
             .filter_map(|line| line.split_once(' '))
             .map(|(torque, source)| (torque.parse().expect("a number"), source))
@@ -84,12 +84,12 @@ fn a_control_loop_in_c_has_the_bits_of_rust() {
 }
 
 #[test]
-fn settings_that_cannot_be_are_refused_in_cpp() {
+fn invalid_settings_are_refused_in_cpp() {
     for library in LIBRARIES {
-        let Some(said) = printed("c++", "-std=c++17", "refused.cpp", library) else { continue };
-        // -(1.5 x 1 + 2), nothing of a reading that is no number, and nothing at rest.
+        let Some(output) = printed("c++", "-std=c++17", "refused.cpp", library) else { continue };
+        // -(1.5 x 1 + 2), 0 for a reading that is NaN, and 0 at rest.
         let expected = "the number of parameters is not that of the model\n4 parameters\n\
                         -3.5 law\n0 none\n0 law\n";
-        assert_eq!(said, expected, "with {library}");
+        assert_eq!(output, expected, "with {library}");
     }
 }

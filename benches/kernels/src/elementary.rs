@@ -1,4 +1,4 @@
-//! The elementary functions in packed loops.
+//! The elementary functions in vectorised loops.
 
 use std::hint::black_box;
 
@@ -17,7 +17,7 @@ macro_rules! kernels {
     };
 }
 
-/// The function over numbers from low to high, in no order that a branch could be guessed from.
+/// The function over numbers from low to high, in an order that branch prediction cannot learn.
 macro_rules! packed {
     ($low:expr, $high:expr, $function:expr) => {{
         let turn = |i: usize| (i * 7919 % ELEMENTS) as f64 / ELEMENTS as f64;

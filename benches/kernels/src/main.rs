@@ -1,10 +1,10 @@
-//! Runs kernels for those who measure: instructions under an emulator, time on the machine.
+//! Runs kernels for measurements: of instructions under an emulator, of time on this machine.
 //!
 //! ```console
-//! stribeck-kernels list        # name and rows of each
+//! stribeck-kernels list        # name and rows of each kernel
 //! stribeck-kernels run NAME    # once to warm up, once inside `measured_run`
-//! stribeck-kernels time        # name, rows and nanoseconds a row
-//! stribeck-kernels peak        # operations a nanosecond that the machine can do at most
+//! stribeck-kernels time        # name, rows and nanoseconds per row
+//! stribeck-kernels peak        # peak number of operations per nanosecond of this machine
 //! ```
 
 mod elementary;
@@ -15,22 +15,22 @@ mod timing;
 
 use std::process::ExitCode;
 
-/// A kernel, ready to run again and again.
+/// A prepared kernel that can run repeatedly.
 type Work = Box<dyn FnMut()>;
 
-/// A name, how many rows a run goes through, and what makes it ready.
+/// A name, the number of rows per run, and a function that prepares the kernel.
 struct Kernel {
     name: &'static str,
     rows: usize,
     prepare: fn() -> Work,
 }
 
-/// All kernels, by what they belong to.
+/// All kernels, grouped by file.
 fn kernels() -> impl Iterator<Item = &'static Kernel> {
     recordings::KERNELS.iter().chain(motion::KERNELS).chain(elementary::KERNELS)
 }
 
-/// What is counted: the only function of this name in the program.
+/// The function whose instructions are counted; its name is unique in the program.
 #[inline(never)]
 fn measured_run(work: &mut Work) {
     work();
@@ -42,7 +42,7 @@ fn main() -> ExitCode {
         ["list"] => kernels().for_each(|kernel| println!("{}\t{}", kernel.name, kernel.rows)),
         ["run", name] => {
             let Some(kernel) = kernels().find(|kernel| kernel.name == name) else {
-                eprintln!("no kernel is called {name}: `list` names them");
+                eprintln!("no kernel has the name {name}: see `list`");
                 return ExitCode::from(2);
             };
             let mut work = (kernel.prepare)();
@@ -52,7 +52,7 @@ fn main() -> ExitCode {
         ["time"] => timing::print(kernels()),
         ["peak"] => peak::print(),
         _ => {
-            eprintln!("say `list`, `run NAME`, `time` or `peak`");
+            eprintln!("usage: `list`, `run NAME`, `time` or `peak`");
             return ExitCode::from(2);
         }
     }

@@ -1,4 +1,4 @@
-//! A joint in motion, and friction in a controller: one step after the other.
+//! Kernels that step sample by sample: a joint in motion, and friction in a controller.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -39,7 +39,7 @@ fn controller() -> Work {
     })
 }
 
-/// A pendulum that a motor moves through rest.
+/// A pendulum that a motor drives through rest.
 fn joint(law: &str, values: &'static [f64]) -> Work {
     let spec = Spec::new(law, []).expect("a law of the catalog");
     let friction = spec.with(values).expect("values of the law");

@@ -1,4 +1,4 @@
-//! How many operations on numbers the machine can do at most: measured, not looked up.
+//! The peak number of floating-point operations of this machine, measured.
 
 use std::hint::black_box;
 
@@ -6,13 +6,13 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::timing::{elapsed, runs_within};
 
-/// Chains that do not wait for each other: as many as hide the latency and fit the registers.
+/// Independent chains: enough to hide the latency, few enough for the registers.
 const CHAINS: usize = 12;
-/// Operations of each chain in a run.
+/// Operations of each chain per run.
 const LENGTH: usize = 4096;
 const REPEATS: usize = 1001;
 
-/// One line for each kind: the best of many short measurements, in operations a nanosecond.
+/// Prints one line per kind: the best of many short measurements, in operations per nanosecond.
 pub fn print() {
     let kinds: [(&str, Kind); 5] = [
         ("add", Kind::Add),
@@ -35,7 +35,7 @@ enum Kind {
     SquareRoot,
 }
 
-/// Operations a nanosecond.
+/// Operations per nanosecond.
 fn best(kind: Kind) -> f64 {
     let mut work: crate::Work = Box::new(move || {
         Arch::new().dispatch(Chained { kind: black_box(kind) });
@@ -46,7 +46,7 @@ fn best(kind: Kind) -> f64 {
     (operations * runs) as f64 / (1e9 * shortest)
 }
 
-/// Independent chains of one kind of operation; how many operations that is.
+/// Independent chains of one kind of operation; returns the number of operations.
 struct Chained {
     kind: Kind,
 }

@@ -1,4 +1,4 @@
-//! Whole recordings: what a fit does once a step of its search.
+//! Kernels over whole recordings: the work of a fit per step of its search.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -11,7 +11,7 @@ use stribeck::math;
 use crate::{Kernel, Work};
 
 const ROWS: usize = 4096;
-/// Parameters of lugre, so columns of its Jacobian.
+/// Parameters of lugre, and so columns of its Jacobian.
 const WIDTH: usize = 7;
 
 pub const KERNELS: &[Kernel] = &[
@@ -30,7 +30,7 @@ fn spec(law: &str) -> (Spec, &'static [f64]) {
     (Spec::new(law, []).expect("a law of the catalog"), values)
 }
 
-/// A sine, fast and slow, both ways (rad/s).
+/// A sine of varying speed, in both directions (rad/s).
 fn velocity() -> Vec<f64> {
     (0..ROWS).map(|i| 0.9 * math::f64::sin(TAU * i as f64 / ROWS as f64)).collect()
 }

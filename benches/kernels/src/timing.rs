@@ -1,4 +1,4 @@
-//! Nanoseconds a row, kernel beside kernel.
+//! Nanoseconds per row, with the kernels measured in turn.
 
 use std::time::Instant;
 
@@ -6,10 +6,10 @@ use crate::{Kernel, Work};
 
 /// Runs of each kernel in one measurement last about this long (s).
 const LENGTH: f64 = 2e-3;
-/// Measurements of each, in turns, so that what else the machine does falls on all of them.
+/// Measurements of each kernel, interleaved so that other load on the machine affects all of them.
 const REPEATS: usize = 101;
 
-/// One line a kernel: the median.
+/// Prints one line per kernel: the median.
 pub fn print<'a>(kernels: impl Iterator<Item = &'a Kernel>) {
     let mut ready: Vec<(&Kernel, Work, usize, Vec<f64>)> = kernels
         .map(|kernel| {
@@ -30,7 +30,7 @@ pub fn print<'a>(kernels: impl Iterator<Item = &'a Kernel>) {
     }
 }
 
-/// How often the work can be done in a time (s), at least once.
+/// Number of runs within a time (s), at least one.
 pub fn runs_within(length: f64, work: &mut Work) -> usize {
     let mut runs = 1;
     while elapsed(runs, work) < length {
@@ -39,7 +39,7 @@ pub fn runs_within(length: f64, work: &mut Work) -> usize {
     runs
 }
 
-/// How long that many runs take (s).
+/// Duration of that many runs (s).
 pub fn elapsed(runs: usize, work: &mut Work) -> f64 {
     let begin = Instant::now();
     (0..runs).for_each(|_| work());

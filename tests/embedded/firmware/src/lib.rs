@@ -1,5 +1,5 @@
-//! What is run on the host and on the microcontroller: laws, the motion they see, a hash of what
-//! they answer.
+//! The code that runs on the host and on the microcontroller: laws, a motion as input, and a hash
+//! of their torques.
 #![no_std]
 
 use stribeck::constants::Constants;
@@ -8,17 +8,17 @@ use stribeck::fixed::FixedLaw;
 use stribeck::law::{BittencourtA, Coulomb, Elastoplastic, FrictionLaw, Gms, Lugre, TadeseFull};
 use stribeck::sample::Sample;
 
-/// The kind of number that is measured.
+/// The number type that is tested.
 #[cfg(not(feature = "double"))]
 pub type Number = f32;
-/// The kind of number that is measured.
+/// The number type that is tested.
 #[cfg(feature = "double")]
 pub type Number = f64;
 
-/// 4 kHz.
+/// Sample period (s), 4 kHz.
 const PERIOD: Number = 0.00025;
 
-/// What a controller samples.
+/// Inputs of one sample.
 #[derive(Clone, Copy)]
 pub struct Reading {
     pub velocity: Number,
@@ -26,7 +26,7 @@ pub struct Reading {
     pub load_torque: Number,
 }
 
-/// A law and its state, as a controller keeps them.
+/// A law and its state, as in a controller.
 pub struct Joint<L> {
     law: FixedLaw<L, Number>,
     state: State<Number>,
@@ -49,27 +49,27 @@ impl<L: FrictionLaw<Number>> Joint<L> {
     }
 }
 
-/// The answer of one joint to one reading.
+/// The torque of one joint for one reading.
 pub type Step = extern "C" fn(&mut Joints, Number, Number, Number) -> Number;
 
 macro_rules! joints {
     ($($joint:ident: $law:ident = $values:expr;)+) => {
-        /// One joint for each law that is measured.
+        /// One joint for each law that is tested.
         pub struct Joints {
             $(pub $joint: Joint<$law<Number>>,)+
         }
 
         impl Joints {
-            /// All of them at rest; nothing if a law refuses its parameters.
+            /// All joints at rest; `None` if a law refuses its parameters.
             pub fn new() -> Option<Self> {
                 Some(Self { $($joint: Joint::new(core::hint::black_box(&$values))?,)+ })
             }
         }
 
-        /// Name and parameters of each.
+        /// Name and parameters of each law.
         pub const VALUES: &[(&str, &[Number])] = &[$((stringify!($joint), &$values),)+];
 
-        /// Name and step of each.
+        /// Name and step of each law.
         pub const STEPS: &[(&str, Step)] = &[$((stringify!($joint), $joint),)+];
 
         $(
@@ -108,7 +108,7 @@ joints! {
     elastoplastic: Elastoplastic = [2000.0, 12.0, 1.5, 2.0, 2.7, 0.08, 0.4];
 }
 
-/// A repeatable motion: accelerations that change now and then, rests, large and tiny speeds.
+/// A reproducible motion: changing accelerations, rests, large and tiny speeds.
 pub struct Motion {
     seed: u32,
     velocity: Number,
@@ -128,7 +128,7 @@ impl Motion {
         self.seed
     }
 
-    /// Between -1 and 1, most of them small.
+    /// A number between -1 and 1, most of them small.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_wrap)]
     fn spread(&mut self) -> Number {
         let whole = (self.random() as i32 >> 8) as Number;
@@ -160,7 +160,7 @@ impl Motion {
     }
 }
 
-/// FNV-1a over bits, every NaN alike.
+/// FNV-1a over the bits; every NaN counts the same.
 pub struct Hash(pub u64);
 
 impl Hash {
@@ -174,7 +174,7 @@ impl Hash {
     }
 }
 
-/// The hash of what a joint answers to a motion of so many readings.
+/// The hash of the torques of a joint for `count` readings of the motion.
 pub fn hash(joints: &mut Joints, step: Step, count: u32) -> u64 {
     let (mut motion, mut hash) = (Motion::new(), Hash::new());
     for _ in 0..count {

@@ -1,4 +1,4 @@
-//! On the host: hashes of what each law answers, one row a law; its parameters; the motion.
+//! The host program: hashes of the torques, one row per law; parameters; the motion.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -16,7 +16,7 @@ fn main() -> ExitCode {
         _ => None,
     };
     if done.is_none() {
-        eprintln!("say: hash STEPS, parameters, or trace STEPS FILE");
+        eprintln!("usage: hash STEPS, parameters, or trace STEPS FILE");
         return ExitCode::from(2);
     }
     ExitCode::SUCCESS

@@ -1,4 +1,4 @@
-//! The whole catalog, chosen at run time, and the motion of a joint: what the linker keeps of it.
+//! The whole catalog, selected at run time, and the simulation of a joint, to measure code size.
 #![no_std]
 #![no_main]
 

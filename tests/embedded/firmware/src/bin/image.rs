@@ -1,4 +1,4 @@
-//! The image: counts instructions of each step and hashes what it answers.
+//! The firmware image: counts instructions per step and hashes the torques.
 #![no_std]
 #![no_main]
 
@@ -13,24 +13,24 @@ global_asm!(include_str!("../reset.s"));
 
 /// Steps whose instructions are counted.
 const COUNTED: u32 = 10_000;
-/// Steps whose stack is looked at.
+/// Steps whose stack use is measured.
 const PROBED: u32 = 1000;
-/// Steps that are hashed: fewer where arithmetic takes long.
+/// Steps that are hashed: fewer where arithmetic is slow.
 const HASHED: u32 = match u32::from_str_radix(env!("HASHED_STEPS"), 10) {
     Ok(count) => count,
-    Err(_) => panic!("HASHED_STEPS is a whole number"),
+    Err(_) => panic!("HASHED_STEPS is an integer"),
 };
-/// Instructions of the calibration: as many as fit between code and constants of a Cortex-M0.
+/// Instructions of the calibration: as many as fit between code and constants on a Cortex-M0.
 const CALIBRATION: u32 = 250;
 
-/// Counts down with the instructions, as the emulator is asked to.
+/// The system timer, which the emulator decrements per instruction.
 const SYSTICK: [*mut u32; 3] =
     [0xe000_e010_u32 as *mut u32, 0xe000_e014_u32 as *mut u32, 0xe000_e018_u32 as *mut u32];
 const LARGEST: u32 = 0x00ff_ffff;
 
 #[unsafe(no_mangle)]
 extern "C" fn run() -> ! {
-    // SAFETY: the registers of the timer that every Cortex-M has.
+    // SAFETY: every Cortex-M has the registers of this timer.
     unsafe {
         ptr::write_volatile(SYSTICK[1], LARGEST);
         ptr::write_volatile(SYSTICK[2], 0);
@@ -54,7 +54,7 @@ extern "C" fn nothing(_: &mut Joints, velocity: Number, _: Number, _: Number) ->
     velocity
 }
 
-/// Sum and largest number of ticks of a step.
+/// Sum and maximum of the ticks of a step.
 fn count(joints: &mut Joints, step: Step) -> [u64; 2] {
     let step = black_box(step);
     let mut motion = Motion::new();
@@ -67,7 +67,7 @@ fn count(joints: &mut Joints, step: Step) -> [u64; 2] {
     [sum, largest]
 }
 
-/// Ticks of one step. By itself, so that nothing else comes between the two looks at the timer.
+/// Ticks of one step. Not inlined, so that nothing else runs between the two readings of the timer.
 #[inline(never)]
 fn taken(joints: &mut Joints, step: Step, reading: &Reading) -> u32 {
     let Reading { velocity, temperature, load_torque } = black_box(*reading);
@@ -77,20 +77,20 @@ fn taken(joints: &mut Joints, step: Step, reading: &Reading) -> u32 {
 }
 
 fn ticks() -> u32 {
-    // SAFETY: reading the timer changes nothing.
+    // SAFETY: reading the timer has no effect.
     unsafe { ptr::read_volatile(SYSTICK[2]) }
 }
 
-/// Ticks of so many instructions.
+/// Ticks of [`CALIBRATION`] instructions.
 #[inline(never)]
 fn calibration() -> u32 {
     let before = ticks();
-    // SAFETY: does nothing.
+    // SAFETY: `nop` has no effect.
     unsafe { asm!(".rept {count}", "nop", ".endr", count = const CALIBRATION) };
     before.wrapping_sub(ticks()) & LARGEST
 }
 
-/// Bytes below the stack pointer that a step has written to.
+/// Bytes below the stack pointer that a step has written.
 #[inline(never)]
 fn stack(joints: &mut Joints, step: Step) -> u64 {
     const DEPTH: usize = 4096;
@@ -101,7 +101,7 @@ fn stack(joints: &mut Joints, step: Step) -> u64 {
     for _ in 0..PROBED {
         let reading = motion.next();
         let top: usize;
-        // SAFETY: only what is free below the stack pointer is written; nothing interrupts.
+        // SAFETY: only free memory below the stack pointer is written; there are no interrupts.
         unsafe {
             asm!("mov {}, sp", out(reg) top);
             for offset in 1..=DEPTH / 4 {
@@ -120,7 +120,7 @@ fn stack(joints: &mut Joints, step: Step) -> u64 {
     deepest as u64
 }
 
-/// One row: words and hexadecimal numbers.
+/// Writes one row: words and hexadecimal numbers.
 fn report<const N: usize>(kind: &str, name: &str, numbers: [u64; N]) {
     write(kind);
     write(" ");
@@ -151,9 +151,9 @@ fn exit() -> ! {
     }
 }
 
-/// Asks the emulator for a service.
+/// Calls a service of the emulator.
 fn semihosting(operation: usize, argument: usize) {
-    // SAFETY: both services only read what they are given.
+    // SAFETY: both services only read their arguments.
     unsafe { asm!("bkpt 0xab", inout("r0") operation => _, in("r1") argument) };
 }
 
