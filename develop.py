@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
 """Set up a virtual environment in .venv and run stribeck, its tests or its checks in it.
 
-    python3 develop.py demo     build, then run `stribeck demo`
-    python3 develop.py test     build, then run all Rust and Python tests
-    python3 develop.py check    formatters, linters and type checks
-    python3 develop.py slow     the long tests as well
-    python3 develop.py embedded steps counted and compared on emulated microcontrollers
-    python3 develop.py peers    times beside those of other packages (--bam FOLDER: BAM, too)
-    python3 develop.py instructions  those of each kernel, counted (--write keeps the table)
-    python3 develop.py scaling  how times grow, and how near they come to what the machine can do
-    python3 develop.py setup    only build and install
+    python3 develop.py setup         build and install only
+    python3 develop.py demo          run `stribeck demo`
+    python3 develop.py test          run all Rust tests and the fast Python tests
+    python3 develop.py slow          run the slow Python tests
+    python3 develop.py check         run formatters, linters, type checks, import contracts, docs
+    python3 develop.py docs          serve the documentation at http://127.0.0.1:8000
+    python3 develop.py lock          update requirements.lock to the newest versions
+    python3 develop.py embedded      compare and count steps on emulated microcontrollers
+    python3 develop.py instructions  count the instructions of each kernel (--write: keep the table)
+    python3 develop.py peers         measure times against other packages (--bam FOLDER: also BAM)
+    python3 develop.py scaling       measure how times grow, and how close they are to the limit
 
-Needs git, CPython >= 3.10 and stable Rust, nothing else: everything below is standard library.
-Running it twice reuses what the first run made.
+Needs git, CPython >= 3.10 and stable Rust. Every task builds what has changed first. This file uses
+the standard library only; the versions that it installs are those of requirements.lock.
 """
 
 from __future__ import annotations
@@ -27,6 +29,7 @@ ROOT = Path(__file__).resolve().parent
 VENV = ROOT / ".venv"
 BIN = VENV / ("Scripts" if os.name == "nt" else "bin")
 PYTHON = BIN / ("python.exe" if os.name == "nt" else "python")
+LOCK = ROOT / "requirements.lock"
 STAMP = VENV / "installed-for"
 PEERS = ROOT / "target" / "peers"
 
@@ -62,14 +65,14 @@ def make_venv() -> None:
     try:
         venv.create(VENV, with_pip=True)
     except (OSError, subprocess.CalledProcessError):
-        # A half-made environment would be taken for a good one next time.
+        # The next run would take an incomplete environment for a complete one.
         shutil.rmtree(VENV, ignore_errors=True)
         stop(missing)
 
 
 def fingerprint() -> str:
-    """Which sources the installed package was built from: modification times of what matters."""
-    sources = [ROOT / "Cargo.toml", ROOT / "Cargo.lock", ROOT / "pyproject.toml"]
+    """Modification times of the sources that the installed package was built from."""
+    sources = [ROOT / "Cargo.toml", ROOT / "Cargo.lock", ROOT / "pyproject.toml", LOCK]
     sources += sorted((ROOT / "src").rglob("*.rs"))
     return "\n".join(f"{p.relative_to(ROOT)} {p.stat().st_mtime_ns}" for p in sources)
 
@@ -83,7 +86,8 @@ def setup() -> None:
     now = fingerprint()
     if STAMP.exists() and STAMP.read_text() == now:
         return
-    run(PYTHON, "-m", "pip", "install", "--quiet", "--editable", ".[test]")
+    run(PYTHON, "-m", "pip", "install", "--quiet", "--constraint", LOCK,
+        "--editable", ".[test,docs]")  # fmt: skip
     STAMP.write_text(fingerprint())
 
 
@@ -111,6 +115,21 @@ def check() -> None:
     run(PYTHON, "-m", "ruff", "format", "--check", ".")
     run(PYTHON, "-m", "mypy")
     run(PYTHON, "-m", "mypy.stubtest", "stribeck._core", "--ignore-disjoint-bases")
+    run(BIN / "lint-imports", "--no-logo")
+    run(PYTHON, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir", "target/site")
+    os.environ["RUSTDOCFLAGS"] = "-D warnings"
+    run("cargo", "doc", "--quiet", "--locked", "--no-deps", "--all-features")
+
+
+def docs() -> None:
+    run(PYTHON, "-m", "mkdocs", "serve", *sys.argv[2:])
+
+
+def lock() -> None:
+    run(PYTHON, "-m", "pip", "install", "--quiet", "uv")
+    run(BIN / "uv", "pip", "compile", "--quiet", "--universal", "--python-version", "3.10",
+        "--all-extras", "--upgrade", "--no-header", "--no-annotate",
+        "--output-file", LOCK, "pyproject.toml")  # fmt: skip
 
 
 def embedded() -> None:
@@ -122,7 +141,7 @@ def instructions() -> None:
 
 
 def peers() -> None:
-    """Times beside those of other packages, which are installed apart, in one thread."""
+    """Measure times against other packages, which are installed in a folder of their own."""
     folder = ROOT / "benches" / "peers"
     run(PYTHON, "-m", "pip", "install", "--quiet", "--upgrade", "--target", PEERS,
         "-r", folder / "requirements.txt")  # fmt: skip
@@ -148,6 +167,8 @@ TASKS = {
     "test": test,
     "slow": slow,
     "check": check,
+    "docs": docs,
+    "lock": lock,
     "embedded": embedded,
     "instructions": instructions,
     "peers": peers,
