@@ -16,9 +16,12 @@ from .fitting.evaluate import evaluate
 from .fitting.fit import fit
 from .fitting.result import Fit
 from .identify.estimates import Estimate
+from .models.build import law, model
 from .models.catalog import catalog, effects, laws
-from .models.model import Model, Parameter, law, model
-from .models.model_file import ModelFile, load, read_model_file
+from .models.model import Model
+from .models.model_file import ModelFile
+from .models.parameter import Parameter
+from .models.reader import load, read_model_file
 from .motion.compensate.controller import HInfinity
 from .motion.compensate.factor import largest_factor
 from .motion.compensate.loop import Compensator

@@ -10,9 +10,9 @@ from pathlib import Path
 
 import polars as pl
 import stribeck as sb
+from stribeck.base.files import save_figure
 from stribeck.motion.simulate.drive import Controller
 from stribeck.motion.simulate.validation import validate, validate_closed_loop
-from stribeck.base.files import save_figure
 
 ROOT = Path(__file__).resolve().parents[2]
 EMPS = ROOT.parent / "shared" / "data" / "emps"

@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 import polars as pl
 import stribeck as sb
+from stribeck.base.files import save_figure
 from stribeck.fitting.methods.three_step import three_step_fit
 from stribeck.fitting.result import Fit
 from stribeck.motion.compensate.factor import Factor, largest_factor
@@ -27,7 +28,6 @@ from stribeck.motion.compensate.teaching import Guidance, Teaching, teach
 from stribeck.motion.compensate.tracking import compensate as follow
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Quintic, Trapezoid
-from stribeck.base.files import save_figure
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "python" / "methods"))
 import indy

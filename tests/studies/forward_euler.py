@@ -16,13 +16,13 @@ from pathlib import Path
 import numpy as np
 import stribeck as sb
 from numpy.typing import NDArray
+from stribeck.base.files import save_figure
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import ReducedProblem
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.motion.generate.files import write_robot
 from stribeck.motion.generate.ur5e import RobotRecording
 from stribeck.report.figures import AFTER, BEFORE, new_figure, style, title
-from stribeck.base.files import save_figure
 
 Array = NDArray[np.float64]
 

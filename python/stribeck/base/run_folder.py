@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from stribeck.base.errors import StribeckError
-from stribeck.models.model_file import write_whole
+from stribeck.base.files import write_whole
 
 MANIFEST = "manifest.json"
 

@@ -1,3 +1,5 @@
-"""The version of the package."""
+"""The version of the package, as the compiled core states it."""
 
-__version__ = "0.1.0"
+from stribeck._core import __version__
+
+__all__ = ["__version__"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from stribeck.base.files import png_bytes, write_bytes_whole
+from stribeck.base.files import png_bytes, write_bytes_whole, write_whole
 from stribeck.base.pool import LocalPool, Stopped, in_processes, worker_count
 from stribeck.benchmark.answer import Answer, answer
 from stribeck.benchmark.cases import Case
@@ -13,7 +13,6 @@ from stribeck.benchmark.figures import calibration_figure, confusion_figure
 from stribeck.benchmark.score import Score, score
 from stribeck.benchmark.store import Store, frame
 from stribeck.benchmark.text import score_text
-from stribeck.models.model_file import write_whole
 
 
 def run(

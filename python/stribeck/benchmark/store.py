@@ -16,10 +16,10 @@ from typing import Any
 import polars as pl
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.files import write_whole
 from stribeck.base.version import __version__
 from stribeck.benchmark.answer import Answer
 from stribeck.benchmark.judge import judge
-from stribeck.models.model_file import write_whole
 
 KIND = "diagnosis benchmark"
 MANIFEST, ANSWERS = "manifest.json", "answers.jsonl"

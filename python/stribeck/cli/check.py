@@ -7,8 +7,8 @@ import sys
 import click
 
 from stribeck.cli.common import echo_json, is_model_file, json_option, seed_option
-from stribeck.models.model import model as named
-from stribeck.models.model_file import load
+from stribeck.models.build import model as named
+from stribeck.models.reader import load
 from stribeck.passivity.check import check as certify
 from stribeck.passivity.operating_box import parse_sides
 

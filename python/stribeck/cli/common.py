@@ -12,12 +12,14 @@ from typing import Any, TypeVar
 import click
 
 from stribeck.base.errors import RecordingError
+from stribeck.base.files import write_whole
 from stribeck.cli.flags import with_flags
 from stribeck.diagnosis.result import Finding
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.models.model_file import ModelFile, read_model_file, write_whole
+from stribeck.models.model_file import ModelFile
+from stribeck.models.reader import read_model_file
 from stribeck.recording.load import read
 from stribeck.recording.recording import Recording
 

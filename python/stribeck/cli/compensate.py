@@ -26,7 +26,8 @@ from stribeck.cli.motion import (
     value_option,
 )
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile, read_model_file
+from stribeck.models.model_file import ModelFile
+from stribeck.models.reader import read_model_file
 from stribeck.motion.compensate.controller import BANDWIDTH, HInfinity
 from stribeck.motion.compensate.factor import Factor, largest_factor
 from stribeck.motion.compensate.loop import Compensator

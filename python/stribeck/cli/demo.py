@@ -9,13 +9,13 @@ from typing import Any
 import click
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.files import write_whole
 from stribeck.cli.common import echo_json, json_option, save_fit, say, seed_option
 from stribeck.diagnosis.compare import Comparison, compare
 from stribeck.diagnosis.improve import Improvement, improve
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.words import physically
 from stribeck.fitting.result import Fit
-from stribeck.models.model_file import write_whole
 from stribeck.motion.generate.demo import DEMO, demo_path, demo_recording
 from stribeck.recording.load import read
 from stribeck.recording.recording import Recording

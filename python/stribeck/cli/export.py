@@ -8,8 +8,8 @@ import click
 
 from stribeck.cli.common import echo_json, is_model_file, json_option, say, seed_option
 from stribeck.exporters.export import export as write
-from stribeck.models.model import model as named
-from stribeck.models.model_file import read_model_file
+from stribeck.models.build import model as named
+from stribeck.models.reader import read_model_file
 from stribeck.passivity.operating_box import parse_sides
 
 

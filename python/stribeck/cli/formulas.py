@@ -14,9 +14,17 @@ from stribeck.cli.common import is_model_file, say
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.choices import Choices
-from stribeck.models.formula_law import LAW, FormulaTerms, declarations, effect_terms, is_formula
-from stribeck.models.model import Model, check_terms, law, model
-from stribeck.models.model_file import read_model_file
+from stribeck.models.build import law, model
+from stribeck.models.formula_law import (
+    LAW,
+    FormulaTerms,
+    check_terms,
+    declarations,
+    effect_terms,
+    is_formula,
+)
+from stribeck.models.model import Model
+from stribeck.models.reader import read_model_file
 from stribeck.recording.recording import Recording
 
 F = TypeVar("F", bound=Callable[..., Any])

@@ -10,9 +10,8 @@ import click
 import polars as pl
 
 from stribeck.base.errors import SpecError
-from stribeck.base.files import write_bytes_whole
+from stribeck.base.files import write_bytes_whole, write_whole
 from stribeck.cli.common import check_output, echo_json, json_option, seed_option
-from stribeck.models.model_file import write_whole
 from stribeck.motion.generate.files import file_bytes, sidecar_text, write_robot
 from stribeck.motion.generate.hidden import generate as make
 from stribeck.motion.generate.motion import JOINTS

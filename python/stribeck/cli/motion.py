@@ -10,9 +10,9 @@ import click
 
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import is_model_file
+from stribeck.models.build import model as named
 from stribeck.models.model import Model
-from stribeck.models.model import model as named
-from stribeck.models.model_file import load
+from stribeck.models.reader import load
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Fourier, Quintic, Trajectory, Trapezoid
 

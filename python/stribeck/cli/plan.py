@@ -22,7 +22,8 @@ from stribeck.cli.common import (
 )
 from stribeck.cli.formulas import Written, written_fit
 from stribeck.fitting.result import Fit
-from stribeck.models.model_file import ModelFile, read_model_file
+from stribeck.models.model_file import ModelFile
+from stribeck.models.reader import read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes
 

@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from stribeck.base.errors import SpecError
-from stribeck.base.files import save_figure, write_bytes_whole
+from stribeck.base.files import save_figure, write_bytes_whole, write_whole
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -26,7 +26,6 @@ from stribeck.cli.motion import (
     trajectory_options,
     value_option,
 )
-from stribeck.models.model_file import write_whole
 from stribeck.motion.generate.files import file_bytes
 from stribeck.motion.simulate.acting import take_apart
 from stribeck.motion.simulate.drive import Controller, Drive, Follow, Pull, Torque

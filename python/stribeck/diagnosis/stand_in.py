@@ -18,7 +18,7 @@ from stribeck.diagnosis.beside import held_out_beside
 from stribeck.diagnosis.shape import hats, powers, waves
 from stribeck.diagnosis.trial import Trial
 from stribeck.fitting.result import Fit
-from stribeck.models.catalog import catalog
+from stribeck.models.catalog import effect_row
 
 Array = NDArray[np.float64]
 
@@ -92,5 +92,5 @@ def _square(fit: Fit) -> float:
 
 
 def _channels(effect: str) -> list[str]:
-    channels: list[str] = catalog()["effects"].get(effect, {}).get("channels", [])
-    return channels
+    row = effect_row(effect)
+    return [] if row is None else row["channels"]

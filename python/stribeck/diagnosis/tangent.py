@@ -20,7 +20,7 @@ from stribeck.diagnosis.widen import widening
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import check_channels, scaled_parameters
 from stribeck.identify.triangle import UNSEEN, Triangle
-from stribeck.models.model import Parameter
+from stribeck.models.parameter import Parameter
 
 Array = NDArray[np.float64]
 

@@ -61,8 +61,10 @@ class Trial:
         fit has used the effect as a stand-in for something else.
         """
         own = self.fit.model.formula(self.effect)
-        row = catalog()["effects"].get(self.effect, {})
-        size = row["parameters"][0]["name"] if own is None else own.names[0]
+        if own is None:
+            size = catalog()["effects"][self.effect]["parameters"][0]["name"]
+        else:
+            size = own.names[0]
         return size in self.fit.estimates and self.fit.estimates[size].at_bound
 
     @property

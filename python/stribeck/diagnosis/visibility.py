@@ -22,7 +22,7 @@ from stribeck.identify.confounded import partners, reason
 from stribeck.identify.figures import rms
 from stribeck.identify.periodogram import most_periods
 from stribeck.identify.problem import Problem
-from stribeck.models.catalog import catalog
+from stribeck.models.catalog import effect_row, simpler_effect
 
 Array = NDArray[np.float64]
 
@@ -124,7 +124,7 @@ class Shown:
 
     def is_looked_for(self, found: Collection[str]) -> bool:
         """Whether a diagnosis looks for it: one beyond a simpler effect only where that is."""
-        simpler = catalog()["effects"].get(self.effect, {}).get("beyond")
+        simpler = simpler_effect(self.effect)
         return self.widened.simpler.size == 0 or simpler in found
 
     @property
@@ -332,7 +332,8 @@ def _hidden(one: Shown, base: Beside, unit: str) -> Untestable:
             f"it would be seen from {one.smallest:.2g} {unit} RMS on, more than all friction there "
             f"is ({why}, or nearly)"
         )
-    needs = catalog()["effects"].get(one.effect, {}).get("needs", "other motion")
+    row = effect_row(one.effect)
+    needs = "other motion" if row is None else row["needs"]
     return Untestable(one.effect, why, f"record {needs}")
 
 
@@ -358,9 +359,9 @@ def indistinguishable(
     alike: dict[str, set[str]] = {effect: set() for effect in made}
     for effect, (one, left, _) in made.items():
         for other, (_, _, spaces) in made.items():
-            if other in (effect, catalog()["effects"].get(effect, {}).get("beyond")):
+            if other in (effect, simpler_effect(effect)):
                 continue
-            if catalog()["effects"].get(other, {}).get("beyond") == effect:
+            if simpler_effect(other) == effect:
                 continue
             angle = min(sine(left, space) for space in spaces)
             needed = one.smallest / angle if angle > 1e-8 else np.inf

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.identify.scaling import effect_constants
-from stribeck.models.catalog import catalog
+from stribeck.models.catalog import simpler_effect
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 def contained(effect: str, model: Model) -> str | None:
     """The simpler effect that `effect` contains and `model` lacks, if there is one."""
-    simpler: str | None = catalog()["effects"].get(effect, {}).get("beyond")
+    simpler = simpler_effect(effect)
     return None if simpler is None or model.has(simpler) else simpler
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stribeck.diagnosis.shape import ripple_period_of
 from stribeck.fitting.result import Fit
-from stribeck.models.catalog import catalog
+from stribeck.models.catalog import catalog, effect_row
 from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
@@ -38,7 +38,8 @@ def where(effect: str, before: Fit, after: Fit) -> str:
 
 def is_friction(effect: str) -> bool:
     """Whether the cause lies in the friction; of an effect by formula that is taken for granted."""
-    return catalog()["effects"].get(effect, {}).get("group") not in ELSEWHERE
+    row = effect_row(effect)
+    return row is None or row["group"] not in ELSEWHERE
 
 
 def physically(effect: str, model: Model) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar, get_args
 
 from stribeck.base.errors import ModelFileError, SpecError, nearest
+from stribeck.base.files import write_whole
 from stribeck.exporters.about import About
 from stribeck.exporters.c.files import c_files, identifier
 from stribeck.exporters.c.number import Precision
@@ -19,7 +20,7 @@ from stribeck.exporters.rust.files import rust_files
 from stribeck.exporters.vectors import vectors
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile, write_whole
+from stribeck.models.model_file import ModelFile
 
 Language = Literal["c", "rust", "json"]
 
@@ -125,7 +126,7 @@ def export(
     if libm and (language != "c" or form in FIXED):
         raise SpecError("libm is for C in floating point: leave it out, or give --to c")
     asked = model if isinstance(model, Model) else model.model
-    asked._known_values()
+    asked.known_values()
     friction = asked.friction
     about = About.of(friction, _provenance(model), box or {})
     called = identifier(name or friction.spec)

@@ -103,7 +103,7 @@ class Program:
 
         Examples
         --------
-        >>> from stribeck.models.model import model
+        >>> from stribeck.models.build import model
         >>> [number.name for number in Program.of(model("lugre")).states]
         ['deflection']
         """

@@ -17,10 +17,12 @@ from stribeck.base.errors import FitError
 from stribeck.identify.drive_scaling import drive_scales, known_constants
 from stribeck.identify.periodogram import ripple_period
 from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
+from stribeck.models.build import law as formula_law
+from stribeck.models.build import model
 from stribeck.models.catalog import law_row
 from stribeck.models.formula_law import is_formula
-from stribeck.models.model import RIGID_BODY_EFFECTS, Model, Parameter, model
-from stribeck.models.model import law as formula_law
+from stribeck.models.model import RIGID_BODY_EFFECTS, Model
+from stribeck.models.parameter import Parameter
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -174,6 +176,8 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
     that a law does not identify stays what its paper says. A law by formula has none.
     """
     row = law_row(law)
+    if row is None:
+        return {}
     speed = recording.scales()["speed"] or 1.0
     given = {
         "smoothing_velocity": min(SMOOTHING * speed, recording.velocity_threshold / 3.0)
@@ -184,9 +188,9 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
     if recording.temperature is not None:
         coldest = float(np.min(recording.temperature))
         mean = float(np.mean(recording.temperature[recording.moving]))
-        below = row.get("pole") == "base_temperature"
+        below = row["pole"] == "base_temperature"
         given["base_temperature"] = coldest - COLD_MARGIN if below else mean
-    return {name: given[name] for name in row.get("constants", ()) if name in given}
+    return {name: given[name] for name in row["constants"] if name in given}
 
 
 def rigid_body_terms(recording: Recording, effects: tuple[str, ...]) -> tuple[str, ...]:
@@ -296,7 +300,8 @@ def check_channels(model: Model, recording: Recording) -> None:
 
 def _check_pole(model: Model, recording: Recording) -> None:
     """Refuse temperatures on both sides of one at which the law has no limit."""
-    name = law_row(model.law).get("pole")
+    row = law_row(model.law)
+    name = None if row is None else row["pole"]
     if name is None or recording.temperature is None:
         return
     pole = 0.0 if name == "zero" else model.core.constants[name]

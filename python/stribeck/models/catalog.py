@@ -3,19 +3,27 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 import polars as pl
 
 from stribeck import _core
 from stribeck.base.errors import SpecError, nearest
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from stribeck.models.rows import Catalog, EffectRow, LawRow
+
 
 @lru_cache(maxsize=1)
-def catalog() -> dict[str, dict[str, dict[str, Any]]]:
-    """The core's tables: ``{"laws": {id: row}, "effects": {id: row}}``, in catalog order."""
+def catalog() -> Catalog:
+    """The tables of the core: ``{"laws": {id: row}, "effects": {id: row}}``, in catalog order."""
     tables = _core.catalog()
-    return {kind: {row["id"]: row for row in tables[kind]} for kind in ("laws", "effects")}
+    return {
+        "laws": {row["id"]: row for row in tables["laws"]},
+        "effects": {row["id"]: row for row in tables["effects"]},
+    }
 
 
 def law_ids() -> tuple[str, ...]:
@@ -23,14 +31,25 @@ def law_ids() -> tuple[str, ...]:
     return tuple(catalog()["laws"])
 
 
-def law_row(law: str) -> dict[str, Any]:
-    """The catalog's row of a law, whatever its number of elements; empty for one by formula."""
-    return catalog()["laws"].get(law.partition(":")[0], {})
+def law_row(law: str) -> LawRow | None:
+    """The catalog's row of a law, whatever its number of elements; None for a law by formula."""
+    return catalog()["laws"].get(law.partition(":")[0])
 
 
 def effect_ids() -> tuple[str, ...]:
     """Every effect of the catalog, in the order in which a model applies them."""
     return tuple(catalog()["effects"])
+
+
+def effect_row(effect: str) -> EffectRow | None:
+    """The catalog's row of an effect; None for an effect by formula."""
+    return catalog()["effects"].get(effect)
+
+
+def simpler_effect(effect: str) -> str | None:
+    """The simpler effect that `effect` contains; None where there is none."""
+    row = effect_row(effect)
+    return None if row is None else row["beyond"]
 
 
 def check_effect(effect: str) -> str:
@@ -51,7 +70,7 @@ def laws() -> pl.DataFrame:
     >>> "coulomb" in laws()["id"]
     True
     """
-    return _frame("laws")
+    return _frame(catalog()["laws"])
 
 
 def effects() -> pl.DataFrame:
@@ -62,13 +81,13 @@ def effects() -> pl.DataFrame:
     >>> "load" in effects()["id"]
     True
     """
-    return _frame("effects")
+    return _frame(catalog()["effects"])
 
 
-def _frame(kind: str) -> pl.DataFrame:
-    rows = []
-    for row in catalog()[kind].values():
+def _frame(table: Mapping[str, LawRow] | Mapping[str, EffectRow]) -> pl.DataFrame:
+    rows: list[dict[str, object]] = []
+    for row in table.values():
         flat = {key: value for key, value in row.items() if key != "parameters"}
-        flat["parameters"] = [p["name"] for p in row["parameters"]]
+        flat["parameters"] = [parameter["name"] for parameter in row["parameters"]]
         rows.append(flat)
     return pl.DataFrame(rows)

@@ -19,12 +19,15 @@ alone.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
+
+if TYPE_CHECKING:
+    from stribeck.models.rows import ParameterRow
 
 Array = NDArray[np.float64]
 #: A column of the recording, or what stands for one.
@@ -36,18 +39,32 @@ RESISTANCE = "resistance"
 #: Constants of a model behind a drive that need not be identified.
 KNOWN = (TORQUE_CONSTANT, RESISTANCE)
 
-_ROWS: tuple[dict[str, Any], ...] = (
+_ROWS: tuple[ParameterRow, ...] = (
     {
-        "name": TORQUE_CONSTANT, "symbol": "kt", "unit": "T/A", "lower": 0.02, "upper": 50.0,
-        "start": 0.5, "scale": "back_emf", "role": "nonlinear", "linear": False,
+        "name": TORQUE_CONSTANT,
+        "symbol": "kt",
+        "unit": "T/A",
+        "lower": 0.02,
+        "upper": 50.0,
+        "start": 0.5,
+        "scale": "back_emf",
+        "role": "nonlinear",
+        "linear": False,
         "description": "Torque per current, and back-EMF per speed, at the joint.",
     },
     {
-        "name": RESISTANCE, "symbol": "R", "unit": "ohm", "lower": 0.02, "upper": 50.0,
-        "start": 1.0, "scale": "resistance", "role": "nonlinear", "linear": False,
+        "name": RESISTANCE,
+        "symbol": "R",
+        "unit": "ohm",
+        "lower": 0.02,
+        "upper": 50.0,
+        "start": 1.0,
+        "scale": "resistance",
+        "role": "nonlinear",
+        "linear": False,
         "description": "Resistance of the winding.",
     },
-)  # fmt: skip
+)
 
 
 class VoltageDrive:
@@ -94,16 +111,10 @@ class VoltageDrive:
         """Constants of the friction model, and what is known of the motor."""
         return {**self.friction.constants, **self._known}
 
-    def parameters(self) -> list[dict[str, Any]]:
+    def parameters(self) -> list[ParameterRow]:
         """Those of the friction model, then those of the motor that are not known."""
-        rows = [
-            {**row, "name": ARMATURE, "symbol": "Ja", "lower": 0.0,
-             "description": "Inertia of motor and gear as the joint feels it."}
-            if row["name"] == "inertia"
-            else row
-            for row in self.friction.parameters()
-        ]  # fmt: skip
-        return rows + [dict(row) for row in _ROWS if row["name"] not in self._known]
+        rows = [_armature(row) for row in self.friction.parameters()]
+        return rows + [row.copy() for row in _ROWS if row["name"] not in self._known]
 
     def torque(
         self, values: Array, *, enabled: Array | None = None, state: float = 0.0, **columns: Columns
@@ -156,6 +167,19 @@ class VoltageDrive:
             return np.array([1.0, 0.0])
         names = [row["name"] for row in self.friction.parameters()]
         return np.array([1.0, 0.0, inner[names.index("delay")]])
+
+
+def _armature(row: ParameterRow) -> ParameterRow:
+    """The inertia is that of the armature; other rows stay as they are."""
+    if row["name"] != "inertia":
+        return row
+    return {
+        **row,
+        "name": ARMATURE,
+        "symbol": "Ja",
+        "lower": 0.0,
+        "description": "Inertia of motor and gear as the joint feels it.",
+    }
 
 
 def _all(columns: Mapping[str, Columns]) -> dict[str, Columns]:

@@ -29,6 +29,7 @@ from functools import cached_property
 from stribeck import _core
 from stribeck.base.dimensions import Powers, derive, unit_text
 from stribeck.base.errors import SpecError, nearest
+from stribeck.models.catalog import effect_ids, law_ids
 
 #: What a law by formula is called where it is given no name.
 LAW = "formula"
@@ -243,4 +244,18 @@ def check_names(names: Sequence[str], spec: str) -> None:
             raise SpecError(
                 f"two parameters of {spec} are called {name!r}: give that of the formula another "
                 f"name"
+            )
+
+
+def check_terms(terms: FormulaTerms) -> None:
+    """Refuse names that mean something else in the catalog."""
+    taken = (*law_ids(), *effect_ids())
+    if terms.name in taken:
+        raise SpecError(f"{terms.name!r} is in the catalog already: give the formula another name")
+    for symbol in terms.symbols:
+        if symbol in taken:
+            raise SpecError(
+                f"{symbol!r} in {terms.text!r} is a law or an effect of the catalog, and a formula "
+                f"holds neither: add effects beside it (--effect {symbol}), or give the parameter "
+                f"another name"
             )

@@ -6,56 +6,31 @@ The mathematics lives in the compiled core; this module gives it names, units an
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
-from stribeck.base.dimensions import Powers
-from stribeck.base.errors import SpecError, nearest
+from stribeck.base.errors import SpecError
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
+from stribeck.models.channels import columns, split_columns
 from stribeck.models.drive import ARMATURE, KNOWN, VoltageDrive
-from stribeck.models.formula_law import (
-    FormulaTerms,
-    check_names,
-    effect_terms,
-    is_formula,
-    law_terms,
-)
-from stribeck.models.spec import parse_spec
+from stribeck.models.formula_law import FormulaTerms, check_names, effect_terms, is_formula
+from stribeck.models.parameter import Parameter
+from stribeck.models.writer import write_model
+
+if TYPE_CHECKING:
+    import os
 
 Array = NDArray[np.float64]
 
-#: Effects whose parameters are the rigid body's when it is identified with the friction.
+#: Effects that belong to the rigid body when it is identified together with the friction.
 RIGID_BODY_EFFECTS = ("inertia", "gravity")
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """What one parameter is: its name, symbol in the literature, unit and bounds.
-
-    `lower`, `upper` and `start` are in `unit` once the model is scaled to a recording, and
-    multiples of `scale` before. A formula's parameter has no bounds unless they are said, and a
-    start that follows from its `dimension` where none is said (NaN).
-    """
-
-    name: str
-    symbol: str
-    unit: str
-    lower: float
-    upper: float
-    start: float
-    scale: str
-    linear: bool
-    role: str
-    description: str
-    dimension: Powers | None = None
 
 
 @dataclass(frozen=True)
@@ -87,7 +62,8 @@ class Model:
 
     Examples
     --------
-    >>> m = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> import stribeck as sb
+    >>> m = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
     >>> m.torque([-1.0, 0.0, 1.0])
     array([-2.5,  0. ,  2.5])
     """
@@ -189,49 +165,27 @@ class Model:
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
         """The parameters in the order of `values`."""
-        said = {name: row for terms in self.own for name, row in self._said(terms)}
-        rows = (
-            Parameter(
-                name=row["name"],
-                symbol=row["symbol"],
-                unit=self._unit(row["unit"]),
-                lower=row["lower"],
-                upper=row["upper"],
-                start=row["start"],
-                scale=row["scale"],
-                linear=row["linear"],
-                role=row["role"],
-                description=row["description"],
-            )
+        formulas = {name: terms for terms in self.own for name in terms.names}
+        made = (
+            Parameter.of(row, self.load_unit, self.position_unit)
             for row in self.predictor.parameters()
         )
-        return tuple(replace(row, **said.get(row.name, {})) for row in rows)
+        return tuple(
+            self._with_statements(p, formulas[p.name]) if p.name in formulas else p for p in made
+        )
 
-    def _said(self, terms: FormulaTerms) -> Iterator[tuple[str, dict[str, Any]]]:
-        """What a formula and its user say about each of its parameters."""
-        units = terms.units(self.load_unit, self.position_unit)
-        declared = zip(terms.declarations, units, terms.dimensions, strict=True)
-        for name, (said, unit, dimension) in zip(terms.names, declared, strict=True):
-            start = math.nan if said.start is None else said.start
-            yield name, {
-                "unit": unit, "lower": said.lower, "upper": said.upper, "start": start,
-                "dimension": dimension,
-            }  # fmt: skip
-
-    def _unit(self, unit: str) -> str:
-        """Spell the catalog's unit (T torque or force, X position) for this joint."""
-        if unit == "T s2/X" and self.load_unit in ("N m", "N"):
-            return "kg m2" if self.position_unit == "rad" else "kg"
-        spelled = {"T": self.load_unit, "X": self.position_unit}
-
-        def spell(found: re.Match[str]) -> str:
-            before, letter, power = found.groups()
-            word = spelled[letter]
-            # A divisor or a power of two words needs brackets: 1/(N m), (N m)2.
-            several = " " in word and (before or power)
-            return f"{before}({word}){power}" if several else f"{before}{word}{power}"
-
-        return re.sub(r"(/?)\b([TX])(\d*)\b", spell, unit)
+    def _with_statements(self, parameter: Parameter, terms: FormulaTerms) -> Parameter:
+        """A formula's parameter with what the formula and its user state about it."""
+        k = terms.names.index(parameter.name)
+        stated = terms.declarations[k]
+        return replace(
+            parameter,
+            unit=terms.units(self.load_unit, self.position_unit)[k],
+            lower=stated.lower,
+            upper=stated.upper,
+            start=math.nan if stated.start is None else stated.start,
+            dimension=terms.dimensions[k],
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -249,8 +203,9 @@ class Model:
         return not self.has_state and "delay" not in self.effects
 
     def has(self, effect: str) -> bool:
-        """Whether the law has this effect by itself, or it was added."""
-        return effect in self.effects or effect in law_row(self.law).get("captures", ())
+        """Whether the law contains this effect, or it was added."""
+        row = law_row(self.law)
+        return effect in self.effects or (row is not None and effect in row["captures"])
 
     def value(self, name: str) -> float:
         """The value of one parameter, by name."""
@@ -349,15 +304,22 @@ class Model:
         -------
         array [n]
         """
+        given = {
+            "position": position,
+            "acceleration": acceleration,
+            "temperature": temperature,
+            "load_torque": load_torque,
+            "motor_torque": motor_torque,
+            "external_torque": external_torque,
+            "time": time,
+            "load_torque_curvature": load_torque_curvature,
+        }
         return self.core.torque(
-            self._known_values(),
-            **self._channels(
-                velocity, position, acceleration, temperature, load_torque, motor_torque,
-                external_torque, dt, time, load_torque_curvature,
-            ),
+            self.known_values(),
+            **columns(self.core, velocity, dt, given),
             state=state,
             single=precision == "single",
-        )  # fmt: skip
+        )
 
     def gradient(
         self,
@@ -375,14 +337,19 @@ class Model:
         load_torque_curvature: ArrayLike | None = None,
     ) -> Array:
         """Derivative of `torque` with respect to the parameters, array [n, p]."""
+        given = {
+            "position": position,
+            "acceleration": acceleration,
+            "temperature": temperature,
+            "load_torque": load_torque,
+            "motor_torque": motor_torque,
+            "external_torque": external_torque,
+            "time": time,
+            "load_torque_curvature": load_torque_curvature,
+        }
         _, jacobian = self.core.gradient(
-            self._known_values(),
-            **self._channels(
-                velocity, position, acceleration, temperature, load_torque, motor_torque,
-                external_torque, dt, time, load_torque_curvature,
-            ),
-            state=state,
-        )  # fmt: skip
+            self.known_values(), **columns(self.core, velocity, dt, given), state=state
+        )
         return jacobian
 
     def split(self, velocity: ArrayLike, **channels: ArrayLike | None) -> dict[str, Array]:
@@ -397,67 +364,17 @@ class Model:
             ``external_torque``, ``time``, ``load_torque_curvature``. One that is left out stands
             at the middle of the operating box, time at that of the recording, the last one at 0.
         """
-        speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
-        filled: dict[str, Array] = {}
-        for name in (
-            "position", "acceleration", "temperature", "load_torque", "motor_torque",
-            "external_torque", "time", "load_torque_curvature",
-        ):  # fmt: skip
-            given = channels.get(name)
-            if given is None and name == "time" and name in self.core.needs:
-                given = 0.5 * self.core.constants["duration"]
-            if given is None and name == "load_torque_curvature":
-                given = 0.0 if name in self.core.needs else None
-            if given is None and name in self.box:
-                given = 0.5 * sum(self.box[name])
-            if given is not None:
-                size = max(speed.size, np.size(given))
-                filled[name] = np.ascontiguousarray(np.broadcast_to(given, size), dtype=np.float64)
-        size = max([speed.size, *(column.size for column in filled.values())])
-        full = np.ascontiguousarray(np.broadcast_to(speed, size), dtype=np.float64)
-        filled = {
-            name: np.ascontiguousarray(np.broadcast_to(column, size), dtype=np.float64)
-            for name, column in filled.items()
-        }
-        return dict(self.core.split(self._known_values(), velocity=full, **filled))
+        found = split_columns(self.core, velocity, channels, self.box)
+        return dict(self.core.split(self.known_values(), **found))
 
-    def _channels(
-        self,
-        velocity: ArrayLike,
-        position: ArrayLike | None,
-        acceleration: ArrayLike | None,
-        temperature: ArrayLike | None,
-        load_torque: ArrayLike | None,
-        motor_torque: ArrayLike | None,
-        external_torque: ArrayLike | None,
-        dt: ArrayLike | None,
-        time: ArrayLike | None,
-        load_torque_curvature: ArrayLike | None,
-    ) -> dict[str, Any]:
-        speed = np.ascontiguousarray(np.atleast_1d(velocity), dtype=np.float64)
+    def known_values(self) -> Array:
+        """The values that `core` takes, array [p]; parameters of a drive are not among them.
 
-        def column(values: ArrayLike | None) -> Array | None:
-            if values is None:
-                return None
-            return np.ascontiguousarray(np.broadcast_to(values, speed.shape), dtype=np.float64)
-
-        external, load = column(external_torque), column(load_torque)
-        if external is None and load is not None and "external_torque" in self.core.needs:
-            external = -load
-        return {
-            "dt": dt if dt is None or np.ndim(dt) == 0 else column(dt),
-            "velocity": speed,
-            "position": column(position),
-            "acceleration": column(acceleration),
-            "temperature": column(temperature),
-            "load_torque": load,
-            "motor_torque": column(motor_torque),
-            "external_torque": external,
-            "time": column(time),
-            "load_torque_curvature": column(load_torque_curvature),
-        }
-
-    def _known_values(self) -> Array:
+        Raises
+        ------
+        SpecError
+            A parameter has no value yet.
+        """
         known = np.isfinite(self.values)
         if not known.all():
             unknown = [name for name, given in zip(self.names, known, strict=True) if not given]
@@ -466,94 +383,17 @@ class Model:
 
     @property
     def _friction_values(self) -> Array:
-        """Those of `values` that `core` takes."""
         if self.drive is None:
             return self.values
         own = {row["name"] for row in self.core.parameters()}
         return self.values[[name in own for name in self.names]]
 
-    def save(self, path: str) -> None:
-        """Write the model file (TOML)."""
-        from stribeck.models.model_file import ModelFile
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the model file (TOML).
 
-        ModelFile(self).write(path)
-
-
-def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **values: float) -> Model:
-    """A model by its spec, with parameter values by physical name or by symbol.
-
-    Examples
-    --------
-    >>> model("bittencourt_a", a1=2.0, a2=1.0, a3=0.1, a4=2.0, a5=0.3).spec
-    'bittencourt_a'
-    """
-    law, effects = parse_spec(spec)
-    made = Model(law=law, effects=effects, constants=dict(constants or {}))
-    return made.with_values(_place(made, values)) if values else made
-
-
-def law(formula: str, /, *effects: str, parameters: Iterable[str] = (), **values: float) -> Model:
-    """A friction law by formula, to be fitted, compared and saved like those of the catalog.
-
-    Parameters
-    ----------
-    formula : str
-        Over the channels v, q, a, T, tl, tm, te (or velocity, position, acceleration, temperature,
-        load, motor_torque, external_torque); every other name is a parameter. Nothing of it is
-        executed as code. ``"NAME = FORMULA"`` gives it a name other than ``formula``.
-    *effects : str
-        Effects that are added to it: ids of the catalog, or ``"NAME = FORMULA"``.
-    parameters : iterable of str
-        ``"c3: rad/s, 0.001..10, start 0.1"``: unit, bounds and start of a parameter, each of which
-        may be left out. Without bounds there are none; unit and start then follow from the formula
-        and the recording where they can.
-    **values : float
-        Values of parameters.
-
-    Raises
-    ------
-    SpecError
-        The text is no formula: what is wrong, and where.
-
-    Examples
-    --------
-    >>> law("c1*v + c2*tanh(v/c3)*abs(load)", c1=0.5, c2=0.1, c3=1e-3).torque(1.0, load_torque=-4.0)
-    array([0.9])
-    """
-    terms = law_terms(formula, parameters)
-    check_terms(terms)
-    made = Model(law=terms.name, own=(terms,))
-    for effect in effects:
-        made = made.with_effect(effect, {})
-    return made.with_values(_place(made, values)) if values else made
-
-
-def check_terms(terms: FormulaTerms) -> None:
-    """Refuse names that mean something else in the catalog."""
-    taken = (*law_ids(), *effect_ids())
-    if terms.name in taken:
-        raise SpecError(f"{terms.name!r} is in the catalog already: give the formula another name")
-    for symbol in terms.symbols:
-        if symbol in taken:
-            raise SpecError(
-                f"{symbol!r} in {terms.text!r} is a law or an effect of the catalog, and a formula "
-                f"holds neither: add effects beside it (--effect {symbol}), or give the parameter "
-                f"another name"
-            )
-
-
-def _place(made: Model, values: Mapping[str, float]) -> Sequence[float]:
-    placed = dict.fromkeys(made.names, np.nan)
-    symbols = {p.symbol: p.name for p in made.parameters}
-    for given, value in values.items():
-        name = given if given in placed else symbols.get(given)
-        if name is None:
-            known: Iterable[str] = (*placed, *symbols)
-            raise SpecError(
-                f"{made.spec} has no parameter {given!r}{nearest(given, tuple(known))}; "
-                f"it has {', '.join(placed)}"
-            )
-        if not np.isfinite(value):
-            raise SpecError(f"parameter {given} of {made.spec} is {value}: give a finite number")
-        placed[name] = float(value)
-    return list(placed.values())
+        Raises
+        ------
+        ModelFileError
+            A parameter has no value, or the path cannot be written.
+        """
+        write_model(self, path)

@@ -59,7 +59,7 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
 
     Examples
     --------
-    >>> from stribeck.models.model import model
+    >>> from stribeck.models.build import model
     >>> friction = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
     >>> check(friction, {"velocity": (-3.0, 3.0)}).passive
     True
@@ -76,7 +76,7 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     (True, 'storage')
     """
     asked = model if isinstance(model, Model) else model.model
-    asked._known_values()
+    asked.known_values()
     friction, left_out = friction_part(asked)
     sides = operating_box(friction, box or {})
     try:

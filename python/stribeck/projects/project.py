@@ -122,8 +122,8 @@ class Project(Plotted):
     def save_model(self, path: str | os.PathLike[str]) -> None:
         """Write the current model's file."""
         file = self.node.kept.file
-        data = {"path": str(self.source.file)}
-        replace(file, fitted_on={**file.fitted_on, **data}).write(path)
+        data = str(self.source.file)
+        replace(file, fitted_on={**file.fitted_on, "path": data}).write(path)
 
     @property
     def node(self) -> Node:

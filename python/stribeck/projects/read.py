@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stribeck.base.errors import ProjectError, nearest
-from stribeck.models.model_file import read_model
+from stribeck.models.reader import read_model
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.kept import Kept
 from stribeck.projects.node import CHANGES, Node

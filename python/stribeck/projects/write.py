@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import tomlkit
 
-from stribeck.base.errors import ModelFileError, ProjectError
-from stribeck.models.model_file import write_whole
+from stribeck.base.errors import ProjectError
+from stribeck.base.files import write_whole
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.node import Node
 
@@ -32,10 +32,7 @@ def write_project(project: Project, path: Path) -> None:
             f"cannot write {path}: a project names its data from its own folder "
             f"{project.source.folder.resolve()}, so write it there"
         )
-    try:
-        write_whole(path, project_toml(project))
-    except ModelFileError as error:
-        raise ProjectError(str(error)) from None
+    write_whole(path, project_toml(project), ProjectError)
 
 
 def project_toml(project: Project) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 import stribeck as sb
 from mpmath import mpf
 from stribeck.models.catalog import catalog
-from stribeck.models.model import Parameter
+from stribeck.models.parameter import Parameter
 
 from laws.published import TABLE_7
 from laws.reference import LETTERS

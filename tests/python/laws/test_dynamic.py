@@ -12,7 +12,7 @@ import stribeck as sb
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from stribeck.models.catalog import catalog, law_ids
-from stribeck.models.model import Parameter
+from stribeck.models.parameter import Parameter
 
 from laws import dynamics, exact_steps
 from laws.dynamics import DYNAMIC, Motion

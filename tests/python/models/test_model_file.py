@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.models.model_file import SCHEMA, TOP_KEYS
+from stribeck.models.reader import TOP_KEYS
+from stribeck.models.writer import SCHEMA
 
 AWKWARD = (0.1, 1.0 / 3.0, np.pi * 1e-9, 1.7976931348623157e308, 5e-324, -0.0, 1e22, 123456789.125)
 
@@ -187,4 +188,4 @@ def test_nothing_is_written_when_it_fails(tmp_path: Path, path: Path) -> None:
 
 
 def test_schema_is_versioned() -> None:
-    assert SCHEMA == 1 and {"kind", "schema", "law", "parameters"} <= TOP_KEYS
+    assert SCHEMA == 1 and {"kind", "schema", "law", "parameters"} <= set(TOP_KEYS)

@@ -15,6 +15,7 @@ from stribeck.exporters.program import Program
 from stribeck.exporters.templates import template
 from stribeck.exporters.vectors import Vectors
 from stribeck.models.model import Model
+from stribeck.models.parameter import joint_unit
 
 #: Words of C and C++ that no member can have.
 _KEYWORDS = frozenset(
@@ -135,7 +136,7 @@ def _parameters(model: Model) -> Iterator[Member]:
 
 
 def _unit(model: Model, unit: str) -> str:
-    return model._unit(unit)
+    return joint_unit(unit, model.load_unit, model.position_unit)
 
 
 def _functions(form: Format, libm: bool) -> dict[str, str]:

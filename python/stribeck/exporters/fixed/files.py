@@ -95,7 +95,7 @@ def _rows(about: About, analysis: Analysis, seed: int) -> Sequence[Sequence[int]
     }
     model = about.model.without_effect("delay")
     velocity = columns.pop("velocity", np.zeros(ROWS))
-    values = model._known_values()
+    values = model.known_values()
     torque = np.asarray(model.core.torque(values, None, velocity, **columns))
     wanted = np.rint(np.ldexp(torque, analysis.torque.digits)).astype(np.int64)
     whole = [x for x, _ in given.values()]

@@ -27,7 +27,8 @@ from stribeck.base.shown import Shown
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
 from stribeck.identify.normal import NormalEquations, solve_bounded
-from stribeck.models.model import Model, model
+from stribeck.models.build import model
+from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

@@ -12,9 +12,9 @@ import polars as pl
 import tomlkit
 from numpy.typing import NDArray
 
+from stribeck.base.files import write_whole
 from stribeck.base.shown import Shown
 from stribeck.identify.covariance import correlation_length
-from stribeck.models.model_file import write_whole
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

@@ -102,7 +102,7 @@ def largest_factor(
 
     Examples
     --------
-    >>> from stribeck.models.model import model
+    >>> from stribeck.models.build import model
     >>> cold = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
     >>> warm = model("coulomb", coulomb_friction=1.5, viscous_friction=0.2)
     >>> round(largest_factor(cold, warm, {"velocity": (-1.0, 1.0)}).value, 2)
@@ -126,7 +126,7 @@ def largest_factor(
 
 def _checked(given: Model | ModelFile | Fit) -> Model:
     model = given if isinstance(given, Model) else given.model
-    model._known_values()
+    model.known_values()
     return model
 
 

@@ -124,7 +124,7 @@ def compensate(
 
     Examples
     --------
-    >>> from stribeck.models.model import model
+    >>> from stribeck.models.build import model
     >>> from stribeck.motion.simulate import Quintic
     >>> friction = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
     >>> ahead = Compensator(friction, feedback=False)

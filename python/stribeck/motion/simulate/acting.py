@@ -62,7 +62,7 @@ def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
     SpecError
         Values are missing, or the model holds a drive train that only explains recordings.
     """
-    model._known_values()
+    model.known_values()
     plain = model.friction
     trains = [effect for effect in plain.effects if effect in DRIVE_TRAIN]
     if trains:

@@ -77,7 +77,7 @@ def simulate(
 
     Examples
     --------
-    >>> from stribeck.models.model import model
+    >>> from stribeck.models.build import model
     >>> friction = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
     >>> pushed = simulate(friction, Joint.revolute(0.1), Torque(1.9), seconds=60.0)
     >>> float(pushed.position_end)

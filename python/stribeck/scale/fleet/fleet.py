@@ -20,7 +20,8 @@ from stribeck.base.pool import Stopped
 from stribeck.base.version import __version__
 from stribeck.models.formula_law import is_formula
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile, read_model_file
+from stribeck.models.model_file import ModelFile
+from stribeck.models.reader import read_model_file
 from stribeck.models.spec import parse_spec
 from stribeck.recording.sidecar import read_sidecar
 from stribeck.scale.fleet.changes import Changes, Question, find_changes

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.models.model import Model
-from stribeck.models.model_file import parse_model_file
+from stribeck.models.reader import parse_model_file
 from stribeck.passivity.friction import friction_part
 
 Array = NDArray[np.float64]

@@ -15,7 +15,8 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length, sandwich
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile, parse_model_file
+from stribeck.models.model_file import ModelFile
+from stribeck.models.reader import parse_model_file
 from stribeck.recording.recording import Recording
 
 #: Instead of a model: diagnose and add effects until what is left is noise.

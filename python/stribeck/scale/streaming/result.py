@@ -12,6 +12,7 @@ from stribeck.base.errors import StribeckError
 from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
 from stribeck.identify.estimates import Estimate
+from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.scale.streaming.dataset import DataSet
@@ -117,7 +118,7 @@ class StreamedFit(Shown):
 
     def model_file(self) -> ModelFile:
         """The model with its standard errors and provenance; hashes the files."""
-        fitted_on: dict[str, Any] = {
+        fitted_on: FittedOn = {
             "path": self.data.path,
             "sha256": self.data.sha256,
             "rows": self.moving,

@@ -18,10 +18,9 @@ from typing import Any
 import polars as pl
 
 from stribeck.base.errors import StribeckError
-from stribeck.base.files import write_bytes_whole
+from stribeck.base.files import write_bytes_whole, write_whole
 from stribeck.base.run_folder import claim, unwritable
 from stribeck.base.version import __version__
-from stribeck.models.model_file import write_whole
 from stribeck.scale.study.plan import Job, Plan
 from stribeck.scale.study.trial import Trial
 

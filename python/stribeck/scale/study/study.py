@@ -12,10 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from stribeck.base.errors import FitError, SpecError
-from stribeck.base.files import save_figure
+from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
-from stribeck.models.model_file import write_whole
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
 from stribeck.scale.study.crew import Crew, Desk, crew_of
 from stribeck.scale.study.plan import REVIEW, STARTS, Job, Plan, make_plan

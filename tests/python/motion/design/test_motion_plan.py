@@ -13,7 +13,7 @@ import stribeck as sb
 from click.testing import CliRunner
 from numpy.typing import NDArray
 from stribeck.cli.main import cli
-from stribeck.models.model_file import read_model_file
+from stribeck.models.reader import read_model_file
 from synthetic import COULOMB, VISCOUS, ar1, joint, motion, record
 
 Array = NDArray[np.float64]

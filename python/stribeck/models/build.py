@@ -1,0 +1,103 @@
+"""Models by name and by formula: what `stribeck.model` and `stribeck.law` return."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+
+from stribeck.base.errors import SpecError, nearest
+from stribeck.models.formula_law import check_terms, law_terms
+from stribeck.models.model import Model
+from stribeck.models.spec import parse_spec
+
+
+def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **values: float) -> Model:
+    """A model by its spec, with parameter values by name or by symbol.
+
+    Parameters
+    ----------
+    spec : str
+        ``LAW[+EFFECT...]``, ids of the catalog.
+    constants : dict of float
+        Constants of the law and its effects, in SI units and degC.
+    **values : float
+        Values of parameters, in the parameters' units. Others are not known yet.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    SpecError
+        A law, effect or parameter that does not exist, or a value that is not finite.
+
+    Examples
+    --------
+    >>> model("bittencourt_a", a1=2.0, a2=1.0, a3=0.1, a4=2.0, a5=0.3).spec
+    'bittencourt_a'
+    """
+    law, effects = parse_spec(spec)
+    made = Model(law=law, effects=effects, constants=dict(constants or {}))
+    return _with_values(made, values)
+
+
+def law(formula: str, /, *effects: str, parameters: Iterable[str] = (), **values: float) -> Model:
+    """A friction law by formula, to be fitted, compared and saved like those of the catalog.
+
+    Parameters
+    ----------
+    formula : str
+        Over the channels v, q, a, T, tl, tm, te (or velocity, position, acceleration, temperature,
+        load, motor_torque, external_torque); every other name is a parameter. The text is only
+        computed, never executed as code. ``"NAME = FORMULA"`` gives the law a name other than
+        ``formula``.
+    *effects : str
+        Effects to add: ids of the catalog, or ``"NAME = FORMULA"``.
+    parameters : iterable of str
+        ``"c3: rad/s, 0.001..10, start 0.1"``: unit, bounds and start of a parameter, each of which
+        may be left out. Without bounds a parameter is unbounded; unit and start then follow from
+        the formula and the recording where they can.
+    **values : float
+        Values of parameters.
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    SpecError
+        The text is not a formula: what is wrong, and where.
+
+    Examples
+    --------
+    >>> law("c1*v + c2*tanh(v/c3)*abs(load)", c1=0.5, c2=0.1, c3=1e-3).torque(1.0, load_torque=-4.0)
+    array([0.9])
+    """
+    terms = law_terms(formula, parameters)
+    check_terms(terms)
+    made = Model(law=terms.name, own=(terms,))
+    for effect in effects:
+        made = made.with_effect(effect, {})
+    return _with_values(made, values)
+
+
+def _with_values(made: Model, values: Mapping[str, float]) -> Model:
+    """The model with values by name or symbol; parameters that are not given have none."""
+    if not values:
+        return made
+    placed = dict.fromkeys(made.names, np.nan)
+    symbols = {p.symbol: p.name for p in made.parameters}
+    for given, value in values.items():
+        name = given if given in placed else symbols.get(given)
+        if name is None:
+            raise SpecError(
+                f"{made.spec} has no parameter {given!r}{nearest(given, (*placed, *symbols))}; "
+                f"it has {', '.join(placed)}"
+            )
+        if not np.isfinite(value):
+            raise SpecError(f"parameter {given} of {made.spec} is {value}: give a finite number")
+        placed[name] = float(value)
+    return made.with_values(list(placed.values()))

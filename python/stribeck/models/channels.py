@@ -1,0 +1,123 @@
+"""Channels of a call, as contiguous columns of one length for the compiled core."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TypedDict
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stribeck import _core
+
+Array = NDArray[np.float64]
+
+#: Channels that a model may read beside the velocity.
+BESIDE_VELOCITY = (
+    "position",
+    "acceleration",
+    "temperature",
+    "load_torque",
+    "motor_torque",
+    "external_torque",
+    "time",
+    "load_torque_curvature",
+)
+
+
+class Columns(TypedDict):
+    """Channels of n samples, in SI units and degC; None where one is not given."""
+
+    dt: float | Array | None
+    velocity: Array
+    position: Array | None
+    acceleration: Array | None
+    temperature: Array | None
+    load_torque: Array | None
+    motor_torque: Array | None
+    external_torque: Array | None
+    time: Array | None
+    load_torque_curvature: Array | None
+
+
+def columns(
+    core: _core.Model,
+    velocity: ArrayLike,
+    dt: float | ArrayLike | None,
+    given: Mapping[str, ArrayLike | None],
+) -> Columns:
+    """The channels of a call, each of the velocity's length.
+
+    Parameters
+    ----------
+    core
+        The model that reads them. Where it reads the external torque and none is given, that is
+        minus the load torque.
+    velocity : array [n]
+        rad/s or m/s.
+    dt : float or array [n]
+        Step to the previous sample, s.
+    given
+        Channels by name, arrays [n] or numbers.
+    """
+    speed = column(np.atleast_1d(velocity))
+
+    def filled(name: str) -> Array | None:
+        values = given[name]
+        return None if values is None else column(values, speed.shape)
+
+    external, load = filled("external_torque"), filled("load_torque")
+    if external is None and load is not None and "external_torque" in core.needs:
+        external = -load
+    step: float | Array | None = None
+    if dt is not None:
+        step = float(np.asarray(dt)) if np.ndim(dt) == 0 else column(dt, speed.shape)
+    return {
+        "dt": step,
+        "velocity": speed,
+        "position": filled("position"),
+        "acceleration": filled("acceleration"),
+        "temperature": filled("temperature"),
+        "load_torque": load,
+        "motor_torque": filled("motor_torque"),
+        "external_torque": external,
+        "time": filled("time"),
+        "load_torque_curvature": filled("load_torque_curvature"),
+    }
+
+
+def split_columns(
+    core: _core.Model,
+    velocity: ArrayLike,
+    given: Mapping[str, ArrayLike | None],
+    box: Mapping[str, tuple[float, float]],
+) -> dict[str, Array]:
+    """The channels at which a steady torque is asked for, all of the longest one's length.
+
+    A channel that is not given stands at the middle of the operating `box`, the time at the middle
+    of the recording, the second derivative of the load at 0.
+    """
+    found = {"velocity": column(np.atleast_1d(velocity))}
+    for name in BESIDE_VELOCITY:
+        values = given.get(name)
+        if values is None:
+            values = _usual(core, name, box)
+        if values is not None:
+            found[name] = column(np.atleast_1d(values))
+    size = max(values.size for values in found.values())
+    return {name: column(values, (size,)) for name, values in found.items()}
+
+
+def _usual(core: _core.Model, name: str, box: Mapping[str, tuple[float, float]]) -> float | None:
+    """The value of a channel that is not given; None where the model does without."""
+    if name == "time" and name in core.needs:
+        return 0.5 * core.constants["duration"]
+    if name == "load_torque_curvature" and name in core.needs:
+        return 0.0
+    return 0.5 * sum(box[name]) if name in box else None
+
+
+def column(values: ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
+    """`values` as a contiguous array of numbers, repeated to `shape` if one is given."""
+    repeated = values if shape is None else np.broadcast_to(values, shape)
+    return np.ascontiguousarray(repeated, dtype=np.float64)

@@ -1,0 +1,61 @@
+"""What models and their files take from the result of a fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Protocol, TypedDict
+
+if TYPE_CHECKING:
+    from stribeck.models.model import Model
+    from stribeck.recording.recording import Recording
+
+
+class FittedOn(TypedDict, total=False):
+    """What a model was fitted to, as model files keep it.
+
+    ``rows`` counts the scored samples, ``time_span`` is the recording's first and last time in s,
+    the errors are in the unit of the effort.
+    """
+
+    path: str
+    sha256: str
+    rows: int
+    time_span: list[float]
+    rmse: float
+    rmse_held_out: float
+
+
+class HasModel(Protocol):
+    """Anything that holds a model: a model file, a fit."""
+
+    @property
+    def model(self) -> Model:
+        """The model."""
+
+
+class HasStandardError(Protocol):
+    """An identified parameter."""
+
+    @property
+    def stderr(self) -> float | None:
+        """Standard error in the parameter's unit; None where it is not known."""
+
+
+class Fitted(HasModel, Protocol):
+    """A model that was fitted to a recording."""
+
+    @property
+    def recording(self) -> Recording:
+        """The recording of the fit."""
+
+    @property
+    def rmse(self) -> float:
+        """RMSE of the scored samples, in the unit of the effort."""
+
+    @property
+    def rmse_held_out(self) -> float | None:
+        """RMSE on held-out samples, in the same unit; None where it is not known."""
+
+    @property
+    def estimates(self) -> Mapping[str, HasStandardError]:
+        """The identified parameters, by name."""

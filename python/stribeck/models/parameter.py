@@ -1,0 +1,81 @@
+"""One parameter of a model, and how its unit is written for a joint."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from stribeck.base.dimensions import Powers
+
+if TYPE_CHECKING:
+    from stribeck.models.rows import ParameterRow
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """What one parameter is: its name, symbol in the literature, unit and bounds.
+
+    `lower`, `upper` and `start` are in `unit` once the model is scaled to a recording, and
+    multiples of `scale` before. A formula's parameter has no bounds unless they are stated. Where
+    no start is stated it follows from the parameter's `dimension`, and `start` is NaN.
+    """
+
+    name: str
+    symbol: str
+    unit: str
+    lower: float
+    upper: float
+    start: float
+    scale: str
+    linear: bool
+    role: str
+    description: str
+    dimension: Powers | None = None
+
+    @classmethod
+    def of(cls, row: ParameterRow, load_unit: str, position_unit: str) -> Parameter:
+        """The parameter of a catalog row, in the units of a joint."""
+        return cls(
+            name=row["name"],
+            symbol=row["symbol"],
+            unit=joint_unit(row["unit"], load_unit, position_unit),
+            lower=row["lower"],
+            upper=row["upper"],
+            start=row["start"],
+            scale=row["scale"],
+            linear=row["linear"],
+            role=row["role"],
+            description=row["description"],
+        )
+
+
+def joint_unit(unit: str, load_unit: str, position_unit: str) -> str:
+    """Write a unit of the catalog (T torque or force, X position) for a joint.
+
+    Parameters
+    ----------
+    unit
+        As the catalog writes it.
+    load_unit
+        Unit of loads and friction.
+    position_unit
+        ``"rad"`` or ``"m"``.
+
+    Examples
+    --------
+    >>> joint_unit("T s/X", "N m", "rad"), joint_unit("1/T", "N m", "rad")
+    ('N m s/rad', '1/(N m)')
+    """
+    if unit == "T s2/X" and load_unit in ("N m", "N"):
+        return "kg m2" if position_unit == "rad" else "kg"
+    written = {"T": load_unit, "X": position_unit}
+
+    def replaced(found: re.Match[str]) -> str:
+        before, letter, power = found.groups()
+        word = written[letter]
+        # A divisor or a power of two words needs brackets: 1/(N m), (N m)2.
+        several = " " in word and (before or power)
+        return f"{before}({word}){power}" if several else f"{before}{word}{power}"
+
+    return re.sub(r"(/?)\b([TX])(\d*)\b", replaced, unit)
