@@ -235,7 +235,7 @@ class _Reader:
                 case "time_span":
                     read[key] = list(self._pair(value, "fitted_on]", key))
                 case "rmse" | "rmse_held_out":
-                    read[key] = self._number(value, "fitted_on]", key)
+                    read[key] = self._real(value, "fitted_on]", key)
         return read
 
     def _table(self, data: Mapping[str, object], key: str) -> Mapping[str, object]:
@@ -260,12 +260,16 @@ class _Reader:
             raise self.stop(f"{where[-1]} is {value!r}, a whole number is needed", *where)
         return value
 
-    def _number(self, value: object, *where: str) -> float:
+    def _real(self, value: object, *where: str) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise self.stop(f"{where[-1]} is {value!r}, a number is needed", *where)
-        if not math.isfinite(value):
-            raise self.stop(f"{where[-1]} is {value}, a finite number is needed", *where)
         return float(value)
+
+    def _number(self, value: object, *where: str) -> float:
+        number = self._real(value, *where)
+        if not math.isfinite(number):
+            raise self.stop(f"{where[-1]} is {value}, a finite number is needed", *where)
+        return number
 
     def _pair(self, value: object, *where: str) -> tuple[float, float]:
         if not isinstance(value, list) or len(value) != 2:
