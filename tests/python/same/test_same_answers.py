@@ -1,0 +1,50 @@
+"""Thirty commands and more answer as they did: the same numbers, the same keys, the same files.
+
+`commands.toml` is the list, `expected/` what the commands answered when it was recorded
+(`record.py`), `same_answers.py` what is compared and what is not. Only the command line is used, so
+modules may move. To see whether another tree answers the same, put it first on the path:
+
+    PYTHONPATH=/path/of/the/tree/python python -m pytest tests/python/same
+
+On the kind of machine that recorded the references every digit counts; on another, numbers have to
+agree to a relative 1e-6.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from same_answers import Story, differences, machine, stored, stories, tell
+
+STORIES = stories()
+
+
+@pytest.mark.parametrize(
+    "story",
+    [
+        pytest.param(story, id=story.name, marks=[pytest.mark.slow] if story.slow else [])
+        for story in STORIES
+    ],
+)
+def test_the_answers_are_the_same(story: Story, tmp_path: Path) -> None:
+    """Every command of a story, run as a user runs it."""
+    for path in story.shared:
+        if not path.is_file():
+            pytest.skip(f"{path} is not there")
+    reference = json.loads(stored(story).read_text())
+    answers = tell(story, tmp_path)
+    exact = reference["machine"] == machine()
+    assert [a["command"] for a in answers] == [a["command"] for a in reference["answers"]]
+    found = []
+    for expected, now in zip(reference["answers"], answers, strict=True):
+        lines = list(differences(expected, json.loads(json.dumps(now)), exact))
+        found += [f"stribeck {now['command']}\n    " + "\n    ".join(lines[:12])] if lines else []
+    assert not found, "\n" + "\n".join(found)
+
+
+def test_the_list_is_long_enough() -> None:
+    """At least thirty commands, each story with a reference and none without a story."""
+    assert sum(len(story.commands) for story in STORIES) >= 30
+    assert {stored(story) for story in STORIES} == set(stored(STORIES[0]).parent.glob("*.json"))
