@@ -5,6 +5,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck.models.rows import CoreCatalog, ParameterRow
+from stribeck.passivity.rows import AnswerRow
 
 __all__ = [
     "Formula",
@@ -80,7 +81,7 @@ def passivity(
     values: ArrayLike,
     sides: Mapping[str, tuple[float, float]],
     budget: int,
-) -> dict[str, Any]: ...
+) -> AnswerRow: ...
 def missed(
     model: Model,
     values: ArrayLike,

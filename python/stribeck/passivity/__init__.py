@@ -1,1 +1,1 @@
-"""Passivity: proofs over an operating box that a model gives off no energy, or what breaks it."""
+"""Passivity: proofs over an operating box that a model generates no energy, or a counterexample."""

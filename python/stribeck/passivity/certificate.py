@@ -1,24 +1,23 @@
-"""What a check of passivity yields: a proof, a counterexample, or neither."""
+"""The result of a check of passivity: a proof, a counterexample, or neither."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from stribeck import _core
 from stribeck.base.shown import Shown
 from stribeck.models.model import Model
 
-#: What each condition says.
+#: What each condition states.
 MEANING = {
     "sliding": "friction in steady sliding opposes the motion",
     "damping": "bristle damping: 0 <= s1 <= 4 D/|v| (Tadese et al. 2021, property 1, i)",
-    "resistance": "what is beside the bristle opposes the motion (property 1, ii)",
-    "storage": "at each operating point more is dissipated than goes into the bristle",
-    "cycle": "no cycle of the bristle gives off energy",
-    "elements": "elements of constant strength, each a spring and a slider",
-    "unknown": "none is known for this kind of model",
+    "resistance": "friction in parallel with the bristle opposes the motion (property 1, ii)",
+    "storage": "at each operating point more energy is dissipated than the bristle stores",
+    "cycle": "no cycle of the bristle generates energy",
+    "elements": "elements of constant strength, each a spring in series with a slider",
+    "unknown": "no exact condition is known for this kind of model",
 }
 
 
@@ -29,9 +28,13 @@ class Margin:
     Attributes
     ----------
     lower
-        No operating point has less, proved, in the unit of torque; None where nothing is.
+        Proved lower bound of the margin over the box, in the unit of torque; None where nothing is
+        proved.
     upper
-        The point `at` has no more; None where no point was looked for.
+        Margin at the operating point `at`, an upper bound of the least margin; None where no point
+        was evaluated.
+    at
+        An operating point by channel, SI units and degC.
     """
 
     condition: str
@@ -39,7 +42,7 @@ class Margin:
     upper: float | None
     at: Mapping[str, float] | None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         return {
             "condition": self.condition,
@@ -51,16 +54,19 @@ class Margin:
 
 @dataclass(frozen=True)
 class Counterexample:
-    """A motion from which energy comes, and after which the model is as it was before.
+    """A motion that generates energy, with the same state of the model at its start and its end.
 
     Attributes
     ----------
+    friction
+        The model that is moved.
     deflection
-        Of the bristle at the start and at the end, rad or m; None: the joint slides already.
+        Deflection of the bristle at the start and at the end, rad or m; None where the joint slides
+        throughout.
     steps
-        Operating points that are held one after the other, each with its ``duration`` in s.
+        Operating points held one after the other, each with its ``duration`` in s.
     net_work
-        Work that the friction takes over all of them, J: negative.
+        Work done against friction over all steps, J; negative.
     """
 
     friction: Model
@@ -74,14 +80,14 @@ class Counterexample:
         return "operating point" if len(self.steps) == 1 else "cycle"
 
     def replay(self) -> tuple[float, float]:
-        """Carry the motion out by the model's exact step.
+        """Simulate the motion with the model's exact step.
 
         Returns
         -------
         work : float
-            J.
+            Work done against friction, J.
         deflection : float
-            At the end, rad or m.
+            Deflection of the bristle at the end, rad or m.
         """
         steps = [
             (step["duration"], {k: v for k, v in step.items() if k != "duration"})
@@ -89,7 +95,7 @@ class Counterexample:
         ]
         return _core.work(self.friction.core, self.friction.values, self.deflection, steps)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         return {
             "kind": self.kind,
@@ -106,17 +112,19 @@ class Certificate(Shown):
     Attributes
     ----------
     passive
-        True: proved. False: `counterexample` breaks it. None: cannot decide, with the reason in
-        `why`.
+        True with a proof, False with a `counterexample`, None where neither was found; `why` then
+        gives the reason.
     condition
-        What the proof rests on, or what is broken or open: ``sliding``, ``damping``,
-        ``resistance``, ``storage``, ``cycle``, ``elements``, ``unknown``.
+        The condition that the proof rests on, or that is violated or undecided: ``sliding``,
+        ``damping``, ``resistance``, ``storage``, ``cycle``, ``elements``, ``unknown``.
     margins
-        All conditions that were looked at.
-    friction
-        The part of the model that it is about.
+        All conditions that were evaluated.
+    model, friction
+        The model, and the part of it that is friction.
     left_out
-        Effects and rigid-body terms that are no friction.
+        Effects and rigid-body terms that are not friction.
+    box
+        Operating box of the friction, SI units and degC.
     """
 
     model: Model
@@ -130,7 +138,7 @@ class Certificate(Shown):
 
     @property
     def margin(self) -> float | None:
-        """By how much `condition` holds (a proven bound) or is broken (at a point), in N m or N."""
+        """By how much `condition` holds (a proved bound) or is violated (at a point), N m or N."""
         row = next((m for m in reversed(self.margins) if m.condition == self.condition), None)
         if row is None:
             return None
@@ -138,21 +146,18 @@ class Certificate(Shown):
 
     @property
     def why(self) -> str | None:
-        """Why nothing could be decided; None where it was."""
+        """Why the check is undecided; None where it is not."""
         if self.passive is not None:
             return None
         if self.condition == "unknown":
-            return (
-                f"no exact condition is known here for the states or branches of "
-                f"{self.friction.spec}"
-            )
+            return f"no exact condition is known for the states or branches of {self.friction.spec}"
         return (
-            f"neither a proof nor a counterexample was found for the condition "
+            f"neither a proof nor a counterexample was found for condition "
             f"{self.condition!r} ({MEANING[self.condition]}); a smaller box may help"
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON of `stribeck check`."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of the command ``stribeck check``."""
         example = self.counterexample
         return {
             "model": self.model.spec,

@@ -1,44 +1,43 @@
-"""Is a model passive? Proved over a box by interval bounds with subdivision, never by samples."""
+"""Is a model passive? Proved over a box by interval bounds and subdivision, not by sampling."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any, Protocol
+from dataclasses import dataclass, field
+from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from stribeck import _core
 from stribeck.base.errors import SpecError
+from stribeck.models.fitted import HasModel
 from stribeck.models.model import Model
 from stribeck.passivity.certificate import Certificate, Counterexample, Margin
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
 
-#: Evaluations of the model over a box after which a check gives up: some seconds.
+if TYPE_CHECKING:
+    from stribeck.passivity.rows import AnswerRow, MarginRow
+
+#: A check stops undecided after so many evaluations of the model, which take some seconds.
 BUDGET = 4_000_000
-
-
-class HasModel(Protocol):
-    """A result that holds a model, such as a fit or a model file."""
-
-    @property
-    def model(self) -> Model:
-        """The model."""
-        ...
+#: Answers that are kept: a model is printed, reported and exported with the same proof.
+KEPT = 64
 
 
 def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
-    """Certify that a model gives off no energy over an operating box, or break it.
+    """Prove that a model generates no energy over an operating box, or find a counterexample.
 
-    Every motion inside the box counts: velocity, temperature and load may change at any time in any
-    way. The friction alone is meant; an offset, a rigid body or a delay is none.
+    Every motion inside the box is covered: velocity, temperature and load may change at any time
+    in any way. The check is about the friction alone; an offset, a rigid body or a delay is left
+    out. A check that is repeated with the same model, values and box costs nothing.
 
     Parameters
     ----------
     model : Model, ModelFile or Fit
         With values for all parameters.
     box : dict of (low, high)
-        ``velocity``, ``temperature``, ``load_torque``, ``position`` ..., SI units and degC. What it
-        leaves out is taken from the model's own box.
+        ``velocity``, ``temperature``, ``load_torque``, ``position`` ..., SI units and degC. Sides
+        that are left out are taken from the model's own box.
 
     Returns
     -------
@@ -48,14 +47,15 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     Raises
     ------
     SpecError
-        Values or sides are missing, the box holds a temperature at which the law has no limit, or
-        points at which dry friction is not positive and a bristle cannot be.
+        Values or sides are missing, or the box holds a temperature at which the law has no limit,
+        or a bristle with dry friction that is not positive.
 
     Notes
     -----
-    Tadese et al. 2021, property 1, is tried first; it is sufficient only. For a single deflection
-    the exact condition follows: at every force that is reached, the least work per deflection on
-    the way up and on the way down must not sum to less than zero.
+    Property 1 of Tadese et al. 2021 is tried first. It is sufficient, not necessary. For models
+    with a single deflection an exact condition follows: at every force that the bristle reaches,
+    the least work per deflection with rising and with falling deflection must not sum to less than
+    zero.
 
     Examples
     --------
@@ -64,8 +64,8 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     >>> check(friction, {"velocity": (-3.0, 3.0)}).passive
     True
 
-    A bristle with a hundred times the damping that property 1 allows, ``4 D/|v|`` = 8/3 N m s/rad:
-    where dry friction is constant, no damping is too much.
+    A bristle with a hundred times the damping that property 1 allows, ``4 D/|v|`` = 8/3 N m s/rad.
+    Where dry friction is constant the model is passive with any damping.
 
     >>> bristle = {"presliding_stiffness": 1e4, "presliding_damping": 267.0}
     >>> damped = model(
@@ -79,10 +79,7 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     asked.known_values()
     friction, left_out = friction_part(asked)
     sides = operating_box(friction, box or {})
-    try:
-        answer = _core.passivity(friction.core, friction.values, sides, BUDGET)
-    except _core.ModelError as error:
-        raise SpecError(f"{friction.spec} cannot be checked: {error}") from None
+    answer = _answer(_Question.of(friction, sides))
     example = answer["counterexample"]
     return Certificate(
         model=asked,
@@ -92,17 +89,55 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
         passive=answer["passive"],
         condition=answer["condition"],
         margins=tuple(_margin(row) for row in answer["margins"]),
-        counterexample=None if example is None else Counterexample(
-            friction, example["deflection"], tuple(example["steps"]), example["work"]
+        counterexample=None
+        if example is None
+        else Counterexample(
+            friction,
+            example["deflection"],
+            tuple(dict(step) for step in example["steps"]),
+            example["work"],
         ),
-    )  # fmt: skip
+    )
 
 
-def _margin(row: Mapping[str, Any]) -> Margin:
+@dataclass(frozen=True)
+class _Question:
+    """All that an answer depends on; questions are equal if their answers are."""
+
+    friction: Model = field(compare=False)
+    spec: str
+    formulas: tuple[tuple[str, tuple[str, ...]], ...]
+    constants: tuple[tuple[str, float], ...]
+    values: bytes
+    box: tuple[tuple[str, tuple[float, float]], ...]
+
+    @classmethod
+    def of(cls, friction: Model, box: Box) -> _Question:
+        core = friction.core
+        return cls(
+            friction,
+            friction.spec,
+            tuple((terms.text, terms.names) for terms in friction.own),
+            tuple(sorted(core.constants.items())),
+            friction.values.tobytes(),
+            tuple(sorted(box.items())),
+        )
+
+
+@lru_cache(maxsize=KEPT)
+def _answer(question: _Question) -> AnswerRow:
+    friction = question.friction
+    try:
+        return _core.passivity(friction.core, friction.values, dict(question.box), BUDGET)
+    except _core.ModelError as error:
+        raise SpecError(f"{friction.spec} cannot be checked: {error}") from None
+
+
+def _margin(row: MarginRow) -> Margin:
     lower, upper = row["lower"], row["upper"]
     return Margin(
         condition=row["condition"],
         lower=lower if math.isfinite(lower) else None,
         upper=upper if upper is not None and math.isfinite(upper) else None,
-        at=row["at"],
+        at=None if row["at"] is None else dict(row["at"]),
     )

@@ -1,4 +1,4 @@
-"""What passivity asks of a model's parameters, as conditions that an optimiser can hold."""
+"""Passivity as conditions on a model's parameters, for a constrained optimiser."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from stribeck.passivity.operating_box import Box
 
 Array = NDArray[np.float64]
 
-#: What is short of its reserve by less than this share counts as held.
+#: A condition counts as held if it falls short of its reserve by less than this share.
 SLACK = 1e-9
-#: Most that are added at once: neighbours of one that is missed are mostly met together with it.
+#: Most conditions added at once: holding one mostly holds its neighbours too.
 MOST_AT_ONCE = 16
 
 
 @dataclass(frozen=True)
 class FrictionOf:
-    """The friction of a model, and which of the model's parameters are its own.
+    """The friction of a model, and which of the model's parameters belong to it.
 
     Attributes
     ----------
     own : int array [k]
-        Where the friction's parameters stand among the model's.
+        Index of each of the friction's parameters among the model's.
     known : bool array [k]
-        Those that the model has; the others are zero.
+        Which of the friction's parameters the model has; the others are zero.
     """
 
     friction: Model
@@ -39,7 +39,7 @@ class FrictionOf:
 
     @classmethod
     def of(cls, model: Model) -> FrictionOf:
-        """Of a model whatever its values."""
+        """The friction of a model, whose values are not used."""
         friction, _ = friction_part(model)
         places = {name: k for k, name in enumerate(model.names)}
         known = np.array([name in places for name in friction.names], dtype=bool)
@@ -47,7 +47,7 @@ class FrictionOf:
         return cls(friction, own, known)
 
     def values(self, values: Array) -> Array:
-        """The friction's values [k] among the model's [p]."""
+        """The friction's values, array [k], from the model's, array [p]."""
         return np.where(self.known, values[self.own], 0.0)
 
     def margins(
@@ -63,19 +63,19 @@ class FrictionOf:
 
 @dataclass(frozen=True)
 class Conditions:
-    """Requirements at single operating points and cycles, each necessary for passivity.
+    """Requirements at single operating points and in single cycles, each necessary for passivity.
 
     Attributes
     ----------
     part
-        The friction, which alone is asked.
+        The friction, to which alone the requirements apply.
     requirements
-        What is asked; nothing else is held.
+        The n requirements that are held.
     sizes : array [n]
-        Sum of the sizes of the terms of each margin, where it was first missed. Margins are
-        counted as shares of it, so that friction which vanishes with speed counts like any other.
+        Sum of the absolute terms of each margin, at the values that first violated it. Margins are
+        divided by it, so that friction which vanishes with speed has the same weight as any other.
     reserve
-        The share of its size that each margin has to keep.
+        The share of its size that each margin must keep.
     """
 
     part: FrictionOf
@@ -89,13 +89,13 @@ class Conditions:
         Raises
         ------
         stribeck._core.ModelError
-            The friction means nothing at these values.
+            The friction is not defined at these values.
         """
         margins, slopes = self.part.margins(self.requirements, values)
         return margins / self.sizes - self.reserve, slopes / self.sizes[:, None]
 
     def hold(self, values: Array) -> bool:
-        """Whether all of them hold."""
+        """Whether all conditions hold."""
         if not self.requirements:
             return True
         try:
@@ -104,7 +104,7 @@ class Conditions:
             return False
 
     def with_missed(self, asked: Sequence[_core.Requirement], values: Array) -> Conditions:
-        """With what is `asked` and does not keep the reserve at these values, the worst of it."""
+        """Add the most violated of the requirements `asked` at these values."""
         if not asked:
             return self
         margins, slopes = self.part.margins(asked, values)
@@ -119,12 +119,12 @@ class Conditions:
         )
 
     def _least_sizes(self, asked: Sequence[_core.Requirement], values: Array) -> Array:
-        """Least sizes [n]: a bristle's strength counts beside all dry friction, however weak."""
+        """Least sizes, array [n]: the strength of a bristle is compared with all dry friction."""
         own = self.part.values(values)
         roles = np.array([p.role for p in self.part.friction.parameters])
         dry = float(np.abs(own[roles == "dry"]).sum())
         return np.array([dry if one.kind == "strength" else 0.0 for one in asked])
 
     def spread(self, values: Array, box: Box) -> list[_core.Requirement]:
-        """What is asked at points over the box, the worst of each kind."""
+        """Requirements at points over the box, the most violated of each kind."""
         return _core.requirements(self.part.friction.core, self.part.values(values), dict(box))

@@ -1,6 +1,6 @@
-"""Least squares under conditions, by Gauss and Newton's steps with damping.
+"""Least squares under conditions, by damped Gauss-Newton steps.
 
-The residual is linearised, the conditions are not, so every point after the first step holds them.
+The residual is linearised, the conditions are not. So every point after the first step holds them.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ from stribeck.passivity.step import step_under
 
 Array = NDArray[np.float64]
 
-#: Most steps, those that are taken back included.
+#: Most steps, rejected ones included.
 MOST_STEPS = 25
-#: The search ends when its next step foresees a smaller relative fall of the sum of squares.
+#: The search ends when the predicted relative decrease of the sum of squares is smaller.
 SETTLED = 1e-7
-#: Damping of the step after one that is taken back, in squared lengths of the columns.
+#: Damping after a first rejected step, in squared lengths of the columns.
 FIRST_DAMPING = 1e-3
-#: A damping beyond which a step is too short to bring anything.
+#: With more damping a step is too short to change anything.
 MOST_DAMPING = 1e8
-#: From a point that misses a condition a step may miss its foreseen square by this factor.
+#: From a point that violates a condition a step may miss its predicted sum by this factor.
 ASTRAY = 1.5
 
 
 def minimise_under(
     problem: Problem, values: Array, lower: Array, upper: Array, conditions: Conditions
 ) -> Search:
-    """The least sum of squares near `values` at which the conditions hold.
+    """The least sum of squares near `values` that holds the conditions.
 
-    Its sum of squares is infinite where no values were found that hold the conditions.
+    The sum of squares of the result is infinite where no values were found that hold them.
     """
     free = np.flatnonzero(lower < upper)
     point = _linearised(problem, values, free)
@@ -51,14 +51,15 @@ def minimise_under(
         step = (refit - values)[free]
         if held and point.fall(step) <= SETTLED * point.square:
             return Search(values, point.square, True, "converged", evaluations)
-        foreseen = point.square - point.fall(step)
-        limit = point.square if held else ASTRAY * foreseen
+        predicted = point.square - point.fall(step)
+        limit = point.square if held else ASTRAY * predicted
         tried = _linearised(problem, refit, free)
         evaluations += 1
-        # A step that only short ones would spare is taken all the same: the conditions come first.
+        # Short steps do not reach the conditions: a step that holds them is accepted even if it
+        # raises the sum of squares.
         if tried is not None and (tried.square <= limit or (not held and damping > 1.0)):
             values, point, held = refit, tried, True
-            # Right after a step that went too far a longer one would go too far again.
+            # Right after a rejected step the damping stays: a longer step would be rejected again.
             damping, retreated = damping if retreated else 0.1 * damping, False
             damping = damping if damping >= FIRST_DAMPING else 0.0
         else:
@@ -79,13 +80,13 @@ class Conditioned:
     conditions: Conditions
 
     def step(self, values: Array, triangle: Triangle) -> Array:
-        """One step of the free parameters; none where no values hold the conditions."""
+        """The values [p] after one step, unchanged where no values hold the conditions."""
         free = np.flatnonzero(self.lower < self.upper)
         refit = step_under(triangle, values, free, self.lower, self.upper, self.conditions)
         return values.copy() if refit is None else refit
 
     def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
-        """A damped search from `values`: under conditions one step may lead far astray."""
+        """Values [p] of a damped search: under conditions a single step is not reliable."""
         found = minimise_under(problem, values, self.lower, self.upper, self.conditions)
         return found.values
 
@@ -101,7 +102,7 @@ def _linearised(problem: Problem, values: Array, free: NDArray[np.intp]) -> Tria
 
 
 def _damped(triangle: Triangle, damping: float) -> Triangle:
-    """The triangle with Levenberg and Marquardt's rows."""
+    """The triangle with the rows of Levenberg and Marquardt's damping."""
     if damping == 0.0:
         return triangle
     lengths = np.sqrt(damping * np.einsum("ij,ij->j", triangle.factor, triangle.factor))

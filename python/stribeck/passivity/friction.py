@@ -1,4 +1,4 @@
-"""What of a model is friction: the part that passivity is asked of."""
+"""The part of a model that is friction, which a check of passivity is about."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from stribeck.models.model import Model
 
 
 def friction_part(model: Model) -> tuple[Model, tuple[str, ...]]:
-    """The model without what is no friction, and the names of that.
+    """The friction of a model, and the names of the terms that are left out.
 
     An offset, a load, a delay or a wrong torque constant belong to the measurement, the drive or
     the rigid body. A constant torque that the law itself has stays.
@@ -33,5 +33,5 @@ def friction_part(model: Model) -> tuple[Model, tuple[str, ...]]:
         rigid_body=(),
         values=np.empty(0),
     )
-    # A parameter that only appears without an offset has stood at zero beside it.
+    # A law lacks its own offset beside the effect `offset`, where that is zero.
     return kept.with_values([known.get(name, 0.0) for name in kept.names]), left_out

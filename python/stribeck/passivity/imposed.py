@@ -1,22 +1,21 @@
-"""A fit that is passive: conditions are added until the whole box is proved.
+"""A passive fit: conditions are added until the model is proved passive over the whole box.
 
-Passivity asks something at every operating point of the box. As few points as decide are held:
-the exchange method of semi-infinite programming (Blankenship and Falk 1976). Each round asks what
-the fit so far misses, first at points spread over the box, then by the proof itself, and fits again
-under that too.
+Passivity is a condition at every operating point of the box. Only the points that matter are held,
+by the exchange method of semi-infinite programming (Blankenship and Falk 1976): each round finds
+the conditions that the current fit violates, first at points over the box, then by the proof, and
+fits again with these conditions added.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
-from stribeck.base.errors import FitError, SpecError
+from stribeck.base.errors import FitError, SpecError, option
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model
 from stribeck.passivity.check import BUDGET
@@ -26,27 +25,27 @@ from stribeck.passivity.operating_box import Box, operating_box
 
 Array = NDArray[np.float64]
 
-#: The shares of its size that each margin keeps: the first from the start, the next one whenever
-#: that is not enough for a proof.
+#: Reserves of the margins, as shares of their sizes: the first one at the start, the next one
+#: whenever a proof fails although every condition holds.
 RESERVES = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
-#: Most fits under conditions.
+#: Most fits under conditions, one a round.
 MOST_ROUNDS = 60
 
 
 @dataclass(frozen=True)
 class PassiveCost:
-    """What passivity costs a fit.
+    """The error that a passive fit adds, and how many conditions it holds.
 
     Attributes
     ----------
     imposed
-        Whether conditions were needed; otherwise the free fit is passive already.
+        Whether conditions were needed; if not, the unconstrained fit is passive.
     rmse_free, rmse_held_out_free
-        Of the fit without them, in the unit of torque.
+        RMSE and held-out RMSE of the unconstrained fit, in the unit of torque.
     conditions
-        How many operating points and cycles are held.
+        Number of operating points and cycles at which passivity is imposed.
     reserve
-        Share of its terms that each margin keeps, so that the proof succeeds.
+        Share of its size that each margin keeps, so that the proof succeeds.
     """
 
     imposed: bool
@@ -55,7 +54,7 @@ class PassiveCost:
     conditions: int
     reserve: float
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         return {
             "imposed": self.imposed,
@@ -68,7 +67,7 @@ class PassiveCost:
 
 @dataclass(frozen=True)
 class Passive:
-    """Values with a proof, the problem that they solve, and what was held."""
+    """Values proved passive, the problem that they solve, and the conditions that were held."""
 
     values: Array
     problem: Problem
@@ -86,22 +85,22 @@ def impose(
     box_of: Callable[[Array, Array | None], Box],
     renewed: Callable[[Problem, Array], Problem],
 ) -> Passive:
-    """The best values near `values` whose friction is proved passive over the box.
+    """The best values near `values` with which friction is proved passive over the box.
 
     Parameters
     ----------
     values, typical, lower, upper : arrays [p]
-        The best values without any condition; those that a search starts from, to go on from where
-        the best ones lead to nothing passive; bounds.
+        The best values without conditions; the typical start of a search, used where `values` lead
+        to no passive model; bounds.
     box_of
-        The operating box of values and their load torque.
+        The operating box for values and their load torque.
     renewed
-        The problem with the load torque that follows from values, where it is identified too.
+        The problem with the load torque for new values, where the rigid body is identified too.
 
     Raises
     ------
     FitError
-        No values within the bounds were found with a proof.
+        No values within the bounds were proved passive.
     """
     conditions = Conditions(FrictionOf.of(problem.model.with_values(values)))
     evaluations, converged = 0, True
@@ -122,13 +121,13 @@ def impose(
         problem = renewed(problem, values)
     raise FitError(
         f"{problem.model.spec} was not proved passive in {MOST_ROUNDS} rounds, with "
-        f"{len(conditions.requirements)} conditions held: narrow the bounds (--bound), or take "
-        f"another law"
+        f"{len(conditions.requirements)} conditions held: narrow the bounds "
+        f"({option('bound')}), or use another law"
     )
 
 
 def _missed(conditions: Conditions, values: Array, box: Box) -> Conditions | None:
-    """The conditions with what these values miss; None: proved passive."""
+    """The conditions with those that these values violate; None: proved passive."""
     held = len(conditions.requirements)
     if held:
         more = conditions.with_missed(conditions.spread(values, box), values)
@@ -145,7 +144,7 @@ def _missed(conditions: Conditions, values: Array, box: Box) -> Conditions | Non
         more = conditions.with_missed([asked], values)
         if len(more.requirements) > held:
             return more
-    # Nothing more is missed, and yet nothing is proved: more is kept of every margin.
+    # No condition is violated, and still there is no proof: keep larger margins.
     reserve = next((reserve for reserve in RESERVES if reserve > conditions.reserve), None)
     if reserve is None:
         raise FitError(_undecidable(friction, condition))
@@ -162,7 +161,7 @@ def _box(friction: Model, box: Box) -> dict[str, tuple[float, float]]:
         raise FitError(
             f"{friction.spec} cannot be proved passive: its friction depends on "
             f"{' and '.join(missing)}, whose range the recording does not show; fit it without "
-            f"--passive"
+            f"{option('passive')}"
         ) from None
 
 
@@ -170,11 +169,11 @@ def _undecidable(friction: Model, condition: str) -> str:
     why = (
         "no exact condition is known for states or branches of this kind"
         if condition == "unknown"
-        else f"the condition {condition!r} stays undecided however much of it is kept in reserve"
+        else f"condition {condition!r} stays undecided with the largest margins"
     )
     return (
-        f"{friction.spec} cannot be fitted as passive: {why}; fit it without --passive, or take "
-        f"another law"
+        f"{friction.spec} cannot be fitted as passive: {why}; fit it without {option('passive')}, "
+        f"or use another law"
     )
 
 
@@ -187,9 +186,10 @@ def _impossible(spec: str, conditions: Conditions, values: Array) -> str:
     kind = {
         "strength": "dry friction is not positive",
         "sliding": "friction does not oppose the motion",
-        "cycle": "the bristle gives off energy between two points",
+        "cycle": "the bristle generates energy between two points",
     }[worst.kind]
     return (
         f"no passive {spec} was found within its bounds: with the best values "
-        f"{kind} ({at}); widen the bounds (--bound), leave an effect out, or take another law"
+        f"{kind} ({at}); widen the bounds ({option('bound')}), leave an effect out, or use "
+        f"another law"
     )

@@ -1,29 +1,35 @@
-"""The box of operating points over which something is proved."""
+"""The box of operating points over which passivity is proved."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
 
-from stribeck.base.errors import SpecError, nearest
+from stribeck.base.errors import SpecError, nearest, option
 from stribeck.models.model import Model
 
 Box = Mapping[str, tuple[float, float]]
 
-#: Channels that a box can have.
+#: Channels that can be sides of a box.
 CHANNELS = (
-    "velocity", "position", "acceleration", "temperature", "load_torque", "motor_torque",
-    "external_torque", "time",
-)  # fmt: skip
+    "velocity",
+    "position",
+    "acceleration",
+    "temperature",
+    "load_torque",
+    "motor_torque",
+    "external_torque",
+    "time",
+)
 
 
 def parse_sides(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
-    """Sides as they are written: ``velocity=-3.14:3.14``.
+    """Sides of a box from texts such as ``velocity=-3.14:3.14``.
 
     Raises
     ------
     SpecError
-        A text of another form, a channel that is unknown or given twice.
+        A text of another form, or a channel that is given twice.
     """
     sides: dict[str, tuple[float, float]] = {}
     for text in texts:
@@ -35,21 +41,29 @@ def parse_sides(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
             ends = float(low), float(high)
         except ValueError:
             raise SpecError(
-                f"--box {text}: write --box CHANNEL=LOW:HIGH, as in velocity=-3.14:3.14"
+                f"{option('box', text)}: write {option('box', 'CHANNEL=LOW:HIGH')}, as in "
+                f"velocity=-3.14:3.14"
             ) from None
         if name.strip() in sides:
-            raise SpecError(f"--box {text}: {name.strip()} is given twice, leave one out")
+            raise SpecError(f"{option('box', text)}: {name.strip()} is given twice, leave one out")
         sides[name.strip()] = ends
     return sides
 
 
 def operating_box(friction: Model, given: Box) -> dict[str, tuple[float, float]]:
-    """The sides that the friction reads: as given, else the model's, else what follows from it.
+    """The sides that the friction reads: as given, else the model's, else from its constants.
+
+    Parameters
+    ----------
+    friction
+        A model without drive and rigid body.
+    given
+        (low, high) by channel, SI units and degC.
 
     Raises
     ------
     SpecError
-        A side that is missing, unknown, not finite or upside down.
+        A side that is missing, unknown or not finite, or with its higher end first.
     """
     for name, (low, high) in given.items():
         _check_side(name, low, high)
@@ -66,7 +80,7 @@ def operating_box(friction: Model, given: Box) -> dict[str, tuple[float, float]]
         if name not in known:
             raise SpecError(
                 f"the box of {friction.spec} has no {name}, which its friction depends on: "
-                f"give --box {name}=LOW:HIGH"
+                f"give {option('box', f'{name}=LOW:HIGH')}"
             )
     box = {name: (float(known[name][0]), float(known[name][1])) for name in needs}
     if box["velocity"] == (0.0, 0.0):

@@ -1,7 +1,7 @@
 """One step of least squares under conditions, by nlopt's SLSQP.
 
-What is minimised is the square of the linearised residual: a few numbers of a triangular factor,
-whatever the number of rows. The conditions stand as they are, with their gradients.
+The objective is the sum of squares of the linearised residual, from a triangular factor whose size
+does not depend on the number of samples. The conditions are not linearised.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from stribeck.passivity.conditions import Conditions
 
 Array = NDArray[np.float64]
 
-#: Most evaluations of one step; they cost nothing but the conditions.
+#: Most evaluations in one step; each costs little more than the conditions.
 MOST_EVALUATIONS = 300
-#: Conditions are aimed at with this much to spare, so that rounding does not miss them.
+#: Margin kept from every condition, so that rounding does not violate it.
 AIM = 1e-10
-#: Combinations of parameters that the data shows less than this share of the best count as it.
+#: Least singular value used for scaling, as a share of the largest.
 LEAST_SHOWN = 1e-4
-#: Weight of the squared residual while only the conditions are looked for.
+#: Weight of the sum of squares while a feasible point is searched.
 ASIDE = 1e-6
-#: So far beyond the reserve is enough to be inside.
+#: A search for a feasible point stops this far beyond the reserve.
 INSIDE = 1e-3
-#: In place of a share that is no number, or beyond all.
+#: Replaces a share that is not finite.
 FAR = 1e6
 
 
@@ -38,12 +38,17 @@ def step_under(
     upper: Array,
     conditions: Conditions,
 ) -> Array | None:
-    """The values [p] with the least linearised square that hold the conditions; None: none found.
+    """The values with the least linearised sum of squares under the conditions, array [p].
 
     Parameters
     ----------
     triangle
-        Of the columns of the `free` parameters, at `values`.
+        Factor of the Jacobian's columns of the `free` parameters, at `values`.
+
+    Returns
+    -------
+    array [p] or None
+        None where no values were found that hold the conditions.
     """
     plain = values.copy()
     plain[free] += triangle.solve(lower[free] - values[free], upper[free] - values[free])
@@ -60,9 +65,9 @@ def step_under(
 
 
 class _Step:
-    """A step in coordinates in which the squared residual is round, or nearly so.
+    """A step in coordinates in which the sum of squares is well conditioned.
 
-    One unit of a coordinate `w` moves the torque by the residual's size.
+    One unit of a coordinate `w` changes the torque by about the residual's norm.
     """
 
     def __init__(
@@ -77,7 +82,7 @@ class _Step:
         size = np.sqrt(triangle.square) or 1.0
         lengths = np.sqrt(np.einsum("ij,ij->j", triangle.factor, triangle.factor))
         own = np.where(values[free] == 0.0, 1.0, np.abs(values[free]))
-        # A parameter that the data does not show moves by its own size.
+        # A parameter without effect on the torque is scaled by its own size.
         unit = np.minimum(size / np.maximum(lengths, size * 1e-12), own)
         factor = triangle.factor * unit / size
         _, shown, directions = np.linalg.svd(factor)
@@ -87,7 +92,7 @@ class _Step:
         self.start, self.free, self.conditions = values, free, conditions
         self.lower, self.upper = lower, upper
         low, high = np.isfinite(lower[free]), np.isfinite(upper[free])
-        # Bounds are conditions like the others here: the distance to each, in units.
+        # Bounds are conditions too: the distance to each, in units of its coordinate.
         self.walls = np.concatenate([self.turn[low], -self.turn[high]])
         room = np.concatenate([(values - lower)[free][low], (upper - values)[free][high]])
         scale = np.concatenate([unit[low], unit[high]])
@@ -96,7 +101,7 @@ class _Step:
 
     @property
     def count(self) -> int:
-        """Of the conditions and bounds."""
+        """Number of conditions and bounds."""
         return len(self.conditions.requirements) + self.room.size
 
     def values(self, w: Array) -> Array:
@@ -106,13 +111,13 @@ class _Step:
         return np.clip(moved, self.lower, self.upper)
 
     def square(self, w: Array) -> tuple[float, Array]:
-        """Of the linearised residual, and its slope."""
+        """Sum of squares of the linearised residual, and its gradient."""
         left = self.factor @ w - self.right
         return float(left @ left), 2.0 * (self.factor.T @ left)
 
     def shares(self, w: Array) -> tuple[Array, Array]:
-        """Of the conditions [n], and their slopes; where the friction means nothing, far off."""
-        # The optimiser asks for the objective and the conditions at each point in turn.
+        """Shares of the conditions, array [n], and their slopes; -1 where friction is undefined."""
+        # The optimiser evaluates objective and conditions at the same point, one after the other.
         key = w.tobytes()
         if self._last is None or self._last[0] != key:
             self._last = key, self._shares(w)
@@ -130,7 +135,7 @@ class _Step:
         return shares, np.nan_to_num(slopes, posinf=FAR, neginf=-FAR)
 
     def least(self, start: Array) -> Array | None:
-        """The least square under the conditions from `start`; None where none was found."""
+        """The coordinates with the least sum of squares under the conditions; None: none found."""
         best: tuple[float, Array] | None = None
 
         def objective(w: Array, gradient: Array) -> float:
@@ -158,9 +163,9 @@ class _Step:
         return None if best is None else best[1]
 
     def inside(self) -> Array | None:
-        """A step after which the conditions hold, from one after which they may not.
+        """Coordinates that hold the conditions; None where none were found.
 
-        The least share is raised as a variable of its own, until all conditions hold.
+        The smallest share is a variable of its own, which is raised until all conditions hold.
         """
         count = self.free.size
         found: Array | None = None
@@ -194,12 +199,12 @@ class _Step:
 
 
 def _run(optimizer: nlopt.opt, start: Array) -> None:
-    """Optimise; what it met on the way is kept by its functions, whatever it ends with."""
+    """Run the optimiser; its functions keep the best point, whatever status it ends with."""
     optimizer.set_ftol_rel(1e-13)
     optimizer.set_xtol_abs(1e-12)
     optimizer.set_maxeval(MOST_EVALUATIONS)
     try:
         optimizer.optimize(start)
     except (nlopt.RoundoffLimited, nlopt.runtime_error):
-        # Raised at an optimum too, when no further fall can be resolved.
+        # Also raised at an optimum, where no further decrease can be resolved.
         return

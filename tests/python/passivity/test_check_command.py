@@ -9,6 +9,7 @@ import pytest
 import stribeck as sb
 from click.testing import CliRunner, Result
 from stribeck.base.errors import SpecError
+from stribeck.cli.flags import with_flags
 from stribeck.cli.main import cli
 
 
@@ -86,7 +87,7 @@ def test_cannot_decide_is_neither(tmp_path: Path) -> None:
 def test_bad_box(lugre: str, side: str, said: str) -> None:
     result = run(lugre, "--box", side, "--json")
     assert isinstance(result.exception, SpecError)
-    assert said in str(result.exception)
+    assert said in with_flags(str(result.exception))
     assert result.stdout == ""
 
 
