@@ -47,7 +47,7 @@ Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | Non
 #: Keys and columns that say when, how long or on which version.
 TIMES = {"version", "modified", "sidecar_sha256"}
 #: `seconds` beside one of these is the time a computation took, elsewhere that of a motion.
-COMPUTED = {"evaluations", "rows_scored", "verdict", "report"}
+COMPUTED = {"evaluations", "rows_scored", "verdict", "truth"}
 #: Texts of these keys are never words.
 KEPT = {"unit", "units", "formula", "symbol", "torque_unit", "position_unit"}
 #: Relative tolerance of numbers on another machine than that of the references.
