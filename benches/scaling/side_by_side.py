@@ -13,7 +13,7 @@ from time import perf_counter
 import motions
 import stribeck as sb
 from curves import JOINTS, MIDDLE
-from stribeck.base.pool import LocalPool, in_processes
+from stribeck.base.pool import ProcessPool, run_each
 
 LAW = "lugre"
 STARTS = 20
@@ -43,8 +43,8 @@ def main() -> None:
         sb.fit(LAW, recording, starts=STARTS)
     else:
         do = counting if task == "counting" else fit_of_one
-        with LocalPool(count) as pool:
-            in_processes(do, [recording] * JOINTS, answers.append, pool)
+        with ProcessPool(count) as pool:
+            run_each(do, [recording] * JOINTS, answers.append, pool)
     print(perf_counter() - begin)
 
 

@@ -1,4 +1,9 @@
-"""Many independent pieces of work in several processes, which Ctrl-C ends at once."""
+"""Independent pieces of work on several processes or threads of this machine.
+
+The processes are those of loky, which joblib includes. Three things are added here: workers ignore
+Ctrl-C, because the parent process ends them; workers exit when the parent process dies; and the
+libraries in each worker use one thread, because there is one worker for each core.
+"""
 
 from __future__ import annotations
 
@@ -6,35 +11,48 @@ import contextlib
 import multiprocessing
 import os
 import signal
+import threading
+import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     FIRST_COMPLETED,
+    BrokenExecutor,
+    Executor,
     Future,
-    ProcessPoolExecutor,
     ThreadPoolExecutor,
     wait,
 )
-from concurrent.futures.process import BrokenProcessPool
+from multiprocessing import resource_tracker
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import ParamSpec, TypeVar
 
 from threadpoolctl import threadpool_limits
 
-from stribeck.base.errors import StribeckError
+from stribeck.base.errors import StribeckError, option
 
-Work = TypeVar("Work")
+Arguments = ParamSpec("Arguments")
+Piece = TypeVar("Piece")
 Result = TypeVar("Result")
 
-#: Pieces handed to each process ahead of its turn, so that none waits.
-AHEAD = 2
+#: Pieces submitted for each worker, so that none waits for the next one.
+QUEUED_PER_WORKER = 2
+#: Environment of a worker: its libraries use one thread each.
+ONE_THREAD = dict.fromkeys(
+    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "POLARS_MAX_THREADS"), "1"
+)
+#: Seconds between a worker's checks that its parent is alive.
+PARENT_CHECK = 0.5
+#: A warning of loky: it replaces a worker that has grown by 300 MB, which loses no work.
+REPLACED = "A worker stopped while some jobs"
 
 
 class Stopped(Exception):
-    """The user stopped the work; what was finished has been handed over."""
+    """The user stopped the work with Ctrl-C; finished results were handed over."""
 
 
 def worker_count(wanted: int | None = None) -> int:
-    """How many processes to use: `wanted`, or one for each core that may be used."""
+    """Return the number of processes to use: `wanted`, or one for each available core."""
     if wanted is not None:
         return wanted
     if hasattr(os, "sched_getaffinity"):
@@ -43,9 +61,9 @@ def worker_count(wanted: int | None = None) -> int:
 
 
 def threads() -> int:
-    """On how many threads to search: as OMP_NUM_THREADS says, else one for each core.
+    """Return the number of threads of a search: OMP_NUM_THREADS, or one for each core.
 
-    A process of a pool has a core to itself.
+    It is 1 in a worker process.
     """
     said = os.environ.get("OMP_NUM_THREADS", "")
     if said.isdigit() and int(said) > 0:
@@ -55,99 +73,57 @@ def threads() -> int:
 
 @contextlib.contextmanager
 def on_threads() -> Iterator[ThreadPoolExecutor]:
-    """A pool of `threads`, each of which keeps to itself in linear algebra too."""
+    """Yield a pool of `threads` threads; linear algebra uses one thread in each."""
     with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(threads()) as pool:
         yield pool
 
 
-def in_processes(
-    do: Callable[[Work], Result],
-    pieces: Iterable[Work],
-    finished: Callable[[Result], None],
-    pool: LocalPool,
-    *,
-    what: str = "the work",
-) -> None:
-    """Do every piece, and hand each result over as it is ready, in any order.
+class ProcessPool(Executor):
+    """Worker processes of this machine, started with the first piece of work.
 
-    Parameters
-    ----------
-    do
-        A function of a module: new processes find it by name.
-    what
-        Named in the error when a process dies: "the study".
-
-    Raises
-    ------
-    Stopped
-        On Ctrl-C. Work under way is dropped at once.
-    StribeckError
-        A process was ended from outside.
-    """
-    todo = iter(pieces)
-    pending: set[Future[Result]] = set()
-
-    def hand_out(count: int) -> None:
-        for _, piece in zip(range(count), todo, strict=False):
-            pending.add(pool.submit(do, piece))
-
-    try:
-        hand_out(AHEAD * pool.workers)
-        while pending:
-            done, rest = wait(pending, return_when=FIRST_COMPLETED)
-            pending = set(rest)
-            for future in done:
-                finished(future.result())
-            hand_out(len(done))
-    except BrokenProcessPool:
-        raise StribeckError(
-            f"a process of {what} was ended from outside, most likely for want of memory: use "
-            f"fewer --workers; the same command goes on from what is done so far"
-        ) from None
-    except KeyboardInterrupt:
-        pool.end()
-        raise Stopped from None
-
-
-class LocalPool(ProcessPoolExecutor):
-    """Processes of this machine that do not hear Ctrl-C and can be ended at once.
-
-    As a context, an exception ends them.
+    Use it as a context manager: an exception ends the workers at once.
 
     Parameters
     ----------
     workers
-        How many processes.
-    begin, arguments
-        Each process first calls `begin` with `arguments`: a function of a module.
+        Number of processes.
+    begin
+        Called once in each worker before its first piece of work.
+
+    Notes
+    -----
+    A worker that dies breaks the pool: `submit` and all unfinished futures then raise
+    `concurrent.futures.BrokenExecutor`.
     """
 
-    def __init__(
-        self,
-        workers: int,
-        begin: Callable[..., None] | None = None,
-        arguments: tuple[Any, ...] = (),
-    ) -> None:
+    def __init__(self, workers: int, begin: Callable[[], None] | None = None) -> None:
+        # Imported here: joblib is slow to import, and most commands start no processes.
+        from joblib.externals.loky import ProcessPoolExecutor
+
+        warnings.filterwarnings("ignore", REPLACED, UserWarning)
         self.workers = workers
-        self._others = set(multiprocessing.active_children())
-        # Not forked: polars has threads, and a fork copies their locks without the threads.
-        super().__init__(
-            workers,
-            mp_context=multiprocessing.get_context("spawn"),
-            initializer=_begin,
-            initargs=(begin, arguments),
+        self._pool = ProcessPoolExecutor(
+            workers, initializer=_begin, initargs=(os.getpid(), begin), env=ONE_THREAD
         )
 
-    def submit(self, do: Callable[..., Result], /, *args: Any, **kwargs: Any) -> Future[Result]:
-        """Do something in one of the processes, which are started as they are needed."""
-        with _deaf_to_interrupts():
-            return super().submit(do, *args, **kwargs)
+    def submit(
+        self,
+        do: Callable[Arguments, Result],
+        /,
+        *args: Arguments.args,
+        **kwargs: Arguments.kwargs,
+    ) -> Future[Result]:
+        """Call `do` in one of the workers."""
+        with _interrupts_blocked():
+            return self._pool.submit(do, *args, **kwargs)
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """End the workers when the submitted work is done; at once with `cancel_futures`."""
+        self._pool.shutdown(wait=wait, kill_workers=cancel_futures)
 
     def end(self) -> None:
-        """End the processes at once, whatever they are doing."""
+        """Kill the workers, whatever they are doing."""
         self.shutdown(wait=False, cancel_futures=True)
-        for process in set(multiprocessing.active_children()) - self._others:
-            process.terminate()
 
     def __exit__(
         self,
@@ -161,26 +137,102 @@ class LocalPool(ProcessPoolExecutor):
             self.end()
 
 
-def _begin(begin: Callable[..., None] | None, arguments: tuple[Any, ...]) -> None:
-    """Ready a process of the pool."""
-    # Libraries such as LAPACK complain on stdout, where the command's one answer goes.
+def run_each(
+    do: Callable[[Piece], Result],
+    pieces: Iterable[Piece],
+    finished: Callable[[Result], None],
+    pool: ProcessPool | None,
+    *,
+    what: str = "the work",
+) -> None:
+    """Process every piece, and hand over each result when it is ready, in any order.
+
+    Parameters
+    ----------
+    do
+        Called with each piece.
+    finished
+        Called in this process with each result.
+    pool
+        The workers; None: this process.
+    what
+        Named in the error when a worker dies: "the study".
+
+    Raises
+    ------
+    Stopped
+        On Ctrl-C. Unfinished work is dropped at once.
+    StribeckError
+        A worker was killed.
+    """
+    try:
+        if pool is None:
+            for piece in pieces:
+                finished(do(piece))
+        else:
+            _run_each(do, pieces, finished, pool)
+    except BrokenExecutor:
+        raise StribeckError(
+            f"a worker process of {what} was killed, most likely because memory ran out: give "
+            f"{option('workers')} a smaller number; the same command continues from the work done"
+        ) from None
+    except KeyboardInterrupt:
+        if pool is not None:
+            pool.end()
+        raise Stopped from None
+
+
+def _run_each(
+    do: Callable[[Piece], Result],
+    pieces: Iterable[Piece],
+    finished: Callable[[Result], None],
+    pool: ProcessPool,
+) -> None:
+    """Keep a few pieces submitted for each worker until all are done."""
+    waiting = iter(pieces)
+    pending: set[Future[Result]] = set()
+
+    def submit(count: int) -> None:
+        for _, piece in zip(range(count), waiting, strict=False):
+            pending.add(pool.submit(do, piece))
+
+    submit(QUEUED_PER_WORKER * pool.workers)
+    while pending:
+        done, rest = wait(pending, return_when=FIRST_COMPLETED)
+        pending = set(rest)
+        for future in done:
+            finished(future.result())
+        submit(len(done))
+
+
+def _begin(parent: int, begin: Callable[[], None] | None) -> None:
+    """Prepare a worker process."""
+    threading.Thread(target=_exit_without, args=(parent,), daemon=True).start()
+    # Libraries such as LAPACK print errors to stdout, where the command prints its one answer.
     os.dup2(2, 1)
-    # A process of a pool has a core to itself; threads that wait for work spin.
     threadpool_limits(1, user_api="blas")
     if begin is not None:
-        begin(*arguments)
+        begin()
+
+
+def _exit_without(parent: int) -> None:
+    """Exit when the parent process has died; loky's workers would wait for work forever."""
+    while os.getppid() == parent:
+        time.sleep(PARENT_CHECK)
+    os._exit(1)
 
 
 @contextlib.contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
-    """Start processes that do not hear Ctrl-C: the one that started them ends them.
+def _interrupts_blocked() -> Iterator[None]:
+    """Block Ctrl-C here and in the processes started meanwhile, which inherit that.
 
-    A process inherits the signals that are blocked where it is started. Here they are only put
-    off: an interrupt that comes meanwhile is delivered afterwards.
+    In this process an interrupt is only delayed until the end of the context.
     """
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    # Started lazily, it would unblock the signal again.
+    resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from stribeck.base.files import png_bytes, write_bytes_whole, write_whole
-from stribeck.base.pool import LocalPool, Stopped, in_processes, worker_count
+from stribeck.base.pool import ProcessPool, run_each, worker_count
 from stribeck.benchmark.answer import Answer, answer
 from stribeck.benchmark.cases import Case
 from stribeck.benchmark.figures import calibration_figure, confusion_figure
@@ -65,15 +65,11 @@ def run(
 
 
 def _answer_all(todo: Sequence[Case], finished: Callable[[Answer], None], workers: int) -> None:
-    if workers > 1:
-        with LocalPool(workers) as pool:
-            in_processes(answer, todo, finished, pool, what="the benchmark")
+    if workers == 1:
+        run_each(answer, todo, finished, None)
         return
-    try:
-        for case in todo:
-            finished(answer(case))
-    except KeyboardInterrupt:
-        raise Stopped from None
+    with ProcessPool(workers) as pool:
+        run_each(answer, todo, finished, pool, what="the benchmark")
 
 
 def write_results(folder: Path, answers: Sequence[Answer]) -> None:

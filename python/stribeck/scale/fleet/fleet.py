@@ -24,8 +24,8 @@ from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
 from stribeck.models.spec import parse_spec
 from stribeck.recording.sidecar import read_sidecar
+from stribeck.scale.fleet.backend import Backend, DaskCluster, GivenExecutor, Processes
 from stribeck.scale.fleet.changes import Changes, Question, find_changes
-from stribeck.scale.fleet.crew import Crew, Dask, Given, Processes
 from stribeck.scale.fleet.effects import Effects, find_effects
 from stribeck.scale.fleet.identified import IMPROVE
 from stribeck.scale.fleet.naming import Naming
@@ -139,8 +139,8 @@ def fleet(
         known = store.known(named)
         todo = [file for file in named if file.path not in known]
         if todo:
-            crew = _crew(executor, workers, scheduler, remark)
-            _work(todo, work, store, keep, crew, straggler, progress, remark)
+            backend = _backend(executor, workers, scheduler, remark)
+            _work(todo, work, store, keep, backend, straggler, progress, remark)
     finally:
         store.close()
     _refuse_without_answers(store.frame)
@@ -156,7 +156,7 @@ def _work(
     work: Work,
     store: Store,
     keep: Callable[[dict[str, Any]], None],
-    crew: Crew,
+    backend: Backend,
     straggler: float | None,
     progress: Progress | None,
     note: Callable[[str], None],
@@ -180,31 +180,31 @@ def _work(
     options: dict[str, Any] = {"straggler": straggler, "note": note}
     try:
         run(
-            partial(look, work=work), files, crew, looked,
+            partial(look, work=work), files, backend, looked,
             lambda file: keep(row_of_file(file, POISONED)), **options,
         )  # fmt: skip
         tasks.sort(key=lambda task: (task.file, task.joint or ""))
         run(
-            partial(answer, work=work), list(tasks), crew, lambda made: answered(row_of(made)),
+            partial(answer, work=work), list(tasks), backend, lambda made: answered(row_of(made)),
             lambda task: answered(row_of_loss(task, POISONED)), **options,
         )  # fmt: skip
     except KeyboardInterrupt:
         raise Stopped from None
     finally:
-        crew.close()
+        backend.close()
 
 
-def _crew(
+def _backend(
     executor: Executor | None,
     workers: int | None,
     scheduler: str | None,
     note: Callable[[str], None],
-) -> Crew:
+) -> Backend:
     if executor is not None and scheduler is not None:
         raise SpecError("an executor and a scheduler are given: leave one out")
     if scheduler is not None:
-        return Dask(scheduler, note)
-    return Processes(workers) if executor is None else Given(executor, workers)
+        return DaskCluster(scheduler, note)
+    return Processes(workers) if executor is None else GivenExecutor(executor, workers)
 
 
 def _expand(files: Iterable[str | Path]) -> list[str]:

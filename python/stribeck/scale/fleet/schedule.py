@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from stribeck.base.errors import StribeckError
-from stribeck.scale.fleet.crew import Crew
+from stribeck.scale.fleet.backend import Backend
 
 Piece = TypeVar("Piece")
 Result = TypeVar("Result")
@@ -51,7 +51,7 @@ class _Job(Generic[Piece]):
 def run(
     do: Callable[[Piece], Result],
     pieces: Iterable[Piece],
-    crew: Crew,
+    backend: Backend,
     finished: Callable[[Result], None],
     given_up: Callable[[Piece], None],
     *,
@@ -63,7 +63,7 @@ def run(
     Parameters
     ----------
     do
-        Must be picklable, like the pieces and the results, where the crew is of processes.
+        Must be picklable, like the pieces and the results, where the backend is of processes.
     given_up
         Told of a piece that ends its workers.
     straggler
@@ -77,7 +77,7 @@ def run(
     StribeckError
         The executor is of no more use; or a worker cannot do the work at all.
     """
-    _Run(do, pieces, crew, finished, given_up, straggler, note).to_the_end()
+    _Run(do, pieces, backend, finished, given_up, straggler, note).to_the_end()
 
 
 def _cannot(error: Exception) -> StribeckError:
@@ -97,13 +97,13 @@ class _Run(Generic[Piece, Result]):
         self,
         do: Callable[[Piece], Result],
         pieces: Iterable[Piece],
-        crew: Crew,
+        backend: Backend,
         finished: Callable[[Result], None],
         given_up: Callable[[Piece], None],
         straggler: float | None,
         note: Callable[[str], None],
     ) -> None:
-        self._do, self._crew, self._note = do, crew, note
+        self._do, self._backend, self._note = do, backend, note
         self._finished, self._given_up, self._straggler = finished, given_up, straggler
         self._waiting = deque(_Job(piece) for piece in pieces)
         self._suspects: deque[_Job[Piece]] = deque()
@@ -126,7 +126,7 @@ class _Run(Generic[Piece, Result]):
             if not self._under_way and self._submit(self._suspects[0]):
                 self._suspects.popleft()
             return
-        while self._waiting and len(self._under_way) < self._crew.width():
+        while self._waiting and len(self._under_way) < self._backend.width():
             if not self._submit(self._waiting[0]):
                 return
             self._waiting.popleft()
@@ -134,7 +134,7 @@ class _Run(Generic[Piece, Result]):
     def _submit(self, job: _Job[Piece]) -> bool:
         """Whether the executor took a job; it refuses when it broke since the last look."""
         try:
-            future = self._crew.executor().submit(self._do, job.piece)
+            future = self._backend.executor().submit(self._do, job.piece)
         except BrokenExecutor:
             self._refused = True
             return False
@@ -152,11 +152,11 @@ class _Run(Generic[Piece, Result]):
         try:
             result = future.result()
         except CancelledError:
-            raise self._crew.lost() from None
+            raise self._backend.lost() from None
         except StribeckError:
             raise
         except Exception as error:
-            if not self._crew.is_loss(error):
+            if not self._backend.is_loss(error):
                 raise _cannot(error) from error
             return job
         self._seconds.append(time.monotonic() - began)
@@ -173,15 +173,15 @@ class _Run(Generic[Piece, Result]):
 
     def _recover(self, lost: list[_Job[Piece]]) -> None:
         """Begin again after workers died: what they were doing is done once more."""
-        if self._crew.breaks:
+        if self._backend.breaks:
             wait(self._under_way)
             others = [self._take(future) for future in list(self._under_way)]
             lost += [job for job in others if job is not None]
-            self._crew.renew()
+            self._backend.renew()
             self._refused = False
         again = 0
         for job in dict.fromkeys(lost):
-            job.kills += self._crew.kills_per_loss
+            job.kills += self._backend.kills_per_loss
             if job.over or job.copies:
                 continue
             if job.kills >= MOST_KILLS:
@@ -198,7 +198,7 @@ class _Run(Generic[Piece, Result]):
 
         Each time after twice as long: it may be large, and not stuck.
         """
-        free = self._crew.width() - len(self._under_way)
+        free = self._backend.width() - len(self._under_way)
         idle = not (self._waiting or self._suspects)
         if self._straggler is None or not idle or len(self._seconds) < FEWEST_DONE:
             return

@@ -13,7 +13,7 @@ from stribeck.fitting.energy import Energy, electrical_energy
 from stribeck.fitting.evaluate import evaluate
 from stribeck.identify.scaling import model_for
 from stribeck.recording.recording import Recording
-from stribeck.scale.study.crew import Desk
+from stribeck.scale.study.desk import Desk
 from stribeck.scale.study.plan import LOW_SPEED, Group, group_of
 from stribeck.scale.study.trial import Trial
 

@@ -73,7 +73,7 @@ class Skipped:
 
 
 @dataclass(frozen=True)
-class Plan:
+class StudyPlan:
     """A study before it runs.
 
     Attributes
@@ -127,7 +127,7 @@ def make_plan(
     *,
     starts: int = STARTS,
     seed: int = 0,
-) -> Plan:
+) -> StudyPlan:
     """Look at a recording and plan the fits of `laws` on each of its joints.
 
     Raises
@@ -169,7 +169,7 @@ def make_plan(
         jobs += [Job(joint, law, k) for law in in_turn for k in range(counts[law])]
     if not jobs:
         raise FitError(f"{path}: no law of the study can be fitted: {skipped[0].why}")
-    return Plan(
+    return StudyPlan(
         path=path,
         reading=dict(reading),
         data={"sha256": sha256, "sidecar_sha256": sidecar_hash(path, reading.get("sidecar"))},

@@ -13,7 +13,7 @@ import polars as pl
 from stribeck.base.shown import Plotted, draw
 from stribeck.fitting.energy import Energy, total_energy
 from stribeck.scale.study.assess import Entry, JointData
-from stribeck.scale.study.plan import GROUPS, Group, Plan, Skipped
+from stribeck.scale.study.plan import GROUPS, Group, Skipped, StudyPlan
 from stribeck.scale.study.trial import Trial
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ class Study(Plotted):
         Every fit, one row each.
     """
 
-    plan: Plan
+    plan: StudyPlan
     folder: Path
     joints: Mapping[str | None, JointData]
     tables: tuple[Table, ...]

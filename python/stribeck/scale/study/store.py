@@ -21,7 +21,7 @@ from stribeck.base.errors import StribeckError
 from stribeck.base.files import write_bytes_whole, write_whole
 from stribeck.base.run_folder import claim, unwritable
 from stribeck.base.version import __version__
-from stribeck.scale.study.plan import Job, Plan
+from stribeck.scale.study.plan import Job, StudyPlan
 from stribeck.scale.study.trial import Trial
 
 FITS = "fits.csv"
@@ -57,7 +57,7 @@ class Store:
         The folder holds another study or other files, or cannot be written to.
     """
 
-    def __init__(self, folder: Path, plan: Plan) -> None:
+    def __init__(self, folder: Path, plan: StudyPlan) -> None:
         self.folder = folder
         claim(folder, _manifest(plan), IDENTITY, "study")
         try:
@@ -113,7 +113,7 @@ class Store:
         return pl.DataFrame(rows, schema=schema)
 
 
-def _manifest(plan: Plan) -> dict[str, Any]:
+def _manifest(plan: StudyPlan) -> dict[str, Any]:
     made = {
         "kind": "study",
         "path": str(plan.path),

@@ -16,8 +16,8 @@ from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
-from stribeck.scale.study.crew import Crew, Desk, crew_of
-from stribeck.scale.study.plan import REVIEW, STARTS, Job, Plan, make_plan
+from stribeck.scale.study.desk import Desk, StudyWorkers, study_workers
+from stribeck.scale.study.plan import REVIEW, STARTS, Job, StudyPlan, make_plan
 from stribeck.scale.study.result import Study, Table, make_tables
 from stribeck.scale.study.store import Store
 from stribeck.scale.study.trial import Trial, fit_trials
@@ -78,14 +78,14 @@ def study(
         for sentence in plan.notes:
             note(sentence)
     store = Store(Path(output), plan)
-    with crew_of(plan, worker_count(workers)) as crew:
-        _fit(plan, store, crew, progress)
-        result = _result(plan, store, low_speed, crew)
-        _write(result, crew)
+    with study_workers(plan, worker_count(workers)) as processes:
+        _fit(plan, store, processes, progress)
+        result = _result(plan, store, low_speed, processes)
+        _write(result, processes)
     return result
 
 
-def _fit(plan: Plan, store: Store, crew: Crew, progress: Progress | None) -> None:
+def _fit(plan: StudyPlan, store: Store, processes: StudyWorkers, progress: Progress | None) -> None:
     """Make the fits that are not in the store.
 
     The starts of a law on a joint are fitted together, and again if one of them is missing: so the
@@ -101,12 +101,14 @@ def _fit(plan: Plan, store: Store, crew: Crew, progress: Progress | None) -> Non
                     progress(len(store.trials), len(plan.jobs))
 
     try:
-        crew.each(fit_trials, plan.pieces(missing), made)
+        processes.each(fit_trials, plan.pieces(missing), made)
     finally:
         store.close()
 
 
-def _result(plan: Plan, store: Store, low_speed: float | None, crew: Crew) -> Study:
+def _result(
+    plan: StudyPlan, store: Store, low_speed: float | None, processes: StudyWorkers
+) -> Study:
     """Figures of the best starts, joint by joint."""
     trials = store.ordered()
     of_joint: dict[str | None, dict[str, list[Trial]]] = {joint: {} for joint in plan.joints}
@@ -114,7 +116,7 @@ def _result(plan: Plan, store: Store, low_speed: float | None, crew: Crew) -> St
         of_joint[trial.job.joint].setdefault(trial.job.law, []).append(trial)
     pieces = [JointTrials(joint, laws, low_speed) for joint, laws in of_joint.items()]
     found: dict[str | None, Assessed] = {}
-    crew.each(assess_joint, pieces, lambda assessed: found.update({assessed.joint: assessed}))
+    processes.each(assess_joint, pieces, lambda assessed: found.update({assessed.joint: assessed}))
     assessed = {joint: found[joint] for joint in plan.joints}
     failed = tuple(trial for trial in trials if trial.failure)
     tables = make_tables(
@@ -130,7 +132,7 @@ def _result(plan: Plan, store: Store, low_speed: float | None, crew: Crew) -> St
     return Study(plan, store.folder, joints, tables, failed, store.frame())
 
 
-def _write(result: Study, crew: Crew) -> None:
+def _write(result: Study, processes: StudyWorkers) -> None:
     """Tables and pictures into the study's folder."""
     folder = result.folder
     write_whole(folder / "tables.csv", result.to_frame().write_csv())
@@ -139,7 +141,7 @@ def _write(result: Study, crew: Crew) -> None:
         (result, joint) for joint in result.joints
         if any(joint in row.entries for table in result.tables for row in table.rows)
     ]  # fmt: skip
-    crew.each(_draw, drawn, lambda _: None)
+    processes.each(_draw, drawn, lambda _: None)
 
 
 def _draw(_: Desk, of: tuple[Study, str | None]) -> None:
@@ -157,4 +159,4 @@ def _plain_name(joint: str) -> str:
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in joint)
 
 
-__all__ = ["REVIEW", "Job", "Plan", "Stopped", "Study", "Table", "Trial", "study"]
+__all__ = ["REVIEW", "Job", "Stopped", "Study", "StudyPlan", "Table", "Trial", "study"]

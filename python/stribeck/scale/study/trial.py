@@ -16,7 +16,7 @@ from stribeck.identify.search import Effort
 from stribeck.identify.space import SearchSpace
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
-from stribeck.scale.study.crew import Desk
+from stribeck.scale.study.desk import Desk
 from stribeck.scale.study.plan import Job
 
 #: Each start is brought to its own minimum on all rows. Held-out blocks are predicted by the

@@ -16,7 +16,7 @@ import pytest
 import stribeck as sb
 from fleet_logs import answers, command
 from fleet_pieces import square_unless_three
-from stribeck.scale.fleet.crew import Dask
+from stribeck.scale.fleet.backend import DaskCluster
 from stribeck.scale.fleet.schedule import run
 
 pytest.importorskip("distributed")
@@ -91,7 +91,7 @@ def test_a_piece_that_ends_its_workers_is_given_up_alone(tmp_path: Path) -> None
     cluster = Cluster(tmp_path / "cluster", nanny=True)
     done: list[int] = []
     given_up: list[int] = []
-    crew = Dask(cluster.address, note=lambda sentence: None)
+    crew = DaskCluster(cluster.address, note=lambda sentence: None)
     try:
         run(square_unless_three, range(8), crew, done.append, given_up.append)
     finally:
@@ -112,7 +112,7 @@ def test_a_cluster_that_has_lost_all_workers_is_waited_for(cluster: Cluster) -> 
     for worker in cluster.workers:
         worker.kill()
         worker.wait(timeout=10)
-    crew = Dask(cluster.address, note)
+    crew = DaskCluster(cluster.address, note)
     try:
         run(square_unless_three, range(3), crew, done.append, lambda piece: None)
     finally:

@@ -126,7 +126,7 @@ def workers_of(group: int) -> list[int]:
     rows = [line.split(None, 3) for line in listed.stdout.splitlines()]
     return [
         int(pid) for pid, of, state, words in rows
-        if of == str(group) and not state.startswith("Z") and "spawn_main" in words
+        if of == str(group) and not state.startswith("Z") and "popen_loky" in words
     ]  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from fleet_pieces import square_unless_three
 from stribeck.base.errors import StribeckError
-from stribeck.scale.fleet.crew import Given, Processes
+from stribeck.scale.fleet.backend import GivenExecutor, Processes
 from stribeck.scale.fleet.schedule import run
 
 
@@ -75,7 +75,7 @@ def test_a_straggler_is_handed_out_again_and_the_first_answer_counts() -> None:
     with ThreadPoolExecutor(2) as threads:
         try:
             run(
-                dawdle, range(10), Given(threads), done.append, pytest.fail, straggler=3.0,
+                dawdle, range(10), GivenExecutor(threads), done.append, pytest.fail, straggler=3.0,
                 note=notes.append,
             )  # fmt: skip
         finally:
@@ -105,11 +105,11 @@ class Breaking(Executor):
 
 def test_a_broken_executor_of_the_caller_ends_in_one_sentence_with_what_was_done() -> None:
     done: list[int] = []
-    with pytest.raises(StribeckError, match=r"executor is broken.*goes on from there"):
-        run(square, range(6), Given(Breaking()), done.append, pytest.fail)
+    with pytest.raises(StribeckError, match=r"executor is broken.*continues from there"):
+        run(square, range(6), GivenExecutor(Breaking()), done.append, pytest.fail)
     assert done == [0, 1]
 
 
 def test_a_worker_that_cannot_do_the_work_is_said() -> None:
     with ThreadPoolExecutor(1) as threads, pytest.raises(StribeckError, match="no module for 0"):
-        run(raise_import_error, range(3), Given(threads), pytest.fail, pytest.fail)
+        run(raise_import_error, range(3), GivenExecutor(threads), pytest.fail, pytest.fail)

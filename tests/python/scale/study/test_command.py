@@ -119,11 +119,11 @@ def test_a_process_that_is_killed_ends_the_study_in_one_line(
 ) -> None:
     """As the system does for want of memory."""
     process = start_long_study(two_joints, tmp_path / "out", 2)
-    fitting = [p for p, words in running_in_group(process.pid).items() if "spawn_main" in words]
+    fitting = [p for p, words in running_in_group(process.pid).items() if "popen_loky" in words]
     os.kill(fitting[0], signal.SIGKILL)
     out, error = process.communicate(timeout=60)
     assert process.returncode == 2 and out == ""
     last = error.splitlines()[-1]
-    assert last.startswith("stribeck: a process of the study was ended from outside")
+    assert last.startswith("stribeck: a worker process of the study was killed")
     assert "Traceback" not in error
     assert 3 <= fits_in(tmp_path / "out") < 800
