@@ -225,7 +225,7 @@ impl<S: Real> StribeckCurve<S> {
     #[must_use]
     pub fn widened(&self, factor: S) -> Self {
         // The reciprocal first: if the power underflows it gives 0, and never inf/inf.
-        let narrowed = factor.abs().divide(S::Plain::one()).powf(self.exponent);
+        let narrowed = factor.abs().reciprocal_times(S::Plain::one()).powf(self.exponent);
         let argument = self.argument;
         let fixed = argument.at_zero().or(argument.is_finite().not());
         let moved = Self::of(argument * narrowed, self.exponent);
@@ -245,7 +245,7 @@ pub fn stribeck_curve<S: Real>(
     stribeck_velocity: S,
     exponent: S,
 ) -> StribeckCurve<S> {
-    let ratio = stribeck_velocity.divide(velocity).abs();
+    let ratio = stribeck_velocity.reciprocal_times(velocity).abs();
     let argument = S::choose(velocity.at_zero(), S::zero(), ratio.powf(exponent));
     StribeckCurve::of(argument, exponent)
 }

@@ -8,7 +8,7 @@ use common::close;
 use stribeck::batch::{self, BatchError, Channels, Columns, TimeStep};
 use stribeck::composed::Spec;
 use stribeck::identify::{
-    Bounds, LeastSquares, NOT_SUMMED, Outcome, Problem, Steps, Triangle, bounded_least_squares,
+    Bounds, LeastSquares, NOT_SCORED, Outcome, Problem, Steps, Triangle, bounded_least_squares,
     minimise, triangles,
 };
 
@@ -112,7 +112,7 @@ impl LeastSquares for Decay {
     }
 }
 
-const CAUTIOUS: Steps = Steps { tolerance: 1e-18, most: 60, damping: 1e-2 };
+const CAUTIOUS: Steps = Steps { tolerance: 1e-18, max_steps: 60, damping: 1e-2 };
 
 #[test]
 fn a_search_finds_what_made_the_data() {
@@ -162,9 +162,9 @@ fn a_search_says_what_it_has_become_blind_to() {
         logarithmic: &[false; 3],
     };
     let found = minimise(&decay, &[1.0, 1.0, 0.0], &bounds, CAUTIOUS).unwrap();
-    assert_eq!((found.values[0], found.blind), (0.0, vec![1]));
+    assert_eq!((found.values[0], found.insensitive), (0.0, vec![1]));
     let seen = minimise(&Decay::new(3.0, 1.7, -0.4), &[1.0, 1.0, 0.0], &bounds, CAUTIOUS).unwrap();
-    assert!(seen.blind.is_empty());
+    assert!(seen.insensitive.is_empty());
 }
 
 /// y = 1 + |x - 0.3| + x / 4, which is bent where it is least, measured as zero.
@@ -194,7 +194,7 @@ impl LeastSquares for Bend {
 #[test]
 fn a_search_ends_in_a_bend() {
     let bounds = Bounds { lower: &[-9.0], upper: &[9.0], linear: &[false], logarithmic: &[false] };
-    let steps = Steps { tolerance: 1e-6, most: 200, damping: 1e-2 };
+    let steps = Steps { tolerance: 1e-6, max_steps: 200, damping: 1e-2 };
     let found = minimise(&Bend, &[2.0], &bounds, steps).unwrap();
     assert_eq!(found.outcome, Outcome::Converged);
     close(found.values[0], 0.3, 1e-5);
@@ -235,7 +235,7 @@ fn problem<'a>(
 fn a_model_is_linearised_without_a_jacobian() {
     let velocity = motion(1000);
     let target: Vec<f64> = velocity.iter().map(|v| 2.5 * v.signum() + v).collect();
-    let group: Vec<u32> = (0..1000).map(|i| [0, 1, NOT_SUMMED][(i / 70) % 3]).collect();
+    let group: Vec<u32> = (0..1000).map(|i| [0, 1, NOT_SCORED][(i / 70) % 3]).collect();
     let moving = vec![true; 1000];
     for (text, values) in [("lugre", &LUGRE[..]), ("coulomb+delay", &[2.0, 0.5, 0.003][..])] {
         let spec = Spec::parse(text).unwrap();
@@ -271,7 +271,7 @@ fn many_rows_that_stand_by_themselves_are_one_problem() {
     let values = [2.0, 1.0, 0.05, 1.4, 0.6];
     let velocity = motion(ROWS);
     let target: Vec<f64> = velocity.iter().map(|v| 2.5 * v.signum() + v).collect();
-    let group: Vec<u32> = (0..ROWS).map(|i| [0, 1, NOT_SUMMED][(i / 50_000) % 3]).collect();
+    let group: Vec<u32> = (0..ROWS).map(|i| [0, 1, NOT_SCORED][(i / 50_000) % 3]).collect();
     let moving = vec![true; ROWS];
     let own = problem(&spec, &velocity, &target, &group, &[], &moving);
     let wanted = [0, 1, 2, 3, 4];

@@ -11,8 +11,8 @@
 //! - Friction grows as fast as the motor torque: the joint is self-locking, no motor torque moves
 //!   it and there is no solution. [`torque`](super::torque) refuses such a sample. A
 //!   [`gradient`](super::gradient), which a search may request at any parameters, uses the friction
-//!   at `tm = tl` times [`MOST_AMPLIFIED`]: the limit of the exact solution as the slope approaches
-//!   `1 - 1/MOST_AMPLIFIED`, and far from any measurement.
+//!   at `tm = tl` times [`MAX_AMPLIFIED`]: the limit of the exact solution as the slope approaches
+//!   `1 - 1/MAX_AMPLIFIED`, and far from any measurement.
 //!
 //! Derivatives are those of the implicit function: the derivative of friction at fixed loads, times
 //! `1/(1 - d tf/d tm)`. Without an `external_torque` the external torque is minus the model's own
@@ -31,14 +31,14 @@ use crate::table::Channel;
 
 /// Largest amplification of the friction at `tm = tl` by the balance; above it a joint counts as
 /// self-locking.
-const MOST_AMPLIFIED: f64 = 100.0;
+const MAX_AMPLIFIED: f64 = 100.0;
 /// Number of Newton steps, after which the bracket is bisected.
 const NEWTON_STEPS: usize = 20;
 /// Number of all steps: bisection of the widest bracket to rounding takes fewer.
-const MOST_STEPS: usize = 120;
+const MAX_STEPS: usize = 120;
 /// Number of times a bracket is widened: friction that jumps upwards needs one, a self-locking
 /// joint all.
-const MOST_WIDENED: usize = 3;
+const MAX_WIDENED: usize = 3;
 /// Rounding error of a balance, relative to its torques.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Residual of a balance where large terms cancel; a larger one at the end of a bracket is a jump.
@@ -165,7 +165,7 @@ impl Balance {
             match row.outcome {
                 Outcome::Settled => {}
                 Outcome::Jump(settled) => *torque = settled,
-                Outcome::Locked => *torque *= MOST_AMPLIFIED,
+                Outcome::Locked => *torque *= MAX_AMPLIFIED,
             }
         }
     }
@@ -246,7 +246,7 @@ impl Imbalance {
 
     /// Increase of the motor torque over the increase of the torque that it overcomes.
     fn amplification(&self) -> f64 {
-        1.0 / (1.0 - self.by_motor).max(1.0 / MOST_AMPLIFIED)
+        1.0 / (1.0 - self.by_motor).max(1.0 / MAX_AMPLIFIED)
     }
 }
 
@@ -261,7 +261,7 @@ impl OneRow<'_> {
 
     /// Newton's method within a bracket.
     ///
-    /// The excess falls with the motor torque with a slope of at least `1/MOST_AMPLIFIED`, unless
+    /// The excess falls with the motor torque with a slope of at least `1/MAX_AMPLIFIED`, unless
     /// friction jumps upwards or the joint is self-locking, so an excess bounds the distance of the
     /// solution.
     fn solve(&self) -> (f64, Row) {
@@ -269,7 +269,7 @@ impl OneRow<'_> {
         let first = self.at(self.load + unloaded.torque);
         let mut bracket = Bracket::from(&first);
         let mut tried = first;
-        for step in 0..MOST_STEPS {
+        for step in 0..MAX_STEPS {
             if tried.is_settled() || !tried.excess.is_finite() || bracket.is_closed(self.load) {
                 break;
             }
@@ -281,8 +281,8 @@ impl OneRow<'_> {
             };
             tried = self.at(next);
             bracket.narrow(&tried);
-            if bracket.widened > MOST_WIDENED {
-                return (unloaded.motor, unloaded.ending(Outcome::Locked, MOST_AMPLIFIED));
+            if bracket.widened > MAX_WIDENED {
+                return (unloaded.motor, unloaded.ending(Outcome::Locked, MAX_AMPLIFIED));
             }
         }
         let is_jump = tried.excess.abs() > SETTLED * (tried.torque.abs() + tried.motor.abs());
@@ -317,7 +317,7 @@ struct Bracket {
 
 impl Bracket {
     fn from(first: &Imbalance) -> Self {
-        let far = first.motor + MOST_AMPLIFIED * first.excess;
+        let far = first.motor + MAX_AMPLIFIED * first.excess;
         Self { near: first.motor, far, sign: first.excess, is_seen: false, widened: 0 }
     }
 
@@ -337,7 +337,7 @@ impl Bracket {
         }
         self.near = tried.motor;
         if !self.is_seen && tried.motor == self.far {
-            self.far += MOST_AMPLIFIED * tried.excess;
+            self.far += MAX_AMPLIFIED * tried.excess;
             self.widened += 1;
         }
     }

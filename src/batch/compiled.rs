@@ -10,7 +10,7 @@ use std::vec::Vec;
 
 use super::columns::{Channels, Columns, Rows};
 use crate::composed::Spec;
-use crate::graph::{self, Beginning, Given, Numbers, Operation, Recorded, Recorder, Schedule};
+use crate::graph::{self, Beginning, Inputs, Numbers, Operation, Recorded, Recorder, Schedule};
 use crate::scalar::Real;
 use crate::table::Channel;
 
@@ -81,8 +81,8 @@ impl Compiled {
         let recorder = Recorder::default();
         let (torque, dry) = torque(purpose, &recorder);
         let torque = recorder.id(torque);
-        let narrows: Vec<_> = dry.map(|dry| recorder.id(dry)).into_iter().collect();
-        let slopes = graph::derivatives(&recorder, &[torque], &narrows, &purpose.wanted);
+        let bottlenecks: Vec<_> = dry.map(|dry| recorder.id(dry)).into_iter().collect();
+        let slopes = graph::derivatives(&recorder, &[torque], &bottlenecks, &purpose.wanted);
         let mut outputs = vec![torque];
         outputs.extend(slopes.iter().flatten().map(|&slope| recorder.id(slope)));
         let schedule = Schedule::of(&recorder.operations(), &outputs);
@@ -134,7 +134,7 @@ impl Compiled {
             steps = rows.steps();
             given.push(&steps);
         }
-        let given = Given {
+        let given = Inputs {
             parameters: &parameters,
             columns: &given,
             rows: rows.count(),

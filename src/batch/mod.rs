@@ -25,7 +25,7 @@ use columns::Rows;
 use compiled::Compiled;
 
 /// Number of derivatives per pass over the samples.
-const MOST_AT_ONCE: usize = 16;
+const MAX_AT_ONCE: usize = 16;
 /// Samples per block passed to a sink.
 const AT_ONCE: usize = 256;
 
@@ -79,17 +79,17 @@ pub fn gradient(
     if spec.with(values)?.runs_side_by_side() {
         return side_by_side(spec, values, columns, wanted, Locked::Amplified);
     }
-    if wanted.len() <= MOST_AT_ONCE {
+    if wanted.len() <= MAX_AT_ONCE {
         return gradient_at_once(spec, values, columns, wanted);
     }
     let mut torque = Vec::new();
     let mut jacobian = vec![0.0; columns.channels.velocity.len() * wanted.len()];
-    for (pass, some) in wanted.chunks(MOST_AT_ONCE).enumerate() {
+    for (pass, some) in wanted.chunks(MAX_AT_ONCE).enumerate() {
         let (same, part) = gradient_at_once(spec, values, columns, some)?;
         torque = same;
         let rows = jacobian.chunks_exact_mut(wanted.len());
         for (row, part) in rows.zip(part.chunks_exact(some.len())) {
-            row[pass * MOST_AT_ONCE..][..some.len()].copy_from_slice(part);
+            row[pass * MAX_AT_ONCE..][..some.len()].copy_from_slice(part);
         }
     }
     Ok((torque, jacobian))
@@ -155,7 +155,7 @@ fn gradient_at_once(
         0 => one_by_one::<f64>(spec, values, columns, wanted, locked),
         1..=4 => one_by_one::<Dual<f64, 4>>(spec, values, columns, wanted, locked),
         5..=8 => one_by_one::<Dual<f64, 8>>(spec, values, columns, wanted, locked),
-        _ => one_by_one::<Dual<f64, MOST_AT_ONCE>>(spec, values, columns, wanted, locked),
+        _ => one_by_one::<Dual<f64, MAX_AT_ONCE>>(spec, values, columns, wanted, locked),
     }
 }
 

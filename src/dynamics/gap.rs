@@ -94,6 +94,6 @@ impl<S: Real> Gap<S> {
     #[inline]
     fn way(&self, interval: &Interval<S::Plain>) -> S {
         let ratio = interval.velocity().abs() / self.reference;
-        self.exponent.exponent_of(ratio).scale(self.reference * interval.dt)
+        self.exponent.exp_with_base(ratio).scale(self.reference * interval.dt)
     }
 }

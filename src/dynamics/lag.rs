@@ -56,7 +56,7 @@ impl<S: Real> Lag<S> {
         let forgotten = self.time.plain() * S::Plain::from_f64(SATURATED);
         let [decay, late] = forgotten.is_above(dt.plain()).either(
             || {
-                let y = self.time.divide(-dt);
+                let y = self.time.reciprocal_times(-dt);
                 [y.exp(), -(y.expm1() * steps)]
             },
             || [S::zero(), steps],

@@ -7,7 +7,7 @@
 //! while more elements stick; each element reaches its limit at most once, so a step has a bounded
 //! number of pieces.
 
-use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step, following, logarithm_ratio};
+use super::{Elements, Interval, MAX_ELEMENTS, SATURATED, Step, following, logarithm_ratio};
 use crate::sample::Split;
 use crate::scalar::{Choice, Mask, Real};
 
@@ -21,9 +21,9 @@ const VANISHED: f64 = 1e30;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeuvenBristle<'a, S> {
     /// Largest force of each element, relative to the others (T).
-    pub friction: &'a [S; MOST_ELEMENTS],
+    pub friction: &'a [S; MAX_ELEMENTS],
     /// Stiffness of each element (T/X).
-    pub stiffness: &'a [S; MOST_ELEMENTS],
+    pub stiffness: &'a [S; MAX_ELEMENTS],
     /// Number of elements.
     pub count: usize,
     /// Damping `s1` (T s/X).
@@ -76,7 +76,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
 
     #[inline]
     fn count(&self) -> usize {
-        self.count.min(MOST_ELEMENTS)
+        self.count.min(MAX_ELEMENTS)
     }
 
     /// The largest force of an element over its friction: the sum of all is the holding torque, so
@@ -184,7 +184,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
         limit: S,
         toward: S::Plain,
         way: S,
-    ) -> [S; MOST_ELEMENTS] {
+    ) -> [S; MAX_ELEMENTS] {
         let mut forces = state.force;
         for (k, force) in forces[..self.count()].iter_mut().enumerate() {
             let before = *force;
@@ -199,10 +199,10 @@ impl<S: Real> LeuvenBristle<'_, S> {
     #[inline]
     fn stopped(
         &self,
-        mut forces: [S; MOST_ELEMENTS],
+        mut forces: [S; MAX_ELEMENTS],
         limit: S,
         toward: S::Plain,
-    ) -> [S; MOST_ELEMENTS] {
+    ) -> [S; MAX_ELEMENTS] {
         for (k, force) in forces[..self.count()].iter_mut().enumerate() {
             let most = self.friction[k] * limit;
             let room = most - force.scale(toward);
@@ -217,7 +217,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
 /// change of the target that the force has followed.
 #[derive(Clone, Copy)]
 struct Glide<S> {
-    force: [S; MOST_ELEMENTS],
+    force: [S; MAX_ELEMENTS],
     left: S,
     area: S,
     following: S,

@@ -6,7 +6,7 @@
 //! zero (Al-Bender, Lampaert and Swevers 2005, eqs 18-20). Here `s = D` and `a_i = F_i/sum F`. At a
 //! constant velocity the force is a ramp followed by an exponential, with at most one transition.
 
-use super::{Elements, Interval, MOST_ELEMENTS, SATURATED, Step};
+use super::{Elements, Interval, MAX_ELEMENTS, SATURATED, Step};
 use crate::sample::Split;
 use crate::scalar::{Mask, Real};
 
@@ -14,9 +14,9 @@ use crate::scalar::{Mask, Real};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaxwellSlip<'a, S> {
     /// Force of each element in sliding, relative to the others (T).
-    pub friction: &'a [S; MOST_ELEMENTS],
+    pub friction: &'a [S; MAX_ELEMENTS],
     /// Stiffness of each element (T/X).
-    pub stiffness: &'a [S; MOST_ELEMENTS],
+    pub stiffness: &'a [S; MAX_ELEMENTS],
     /// Number of elements.
     pub count: usize,
     /// Rate at which a sliding element settles, `C` (T/s).
@@ -34,7 +34,7 @@ impl<S: Real> MaxwellSlip<'_, S> {
         split: &Split<S>,
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
-        let count = self.count.min(MOST_ELEMENTS);
+        let count = self.count.min(MAX_ELEMENTS);
         let slide = self.slide(dry, split.dry(), interval);
         let (mut force, mut mean) = (S::zero(), S::zero());
         for k in 0..count {
@@ -53,7 +53,7 @@ impl<S: Real> MaxwellSlip<'_, S> {
     #[inline]
     fn slide(&self, dry: S, end: S, interval: &Interval<S::Plain>) -> Slide<S> {
         let mut total = S::zero();
-        for &friction in &self.friction[..self.count.min(MOST_ELEMENTS)] {
+        for &friction in &self.friction[..self.count.min(MAX_ELEMENTS)] {
             total += friction;
         }
         let change = if interval.mean_velocity.is_some() { end - dry } else { S::zero() };

@@ -21,7 +21,7 @@ pub use bristle::{Bristle, BristleState, Course};
 pub use dahl::DahlBristle;
 pub use deflection::{Approach, Deflection};
 pub use elastoplastic::ElastoplasticBristle;
-pub use elements::{Elements, MOST_ELEMENTS};
+pub use elements::{Elements, MAX_ELEMENTS};
 pub use gap::{Flanks, Gap};
 pub use lag::{Lag, Lagging};
 pub use leuven::LeuvenBristle;
@@ -116,7 +116,7 @@ impl Memory {
             Self::None => 0,
             Self::Deflection => 1,
             Self::Forces(count) => count,
-            Self::Elements => MOST_ELEMENTS,
+            Self::Elements => MAX_ELEMENTS,
         }
     }
 }

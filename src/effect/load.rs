@@ -43,7 +43,7 @@ impl<S: Real> FrictionEffect<S> for Load<S> {
     ) {
         let reference = constants.reference_load;
         let ratio = (sample.load_torque / reference).abs();
-        let load = self.load_exponent.exponent_of(ratio).scale(reference);
+        let load = self.load_exponent.exp_with_base(ratio).scale(reference);
         let mut share = self.load_coulomb;
         if !self.load_stribeck.is_zero() {
             share += self.load_stribeck * split.shape.widened(self.load_stribeck_ratio).value;

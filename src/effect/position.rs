@@ -80,6 +80,6 @@ impl<S: Real> FrictionEffect<S> for Position<S> {
                 (c, s) = (c * cos - s * sin, s * cos + c * sin);
             }
         }
-        split.coulomb.add_sum(p, basis);
+        split.coulomb.add_linear_combination(p, basis);
     }
 }

@@ -50,6 +50,6 @@ impl<S: Real> FrictionEffect<S> for Spring<S> {
         let legendre =
             [u, number(1.5) * square - number(0.5), (number(2.5) * square - number(1.5)) * u];
         let torques = [&self.spring_linear, &self.spring_quadratic, &self.spring_cubic];
-        split.additive.add_sum(torques, legendre);
+        split.additive.add_linear_combination(torques, legendre);
     }
 }

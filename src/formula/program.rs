@@ -298,10 +298,10 @@ fn combine<S: Real>(operation: Operation, x: Value<S>, y: Value<S>) -> Value<S> 
             Full(x.scale(y))
         }
         (Operation::Divide, Known(x), Known(y)) => Known(x / y),
-        (Operation::Divide, Known(x), Full(y)) => Full(y.divide(x)),
+        (Operation::Divide, Known(x), Full(y)) => Full(y.reciprocal_times(x)),
         (Operation::Divide, x, y) => Full(x.full() / y.full()),
         (Operation::Call(Function::Power), Known(x), Known(y)) => Known(x.powf(y)),
-        (Operation::Call(Function::Power), Known(x), Full(y)) => Full(y.exponent_of(x)),
+        (Operation::Call(Function::Power), Known(x), Full(y)) => Full(y.exp_with_base(x)),
         (Operation::Call(Function::Power), x, y) => Full(x.full().powf(y.full())),
         (Operation::Call(Function::Minimum), Known(x), Known(y)) => Known(minimum(x, y)),
         (Operation::Call(Function::Minimum), x, y) => Full(minimum(x.full(), y.full())),

@@ -89,8 +89,8 @@ pub fn unary<const N: usize>(out: &mut [f64; N], operation: Unary, x: Operand<'_
         Unary::Ln => map(out, x, elementary::ln),
         Unary::Sqrt => map(out, x, elementary::sqrt),
         Unary::Cbrt => map(out, x, elementary::cbrt),
-        Unary::Sin => wave(out, x, |(sin, _)| sin),
-        Unary::Cos => wave(out, x, |(_, cos)| cos),
+        Unary::Sin => sin_or_cos(out, x, |(sin, _)| sin),
+        Unary::Cos => sin_or_cos(out, x, |(_, cos)| cos),
         Unary::Tanh => map(out, x, elementary::tanh),
         Unary::Atan => map(out, x, elementary::atan),
         Unary::Phi(order) => map(out, x, |x| elementary::phi(order, x)),
@@ -101,10 +101,14 @@ pub fn unary<const N: usize>(out: &mut [f64; N], operation: Unary, x: Operand<'_
 
 /// Sine or cosine; the few large arguments are recomputed with the exact reduction.
 #[inline(always)]
-fn wave<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, of: impl Fn((f64, f64)) -> f64) {
+fn sin_or_cos<const N: usize>(
+    out: &mut [f64; N],
+    x: Operand<'_, N>,
+    of: impl Fn((f64, f64)) -> f64,
+) {
     map(out, x, |x| of(elementary::sin_cos_fast(x)));
     for (row, out) in out.iter_mut().enumerate() {
-        if elementary::needs_care(x.at(row)) {
+        if elementary::needs_exact_reduction(x.at(row)) {
             *out = of(elementary::sin_cos(x.at(row)));
         }
     }
@@ -128,7 +132,7 @@ pub fn binary<const N: usize>(
         Binary::Above => zip(out, x, y, |x, y| mask(x > y)),
         Binary::Equal => zip(out, x, y, |x, y| mask(x == y)),
         Binary::Or => zip(out, x, y, |x, y| if x > y { x } else { y }),
-        Binary::Chain => chain_all(out, x, y),
+        Binary::Chain => chain_each(out, x, y),
     }
 }
 
@@ -140,28 +144,28 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
         (x, Operand::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
         (x, Operand::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
         (Operand::Each(x), Operand::Same(p)) if plain(p) => {
-            let low = logarithms(x, out);
+            let low = log2_each(x, out);
             for ((out, &x), &low) in out.iter_mut().zip(x).zip(&low.0) {
                 *out = elementary::powf_fast(x, (*out, low), p);
             }
-            mend_powers(out, x, |_| p);
+            recompute_nan_powers(out, x, |_| p);
         }
         (Operand::Each(x), Operand::Each(p)) => {
-            let low = logarithms(x, out);
+            let low = log2_each(x, out);
             for ((out, &x), (&p, &low)) in out.iter_mut().zip(x).zip(p.iter().zip(&low.0)) {
                 let power = elementary::powf_fast(x, (*out, low), p);
                 *out = elementary::power_without_logarithm(power, x, p);
             }
-            mend_powers(out, x, |row| p[row]);
+            recompute_nan_powers(out, x, |row| p[row]);
         }
         (x, p) => zip(out, x, p, elementary::powf),
     }
 }
 
-/// Binary logarithms: writes the high parts and returns the low parts. Two loops keep more
+/// Binary log2_each: writes the high parts and returns the low parts. Two loops keep more
 /// independent operations in flight than one.
 #[inline(always)]
-fn logarithms<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {
+fn log2_each<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {
     let mut lows = Buffer::ZERO;
     for ((&x, high), low) in x.iter().zip(high).zip(&mut lows.0) {
         (*high, *low) = elementary::log2_fast(x);
@@ -171,7 +175,11 @@ fn logarithms<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {
 
 /// Recomputes the results that [`elementary::powf_fast`] has left as NaN.
 #[inline(always)]
-fn mend_powers<const N: usize>(out: &mut [f64; N], x: &[f64; N], p: impl Fn(usize) -> f64) {
+fn recompute_nan_powers<const N: usize>(
+    out: &mut [f64; N],
+    x: &[f64; N],
+    p: impl Fn(usize) -> f64,
+) {
     if any_nan(out) {
         for (row, (out, &x)) in out.iter_mut().zip(x).enumerate() {
             if out.is_nan() {
@@ -183,7 +191,7 @@ fn mend_powers<const N: usize>(out: &mut [f64; N], x: &[f64; N], p: impl Fn(usiz
 
 /// Products of slopes and derivatives; recomputed by [`chain`] where one is NaN.
 #[inline(always)]
-fn chain_all<const N: usize>(out: &mut [f64; N], slope: Operand<'_, N>, by: Operand<'_, N>) {
+fn chain_each<const N: usize>(out: &mut [f64; N], slope: Operand<'_, N>, by: Operand<'_, N>) {
     let nan = Cell::new(false);
     zip(out, slope, by, |slope, by| {
         let product = slope * by;

@@ -14,12 +14,12 @@ use super::recorder::Recorder;
 use crate::scalar::Real;
 
 /// The derivatives of each output with respect to each of the `wanted` parameters; known to be 0
-/// where it does not depend on one. Nodes in `narrows` lie between many parameters and several
+/// where it does not depend on one. Nodes in `bottlenecks` lie between many parameters and several
 /// outputs or states: they are differentiated first, once.
 pub fn derivatives<'r>(
     recorder: &'r Recorder,
     outputs: &[Id],
-    narrows: &[Id],
+    bottlenecks: &[Id],
     wanted: &[usize],
 ) -> Vec<Vec<Recorded<'r>>> {
     let operations = recorder.operations();
@@ -34,8 +34,8 @@ pub fn derivatives<'r>(
     let zero = Recorded::Known(0.0);
     let numbers =
         |slopes: Vec<Slope<'r>>| slopes.into_iter().map(|by| by.unwrap_or(zero)).collect();
-    for &narrow in narrows {
-        rules.of(narrow);
+    for &bottleneck in bottlenecks {
+        rules.of(bottleneck);
     }
     outputs.iter().map(|&output| numbers(rules.of(output))).collect()
 }
@@ -133,7 +133,7 @@ impl<'r> Rules<'r, '_> {
             }
             Operation::Choose(mask, x, y) => {
                 let zero = Recorded::Known(0.0);
-                let (negative, factor) = self.sign_apart(factor);
+                let (negative, factor) = self.split_sign(factor);
                 share(x, &|| Some(signed(negative, self.choose(mask, factor, zero))));
                 share(y, &|| Some(signed(negative, self.choose(mask, zero, factor))));
             }
@@ -193,7 +193,7 @@ impl<'r> Rules<'r, '_> {
 
     /// A number without its leading minus, and whether it had one. Signs are propagated to where a
     /// sum turns them into a subtraction.
-    fn sign_apart(&self, x: Recorded<'r>) -> (bool, Recorded<'r>) {
+    fn split_sign(&self, x: Recorded<'r>) -> (bool, Recorded<'r>) {
         if let Recorded::Node(recorder, id) = x
             && let Operation::Unary(Unary::Negate, inner) = recorder.operation(id)
         {
@@ -205,7 +205,7 @@ impl<'r> Rules<'r, '_> {
 
     fn plus(&self, x: Slope<'r>, y: Slope<'r>) -> Slope<'r> {
         let (Some(x), Some(y)) = (x, y) else { return x.or(y) };
-        Some(match (self.sign_apart(x), self.sign_apart(y)) {
+        Some(match (self.split_sign(x), self.split_sign(y)) {
             ((_, _), (true, y)) => x - y,
             ((true, x), (false, y)) => y - x,
             ((false, x), (false, y)) => x + y,
@@ -219,7 +219,7 @@ impl<'r> Rules<'r, '_> {
 
     /// A product that is 0 where one factor is 0, even if the other is infinite.
     fn times(&self, slope: Recorded<'r>, by: Recorded<'r>) -> Recorded<'r> {
-        let ((one, slope), (other, by)) = (self.sign_apart(slope), self.sign_apart(by));
+        let ((one, slope), (other, by)) = (self.split_sign(slope), self.split_sign(by));
         let product = if slope.is(1.0) {
             by
         } else if by.is(1.0) {

@@ -22,5 +22,5 @@ pub use numbers::Numbers;
 pub use operation::{Binary, Id, Operation, Unary};
 pub use recorded::{Format, Recorded};
 pub use recorder::Recorder;
-pub use run::{Beginning, Given, run};
+pub use run::{Beginning, Inputs, run};
 pub use schedule::Schedule;

@@ -12,7 +12,7 @@ use crate::scalar::Real;
 use crate::table::Channel;
 
 /// A model and its sample, in numbers of a recorder.
-type Written<'r, F> = (Composed<Recorded<'r, F>>, Sample<Recorded<'r, F>>);
+type RecordedModel<'r, F> = (Composed<Recorded<'r, F>>, Sample<Recorded<'r, F>>);
 
 /// A model and the sample it reads: parameters by index, channels as columns by number; channels
 /// that it does not read are 0.
@@ -22,7 +22,7 @@ type Written<'r, F> = (Composed<Recorded<'r, F>>, Sample<Recorded<'r, F>>);
 pub fn model<'r, F: Format>(
     recorder: &'r Recorder,
     spec: &Spec,
-) -> Result<Written<'r, F>, ModelError<'static>> {
+) -> Result<RecordedModel<'r, F>, ModelError<'static>> {
     let parameters: Vec<Recorded<'r, F>> = (0..spec.parameter_count())
         .map(|index| recorder.number(Operation::Parameter(index)))
         .collect();

@@ -11,16 +11,16 @@ use pulp::{Arch, Simd, WithSimd};
 use super::block::{BLOCK, Buffer, Operand, binary, binary_once, choose, unary, unary_once};
 use super::numbers::Numbers;
 use super::operation::{Operation, Relaxing, Start};
-use super::schedule::{MOST_TOGETHER, Place, Schedule, Task};
+use super::schedule::{MAX_GROUP, Place, Schedule, Task};
 
 /// Buffers for operands of grouped states that are one number for all samples.
-type Scratch = [[Buffer; MOST_TOGETHER]; 4];
+type Scratch = [[Buffer; MAX_GROUP]; 4];
 
 /// Operand that is 0 for all samples, the most frequent case.
-const NOTHING: &Buffer = &Buffer::ZERO;
+const ZEROS: &Buffer = &Buffer::ZERO;
 
 /// Inputs of a run.
-pub struct Given<'a> {
+pub struct Inputs<'a> {
     /// The parameters.
     pub parameters: &'a [f64],
     /// Columns by number; one that no operation reads may be empty.
@@ -43,17 +43,21 @@ pub enum Beginning {
 }
 
 /// Runs the schedule; `sink` receives the outputs of each block of samples.
-pub fn run(schedule: &Schedule, given: &Given<'_>, sink: impl FnMut(Range<usize>, &[Numbers<'_>])) {
-    Arch::new().dispatch(Running { schedule, given, sink });
+pub fn run(
+    schedule: &Schedule,
+    inputs: &Inputs<'_>,
+    sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
+) {
+    Arch::new().dispatch(Runner { schedule, inputs, sink });
 }
 
-struct Running<'a, F> {
+struct Runner<'a, F> {
     schedule: &'a Schedule,
-    given: &'a Given<'a>,
+    inputs: &'a Inputs<'a>,
     sink: F,
 }
 
-impl<F: FnMut(Range<usize>, &[Numbers<'_>])> WithSimd for Running<'_, F> {
+impl<F: FnMut(Range<usize>, &[Numbers<'_>])> WithSimd for Runner<'_, F> {
     type Output = ();
 
     #[inline(always)]
@@ -65,34 +69,34 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> WithSimd for Running<'_, F> {
     }
 }
 
-impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
+impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Runner<'_, F> {
     #[inline(always)]
     fn all(mut self) {
         let schedule = self.schedule;
-        let uniforms = once(schedule, self.given.parameters);
-        let mut room = vec![Buffer::ZERO; schedule.buffers + MOST_TOGETHER];
+        let uniforms = once(schedule, self.inputs.parameters);
+        let mut room = vec![Buffer::ZERO; schedule.buffers + MAX_GROUP];
         let mut buffers: Vec<&mut Buffer> = room.iter_mut().collect();
         // An operation writes into a spare buffer, which is then swapped with the destination.
         let mut spare = buffers.split_off(schedule.buffers);
         let mut memories = vec![0.0; schedule.memories];
-        let mut starts = self.given.starts;
-        let mut scratch: Scratch = [[Buffer::ZERO; MOST_TOGETHER]; 4];
-        for first in (0..self.given.rows).step_by(BLOCK) {
-            let count = BLOCK.min(self.given.rows - first);
+        let mut starts = self.inputs.starts;
+        let mut scratch: Scratch = [[Buffer::ZERO; MAX_GROUP]; 4];
+        for first in (0..self.inputs.rows).step_by(BLOCK) {
+            let count = BLOCK.min(self.inputs.rows - first);
             let (own, later) = starts.split_at(starts.partition_point(|s| s.0 < first + count));
             starts = later;
-            let moment = Moment { given: self.given, first, count, starts: own };
+            let block = Block { inputs: self.inputs, first, count, starts: own };
             let mut tasks = &schedule.each[..];
             while let Some(task) = tasks.first() {
-                let (now, later) = tasks.split_at(task.together);
+                let (now, later) = tasks.split_at(task.group);
                 tasks = later;
                 let operand = |place| match place {
                     Place::Uniform(i) => Operand::Same(uniforms[i]),
                     Place::Buffer(i) => Operand::Each(&buffers[i].0),
                 };
-                macro_rules! alike {
+                macro_rules! run_group {
                     ($count:expr) => {
-                        moment.relax_alike::<{ $count }>(
+                        block.relax_group::<{ $count }>(
                             now,
                             &mut spare,
                             operand,
@@ -105,15 +109,15 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Running<'_, F> {
                     1 => {
                         let memory = memories.get_mut(task.memory);
                         let out = &mut spare[0].0;
-                        moment.carry_out(task, out, operand, memory, &mut scratch);
+                        block.execute(task, out, operand, memory, &mut scratch);
                     }
-                    2 => alike!(2),
-                    3 => alike!(3),
-                    4 => alike!(4),
-                    5 => alike!(5),
-                    6 => alike!(6),
-                    7 => alike!(7),
-                    _ => alike!(MOST_TOGETHER),
+                    2 => run_group!(2),
+                    3 => run_group!(3),
+                    4 => run_group!(4),
+                    5 => run_group!(5),
+                    6 => run_group!(6),
+                    7 => run_group!(7),
+                    _ => run_group!(MAX_GROUP),
                 }
                 for (spare, task) in spare.iter_mut().zip(now) {
                     swap(spare, &mut buffers[task.to]);
@@ -159,8 +163,8 @@ fn once(schedule: &Schedule, parameters: &[f64]) -> Vec<f64> {
 }
 
 /// The block that is being computed.
-struct Moment<'a> {
-    given: &'a Given<'a>,
+struct Block<'a> {
+    inputs: &'a Inputs<'a>,
     /// Index of its first sample.
     first: usize,
     /// Number of its samples; results beyond them are not read.
@@ -169,9 +173,9 @@ struct Moment<'a> {
     starts: &'a [(usize, Beginning)],
 }
 
-impl Moment<'_> {
+impl Block<'_> {
     #[inline(always)]
-    fn carry_out<'b>(
+    fn execute<'b>(
         &self,
         task: &Task,
         out: &mut [f64; BLOCK],
@@ -203,7 +207,7 @@ impl Moment<'_> {
     /// cases.
     #[inline(always)]
     fn column(&self, out: &mut [f64; BLOCK], column: usize) {
-        let rows = &self.given.columns[column][self.first..][..self.count];
+        let rows = &self.inputs.columns[column][self.first..][..self.count];
         let (own, rest) = out.split_at_mut(self.count);
         own.copy_from_slice(rows);
         rest.fill(rows[self.count - 1]);
@@ -235,7 +239,7 @@ impl Moment<'_> {
         match how {
             None => state,
             Some(Beginning::Settled) => settled(),
-            Some(Beginning::Fresh) if start == Start::Given => self.given.start,
+            Some(Beginning::Fresh) if start == Start::Given => self.inputs.start,
             Some(Beginning::Fresh) => 0.0,
         }
     }
@@ -312,7 +316,7 @@ impl Moment<'_> {
 
     /// Steps a group of derivatives of one state.
     #[inline(always)]
-    fn relax_alike<'b, const K: usize>(
+    fn relax_group<'b, const K: usize>(
         &self,
         tasks: &[Task],
         spare: &mut [&mut Buffer],
@@ -355,7 +359,7 @@ impl Moment<'_> {
 fn each<'a>(from: Operand<'a>, scratch: &'a mut Buffer) -> &'a [f64; BLOCK] {
     match from {
         Operand::Each(rows) => rows,
-        Operand::Same(0.0) => &NOTHING.0,
+        Operand::Same(0.0) => &ZEROS.0,
         Operand::Same(x) => {
             scratch.0.fill(x);
             &scratch.0
@@ -367,8 +371,8 @@ fn each<'a>(from: Operand<'a>, scratch: &'a mut Buffer) -> &'a [f64; BLOCK] {
 #[inline(always)]
 fn each_of<'a, const K: usize>(
     from: [Operand<'a>; K],
-    scratch: &'a mut [Buffer; MOST_TOGETHER],
+    scratch: &'a mut [Buffer; MAX_GROUP],
 ) -> [&'a [f64; BLOCK]; K] {
     let mut scratch = scratch.iter_mut();
-    from.map(|from| scratch.next().map_or(&NOTHING.0, |scratch| each(from, scratch)))
+    from.map(|from| scratch.next().map_or(&ZEROS.0, |scratch| each(from, scratch)))
 }

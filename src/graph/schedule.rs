@@ -26,11 +26,11 @@ pub struct Task {
     /// Index of the value kept from block to block, for an operation with memory.
     pub memory: usize,
     /// Number of tasks, from this one on, that run as a group: derivatives of one state.
-    pub together: usize,
+    pub group: usize,
 }
 
 /// Largest number of derivatives of a state that run as a group.
-pub const MOST_TOGETHER: usize = 8;
+pub const MAX_GROUP: usize = 8;
 
 /// The operations that some outputs need.
 #[derive(Clone, Debug)]
@@ -57,8 +57,8 @@ impl Schedule {
         let mut last_use: Vec<Option<usize>> = vec![None; operations.len()];
         for (place, &id) in order.iter().enumerate() {
             // The operands of a group stay in use until all of the group is computed.
-            let together = order[place..].iter().take_while(|&&id| is_slope(operations[id]));
-            let done = place + together.count().max(1) - 1;
+            let group = order[place..].iter().take_while(|&&id| is_slope(operations[id]));
+            let done = place + group.count().max(1) - 1;
             for operand in operations[id].operands() {
                 last_use[operand] = last_use[operand].max(Some(done));
             }
@@ -96,14 +96,14 @@ impl Schedule {
             five[..from.len()].copy_from_slice(&from);
             let memory = schedule.memories;
             schedule.memories += usize::from(operation.has_memory());
-            let task = |to| Task { operation, from: five, to, memory, together: 1 };
+            let task = |to| Task { operation, from: five, to, memory, group: 1 };
             match place {
                 Place::Uniform(to) => schedule.once.push(task(to)),
                 Place::Buffer(to) => {
                     schedule.each.push(task(to));
                     for &id in &ended[now] {
                         if let Some(Place::Buffer(free)) = places[id] {
-                            layout.give_back(free);
+                            layout.release(free);
                         }
                     }
                 }
@@ -112,7 +112,7 @@ impl Schedule {
         schedule.outputs = outputs.iter().filter_map(|&output| places[output]).collect();
         schedule.buffers = layout.count;
         for first in 0..schedule.each.len() {
-            schedule.each[first].together = relaxing_alike(&schedule.each[first..]);
+            schedule.each[first].group = group_size(&schedule.each[first..]);
         }
         schedule
     }
@@ -150,14 +150,14 @@ fn is_slope(operation: Operation) -> bool {
 }
 
 /// How many tasks from the first on are derivatives of one state and run as a group.
-fn relaxing_alike(tasks: &[Task]) -> usize {
+fn group_size(tasks: &[Task]) -> usize {
     let alike = |task: &&Task| match (tasks[0].operation, task.operation) {
         (Operation::Relax(first), Operation::Relax(own)) => {
             first.start == Start::Zero && own.start == Start::Zero && first.share == own.share
         }
         _ => false,
     };
-    tasks.iter().take(MOST_TOGETHER).take_while(alike).count().max(1)
+    tasks.iter().take(MAX_GROUP).take_while(alike).count().max(1)
 }
 
 /// Allocates buffers and reuses those that are free again.
@@ -175,7 +175,7 @@ impl Layout {
         })
     }
 
-    fn give_back(&mut self, buffer: usize) {
+    fn release(&mut self, buffer: usize) {
         self.free.push(buffer);
     }
 }

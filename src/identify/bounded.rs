@@ -7,16 +7,16 @@ use crate::scalar::Real;
 
 /// Directions with a singular value below this share of the largest, with all columns scaled to
 /// length one, are not identifiable.
-const UNSEEN: f64 = 1e-10;
+const UNIDENTIFIABLE: f64 = 1e-10;
 /// Where every pivot is at least this share of the largest, all directions are identifiable.
-const PLAIN: f64 = 1e-5;
+const WELL_CONDITIONED: f64 = 1e-5;
 /// Jacobi rotations end when all pairs of columns are orthogonal to this accuracy, or after
-/// [`MOST_ROUNDS`].
+/// [`MAX_ROUNDS`].
 const ORTHOGONAL: f64 = 1e-15;
-const MOST_ROUNDS: usize = 40;
+const MAX_ROUNDS: usize = 40;
 /// A parameter leaves its bound where the slope of the error, with columns of length one, is this
 /// share of the right-hand side.
-const PULLED: f64 = 1e-10;
+const RELEASE_SLOPE: f64 = 1e-10;
 
 /// Minimises `|A x - b|` within bounds; `x` is 0 along directions that A does not determine.
 ///
@@ -99,14 +99,14 @@ impl Bounded<'_> {
         // Parameters beyond their bound are fixed there until the others allow otherwise.
         loop {
             let best = self.best(&free);
-            let mut held = false;
+            let mut fixed = false;
             for k in (0..count).filter(|&k| free[k]) {
                 if best[k] < self.lower[k] || best[k] > self.upper[k] {
                     self.x[k] = best[k].max(self.lower[k]).min(self.upper[k]);
-                    held = true;
+                    fixed = true;
                 }
             }
-            if !held {
+            if !fixed {
                 self.x = best;
                 break;
             }
@@ -115,32 +115,32 @@ impl Bounded<'_> {
             }
         }
         for _ in 0..10 * count {
-            let Some(pulled) = self.pulled_inside(&free) else { break };
-            free[pulled] = true;
-            if !self.walk(&mut free, pulled) {
+            let Some(released) = self.steepest_into_range(&free) else { break };
+            free[released] = true;
+            if !self.move_to_best(&mut free, released) {
                 break;
             }
         }
     }
 
     /// The fixed parameter with the steepest descent into its range.
-    fn pulled_inside(&self, free: &[bool]) -> Option<usize> {
-        let left = self.left(&vec![false; self.x.len()]);
-        let least = PULLED * Real::sqrt(dot(self.right, self.right));
+    fn steepest_into_range(&self, free: &[bool]) -> Option<usize> {
+        let residual = self.residual(&vec![false; self.x.len()]);
+        let least = RELEASE_SLOPE * Real::sqrt(dot(self.right, self.right));
         let pull = |k: usize| {
-            let slope = dot(&self.columns[k], &left);
+            let slope = dot(&self.columns[k], &residual);
             let up = self.x[k] < self.upper[k] && slope > 0.0;
             let down = self.x[k] > self.lower[k] && slope < 0.0;
             if up || down { slope.abs() } else { 0.0 }
         };
-        let held = (0..self.x.len()).filter(|&k| !free[k]).map(|k| (k, pull(k)));
-        let strongest = held.fold((0, 0.0), |most, own| if own.1 > most.1 { own } else { most });
+        let fixed = (0..self.x.len()).filter(|&k| !free[k]).map(|k| (k, pull(k)));
+        let strongest = fixed.fold((0, 0.0), |most, own| if own.1 > most.1 { own } else { most });
         (strongest.1 > least).then_some(strongest.0)
     }
 
     /// Moves towards the minimum over the free parameters; one that meets its bound on the way is
     /// fixed there. False where the parameter just freed does not move.
-    fn walk(&mut self, free: &mut [bool], freed: usize) -> bool {
+    fn move_to_best(&mut self, free: &mut [bool], freed: usize) -> bool {
         let mut first = true;
         loop {
             let best = self.best(free);
@@ -169,7 +169,7 @@ impl Bounded<'_> {
     }
 
     /// The residual of the parameters that are not in `out`.
-    fn left(&self, out: &[bool]) -> Vec<f64> {
+    fn residual(&self, out: &[bool]) -> Vec<f64> {
         let mut left = self.right.to_vec();
         for (k, column) in self.columns.iter().enumerate().filter(|&(k, _)| !out[k]) {
             for (left, x) in left.iter_mut().zip(column) {
@@ -181,11 +181,12 @@ impl Bounded<'_> {
 
     /// The minimum over the free parameters with the others fixed.
     fn best(&self, free: &[bool]) -> Vec<f64> {
-        let left = self.left(free);
+        let residual = self.residual(free);
         let own = (0..self.x.len()).filter(|&k| free[k]);
         let columns: Vec<Vec<f64>> = own.clone().map(|k| self.columns[k].clone()).collect();
         let mut best = self.x.clone();
-        let solved = plain(columns.clone(), &left).unwrap_or_else(|| shortest(columns, &left));
+        let solved = by_reflections(columns.clone(), &residual)
+            .unwrap_or_else(|| of_least_norm(columns, &residual));
         for (k, x) in own.zip(solved) {
             best[k] = x;
         }
@@ -195,7 +196,7 @@ impl Bounded<'_> {
 
 /// The minimum by Householder reflections with column pivoting (Golub and Van Loan, section 5.4.2);
 /// `None` where a direction is poorly determined.
-fn plain(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
+fn by_reflections(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
     let (count, mut right) = (columns.len(), right.to_vec());
     let mut order: Vec<usize> = (0..count).collect();
     let mut largest = 0.0_f64;
@@ -209,7 +210,7 @@ fn plain(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
         order.swap(k, longest.0);
         let norm = Real::sqrt(longest.1);
         largest = largest.max(norm);
-        if norm.is_nan() || norm <= PLAIN * largest {
+        if norm.is_nan() || norm <= WELL_CONDITIONED * largest {
             return None;
         }
         let (done, rest) = columns.split_at_mut(k + 1);
@@ -235,17 +236,17 @@ fn plain(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
 
 /// The minimum of least norm by singular values: columns are rotated in pairs until they are
 /// orthogonal (one-sided Jacobi, Hestenes 1958).
-fn shortest(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Vec<f64> {
+fn of_least_norm(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Vec<f64> {
     let count = columns.len();
     let unit = |k: usize| (0..count).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
-    let mut turned: Vec<Vec<f64>> = (0..count).map(unit).collect();
-    for _ in 0..MOST_ROUNDS {
+    let mut basis: Vec<Vec<f64>> = (0..count).map(unit).collect();
+    for _ in 0..MAX_ROUNDS {
         let mut rotated = false;
         for p in 0..count {
             for q in p + 1..count {
                 if let Some((cosine, sine)) = rotation(&columns[p], &columns[q]) {
                     rotate(&mut columns, p, q, cosine, sine);
-                    rotate(&mut turned, p, q, cosine, sine);
+                    rotate(&mut basis, p, q, cosine, sine);
                     rotated = true;
                 }
             }
@@ -257,11 +258,11 @@ fn shortest(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Vec<f64> {
     let squares: Vec<f64> = columns.iter().map(|column| dot(column, column)).collect();
     let largest = squares.iter().fold(0.0_f64, |most, &x| most.max(x));
     let mut x = vec![0.0; count];
-    for ((column, turned), &square) in columns.iter().zip(&turned).zip(&squares) {
-        if square > UNSEEN * UNSEEN * largest {
+    for ((column, basis), &square) in columns.iter().zip(&basis).zip(&squares) {
+        if square > UNIDENTIFIABLE * UNIDENTIFIABLE * largest {
             let share = dot(column, right) / square;
-            for (x, turned) in x.iter_mut().zip(turned) {
-                *x += share * turned;
+            for (x, basis) in x.iter_mut().zip(basis) {
+                *x += share * basis;
             }
         }
     }

@@ -11,7 +11,7 @@ mod threads;
 mod triangle;
 
 pub use bounded::bounded_least_squares;
-pub use problem::{NOT_SUMMED, Problem};
+pub use problem::{NOT_SCORED, Problem};
 pub use separable::{Bounds, LeastSquares, Outcome, Search, Steps, minimise};
 pub use threads::side_by_side;
 pub use triangle::{Triangle, triangles};

@@ -13,7 +13,7 @@ use crate::catalog::EffectId;
 use crate::composed::Spec;
 
 /// The group of samples that are not scored. A state still runs through them.
-pub const NOT_SUMMED: u32 = u32::MAX;
+pub const NOT_SCORED: u32 = u32::MAX;
 /// Number of samples at the start of a run that decide how it begins.
 const FIRST_ROWS: usize = 500;
 /// Samples per piece, where samples are independent: pieces run in parallel.
@@ -28,7 +28,7 @@ pub struct Problem<'a> {
     pub columns: Columns<'a>,
     /// The torque to fit: measured minus known torque (T).
     pub target: &'a [f64],
-    /// The group of each sample, or [`NOT_SUMMED`].
+    /// The group of each sample, or [`NOT_SCORED`].
     pub group: &'a [u32],
     /// Number of groups.
     pub groups: usize,
@@ -102,7 +102,7 @@ impl Problem<'_> {
             columns.dt = TimeStep::Each(&steps);
         }
         let whole = Problem { columns, ..*self };
-        let made = if self.stands_row_by_row() && self.target.len() > PIECE {
+        let made = if self.has_independent_samples() && self.target.len() > PIECE {
             let rows = |piece: usize| piece * PIECE..((piece + 1) * PIECE).min(self.target.len());
             let pieces = self.target.len().div_ceil(PIECE);
             let parts = side_by_side(pieces, self.threads, |piece| {
@@ -116,7 +116,7 @@ impl Problem<'_> {
     }
 
     /// Whether the torque of a sample depends on no other sample.
-    fn stands_row_by_row(&self) -> bool {
+    fn has_independent_samples(&self) -> bool {
         !self.spec.has_state() && !self.spec.effects().contains(EffectId::Delay)
     }
 
@@ -145,7 +145,7 @@ impl Problem<'_> {
                 for alike in own.chunk_by(|x, y| x == y) {
                     let first = from;
                     from += alike.len();
-                    into.take(alike[0], alike.len(), |column, taken, out| {
+                    into.push(alike[0], alike.len(), |column, taken, out| {
                         let rows = first + taken..first + taken + out.len();
                         match slope.get(column) {
                             Some(&slope) => outputs[column + 1].part(&rows).times(slope, out),
@@ -180,7 +180,7 @@ impl Problem<'_> {
         if let TimeStep::Each(steps) = self.columns.dt {
             fit("dt", steps.len())?;
         }
-        let beyond = |&&group: &&u32| group != NOT_SUMMED && group as usize >= self.groups;
+        let beyond = |&&group: &&u32| group != NOT_SCORED && group as usize >= self.groups;
         if let Some(row) = self.group.iter().position(|group| beyond(&group)) {
             return Err(BatchError::Group { row, group: self.group[row], groups: self.groups });
         }

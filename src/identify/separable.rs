@@ -14,22 +14,22 @@ use super::triangle::Triangle;
 use crate::scalar::Real;
 
 /// Least damping after a rejected step.
-const LEAST_RETREAT: f64 = 5e-4;
+const MIN_REJECTED_DAMPING: f64 = 5e-4;
 /// At larger damping a step is indistinguishable from none.
-const MOST_DAMPING: f64 = 1e20;
+const MAX_DAMPING: f64 = 1e20;
 /// Smaller damping is set to 0.
 const NO_DAMPING: f64 = 1e-12;
 /// The damping of a column scales with its largest length so far, or its parameter might diverge
 /// where the torque does not depend on it (Moré 1978). A parameter between bounds cannot diverge,
 /// and a column that was very long once would fix it for good: its length decays by this factor per
 /// step.
-const FADING: f64 = 0.5;
+const LENGTH_DECAY: f64 = 0.5;
 /// A search ends after this many consecutive steps with a relative decrease below the tolerance: in
 /// a curved valley the undamped step always predicts more.
-const MOST_IDLE: usize = 3;
+const MAX_IDLE_STEPS: usize = 3;
 /// A linear step with a relative decrease above this changes the columns of the nonlinear
 /// parameters: they are computed again.
-const BENT: f64 = 1e-3;
+const RELINEARISE_ABOVE: f64 = 1e-3;
 
 /// A model and a measured torque: samples in memory, or a data set read in passes.
 pub trait LeastSquares {
@@ -81,7 +81,7 @@ pub struct Steps {
     /// damped steps bring a smaller one.
     pub tolerance: f64,
     /// Largest number of steps, rejected ones included.
-    pub most: usize,
+    pub max_steps: usize,
     /// Initial damping relative to the squared lengths of the columns: 0 from a point near the
     /// minimum.
     pub damping: f64,
@@ -110,7 +110,7 @@ pub struct Search {
     /// Why it ended.
     pub outcome: Outcome,
     /// Nonlinear parameters that do not influence the torque there: steps do not change them.
-    pub blind: Vec<usize>,
+    pub insensitive: Vec<usize>,
     /// Number of linearisations.
     pub evaluations: usize,
 }
@@ -168,17 +168,17 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
         let mut growth = 2.0;
         let mut idle = 0;
         let mut outcome = Outcome::Stopped;
-        for _ in 0..steps.most {
+        for _ in 0..steps.max_steps {
             let square = point.triangle.square();
             let full = self.step(&point, None);
             let least = (steps.tolerance * square).max(noise * noise);
-            if idle == MOST_IDLE || point.triangle.fall(&full) <= least {
+            if idle == MAX_IDLE_STEPS || point.triangle.fall(&full) <= least {
                 outcome = Outcome::Converged;
                 break;
             }
             let lengths = self.lengths(&point.triangle);
             for (scale, (&k, length)) in scale.iter_mut().zip(self.order.iter().zip(lengths)) {
-                let kept = if self.bounds.enclose(k) { FADING * *scale } else { *scale };
+                let kept = if self.bounds.enclose(k) { LENGTH_DECAY * *scale } else { *scale };
                 *scale = f64::max(kept, length);
             }
             let step = match damping {
@@ -200,9 +200,9 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
                     growth = 2.0;
                 }
                 _ => {
-                    damping = damping.max(LEAST_RETREAT) * growth;
+                    damping = damping.max(MIN_REJECTED_DAMPING) * growth;
                     growth *= 2.0;
-                    if damping > MOST_DAMPING {
+                    if damping > MAX_DAMPING {
                         outcome = Outcome::ToRounding;
                         break;
                     }
@@ -214,12 +214,12 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
 
     fn ended(&self, values: Vec<f64>, there: Option<&Triangle>, outcome: Outcome) -> Search {
         let square = there.map_or(f64::INFINITY, Triangle::square);
-        let blind = there.map_or(vec![], |triangle| self.blind(triangle));
-        Search { values, square, outcome, blind, evaluations: self.evaluations }
+        let insensitive = there.map_or(vec![], |triangle| self.insensitive(triangle));
+        Search { values, square, outcome, insensitive, evaluations: self.evaluations }
     }
 
     /// The nonlinear parameters whose columns are zero.
-    fn blind(&self, triangle: &Triangle) -> Vec<usize> {
+    fn insensitive(&self, triangle: &Triangle) -> Vec<usize> {
         let count = self.order.len();
         let nothing = |&k: &usize| (0..count).all(|row| triangle.row(row)[k] == 0.0);
         (self.linear..count).filter(nothing).map(|k| self.order[k]).collect()
@@ -238,7 +238,7 @@ impl<'a, P: LeastSquares> Separable<'a, P> {
             let square = point.triangle.square();
             let solved = self.with_linear_solved(point);
             let left = solved.triangle.square();
-            if left > most || square - left <= BENT * square {
+            if left > most || square - left <= RELINEARISE_ABOVE * square {
                 return Ok(Some(solved));
             }
             found = self.linearised(solved.values)?;

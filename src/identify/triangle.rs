@@ -14,7 +14,7 @@ const BLOCK: usize = 128;
 /// Number of partial sums of a dot product.
 const LANES: usize = 16;
 /// Magnitudes whose squares, and sums of very many of them, neither overflow nor underflow.
-const COMFORTABLE: Range<f64> = 1e-100..1e100;
+const SAFE_RANGE: Range<f64> = 1e-100..1e100;
 
 /// The triangular factor of a least-squares problem.
 ///
@@ -109,11 +109,11 @@ pub fn factored<E: From<BatchError>>(
 ) -> Result<Vec<Triangle>, E> {
     let mut factoring = Factoring::new(vec![1.0; width], groups)?;
     pass(&mut factoring)?;
-    factoring.absorb();
+    factoring.reduce();
     if let Some(scale) = factoring.better_scale() {
         factoring = Factoring::new(scale, groups)?;
         pass(&mut factoring)?;
-        factoring.absorb();
+        factoring.reduce();
     }
     Ok(factoring.triangles())
 }
@@ -144,7 +144,7 @@ pub fn triangles(
     factored(p + 1, groups, |into| {
         let mut first = 0;
         for alike in group.chunk_by(|x, y| x == y) {
-            into.take(alike[0], alike.len(), |column, taken, out| {
+            into.push(alike[0], alike.len(), |column, taken, out| {
                 let from = first + taken;
                 if column == p {
                     out.copy_from_slice(&residual[from..from + out.len()]);
@@ -171,7 +171,7 @@ pub fn joined(
     factored(width, groups, |into| {
         for part in parts {
             for (group, triangle) in (0..).zip(part) {
-                into.take(group, width, |column, taken, out| {
+                into.push(group, width, |column, taken, out| {
                     for (row, x) in (taken..).zip(out) {
                         *x = triangle.row(row)[column];
                     }
@@ -214,7 +214,7 @@ impl Factoring {
 
     /// Takes `count` samples of a group; `fill` writes a column's numbers from an index on.
     #[inline(always)]
-    pub fn take(
+    pub fn push(
         &mut self,
         group: u32,
         count: usize,
@@ -235,23 +235,23 @@ impl Factoring {
             taken += more;
             own.rows += more;
             if own.rows == BLOCK {
-                own.absorb(&mut self.largest);
+                own.reduce(&mut self.largest);
             }
         }
     }
 
     /// Reduces all remaining samples.
-    fn absorb(&mut self) {
+    fn reduce(&mut self) {
         for group in &mut self.groups {
-            group.absorb(&mut self.largest);
+            group.reduce(&mut self.largest);
         }
     }
 
-    /// Factors that bring the columns into the comfortable range, if they are not.
+    /// Factors that bring the columns into the safe range, if they are not.
     fn better_scale(&self) -> Option<Vec<f64>> {
-        let strange = |x: &f64| *x > 0.0 && x.is_finite() && !COMFORTABLE.contains(x);
-        self.largest.iter().any(strange).then(|| {
-            let scale = |x: &f64| if strange(x) { (1.0 / x).min(f64::MAX) } else { 1.0 };
+        let is_unsafe = |x: &f64| *x > 0.0 && x.is_finite() && !SAFE_RANGE.contains(x);
+        self.largest.iter().any(is_unsafe).then(|| {
+            let scale = |x: &f64| if is_unsafe(x) { (1.0 / x).min(f64::MAX) } else { 1.0 };
             self.largest.iter().map(scale).collect()
         })
     }
@@ -272,23 +272,23 @@ impl Factoring {
 
 impl Group {
     /// Reduces the samples into the triangle and empties the block.
-    fn absorb(&mut self, largest: &mut [f64]) {
+    fn reduce(&mut self, largest: &mut [f64]) {
         if self.rows > 0 {
             let Self { columns, factor, .. } = self;
-            Arch::new().dispatch(Absorbing { columns, triangle: factor, largest });
+            Arch::new().dispatch(Reduction { columns, triangle: factor, largest });
             self.columns.iter_mut().for_each(|column| column.fill(0.0));
             self.rows = 0;
         }
     }
 }
 
-struct Absorbing<'a> {
+struct Reduction<'a> {
     columns: &'a mut [[f64; BLOCK]],
     triangle: &'a mut [f64],
     largest: &'a mut [f64],
 }
 
-impl WithSimd for Absorbing<'_> {
+impl WithSimd for Reduction<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -300,13 +300,13 @@ impl WithSimd for Absorbing<'_> {
     }
 }
 
-impl Absorbing<'_> {
+impl Reduction<'_> {
     /// Householder reflections (Golub and Van Loan, section 5.1), column after column.
     #[inline(always)]
     fn all(self) {
         let width = self.columns.len();
         for (largest, column) in self.largest.iter_mut().zip(self.columns.iter()) {
-            *largest = largest.max(height(column));
+            *largest = largest.max(largest_magnitude(column));
         }
         for k in 0..width {
             let (done, right) = self.columns.split_at_mut(k + 1);
@@ -348,7 +348,7 @@ fn dot(x: &[f64; BLOCK], y: &[f64; BLOCK]) -> f64 {
 
 /// The largest magnitude.
 #[inline(always)]
-fn height(x: &[f64; BLOCK]) -> f64 {
+fn largest_magnitude(x: &[f64; BLOCK]) -> f64 {
     let mut largest = [0.0_f64; LANES];
     for x in x.as_chunks::<LANES>().0 {
         for lane in 0..LANES {

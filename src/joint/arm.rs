@@ -15,7 +15,7 @@ use crate::scalar::Scalar;
 
 /// Both joints may stop and break away in a step; after this many pieces the rest of the step is
 /// computed like the last piece.
-const MOST_PIECES: usize = 5;
+const MAX_PIECES: usize = 5;
 /// A speed (rad/s) that stands for the onset of motion in the friction law.
 const EDGE: f64 = 1e-30;
 /// At the end of a piece that ends in rest, a joint below this speed, relative to the start of the
@@ -137,12 +137,12 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
             elapsed,
         };
         let mut taken = [Taken::nothing(); 2];
-        for piece in 1..=MOST_PIECES {
+        for piece in 1..=MAX_PIECES {
             let left = dt - course.elapsed;
             if left <= P::zero() {
                 break;
             }
-            let (mean, h, stopped) = course.piece(left, piece < MOST_PIECES);
+            let (mean, h, stopped) = course.piece(left, piece < MAX_PIECES);
             course.go(&mut taken, mean, h, dt);
             for (joint, stopped) in stopped.into_iter().enumerate() {
                 if stopped {

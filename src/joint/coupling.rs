@@ -13,7 +13,7 @@ use crate::sample::Sample;
 use crate::scalar::Scalar;
 
 /// Pieces of a step: stop, break away, stop again; the rest of the step is spent at rest.
-const MOST_PIECES: usize = 3;
+const MAX_PIECES: usize = 3;
 /// A speed (X/s) that stands for the onset of motion in the friction law.
 const EDGE: f64 = 1e-30;
 
@@ -129,7 +129,7 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
         if self.body.velocity().abs() <= P::from_f64(EDGE) {
             self.body.rest();
         }
-        for _ in 0..MOST_PIECES {
+        for _ in 0..MAX_PIECES {
             match self.piece(left) {
                 Piece::Slides(means) => return self.go(&means, left),
                 Piece::Held => break,

@@ -5,9 +5,9 @@
 use crate::scalar::Scalar;
 
 /// Evaluations to bracket the root; the distance doubles where secants do not help.
-const MOST_WIDENED: usize = 80;
+const MAX_WIDENED: usize = 80;
 /// Evaluations to narrow the bracket: bisection alone would need about this many.
-const MOST_NARROWED: usize = 120;
+const MAX_NARROWED: usize = 120;
 /// Rounding errors of one evaluation, in units in the last place of its largest term.
 const SLACK: f64 = 4.0;
 
@@ -50,7 +50,7 @@ impl<P: Scalar + PartialOrd> Equation<P> {
             return Some(near);
         }
         let mut way = -f_near / self.slope;
-        for _ in 0..MOST_WIDENED {
+        for _ in 0..MAX_WIDENED {
             let far = near + way;
             let beyond = far <= least;
             let far = if beyond { least } else { far };
@@ -93,7 +93,7 @@ fn narrow<P: Scalar + PartialOrd>(
     // A secant of infinite values is no use: bisect.
     let mut share = if secant > P::zero() && secant < one { secant } else { half };
     let mut nearest = nearer(best, other);
-    for _ in 0..MOST_NARROWED {
+    for _ in 0..MAX_NARROWED {
         // Stay away from both ends by the rounding error: a flat part next to a jump looks like a
         // root.
         let span = other.0 - best.0;

@@ -150,7 +150,7 @@ impl<S: Real> Terms<S> {
         let along = |[at_zero, slope]: [S; 2]| at_zero + slope.scale(temperature);
         let by_load = stribeck_curve(v, self.load_stribeck_velocity, exponent);
         let share = self.load_coulomb + self.load_stribeck * by_load.value;
-        let thinned = self.thinning_temperature.divide(-temperature).exp();
+        let thinned = self.thinning_temperature.reciprocal_times(-temperature).exp();
         let [hot, cold] = self.viscous;
         Split {
             coulomb: self.coulomb,

@@ -6,7 +6,7 @@ use crate::scalar::Real;
 /// `|v|^p sgn v`, 0 at rest even where `p <= 0`.
 #[inline]
 pub fn signed_power<S: Real>(velocity: S::Plain, exponent: S) -> S {
-    let power = exponent.exponent_of(velocity.abs());
+    let power = exponent.exp_with_base(velocity.abs());
     // An infinite power is replaced by a large one, so that a coefficient of 0 still gives 0.
     let power = S::choose(power.is_finite(), power, S::from_f64(1e30)).scale(velocity.sign());
     S::choose(velocity.at_zero(), S::zero(), power)
@@ -36,7 +36,8 @@ pub fn saturation<S: Real>(x: S) -> S {
 /// The Stribeck curve `exp(-(v/vs)^2)`: 1 at rest, whatever the Stribeck velocity.
 #[inline]
 pub fn gaussian_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S) -> StribeckCurve<S> {
-    let ratio = S::choose(velocity.at_zero(), S::zero(), stribeck_velocity.divide(velocity));
+    let ratio =
+        S::choose(velocity.at_zero(), S::zero(), stribeck_velocity.reciprocal_times(velocity));
     // `abs` makes the square of an interval non-negative.
     let ratio = ratio.abs();
     StribeckCurve::of(ratio * ratio, S::from_f64(2.0))

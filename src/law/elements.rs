@@ -1,6 +1,6 @@
 //! Parameters of laws with several elements in parallel.
 
-use crate::dynamics::MOST_ELEMENTS;
+use crate::dynamics::MAX_ELEMENTS;
 use crate::scalar::Real;
 use crate::table::{ParameterInfo, Presence, Role, Scale};
 
@@ -8,9 +8,9 @@ use crate::table::{ParameterInfo, Presence, Role, Scale};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElementParameters<S> {
     /// Force of each element in sliding (T).
-    pub friction: [S; MOST_ELEMENTS],
+    pub friction: [S; MAX_ELEMENTS],
     /// Stiffness of each element (T/X).
-    pub stiffness: [S; MOST_ELEMENTS],
+    pub stiffness: [S; MAX_ELEMENTS],
 }
 
 impl<S: Real> ElementParameters<S> {
@@ -18,7 +18,7 @@ impl<S: Real> ElementParameters<S> {
     #[inline]
     pub fn read(next: &mut impl FnMut(Presence) -> S) -> Self {
         let mut read =
-            Self { friction: [S::zero(); MOST_ELEMENTS], stiffness: [S::zero(); MOST_ELEMENTS] };
+            Self { friction: [S::zero(); MAX_ELEMENTS], stiffness: [S::zero(); MAX_ELEMENTS] };
         for (row, own) in
             TABLE.chunks_exact(2).zip(read.friction.iter_mut().zip(&mut read.stiffness))
         {
@@ -31,7 +31,7 @@ impl<S: Real> ElementParameters<S> {
     /// Dry friction in full sliding (T), never 0: each element has a positive share.
     #[inline]
     pub fn coulomb(&self, count: usize) -> S {
-        self.friction[..count.min(MOST_ELEMENTS)].iter().fold(S::zero(), |sum, &part| sum + part)
+        self.friction[..count.min(MAX_ELEMENTS)].iter().fold(S::zero(), |sum, &part| sum + part)
     }
 }
 

@@ -38,7 +38,7 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;
-        let ratio = self.stribeck_velocity.divide(v);
+        let ratio = self.stribeck_velocity.reciprocal_times(v);
         let (forward, backward) = (self.viscous_friction_forward, self.viscous_friction_backward);
         let viscous = S::choose(v.is_positive(), forward, backward);
         Split {

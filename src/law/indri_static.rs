@@ -62,9 +62,10 @@ impl<S: Real> FrictionLaw<S> for IndriStatic<S> {
         let v = sample.velocity;
         let set = self.set(v.is_positive());
         Split {
-            coulomb: set.coulomb + set.rise * saturation(set.rise_velocity.divide(v.abs())),
+            coulomb: set.coulomb
+                + set.rise * saturation(set.rise_velocity.reciprocal_times(v.abs())),
             height: set.height,
-            shape: StribeckCurve::of(set.stribeck_velocity.divide(v.abs()), S::one()),
+            shape: StribeckCurve::of(set.stribeck_velocity.reciprocal_times(v.abs()), S::one()),
             rate: set.viscous.scale(v) + set.quadratic.scale(v * v),
             ..Split::zero()
         }

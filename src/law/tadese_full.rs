@@ -92,7 +92,7 @@ impl<S: Real> TadeseFull<S> {
     /// `s1 exp(-|v/vd|)`.
     #[inline]
     fn damping(&self, velocity: S::Plain) -> S {
-        self.bristle_damping * (-self.damping_velocity.divide(velocity).abs()).exp()
+        self.bristle_damping * (-self.damping_velocity.reciprocal_times(velocity).abs()).exp()
     }
 
     /// `s2(T) (1 - exp(-|v/s3(T)|))` along the direction of motion.
@@ -106,7 +106,7 @@ impl<S: Real> TadeseFull<S> {
         let speed_slope = of(self.viscous_speed_slope_forward, self.viscous_speed_slope_backward);
         let level = level + level_slope.scale(temperature);
         let speed = speed + speed_slope.scale(temperature);
-        (level * saturation(speed.divide(velocity).abs())).scale(velocity.sign())
+        (level * saturation(speed.reciprocal_times(velocity).abs())).scale(velocity.sign())
     }
 
     /// `g1 (1 - exp(-|g2 v|)) + g3 + (l1 + l2 v) tl` of the quadrant.

@@ -17,7 +17,7 @@ pub trait Bits:
     + Neg<Output = Self>
 {
     /// An integer in the lowest bits; the higher bits are arbitrary.
-    type Whole: Copy;
+    type Integer: Copy;
 
     const SMALLEST_NORMAL: Self;
     const INFINITY: Self;
@@ -37,19 +37,19 @@ pub trait Bits:
     fn copysign(self, sign: Self) -> Self;
     /// `x` with the lower half of its significand cleared: the product of two such numbers is
     /// exact.
-    fn short(self) -> Self;
+    fn high_half(self) -> Self;
     /// The nearest integer, as a float and in the lowest bits, for `|x| < 2^51` (`2^22`).
-    fn nearest(self) -> (Self, Self::Whole);
+    fn nearest(self) -> (Self, Self::Integer);
     /// `2^(n-1)`, for a result in the normal range.
-    fn half_power_of_two(n: Self::Whole) -> Self;
+    fn half_power_of_two(n: Self::Integer) -> Self;
     /// `2^n x`, where `x` and the result are normal.
-    fn times_power_of_two_in_range(self, n: Self::Whole) -> Self;
+    fn times_power_of_two_in_range(self, n: Self::Integer) -> Self;
     /// `2^n x`, rounded once; `n` may lie somewhat outside the exponent range of the format.
-    fn times_power_of_two(self, n: Self::Whole) -> Self;
+    fn times_power_of_two(self, n: Self::Integer) -> Self;
     /// Whether the lowest bit is set.
-    fn is_odd(n: Self::Whole) -> bool;
+    fn is_odd(n: Self::Integer) -> bool;
     /// `-x` where the second-lowest bit of `n + add` is set.
-    fn negated_by_second_bit(self, n: Self::Whole, add: u8) -> Self;
+    fn negated_by_second_bit(self, n: Self::Integer, add: u8) -> Self;
     /// `k` and `m` of `x = 2^k m` with `sqrt(1/2) <= m < sqrt(2)`, for finite `x > 0`; arbitrary
     /// finite numbers for any other `x`.
     fn exponent_and_significand(self) -> (Self, Self);
@@ -58,28 +58,28 @@ pub trait Bits:
     /// Whether the number is normal and positive.
     fn is_normal_and_positive(self) -> bool;
     /// `m` and `e` of `|x| = m 2^e` with an integer `m`, for a normal number.
-    fn whole_and_exponent(self) -> (u64, i32);
+    fn integer_and_exponent(self) -> (u64, i32);
     /// `fraction / 2^digits` as an unevaluated sum of a large and a small number.
     fn pair_of_fraction(fraction: i128, digits: u32) -> (Self, Self);
     /// A small integer.
-    fn whole(n: u8) -> Self::Whole;
+    fn integer(n: u8) -> Self::Integer;
     /// Whether the number is an integer, and whether it is odd; not for NaN.
-    fn whole_and_odd(self) -> (bool, bool);
+    fn is_integer_and_odd(self) -> (bool, bool);
 }
 
 macro_rules! bits {
-    ($float:ident, $whole:ident) => {
+    ($float:ident, $integer:ident) => {
         const _: () = {
             /// Stored bits of the significand.
             const STORED: u32 = <$float>::MANTISSA_DIGITS - 1;
             /// The exponent field of 1.
-            const BIAS: $whole = (<$float>::MAX_EXP - 1) as $whole;
-            const ONE: $whole = BIAS << STORED;
+            const BIAS: $integer = (<$float>::MAX_EXP - 1) as $integer;
+            const ONE: $integer = BIAS << STORED;
             /// From here on every float is an integer.
-            const WHOLE: $float = ((1 as $whole) << STORED) as $float;
+            const INTEGERS: $float = ((1 as $integer) << STORED) as $float;
 
             impl Bits for $float {
-                type Whole = $whole;
+                type Integer = $integer;
 
                 const SMALLEST_NORMAL: Self = <$float>::MIN_POSITIVE;
                 const INFINITY: Self = <$float>::INFINITY;
@@ -119,30 +119,30 @@ macro_rules! bits {
                 }
 
                 #[inline(always)]
-                fn short(self) -> Self {
-                    const LOWER_HALF: $whole = (1 << <$float>::MANTISSA_DIGITS.div_ceil(2)) - 1;
+                fn high_half(self) -> Self {
+                    const LOWER_HALF: $integer = (1 << <$float>::MANTISSA_DIGITS.div_ceil(2)) - 1;
                     Self::from_bits(self.to_bits() & !LOWER_HALF)
                 }
 
                 #[inline(always)]
-                fn nearest(self) -> (Self, $whole) {
-                    const ROUNDER: $float = 1.5 * WHOLE;
+                fn nearest(self) -> (Self, $integer) {
+                    const ROUNDER: $float = 1.5 * INTEGERS;
                     let rounded = self + ROUNDER;
                     (rounded - ROUNDER, rounded.to_bits())
                 }
 
                 #[inline(always)]
-                fn half_power_of_two(n: $whole) -> Self {
+                fn half_power_of_two(n: $integer) -> Self {
                     Self::from_bits(n.wrapping_add(BIAS - 1) << STORED)
                 }
 
                 #[inline(always)]
-                fn times_power_of_two_in_range(self, n: $whole) -> Self {
+                fn times_power_of_two_in_range(self, n: $integer) -> Self {
                     Self::from_bits(self.to_bits().wrapping_add(n << STORED))
                 }
 
                 #[inline(always)]
-                fn times_power_of_two(self, n: $whole) -> Self {
+                fn times_power_of_two(self, n: $integer) -> Self {
                     // Two factors reach beyond the normal range. Adding twice the bias makes the
                     // sum positive, so that a logical shift halves it.
                     let both = n.wrapping_add(2 * BIAS);
@@ -152,19 +152,19 @@ macro_rules! bits {
                 }
 
                 #[inline(always)]
-                fn is_odd(n: $whole) -> bool {
+                fn is_odd(n: $integer) -> bool {
                     n & 1 != 0
                 }
 
                 #[inline(always)]
-                fn negated_by_second_bit(self, n: $whole, add: u8) -> Self {
-                    let bit = n.wrapping_add($whole::from(add)) & 2;
-                    Self::from_bits(self.to_bits() ^ (bit << ($whole::BITS - 2)))
+                fn negated_by_second_bit(self, n: $integer, add: u8) -> Self {
+                    let bit = n.wrapping_add($integer::from(add)) & 2;
+                    Self::from_bits(self.to_bits() ^ (bit << ($integer::BITS - 2)))
                 }
 
                 #[inline(always)]
                 fn exponent_and_significand(self) -> (Self, Self) {
-                    const LIFT: $float = WHOLE * WHOLE;
+                    const LIFT: $float = INTEGERS * INTEGERS;
                     let (x, lifted) = if self < Self::MIN_POSITIVE {
                         (self * LIFT, (2 * STORED) as $float)
                     } else {
@@ -176,13 +176,13 @@ macro_rules! bits {
 
                 #[inline(always)]
                 fn exponent_and_significand_of_normal(self) -> (Self, Self) {
-                    const ROOT_HALF: $whole =
+                    const ROOT_HALF: $integer =
                         (core::f64::consts::FRAC_1_SQRT_2 as $float).to_bits();
                     // Offset so that the exponent changes at sqrt(1/2) and not at 1.
                     let moved = self.to_bits().wrapping_add(ONE - ROOT_HALF);
-                    let exponent = Self::from_bits((moved >> STORED) | WHOLE.to_bits());
+                    let exponent = Self::from_bits((moved >> STORED) | INTEGERS.to_bits());
                     let significand = (moved & ((1 << STORED) - 1)) + ROOT_HALF;
-                    (exponent - (WHOLE + BIAS as $float), Self::from_bits(significand))
+                    (exponent - (INTEGERS + BIAS as $float), Self::from_bits(significand))
                 }
 
                 #[inline(always)]
@@ -190,33 +190,33 @@ macro_rules! bits {
                     (Self::MIN_POSITIVE..Self::INFINITY).contains(&self)
                 }
 
-                fn whole_and_exponent(self) -> (u64, i32) {
+                fn integer_and_exponent(self) -> (u64, i32) {
                     let field = self.abs().to_bits() >> STORED;
                     let digits = (self.to_bits() & ((1 << STORED) - 1)) | (1 << STORED);
-                    (digits.into(), field as i32 - (BIAS + STORED as $whole) as i32)
+                    (digits.into(), field as i32 - (BIAS + STORED as $integer) as i32)
                 }
 
                 fn pair_of_fraction(fraction: i128, digits: u32) -> (Self, Self) {
-                    let unit = Self::from_bits((BIAS - digits as $whole) << STORED);
+                    let unit = Self::from_bits((BIAS - digits as $integer) << STORED);
                     let high = fraction as Self;
                     (high * unit, (fraction - high as i128) as Self * unit)
                 }
 
                 #[inline(always)]
-                fn whole(n: u8) -> $whole {
+                fn integer(n: u8) -> $integer {
                     n.into()
                 }
 
                 #[inline(always)]
-                fn whole_and_odd(self) -> (bool, bool) {
+                fn is_integer_and_odd(self) -> (bool, bool) {
                     let size = self.abs();
-                    let shifted = size + WHOLE;
-                    let (whole, units) = if size < WHOLE {
-                        (shifted - WHOLE == size, shifted.to_bits())
+                    let shifted = size + INTEGERS;
+                    let (whole, units) = if size < INTEGERS {
+                        (shifted - INTEGERS == size, shifted.to_bits())
                     } else {
                         (true, size.to_bits())
                     };
-                    (whole, whole && size < 2.0 * WHOLE && units & 1 != 0)
+                    (whole, whole && size < 2.0 * INTEGERS && units & 1 != 0)
                 }
             }
         };

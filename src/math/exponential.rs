@@ -15,7 +15,7 @@ pub fn exp<F: Format>(x: F) -> F {
 
 /// `m` and `n` of `e^x = 2^n m` with `m` near 1, for `x` in `EXP_RANGE`.
 #[inline(always)]
-pub fn exp_parts<F: Format>(x: F) -> (F, F::Whole) {
+pub fn exp_parts<F: Format>(x: F) -> (F, F::Integer) {
     let (n, bits) = (x * F::LOG2_E).nearest();
     let (large, small) = (x - n * F::LN_2[0], n * F::LN_2[1]);
     let r = large - small;

@@ -36,8 +36,8 @@ pub fn log2_pair<F: Format>((k, m): (F, F)) -> (F, F) {
     let denominator = m + one;
     let reciprocal = one / denominator;
     let s = numerator * reciprocal;
-    let s_high = s.short();
-    let denominator_high = denominator.short();
+    let s_high = s.high_half();
+    let denominator_high = denominator.high_half();
     let denominator_low = m - (denominator_high - one);
     let residual = (numerator - s_high * denominator_high) - s_high * denominator_low;
     let s_low = residual * reciprocal;
@@ -46,16 +46,16 @@ pub fn log2_pair<F: Format>((k, m): (F, F)) -> (F, F) {
     let square = z * z;
     let tail = square * F::log_tail(z) + s_low * (s_high + s);
     let rough_tail = square * (F::of(3.0 / 5.0) + F::of(3.0 / 7.0) * z);
-    let series_high = (three + (z + rough_tail)).short();
+    let series_high = (three + (z + rough_tail)).high_half();
     let series_low = ((three - series_high) + s_high * s_high) + tail;
 
     let product = s_high * series_high;
-    let product_high = product.short();
+    let product_high = product.high_half();
     let product_low = (product - product_high) + (s_low * series_high + s * series_low);
 
     let [scale_high, scale_low] = F::LOG2_SCALE;
     let log_high = scale_high * product_high;
     let log_low = scale_low * product_high + (scale_high + scale_low) * product_low;
-    let high = (k + log_high).short();
+    let high = (k + log_high).high_half();
     (high, ((k - high) + log_high) + log_low)
 }

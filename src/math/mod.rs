@@ -8,7 +8,7 @@
 //! Only [`sin_cos`](f64::sin_cos), [`sin`](f64::sin), [`cos`](f64::cos) and [`phi`](f64::phi) of
 //! order 3 and above branch: the compiler vectorises a loop over a slice with any other. For sines
 //! in such a loop use [`sin_cos_fast`](f64::sin_cos_fast), and recompute with `sin_cos` where
-//! [`needs_care`](f64::needs_care) is true: the bits are the same.
+//! [`needs_exact_reduction`](f64::needs_exact_reduction) is true: the bits are the same.
 //!
 //! | file | content |
 //! |---|---|
@@ -82,7 +82,7 @@ macro_rules! elementary {
             elementary!(@ "Cosine.", cos(x: $float) -> $float, sin_cos(x).1);
             elementary!(@ "Sine and cosine.", sin_cos(x: $float) -> ($float, $float),
                 trigonometric::sin_cos(x));
-            elementary!(@ "Sine and cosine without a branch, where [`needs_care`] is false.",
+            elementary!(@ "Sine and cosine without a branch, where [`needs_exact_reduction`] is false.",
                 sin_cos_fast(x: $float) -> ($float, $float), trigonometric::sin_cos_fast(x));
             /// The same functions with branches, for one number at a time: fewer operations, equal
             /// bits.
@@ -100,7 +100,7 @@ macro_rules! elementary {
             }
 
             elementary!(@ "Whether `x` is too large for [`sin_cos_fast`].",
-                needs_care(x: $float) -> bool, trigonometric::needs_care(x));
+                needs_exact_reduction(x: $float) -> bool, trigonometric::needs_exact_reduction(x));
         }
     };
     (@ $doc:literal, $name:ident($($x:ident: $from:ty),+) -> $to:ty, $value:expr) => {

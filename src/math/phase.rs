@@ -33,17 +33,17 @@ const TWO_OVER_PI: [u64; 20] = [
 const FRACTION: u32 = 126;
 
 /// `n` modulo 4 and `r` in two parts of `|x| = n pi/2 + r`, for finite `|x| >= 1`.
-pub fn reduce<F: Format>(x: F) -> (F::Whole, F, F) {
-    let (whole, fraction) = quarter_turns(x.whole_and_exponent());
+pub fn reduce<F: Format>(x: F) -> (F::Integer, F, F) {
+    let (whole, fraction) = quarter_turns(x.integer_and_exponent());
     let (high, low) = F::pair_of_fraction(fraction, FRACTION);
     let [right_angle, right_angle_low] = F::PI_HALF_PAIR;
 
     let r = high * right_angle;
-    let (high_short, angle_short) = (high.short(), right_angle.short());
+    let (high_short, angle_short) = (high.high_half(), right_angle.high_half());
     let (high_rest, angle_rest) = (high - high_short, right_angle - angle_short);
     let lost = ((high_short * angle_short - r) + high_short * angle_rest + high_rest * angle_short)
         + high_rest * angle_rest;
-    (F::whole(whole), r, lost + (high * right_angle_low + low * right_angle))
+    (F::integer(whole), r, lost + (high * right_angle_low + low * right_angle))
 }
 
 /// Quarter turns of `m 2^e`: the nearest integer modulo 4, and the remainder in multiples of

@@ -18,9 +18,9 @@ pub fn powf<F: Format>(x: F, p: F) -> F {
 
     let limit = if (size == zero) == (p < zero) { F::INFINITY } else { zero };
     let value = if (size == zero) | (size == F::INFINITY) { limit } else { value };
-    let (whole, odd) = p.whole_and_odd();
+    let (is_integer, odd) = p.is_integer_and_odd();
     let value = if odd { value.copysign(x) } else { value };
-    let value = if (x < zero) & !whole & (size < F::INFINITY) { F::NAN } else { value };
+    let value = if (x < zero) & !is_integer & (size < F::INFINITY) { F::NAN } else { value };
     let value = if x.is_nan() { x } else { value };
     let value = if x == one { one } else { value };
     without_logarithm(value, x, p)
@@ -66,7 +66,7 @@ pub fn is_plain_exponent<F: Format>(p: F) -> bool {
 /// `p l` for `l = high + low`: the exact product of the high parts, and the rest.
 #[inline(always)]
 pub fn product<F: Format>(p: F, (high, low): (F, F)) -> (F, F) {
-    let p_high = p.short();
+    let p_high = p.high_half();
     (p_high * high, (p - p_high) * high + p * low)
 }
 

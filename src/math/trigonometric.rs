@@ -8,16 +8,16 @@ use super::phase;
 /// Sine and cosine.
 #[inline(always)]
 pub fn sin_cos<F: Format>(x: F) -> (F, F) {
-    if needs_care(x) { sin_cos_with_care(x) } else { sin_cos_fast(x) }
+    if needs_exact_reduction(x) { sin_cos_exactly_reduced(x) } else { sin_cos_fast(x) }
 }
 
 /// Whether `|x|` is too large for [`sin_cos_fast`].
 #[inline(always)]
-pub fn needs_care<F: Format>(x: F) -> bool {
+pub fn needs_exact_reduction<F: Format>(x: F) -> bool {
     x.abs() > F::LARGEST_PHASE
 }
 
-/// Sine and cosine without branches, where [`needs_care`] is false.
+/// Sine and cosine without branches, where [`needs_exact_reduction`] is false.
 #[inline(always)]
 pub fn sin_cos_fast<F: Format>(x: F) -> (F, F) {
     let (n, bits) = (x * F::FRAC_2_PI).nearest();
@@ -26,7 +26,7 @@ pub fn sin_cos_fast<F: Format>(x: F) -> (F, F) {
     let (sum, lost) = difference(x - n * first, n * second);
     let (r, lost_again) = difference(sum, n * third);
     let low = (lost + lost_again) - n * fourth;
-    let (sin, cos) = of_quadrant(bits, r, low);
+    let (sin, cos) = in_quadrant(bits, r, low);
     // keeps the sign of -0
     (if x == F::of(0.0) { x } else { sin }, cos)
 }
@@ -44,18 +44,18 @@ pub fn sin_cos_unreduced<F: Format>(x: F) -> (F, F) {
 
 /// Sine and cosine of a large argument.
 #[cold]
-fn sin_cos_with_care<F: Format>(x: F) -> (F, F) {
+fn sin_cos_exactly_reduced<F: Format>(x: F) -> (F, F) {
     if x.abs() == F::INFINITY {
         return (F::NAN, F::NAN);
     }
     let (n, r, low) = phase::reduce(x);
-    let (sin, cos) = of_quadrant(n, r, low);
+    let (sin, cos) = in_quadrant(n, r, low);
     (if x < F::of(0.0) { -sin } else { sin }, cos)
 }
 
 /// Sine and cosine of `n pi/2 + r + low`.
 #[inline(always)]
-fn of_quadrant<F: Format>(n: F::Whole, r: F, low: F) -> (F, F) {
+fn in_quadrant<F: Format>(n: F::Integer, r: F, low: F) -> (F, F) {
     let (sin, cos) = (sine(r, low), cosine(r, low));
     let swapped = F::is_odd(n);
     (

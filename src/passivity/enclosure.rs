@@ -281,17 +281,17 @@ impl Real for Enclosure {
         *self += *other * factor;
     }
 
-    fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [Self; K]) {
+    fn add_linear_combination<const K: usize>(&mut self, others: [&Self; K], factors: [Self; K]) {
         for (other, factor) in others.into_iter().zip(factors) {
             *self += *other * factor;
         }
     }
 
-    fn divide(self, numerator: Self) -> Self {
+    fn reciprocal_times(self, numerator: Self) -> Self {
         numerator / self
     }
 
-    fn exponent_of(self, base: Self) -> Self {
+    fn exp_with_base(self, base: Self) -> Self {
         base.powf(self)
     }
 

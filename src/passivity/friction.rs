@@ -51,7 +51,7 @@ impl<S: Scalar> Bristled<S> {
     /// The leg of a cycle on which the deflection grows along the motion, or on which it falls
     /// back, at a bristle force `g` along the motion (T).
     pub fn leg(&self, force: S::Plain, grows: bool) -> Leg<S> {
-        let slope = self.approach.slope(self.dry.divide(force));
+        let slope = self.approach.slope(self.dry.reciprocal_times(force));
         let load = self.resistance.shift(force);
         if grows {
             Leg { load, pace: slope, drag: self.drag }

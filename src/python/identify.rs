@@ -79,7 +79,8 @@ impl Within<'_> {
             return Err(ModelError::new_err("bounds and starts have different lengths"));
         }
         let bounds = Bounds { lower: &lower, upper: &upper, linear, logarithmic };
-        let steps = Steps { tolerance: self.tolerance, most: self.most, damping: self.damping };
+        let steps =
+            Steps { tolerance: self.tolerance, max_steps: self.most, damping: self.damping };
         Ok(work(&bounds, steps))
     }
 }
@@ -162,8 +163,8 @@ fn found(py: Python<'_>, search: Search) -> Found<'_> {
         Outcome::Stopped => (false, "stopped at the largest number of steps"),
         Outcome::NotFinite => (false, "the model is not finite at the start"),
     };
-    let Search { values, square, blind, evaluations, .. } = search;
-    (values.into_pyarray(py), square, converged, outcome, evaluations, blind)
+    let Search { values, square, insensitive, evaluations, .. } = search;
+    (values.into_pyarray(py), square, converged, outcome, evaluations, insensitive)
 }
 
 /// Searches from each of `starts`, array `[k, p]`, on several threads: the results do not depend on

@@ -228,7 +228,7 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
     }
 
     #[inline(always)]
-    fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [T; K]) {
+    fn add_linear_combination<const K: usize>(&mut self, others: [&Self; K], factors: [T; K]) {
         for (other, factor) in others.into_iter().zip(factors) {
             self.value += other.value * factor;
         }
@@ -240,14 +240,14 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
     }
 
     #[inline(always)]
-    fn divide(self, numerator: T) -> Self {
+    fn reciprocal_times(self, numerator: T) -> Self {
         let value = numerator / self.value;
         let slope = -value / self.value;
         Self { value, derivative: self.map(|d| d * slope) }
     }
 
     #[inline(always)]
-    fn exponent_of(self, base: T) -> Self {
+    fn exp_with_base(self, base: T) -> Self {
         let value = base.powf(self.value);
         if self.is_constant() {
             return Self::constant(value);

@@ -58,11 +58,15 @@ pub trait Real:
     /// `x += a y`.
     fn add_scaled(&mut self, other: &Self, factor: Self::Plain);
     /// `x += sum_j a_j y_j`, in one pass.
-    fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [Self::Plain; K]);
+    fn add_linear_combination<const K: usize>(
+        &mut self,
+        others: [&Self; K],
+        factors: [Self::Plain; K],
+    );
     /// `a / x`, rounded once.
-    fn divide(self, numerator: Self::Plain) -> Self;
+    fn reciprocal_times(self, numerator: Self::Plain) -> Self;
     /// `a^x` for `a >= 0`; at `a = 0` the derivative is defined as 0.
-    fn exponent_of(self, base: Self::Plain) -> Self;
+    fn exp_with_base(self, base: Self::Plain) -> Self;
     /// `|x|`, with derivative `sign(x)`.
     fn abs(self) -> Self;
     /// -1, 0 or 1; `sign(0) = 0`, unlike `signum`. Its derivative is 0.
@@ -223,19 +227,19 @@ macro_rules! primitive {
             }
 
             #[inline]
-            fn add_sum<const K: usize>(&mut self, others: [&Self; K], factors: [Self; K]) {
+            fn add_linear_combination<const K: usize>(&mut self, others: [&Self; K], factors: [Self; K]) {
                 for (other, factor) in others.into_iter().zip(factors) {
                     *self += *other * factor;
                 }
             }
 
             #[inline]
-            fn divide(self, numerator: Self) -> Self {
+            fn reciprocal_times(self, numerator: Self) -> Self {
                 numerator / self
             }
 
             #[inline]
-            fn exponent_of(self, base: Self) -> Self {
+            fn exp_with_base(self, base: Self) -> Self {
                 crate::math::$float::branching::powf(base, self)
             }
 
