@@ -1,9 +1,10 @@
 //! A planar arm with two joints in a horizontal plane (Indri et al., eq 4), with friction in both.
 //!
-//! The second angle is relative to the first link. With the coupling `h(q2)`, `M = [[a + d + 2h, d
-//! + h], [d + h, d]]`. Over a step with mean velocities `w`, momentum changes by `M+ v+ - M v`, and
-//! the second joint is loaded by the mean of `dT/dq2`, `v+' N v dh/(2 dq2)` with `dM = N dh`: then
-//! kinetic energy changes exactly by the work of motors and friction.
+//! The second angle is relative to the first link. With the coupling `h(q2)`,
+//! `M = [[a + d + 2h, d + h], [d + h, d]]`. Over a step with mean velocities `w`, momentum changes
+//! by `M+ v+ - M v`, and the second joint is loaded by the mean of `dT/dq2`,
+//! `v+' N v dh/(2 dq2)` with `dM = N dh`: then kinetic energy changes exactly by the work of motors
+//! and friction.
 
 use super::coupling::{Taken, carry, friction_from, required};
 use super::gravity::{Gravity, GravityAbout};
