@@ -14,7 +14,7 @@ from stribeck.cli.common import echo_json, json_option, save_fit, say, seed_opti
 from stribeck.diagnosis.compare import Comparison, compare
 from stribeck.diagnosis.improve import Improvement, improve
 from stribeck.diagnosis.result import Diagnosis
-from stribeck.diagnosis.words import physically
+from stribeck.effect.describe import physically
 from stribeck.fitting.result import Fit
 from stribeck.motion.generate.demo import DEMO, demo_path, demo_recording
 from stribeck.recording.load import read

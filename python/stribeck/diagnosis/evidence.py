@@ -8,16 +8,17 @@ it stands up to autocorrelation and to noise that is not the same everywhere.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length
 from stribeck.identify.figures import bridged, rms, zero_phase
-from stribeck.identify.periodogram import most_periods
 
 Array = NDArray[np.float64]
 
@@ -70,10 +71,9 @@ def evidence(before: Fit, after: Fit) -> Evidence:
 
 
 def _guesses(before: Fit, after: Fit) -> int:
-    """How many forms the wider model was chosen from by looking at the data: a ripple's periods."""
-    if "ripple" in after.model.effects and "ripple" not in before.model.effects:
-        return max(most_periods(after.recording), 1)
-    return 1
+    """From how many forms the wider model was chosen by looking at the data, such as periods."""
+    added = [e for e in after.model.effects if e not in before.model.effects]
+    return math.prod(of_catalog(effect).forms(after.recording) for effect in added)
 
 
 def added_torque_test(added: Array, residual: Array, parameters: int) -> float:

@@ -14,7 +14,7 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.base.pool import threads
-from stribeck.diagnosis.shape import displacement_since_reversal
+from stribeck.effect.columns import displacement_since_reversal
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import correlation_length
 

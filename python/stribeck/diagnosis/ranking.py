@@ -19,7 +19,7 @@ from stribeck.diagnosis.trial import (
     tie_statistic,
     tie_weight,
 )
-from stribeck.diagnosis.words import is_friction, where
+from stribeck.effect.describe import is_friction, where
 from stribeck.fitting.result import Fit
 
 #: An effect that brings this share of the best one's fall, and nothing beside it, is its like.

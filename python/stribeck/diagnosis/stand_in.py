@@ -9,14 +9,13 @@ that only share in the same dependence.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.beside import held_out_beside
-from stribeck.diagnosis.shape import hats, powers, waves
 from stribeck.diagnosis.trial import Trial
+from stribeck.effect.base import FixedForm
+from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_row
 
@@ -29,46 +28,23 @@ SHARE = 0.25
 MOST = 0.5
 
 
-def _of_acceleration(fit: Fit) -> list[Array]:
-    a = fit.recording.acceleration
-    return [] if a is None else [np.sign(a[fit.rows]), *hats(a[fit.rows], 9)]
-
-
-def _of_position(fit: Fit) -> list[Array]:
-    q = fit.recording.position
-    return [] if q is None else waves(q[fit.rows], range(1, 8))
-
-
-def _of_torque(fit: Fit) -> list[Array]:
-    total = fit.prediction[fit.rows]
-    return powers(total, float(np.abs(total).max()))
-
-
-#: Effects of fixed form: their channel, and free functions of it on the rows fitted to.
-FIXED_FORM: dict[str, tuple[str, Callable[[Fit], list[Array]]]] = {
-    "inertia": ("acceleration", _of_acceleration),
-    "gravity": ("position", _of_position),
-    "gain": ("load_torque", _of_torque),
-}
-
-
 def without_stand_ins(before: Fit, good: list[Trial]) -> list[Trial]:
     """Trials, best first, without those that stand in for another dependence on their channel."""
     kept = list(good)
     for rank, trial in enumerate(good):
-        if trial not in kept or trial.effect not in FIXED_FORM:
+        form = _fixed_form(trial.effect)
+        if trial not in kept or form is None:
             continue
-        channel, free_functions = FIXED_FORM[trial.effect]
-        columns = free_functions(trial.fit)
+        columns = form.free_functions(trial.fit)
         if not columns or not _stands_in(before, trial, np.column_stack(columns)):
             continue
         kept.remove(trial)
-        extra = np.column_stack(free_functions(before))
+        extra = np.column_stack(form.free_functions(before))
         kept = [
             other
             for other in kept
             if other in good[:rank]
-            or channel in _channels(other.effect)
+            or form.channel in _channels(other.effect)
             or not _shares(before, other, extra)
         ]
     return kept
@@ -89,6 +65,11 @@ def _shares(before: Fit, other: Trial, extra: Array) -> bool:
 
 def _square(fit: Fit) -> float:
     return float(np.sum(fit.held_out_residual[fit.rows] ** 2))
+
+
+def _fixed_form(effect: str) -> FixedForm | None:
+    known = find(effect)
+    return None if known is None else known.fixed_form
 
 
 def _channels(effect: str) -> list[str]:

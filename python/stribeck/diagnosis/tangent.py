@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from stribeck import _core
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.widen import widening
+from stribeck.effect.registry import find
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import check_channels, scaled_parameters
 from stribeck.identify.triangle import UNSEEN, Triangle
@@ -28,13 +29,6 @@ Array = NDArray[np.float64]
 MOST_ROWS = 8000
 #: Multiples of the start at which an effect's first nonlinear parameter is looked at too.
 OTHER_STARTS = (1.0 / 3.0, 3.0)
-#: Sizes to which an effect's torque is not proportional, with multiples of the start between which
-#: they are looked at, from large effects to small ones.
-CURVED = {
-    "presliding_stiffness": (1.0, 1e4),
-    "backlash_gap": (5.0, 1e-2),
-    "frictional_lag": (10.0, 1e-2),
-}
 
 
 @dataclass(frozen=True)
@@ -178,14 +172,20 @@ class Widened:
         return self.parameters[0]
 
     @property
+    def size_range(self) -> tuple[float, float] | None:
+        """Where the torque is not proportional to the size: multiples of its start, large first."""
+        known = find(self.effect)
+        return None if known is None else known.size_range
+
+    @property
     def is_curved(self) -> bool:
         """Whether the torque is not proportional to the size."""
-        return self.size.name in CURVED
+        return self.size_range is not None
 
     @property
     def is_inverse(self) -> bool:
         """Whether the effect is the smaller the larger its size: a bristle's stiffness."""
-        return self.is_curved and CURVED[self.size.name][1] > 1.0
+        return self.size_range is not None and self.size_range[1] > 1.0
 
     def at(self, size: float) -> Array:
         """Values of the wider model [p] with this size of the effect."""
@@ -251,8 +251,9 @@ class Widened:
 
     def sizes(self, count: int) -> list[float]:
         """Sizes of an effect that `is_curved`, from large effects to small ones."""
-        row, (first, last) = self.size, CURVED[self.size.name]
-        ends = np.clip(row.start * np.array([first, last]), row.lower, row.upper)
+        assert self.size_range is not None
+        row = self.size
+        ends = np.clip(row.start * np.array(self.size_range), row.lower, row.upper)
         return [float(size) for size in np.geomspace(float(ends[0]), float(ends[1]), count)]
 
     @cached_property

@@ -16,11 +16,11 @@ from stribeck.diagnosis.power import Demand, ExpectedNoise, Noise, needed_factor
 from stribeck.diagnosis.shape import flexible_columns
 from stribeck.diagnosis.tangent import Beside, Widened, orthonormal, rest, sine
 from stribeck.diagnosis.testable import Untestable
+from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.confounded import partners, reason
 from stribeck.identify.figures import rms
-from stribeck.identify.periodogram import most_periods
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import effect_row, simpler_effect
 
@@ -30,8 +30,6 @@ Array = NDArray[np.float64]
 TOLD_APART = 3.0
 #: Sine of the angle to a model from which on it is not the model that hides an effect.
 TAKEN_UP = 0.3
-#: Effects that another one holds on any motion.
-HELD_BY = {"offset": "direction"}
 #: Share of a torque from which on it is more than what rounding leaves of it.
 INVISIBLE = 1e-8
 #: Sizes between which the smallest visible one of an effect is looked for, if it is not linear.
@@ -172,8 +170,8 @@ def visibility(
     def look(effect: str) -> Shown | None:
         try:
             widened = Widened.of(problem, effect, fit.residual)
-            guesses = most_periods(fit.recording) if effect == "ripple" else 1
-            return show(widened, beside, noise, fit.prediction[fit.rows], guesses)
+            forms = of_catalog(effect).forms(fit.recording)
+            return show(widened, beside, noise, fit.prediction[fit.rows], forms)
         except StribeckError:
             return None
 
@@ -186,7 +184,7 @@ def visibility(
         elif (
             one.effect not in found
             and one.is_looked_for(found)
-            and not fit.model.has(HELD_BY.get(one.effect, one.effect))
+            and not fit.model.has(of_catalog(one.effect).part_of or one.effect)
         ):
             hidden.append(_hidden(one, base, unit))
     smallest = sorted(
@@ -222,7 +220,7 @@ def show(
     if widened.is_curved:
         return _least_of_sizes(widened, beside, noise, base)
     torque = widened.unit_torque()
-    return Shown(widened, 1.0, torque, _factor(widened, torque, beside, noise, max(guesses, 1)))
+    return Shown(widened, 1.0, torque, _factor(widened, torque, beside, noise, guesses))
 
 
 def _factor(

@@ -16,7 +16,7 @@ from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.run import LEAST_FALL, diagnose
 from stribeck.diagnosis.screen import STARTS
 from stribeck.diagnosis.trial import SIGNIFICANCE, add_effect
-from stribeck.diagnosis.words import where
+from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.scaling import effect_constants
+from stribeck.effect.constants import effect_constants
 from stribeck.models.catalog import simpler_effect
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording

@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.effect.constants import effect_constants
 from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.scaling import effect_constants
 from stribeck.identify.search import Effort, multi_start
 from stribeck.identify.separable import minimise
 from stribeck.models.catalog import catalog

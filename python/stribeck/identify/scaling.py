@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from stribeck.base.dimensions import CHANNELS, natural_size
 from stribeck.base.errors import FitError
+from stribeck.effect.constants import effect_constants
+from stribeck.effect.registry import of_catalog
 from stribeck.identify.drive_scaling import drive_scales, known_constants
-from stribeck.identify.periodogram import ripple_period
 from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
 from stribeck.models.build import law as formula_law
 from stribeck.models.build import model
@@ -95,70 +96,6 @@ def bounds(model: Model, recording: Recording) -> tuple[Array, Array, Array]:
     upper = np.array([p.upper for p in rows], dtype=np.float64)
     start = np.array([p.start for p in rows], dtype=np.float64)
     return lower, upper, start
-
-
-def effect_constants(
-    effect: str,
-    recording: Recording,
-    load: Array | None = None,
-    residual: Array | None = None,
-) -> dict[str, float]:
-    """The constants that an effect needs, taken from the recording; of an excerpt, from all of it.
-
-    Parameters
-    ----------
-    load : array [n]
-        Load torque where the recording does not give it.
-    residual : array [n]
-        What the model without the effect leaves, in which a ripple's period is looked for.
-    """
-    if effect == "ripple":
-        stroke = effect_constants("spring", recording)
-        return {**stroke, "ripple_period": ripple_period(recording, residual)} if stroke else {}
-    if effect == "load" and load is not None:
-        return _constants(effect, recording, load)
-    recording = recording if recording.excerpt_of is None else recording.excerpt_of
-    name = f"constants of {effect}"
-    if name not in recording.remembered:
-        recording.remembered[name] = _constants(effect, recording)
-    return dict(recording.remembered[name])
-
-
-def _constants(effect: str, recording: Recording, load: Array | None = None) -> dict[str, float]:
-    moving = recording.moving
-    if effect in ("temperature_viscous", "temperature_dry"):
-        if recording.temperature is None:
-            return {}
-        return {"reference_temperature": float(np.mean(recording.temperature[moving]))}
-    if effect == "load":
-        tl = recording.load_torque if recording.load_torque is not None else load
-        size = 0.0 if tl is None else float(np.sqrt(np.mean(tl[moving] ** 2)))
-        return {"reference_load": size or 1.0}
-    if effect in ("nonlinear_viscous", "backlash"):
-        return {"reference_velocity": recording.scales()["speed"] or 1.0}
-    if effect == "drift":
-        return {"duration": float(recording.elapsed[-1]) or 1.0}
-    if effect == "saturation":
-        top = float(np.quantile(np.abs(recording.torque[moving]), 0.99))
-        return {"reference_torque": top or 1.0}
-    if effect == "spring":
-        stroke = effect_constants("position", recording)
-        stroke.pop("position_periodic", None)
-        return stroke
-    if effect == "position":
-        if recording.position is None:
-            return {}
-        q = recording.position[moving]
-        start, length = float(q.min()), float(np.ptp(q)) or 1.0
-        if recording.joint_kind == "revolute" and length > 4.0 * math.pi:
-            # More than two turns: what varies along the stroke repeats with the turn.
-            return {
-                "position_start": 0.0,
-                "position_length": 2.0 * math.pi,
-                "position_periodic": 1.0,
-            }
-        return {"position_start": start, "position_length": length, "position_periodic": 0.0}
-    return {}
 
 
 #: How far below the coldest sample a law that has no limit at its base temperature puts it (K).
@@ -251,23 +188,10 @@ def check_channels(model: Model, recording: Recording) -> None:
             f"as {_effort(recording.drive)}: "
             + ("leave --drive out" if model.drive is None else f"give --drive {model.drive}")
         )
-    for effect in ("saturation", "gain"):
-        if effect in model.effects and not recording.torque_holds_load:
-            raise FitError(
-                f"{effect} distorts the whole motor torque, so {recording.path} must hold it and a "
-                "load_torque that is known beforehand: map one with --map load_torque=COLUMN, or "
-                "leave the effect out"
-            )
-    if "frictional_lag" in model.effects and not model.has("stribeck"):
-        raise FitError(
-            f"frictional_lag delays a Stribeck curve, and {model.spec} has none: add stribeck, or "
-            "leave the effect out"
-        )
-    if "elasticity" in model.effects and recording.load_torque is None:
-        raise FitError(
-            f"elasticity needs a load_torque that is known beforehand, which {recording.path} does "
-            "not have: map one with --map load_torque=COLUMN, or leave the effect out"
-        )
+    for effect in model.effects:
+        refusal = of_catalog(effect).refusal(model, recording)
+        if refusal is not None:
+            raise FitError(refusal)
     for channel in model.core.needs:
         if channel == "motor_torque" and model.law in SIGN_OF_MOTOR_TORQUE and not model.drive:
             continue
@@ -280,8 +204,7 @@ def check_channels(model: Model, recording: Recording) -> None:
             if model.has_state:
                 raise FitError(
                     f"friction of {model.spec} depends on the motor torque, which cannot be solved "
-                    "for in a model with a memory: leave presliding, frictional_lag and backlash "
-                    "out"
+                    "for in a model with a memory: leave out the effects that have one"
                 )
             continue
         if channel == "external_torque" and recording.external_torque is None:

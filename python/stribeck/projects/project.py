@@ -19,7 +19,7 @@ from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.run import LEAST_FALL
 from stribeck.diagnosis.run import diagnose as diagnose_fit
 from stribeck.diagnosis.walk import MOST_STEPS, Step, Way, walk
-from stribeck.diagnosis.words import where
+from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import check_effect

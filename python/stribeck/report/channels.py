@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.effect.base import ResidualView
+from stribeck.effect.columns import displacement_since_reversal
+from stribeck.effect.registry import find
+from stribeck.effect.ripple import ripple_period_of
 from stribeck.identify.figures import bridged, zero_phase
 
 if TYPE_CHECKING:
@@ -26,59 +30,10 @@ class Channel:
     label: str
 
 
-@dataclass(frozen=True)
-class Telling:
-    """How an effect is made to show in the residual of a model that lacks it.
-
-    Attributes
-    ----------
-    channel
-        A name that `channel` knows.
-    along
-        What the residual is taken along: with ``"motion"`` it is positive where friction is larger
-        than modelled, with ``"load"`` where the motor carries more load; None: as it is.
-    regime
-        The rows in which the effect is told best, a regime of `stribeck compare` or ``"sliding"``:
-        those that are not near a reversal; None: all.
-    log
-        Whether what is telling happens within a small part of the channel's range.
-    """
-
-    channel: str
-    along: Literal["motion", "load"] | None = None
-    regime: str | None = None
-    log: bool = False
-
-
-#: How each effect of the catalog shows.
-TELLING = {
-    "stribeck": Telling("speed", along="motion", log=True),
-    "frictional_lag": Telling("acceleration_along", along="motion", regime="low_speed"),
-    "nonlinear_viscous": Telling("speed", along="motion"),
-    "direction": Telling("velocity"),
-    "load": Telling("load_size", along="motion"),
-    "quadrant": Telling("load_along", along="motion"),
-    "temperature_dry": Telling("temperature", along="motion"),
-    "temperature_viscous": Telling("temperature", along="motion", regime="high_speed"),
-    "position": Telling("position", along="motion"),
-    "drift": Telling("time", along="motion"),
-    "offset": Telling("velocity"),
-    "inertia": Telling("acceleration"),
-    "gravity": Telling("position"),
-    "spring": Telling("position"),
-    "ripple": Telling("phase"),
-    "backlash": Telling("load_reversal", along="load", log=True),
-    "elasticity": Telling("load_curvature"),
-    "saturation": Telling("modelled"),
-    "gain": Telling("modelled"),
-    "presliding": Telling("reversal", along="motion", log=True),
-    "delay": Telling("modelled_rate", regime="sliding"),
-}
-
-
-def telling(effect: str) -> Telling:
-    """How an effect shows; one by formula, whose cause nobody stated, against velocity."""
-    return TELLING.get(effect, Telling("velocity"))
+def view_of(effect: str) -> ResidualView:
+    """How an effect shows; one by formula, whose cause is not stated, against velocity."""
+    known = find(effect)
+    return ResidualView("velocity") if known is None else known.view
 
 
 def clock(r: Recording) -> Channel:
@@ -131,8 +86,6 @@ def _position(fit: Fit) -> Channel | None:
 
 
 def _phase(fit: Fit) -> Channel | None:
-    from stribeck.diagnosis.shape import ripple_period_of
-
     r = fit.recording
     if r.position is None or "ripple" not in fit.model.effects:
         return None
@@ -202,8 +155,6 @@ def _modelled_rate(fit: Fit) -> Channel | None:
 
 
 def _reversal(fit: Fit) -> Channel | None:
-    from stribeck.diagnosis.shape import displacement_since_reversal
-
     r = fit.recording
     if r.averaged:
         return None

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from stribeck.diagnosis.compare import REVERSAL_WINDOW, regime_rows
 from stribeck.models.catalog import catalog
-from stribeck.report.channels import channel, clock, load_of, telling
+from stribeck.report.channels import channel, clock, load_of, view_of
 from stribeck.report.figures import (
     AFTER,
     BEFORE,
@@ -89,18 +89,18 @@ def _name_errors(axes: Axes, finding: Finding) -> None:
 
 def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
     """Draw the residuals of two models against the channel in which an effect shows."""
-    said = telling(effect)
-    made, along = channel(after, said.channel), said.along
+    view = view_of(effect)
+    made, along = channel(after, view.channel), view.along
     if made is None:
         made, along = channel(after, "velocity") or clock(after.recording), None
-    rows = _rows(before, said.regime)
+    rows = _rows(before, view.regime)
     sign = _sign(after, along)
     x = made.values[rows]
     residuals = [(fit.residual * sign)[rows] for fit in (before, after)]
     axes.axhline(0.0, color="#999999", linewidth=0.8)
     shown = []
     for y, colour, label in zip(residuals, (BEFORE, AFTER), ("without", "with"), strict=True):
-        at, lower, median, upper = binned_quartiles(x, y, log=said.log)
+        at, lower, median, upper = binned_quartiles(x, y, log=view.log)
         if at.size == 0:
             some = thin(np.arange(x.size))
             axes.plot(x[some], y[some], color=colour, label=label, **dots(some.size))
@@ -110,7 +110,7 @@ def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
         axes.plot(at, median, "o-", color=colour, linewidth=1.8, markersize=3.5, label=label)
         shown += [lower, upper]
     limits(axes, shown)
-    if said.log and np.all(x[x != 0] > 0):
+    if view.log and np.all(x[x != 0] > 0):
         axes.set_xscale("log")
     axes.set_xlabel(made.label)
     axes.set_ylabel(f"residual{ALONG[along]} [{before.model.torque_unit}]")
@@ -118,11 +118,11 @@ def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
 
 def panel_legend(effect: str) -> str:
     """How a panel is to be read, in one or two lines."""
-    said = telling(effect)
+    view = view_of(effect)
     lines = ["line: median, band: middle half"]
-    notes = ["above 0: too little friction"] if said.along == "motion" else []
-    if said.regime is not None:
-        notes.append(REGIMES[said.regime])
+    notes = ["above 0: too little friction"] if view.along == "motion" else []
+    if view.regime is not None:
+        notes.append(REGIMES[view.regime])
     return "\n".join([*lines, "; ".join(notes)] if notes else lines)
 
 

@@ -11,7 +11,7 @@ import jinja2
 import numpy as np
 
 from stribeck.base.files import png_bytes
-from stribeck.diagnosis.words import physically
+from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog
 from stribeck.report.figures import improvement_figure
 from stribeck.report.finding import finding_figure

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stribeck.diagnosis.trial import TIE
-from stribeck.diagnosis.words import physically
+from stribeck.effect.describe import physically
 from stribeck.report.numbers import DASH, change_text, confidence_words, listed, plain, with_error
 from stribeck.report.text import (
     BAR,

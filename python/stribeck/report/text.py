@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stribeck.diagnosis.words import physically
+from stribeck.effect.describe import physically
 from stribeck.identify.figures import torque_cutoff
 from stribeck.report.numbers import (
     DASH,

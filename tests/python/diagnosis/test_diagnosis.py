@@ -9,8 +9,8 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.shape import ripple_period_of
-from stribeck.diagnosis.words import SENTENCES
+from stribeck.effect.registry import of_catalog
+from stribeck.effect.ripple import ripple_period_of
 from stribeck.models.catalog import effect_ids
 from synthetic import joint, motion, record
 
@@ -125,14 +125,10 @@ def test_the_period_of_a_ripple_is_found(tmp_path: Path) -> None:
     assert ripple_period_of(fit.model) == pytest.approx(2.0 * np.pi / 31.0, rel=1e-3)
 
 
-def test_every_effect_has_its_sentence() -> None:
-    assert set(SENTENCES) == set(effect_ids())
-
-
 @pytest.mark.parametrize("effect", effect_ids())
 def test_sentences_hold_numbers_and_units(effect: str, plain: sb.Recording) -> None:
     before = sb.fit("coulomb", plain)
     after = sb.add(before, effect, starts=1)
-    sentence = SENTENCES[effect](before, after)
+    sentence = of_catalog(effect).where(before, after)
     assert any(c.isdigit() for c in sentence) and "nan" not in sentence and "None" not in sentence
     assert sentence == sentence.strip() and not sentence.endswith(".")

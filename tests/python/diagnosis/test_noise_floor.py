@@ -10,8 +10,8 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.bound import explainable
 from stribeck.diagnosis.floor import noise_floor
-from stribeck.diagnosis.shape import displacement_since_reversal, hats
 from stribeck.diagnosis.unexplained import unexplained
+from stribeck.effect.columns import displacement_since_reversal, hats
 from synthetic import ar1, joint, record
 
 

@@ -10,10 +10,10 @@ import pytest
 import stribeck as sb
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
-from stribeck.diagnosis.words import where
-from stribeck.models.catalog import effect_ids
+from stribeck.effect.describe import where
+from stribeck.effect.registry import effects
 from stribeck.motion.generate.hidden import generate
-from stribeck.report.channels import TELLING, channel
+from stribeck.report.channels import channel
 from stribeck.report.figures import binned_quartiles
 from stribeck.report.finding import finding_figure
 
@@ -36,10 +36,6 @@ def curves(axes: Axes) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
     lines = [line for line in axes.get_lines() if line.get_marker() == "o"]
     found = [(np.asarray(x), np.asarray(y)) for x, y in (line.get_data() for line in lines)]
     return found[0], found[1]
-
-
-def test_every_effect_has_a_channel_in_which_it_shows() -> None:
-    assert set(TELLING) == set(effect_ids())
 
 
 @pytest.mark.parametrize("effect", SHAPES)
@@ -95,11 +91,11 @@ def test_an_effect_by_formula_is_drawn_against_velocity(improvement: sb.Improvem
 def test_every_channel_is_of_the_recordings_length_or_absent(
     improvement: sb.Improvement, steady: sb.Fit
 ) -> None:
-    for said in TELLING.values():
-        made = channel(improvement.final, said.channel)
+    for effect in effects().values():
+        made = channel(improvement.final, effect.view.channel)
         assert made is None or made.values.shape == improvement.final.residual.shape
         assert made is None or np.all(np.isfinite(made.values))
-        made = channel(steady, said.channel)
+        made = channel(steady, effect.view.channel)
         assert made is None or made.values.shape == steady.residual.shape
 
 

@@ -11,11 +11,12 @@ from stribeck.diagnosis.run import LEAST_FALL
 from stribeck.diagnosis.testable import untestable
 from stribeck.diagnosis.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility import problem_of
+from stribeck.effect.registry import of_catalog
+from stribeck.effect.thermal import WARMING
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import catalog, check_effect, effect_ids
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
-from stribeck.motion.design.advice import ADVICE, OF_TEMPERATURE, WARMING
 from stribeck.motion.design.fourier import FourierMotions
 from stribeck.motion.design.information import Sight, Wanted, sight
 from stribeck.motion.design.motion import Family, Limits
@@ -75,7 +76,8 @@ def plan(
     separate = tuple(dict.fromkeys(separate))
     effects = _checked(of.model, separate, show)
     setting = setting_of_fit(of) if isinstance(of, Fit) else setting_of_file(of, limits, noise)
-    if set(effects) & set(OF_TEMPERATURE):
+    if any("temperature" in catalog()["effects"][e]["channels"] for e in effects):
+        # No motion at one temperature shows such an effect.
         (usual,) = setting.temperatures
         setting = replace(setting, temperatures=(usual - WARMING / 2, usual + WARMING / 2))
     _check_load(effects, setting)
@@ -180,5 +182,5 @@ def _prospect(effect: str, wanted: Wanted, before: Sight | None, after: Sight) -
     return Prospect(
         effect, one.size.name, one.size.unit, one.is_inverse,
         None if before is None else Size.of(before.smallest[effect]),
-        Size.of(after.smallest[effect]), ADVICE.get(effect, ""),
+        Size.of(after.smallest[effect]), of_catalog(effect).design_note,
     )  # fmt: skip

@@ -17,6 +17,8 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.base.errors import SpecError
+from stribeck.effect.base import GeneratedRecording
+from stribeck.effect.registry import of_catalog
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
 from stribeck.motion.generate.motion import JOINTS, plan_motion
@@ -28,6 +30,8 @@ Array = NDArray[np.float64]
 NOISE_MEMORY = 0.5
 #: Noise of the recorded velocity, as a share of the top speed.
 VELOCITY_NOISE = 4e-4
+#: Temperature at the start, degC.
+COLD = 24.0
 #: Steps a sample of laws with a state, whose bristle moves faster than a recording samples.
 FINE_STEPS = 8
 FEWEST_SECONDS = 20.0
@@ -38,7 +42,7 @@ def _temperature(t: Array, seconds: float, warming: float) -> Array:
     turn, slow = 0.6 * seconds, 0.25 * seconds
     full = -math.expm1(-turn / slow)
     rise = -np.expm1(-np.minimum(t, turn) / slow) / full
-    return 24.0 + warming * rise * np.exp(-np.maximum(t - turn, 0.0) / slow)
+    return COLD + warming * rise * np.exp(-np.maximum(t - turn, 0.0) / slow)
 
 
 def generate(
@@ -94,19 +98,13 @@ def generate(
     torque_unit, position_unit = joint.units
 
     constants = {
-        "reference_temperature": 24.0 + 0.5 * warming,
-        "reference_load": 0.5 * joint.gravity,
-        "reference_velocity": joint.speed,
-        "position_start": -1.5 * joint.stroke,
-        "position_length": 3.0 * joint.stroke,
-        "position_periodic": 0.0,
         "largest_velocity": joint.speed,
         "largest_acceleration": joint.speed**2 / joint.stroke,
-        "ripple_period": joint.stroke / 7.0,
-        "duration": seconds,
-        "reference_torque": 2.0 * joint.gravity,
     }
-    # The delay is made by sampling the joint at another time, so that nothing is interpolated.
+    made = GeneratedRecording(joint, seconds, COLD + 0.5 * warming)
+    for effect in hidden:
+        constants.update(of_catalog(effect).generated_constants(made))
+    # A delay is made by sampling the joint at another time, so that nothing is interpolated.
     inner = tuple(e for e in hidden if e != "delay")
     model = Model(law, inner, constants, torque_unit=torque_unit, position_unit=position_unit)
     values = plausible_values(model, joint, rng)
@@ -134,11 +132,10 @@ def generate(
 
     q, v, a = motion(time)
     load = load_at(time, q, a)
-    if "backlash" in hidden and (load.min() >= 0.0 or load.max() <= 0.0):
-        raise SpecError(
-            "backlash shows where the load torque changes its sign, which it never does on this "
-            "joint: give a revolute one, or more seconds"
-        )
+    for effect in hidden:
+        why = of_catalog(effect).cannot_hide(load)
+        if why is not None:
+            raise SpecError(why)
     inside = np.arange(n * fine) / (rate * fine) - (fine - 1) / (rate * fine) - delay
     fq, fv, fa = motion(inside)
     fload = load_at(inside, fq, fa)

@@ -7,13 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.base.errors import SpecError
+from stribeck.effect.registry import of_catalog
 from stribeck.models.model import RIGID_BODY_EFFECTS, Model
 from stribeck.motion.simulate.joint import Joint
-
-#: They distort what is measured, and move nothing.
-MEASUREMENT = ("delay", "gain", "saturation")
-#: They describe a drive train by what it does to a measured load torque.
-DRIVE_TRAIN = ("backlash", "elasticity")
 
 
 @dataclass(frozen=True)
@@ -64,14 +60,14 @@ def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
     """
     model.known_values()
     plain = model.friction
-    trains = [effect for effect in plain.effects if effect in DRIVE_TRAIN]
+    trains = [e for e in plain.effects if of_catalog(e).in_motion == "drive train"]
     if trains:
         raise SpecError(
             f"{plain.spec} has {trains[0]}, which explains a recording and moves nothing: "
             f"simulate a model without it"
         )
     taken = (*plain.rigid_body, *(e for e in plain.effects if e in RIGID_BODY_EFFECTS))
-    left_out = tuple(effect for effect in plain.effects if effect in MEASUREMENT)
+    left_out = tuple(e for e in plain.effects if of_catalog(e).in_motion == "measurement")
     if not (taken or left_out):
         return plain, ()
     known = dict(zip(plain.names, plain.values, strict=True))

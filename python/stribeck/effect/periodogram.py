@@ -1,4 +1,4 @@
-"""How long a ripple's period is: the strongest line in a residual over position.
+"""Period of a ripple: the strongest line in the spectrum of a residual over position.
 
 A ripple does not know time. Over position, which a joint passes at any speed and both ways, a
 magnet, a tooth, a pole of the motor or a turn of the screw leaves a line, whatever the gear ratio.
@@ -37,8 +37,8 @@ def most_periods(recording: Recording) -> int:
     return min(int(stroke / (FEWEST_SAMPLES * step)), MOST_PERIODS)
 
 
-def ripple_period(recording: Recording, residual: Array | None = None) -> float:
-    """Period of the strongest line of `residual` over position, in the unit of position.
+def strongest_period(recording: Recording, residual: Array | None = None) -> float:
+    """Period of the strongest line in the spectrum of `residual` over position.
 
     Parameters
     ----------

@@ -1,0 +1,235 @@
+"""What every effect states: the fields of `Effect`, and the types that they use."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.effect.facts import RecordingFacts
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
+
+Array = NDArray[np.float64]
+
+
+class Identified(Protocol):
+    """A model identified on a recording: what the functions of an effect may read of a fit."""
+
+    @property
+    def model(self) -> Model:
+        """The model with its values."""
+
+    @property
+    def recording(self) -> Recording:
+        """The recording."""
+
+    @property
+    def rows(self) -> NDArray[np.intp]:
+        """Samples that the parameters were fitted to, int array [m]."""
+
+    @property
+    def prediction(self) -> Array:
+        """Modelled motor torque of every sample, array [n]."""
+
+    @property
+    def load(self) -> Array | None:
+        """Load torque identified with the friction, array [n]; None where it was recorded."""
+
+
+class JointSizes(Protocol):
+    """Sizes of a joint in SI units, from which plausible parameter values follow."""
+
+    @property
+    def stroke(self) -> float:
+        """Range of the motion, rad or m."""
+
+    @property
+    def speed(self) -> float:
+        """Top speed, rad/s or m/s."""
+
+    @property
+    def coulomb(self) -> float:
+        """Coulomb friction, N m or N."""
+
+    @property
+    def viscous(self) -> float:
+        """Viscous coefficient, N m s/rad or N s/m."""
+
+    @property
+    def inertia(self) -> float:
+        """Inertia or mass, kg m^2 or kg."""
+
+    @property
+    def gravity(self) -> float:
+        """Gravity torque of the nominal payload, N m or N."""
+
+
+@dataclass(frozen=True)
+class GeneratedRecording:
+    """Sizes of a recording that is about to be generated.
+
+    Attributes
+    ----------
+    seconds
+        Duration, s.
+    middle_temperature
+        Middle of the range of temperatures, degC.
+    """
+
+    joint: JointSizes
+    seconds: float
+    middle_temperature: float
+
+
+@dataclass(frozen=True)
+class Obstacle:
+    """Why a recording cannot show an effect, and the motion or sensor that would."""
+
+    why: str
+    do: str
+
+
+@dataclass(frozen=True)
+class ResidualView:
+    """How the residual of a model that lacks an effect is drawn to show it.
+
+    Attributes
+    ----------
+    channel
+        A channel of `stribeck.report.channels`.
+    along
+        Sign of the residual: with ``"motion"`` it is positive where friction is larger than
+        modelled, with ``"load"`` where the motor carries more load; None: as it is.
+    regime
+        The samples in which the effect shows best: a regime of `stribeck compare`, or
+        ``"sliding"`` for those away from reversals; None: all.
+    log
+        Whether the effect shows within a small part of the channel's range.
+    """
+
+    channel: str
+    along: Literal["motion", "load"] | None = None
+    regime: str | None = None
+    log: bool = False
+
+
+@dataclass(frozen=True)
+class FixedForm:
+    """An effect whose dependence on a channel is fixed by physics.
+
+    Attributes
+    ----------
+    channel
+        The channel.
+    free_functions
+        Free functions of that channel on the samples fitted to, arrays [m].
+    """
+
+    channel: str
+    free_functions: Callable[[Identified], list[Array]]
+
+
+#: What an effect does in a simulated motion.
+InMotion = Literal["acts", "measurement", "drive train"]
+
+
+def _nothing(*_: object) -> None:
+    return None
+
+
+def _no_constants(*_: object) -> dict[str, float]:
+    return {}
+
+
+def _no_columns(_: Identified) -> list[Array]:
+    return []
+
+
+def _one_form(_: Recording) -> int:
+    return 1
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One effect of the catalog, as the Python package needs it.
+
+    Attributes
+    ----------
+    id
+        As in the catalog; the file has the same name.
+    view
+        How the residual is drawn to show the effect.
+    obstacle
+        Why a recording cannot show the effect; None where it can.
+    where
+        One sentence with numbers and units, without a full stop: where the data shows the effect.
+        Its arguments are the fits without and with the effect.
+    plausible
+        A value for each of the parameters, large enough to see, on a joint of given sizes.
+    constants
+        The constants that the effect names in the catalog, from a recording; none where it lacks
+        a channel.
+    constants_beside
+        Those that depend on the model beside which the effect is added. Arguments: the recording,
+        the load torque [n] that is identified with the friction, and the residual [n] without the
+        effect; each of the arrays may be None.
+    generated_constants
+        The constants in a generated recording.
+    refusal
+        Why a model with the effect cannot be fitted to a recording, as a sentence; None where it
+        can. A missing column that the catalog names need not be checked here.
+    flexible_shape
+        Columns on the samples fitted to, arrays [m], that let the effect take any smooth form.
+        Before a second cause is claimed, the residual must not be explained by these.
+    fixed_form
+        The channel on which the effect depends in a form fixed by physics.
+    size_range
+        Where the torque is not proportional to the first parameter: the multiples of its start
+        between which the smallest visible effect is searched, from large effects to small ones.
+    forms
+        How many forms a fit chooses from by looking at the data; they count as so many tests.
+    part_of
+        Another effect that contains this one on any motion.
+    design_note
+        What no designed motion can do for the effect, as a sentence without a full stop.
+    in_motion
+        Whether the effect acts as torque, distorts the measurement only, or describes a drive
+        train by what it does to a recorded load torque.
+    cannot_hide
+        Why the effect cannot be hidden in a generated recording, given its load torque [n].
+    """
+
+    id: str
+    view: ResidualView
+    obstacle: Callable[[RecordingFacts], Obstacle | None]
+    where: Callable[[Identified, Identified], str]
+    plausible: Callable[[JointSizes, np.random.Generator], dict[str, float]]
+    constants: Callable[[Recording], dict[str, float]] = _no_constants
+    constants_beside: Callable[[Recording, Array | None, Array | None], dict[str, float]] = (
+        _no_constants
+    )
+    generated_constants: Callable[[GeneratedRecording], dict[str, float]] = _no_constants
+    refusal: Callable[[Model, Recording], str | None] = _nothing
+    flexible_shape: Callable[[Identified], list[Array]] = _no_columns
+    fixed_form: FixedForm | None = None
+    size_range: tuple[float, float] | None = None
+    forms: Callable[[Recording], int] = _one_form
+    part_of: str | None = None
+    design_note: str = ""
+    in_motion: InMotion = "acts"
+    cannot_hide: Callable[[Array], str | None] = _nothing
+
+
+def number(value: float) -> str:
+    """Three significant digits, for sentences.
+
+    Examples
+    --------
+    >>> number(0.012345), number(1234.5)
+    ('0.0123', '1.23e+03')
+    """
+    return f"{value:.3g}"

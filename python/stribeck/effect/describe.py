@@ -1,0 +1,41 @@
+"""An effect in plain sentences."""
+
+from __future__ import annotations
+
+from stribeck.effect.base import Identified, number
+from stribeck.effect.registry import of_catalog
+from stribeck.models.catalog import catalog, effect_row
+from stribeck.models.model import Model
+
+#: Groups of the catalog whose cause is not friction.
+NOT_FRICTION = ("measurement", "actuator", "rigid body", "drive")
+
+
+def where(effect: str, before: Identified, after: Identified) -> str:
+    """One sentence that says where `effect` shows, from the fitted values and the data.
+
+    For a cause other than friction, the sentence says so first.
+
+    Parameters
+    ----------
+    before, after
+        The model without and with the effect.
+    """
+    own = after.model.formula(effect)
+    if own is not None:
+        found = (f"{n} = {number(after.model.value(n))}" for n in own.names)
+        return f"{own.text} fits with {', '.join(found)}"
+    sentence = of_catalog(effect).where(before, after)
+    return sentence if is_friction(effect) else f"this is not friction: {sentence}"
+
+
+def is_friction(effect: str) -> bool:
+    """Whether the cause is friction; an effect by formula is assumed to be."""
+    row = effect_row(effect)
+    return row is None or row["group"] not in NOT_FRICTION
+
+
+def physically(effect: str, model: Model) -> str:
+    """What the effect of a model is, in one sentence: the catalog's, or its formula."""
+    own = model.formula(effect)
+    return str(catalog()["effects"][effect]["what"]) if own is None else f"{effect} = {own.text}."

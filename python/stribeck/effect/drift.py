@@ -1,0 +1,96 @@
+"""Drift: dry friction changes over the recording, by wear or run-in."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy
+
+from stribeck.effect.base import (
+    Array,
+    Effect,
+    GeneratedRecording,
+    Identified,
+    JointSizes,
+    Obstacle,
+    ResidualView,
+    number,
+)
+from stribeck.effect.columns import hats
+from stribeck.effect.facts import RecordingFacts, spread
+from stribeck.recording.recording import Recording
+
+#: Temperature range in K below which temperature cannot explain a drift.
+SMALL_SPAN = 1.0
+#: Rank correlation of temperature and time from which they are indistinguishable.
+CORRELATED = 0.9
+
+
+def _obstacle(facts: RecordingFacts) -> Obstacle | None:
+    r = facts.recording
+    if r.averaged:
+        return Obstacle(
+            "steady-state points do not say when they were measured",
+            "record the same motion again and again",
+        )
+    temperature = facts.scored(r.temperature)
+    if temperature is None:
+        return Obstacle(
+            "no temperature was recorded, and it may change friction as slowly as time",
+            "record the joint's temperature",
+        )
+    if spread(temperature) < SMALL_SPAN:
+        return None
+    correlation = float(scipy.stats.spearmanr(r.elapsed[r.moving], temperature).statistic)
+    if abs(correlation) <= CORRELATED:
+        return None
+    way = "warms up" if correlation > 0 else "cools down"
+    return Obstacle(
+        f"the joint only {way}, so that time is indistinguishable from temperature",
+        "let the joint cool down and warm up again",
+    )
+
+
+def _constants(recording: Recording) -> dict[str, float]:
+    return {"duration": float(recording.elapsed[-1]) or 1.0}
+
+
+def _generated_constants(made: GeneratedRecording) -> dict[str, float]:
+    return {"duration": made.seconds}
+
+
+def _where(before: Identified, after: Identified) -> str:
+    m = after.model
+    end = m.constants["duration"]
+    top = max(abs(x) for x in m.box["velocity"])
+    first, last = m.split(top, time=np.array([0.0, end]))["dry"]
+    way = "falls" if last < first else "rises"
+    return (
+        f"dry friction {way} from {number(float(first))} to {number(float(last))} {m.torque_unit} "
+        f"over the {number(end)} s of the recording, more than temperature explains"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Any function of time."""
+    sign = np.sign(fit.recording.velocity[fit.rows])
+    return [sign * h for h in hats(fit.recording.elapsed[fit.rows], 6)]
+
+
+def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
+    return {"drift_change": -0.25, "drift_curvature": 3.0}
+
+
+EFFECT = Effect(
+    id="drift",
+    view=ResidualView("time", along="motion"),
+    obstacle=_obstacle,
+    where=_where,
+    plausible=_plausible,
+    constants=_constants,
+    generated_constants=_generated_constants,
+    flexible_shape=_flexible_shape,
+    design_note=(
+        "wear and run-in take hours: run the motion again and again over a shift, and record the "
+        "temperature; the figures are for a change within one run"
+    ),
+)

@@ -1,0 +1,103 @@
+"""Elasticity: the drive train twists under the load torque."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.base.errors import option
+from stribeck.effect.base import (
+    Array,
+    Effect,
+    Identified,
+    JointSizes,
+    Obstacle,
+    ResidualView,
+    number,
+)
+from stribeck.effect.facts import RecordingFacts
+from stribeck.models.model import Model
+from stribeck.recording.derive import Smoother
+from stribeck.recording.recording import Recording
+from stribeck.recording.rows import noise_level
+
+#: A drive train that resonates at a lower frequency shows in any joint, Hz.
+SOFT_DRIVE = 5.0
+#: Least torque that such a drive train must show, as shares of the load torque and of the noise:
+#: ten thousand samples or more show a fiftieth of their noise.
+TWIST_SHARE, TWIST_NOISE = 1e-3, 0.02
+
+
+def _obstacle(facts: RecordingFacts) -> Obstacle | None:
+    r = facts.recording
+    if r.averaged:
+        return Obstacle(
+            "steady motion holds no change of the load torque", "record accelerated motion"
+        )
+    curvature, load = facts.scored(r.load_torque_curvature), facts.scored(r.load_torque)
+    if curvature is None or load is None:
+        return Obstacle(
+            "the load torque is not known beforehand, nor the positions on both sides of the drive "
+            "train",
+            "give the load torque, or inertia and gravity from a weighing or a CAD model",
+        )
+    # Quantiles: the exchange of a payload is not motion.
+    size = float(np.quantile(np.abs(load - np.median(load)), 0.9))
+    twist = float(np.quantile(np.abs(curvature), 0.9)) / (2.0 * np.pi * SOFT_DRIVE) ** 2
+    noise = noise_level(r.time, r.torque, r.segment)
+    if twist > max(TWIST_SHARE * size, TWIST_NOISE * noise):
+        return None
+    return Obstacle(
+        f"the load torque changes so slowly that even a drive train that resonates at "
+        f"{SOFT_DRIVE:.0f} Hz would look rigid",
+        "add moves that start and stop hard, or record positions at motor and joint",
+    )
+
+
+def _refusal(model: Model, recording: Recording) -> str | None:
+    if recording.load_torque is not None:
+        return None
+    return (
+        f"elasticity needs a load_torque that is known beforehand, which {recording.path} does "
+        f"not have: map one with {option('map', 'load_torque=COLUMN')}, or leave the effect out"
+    )
+
+
+def _where(before: Identified, after: Identified) -> str:
+    share = after.model.value("elasticity")
+    side = "motor" if share > 0 else "joint"
+    hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
+    return (
+        f"the residual follows the second derivative of the load torque, as if the inertia of the "
+        f"{side} oscillated on the drive train at {number(float(hertz))} Hz"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Damping of the twist, and the share of the motor's inertia in the torque of the spring."""
+    r = fit.recording
+    if r.load_torque is None:
+        return []
+    smoother = Smoother(r.time, r.segment, None)
+    damping = smoother.smooth(r.denoised("load_torque"), 1)
+    motor = smoother.smooth(r.acceleration_smooth, 2)
+    return [damping[fit.rows], motor[fit.rows]]
+
+
+def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
+    return {"elasticity": 0.002 * (joint.stroke / joint.speed) ** 2}
+
+
+EFFECT = Effect(
+    id="elasticity",
+    view=ResidualView("load_curvature"),
+    obstacle=_obstacle,
+    where=_where,
+    plausible=_plausible,
+    refusal=_refusal,
+    flexible_shape=_flexible_shape,
+    design_note=(
+        "a motion at one end of the drive train shows its twist only where the load torque changes "
+        "fast: record the positions at motor and joint as well"
+    ),
+    in_motion="drive train",
+)

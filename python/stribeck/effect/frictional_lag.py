@@ -1,0 +1,102 @@
+"""Frictional lag: the Stribeck curve follows a change of speed after a delay."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.effect.base import (
+    Array,
+    Effect,
+    Identified,
+    JointSizes,
+    Obstacle,
+    ResidualView,
+    number,
+)
+from stribeck.effect.columns import delayed
+from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.stribeck import SLOW, no_slow_motion
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
+
+#: The slow speeds must be passed within this time (s) for a lag of some hundredths of a second to
+#: show.
+SLOW_PASS = 2.0
+
+
+def _obstacle(facts: RecordingFacts) -> Obstacle | None:
+    if facts.recording.averaged:
+        return Obstacle(
+            "steady-state points hold no change of speed",
+            "record slow passes that speed up and slow down",
+        )
+    if (why := no_slow_motion(facts)) is not None:
+        return why
+    top = facts.top_speed
+    slow = facts.speed < SLOW * top
+    acceleration = facts.recording.acceleration_smooth[facts.recording.moving]
+    faster = (np.sign(facts.velocity) * acceleration)[slow]
+    both = float(np.quantile(faster, 0.9)), float(-np.quantile(faster, 0.1))
+    if SLOW * top <= SLOW_PASS * min(both):
+        return None
+    return Obstacle(
+        f"the joint passes its slow speeds in more than {SLOW_PASS:.0f} s, too slowly to show a "
+        "lag of friction",
+        "add slow passes that speed up and slow down quickly",
+    )
+
+
+def _refusal(model: Model, recording: Recording) -> str | None:
+    # A lag of the Stribeck curve needs the curve, of the law or of the other effect.
+    if model.has("stribeck"):
+        return None
+    return (
+        f"frictional_lag delays a Stribeck curve, and {model.spec} has none: add stribeck, or "
+        "leave the effect out"
+    )
+
+
+def _where(before: Identified, after: Identified) -> str:
+    return (
+        "the fall of friction with speed comes "
+        f"{number(1e3 * after.model.value('frictional_lag'))} ms late: at the same low speed "
+        "friction is higher while the joint speeds up than while it slows down"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Stribeck curves of the speed at several times before."""
+    if not fit.model.has("stribeck"):
+        return []
+    r = fit.recording
+    sign = np.sign(r.velocity[fit.rows])
+    lag = fit.model.value("frictional_lag")
+    speed = np.abs(r.denoised("velocity"))
+    slow = _stribeck_velocity(fit)
+    return [
+        sign * np.exp(-delayed(r, speed, lag * k)[fit.rows] / (slow * width))
+        for k in (0.3, 1.0, 2.0)
+        for width in (0.5, 1.5)
+    ]
+
+
+def _stribeck_velocity(fit: Identified) -> float:
+    """The Stribeck velocity, of the law or of the effect."""
+    name = next((n for n in fit.model.names if n.endswith("stribeck_velocity")), None)
+    return 0.1 * fit.recording.scales()["speed"] if name is None else abs(fit.model.value(name))
+
+
+def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
+    return {"frictional_lag": 0.1 * joint.stroke / joint.speed}
+
+
+EFFECT = Effect(
+    id="frictional_lag",
+    view=ResidualView("acceleration_along", along="motion", regime="low_speed"),
+    obstacle=_obstacle,
+    where=_where,
+    plausible=_plausible,
+    refusal=_refusal,
+    flexible_shape=_flexible_shape,
+    size_range=(10.0, 1e-2),
+)

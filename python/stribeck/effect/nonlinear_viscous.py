@@ -1,0 +1,85 @@
+"""Nonlinear viscous friction: the part that grows with speed is not proportional to it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.effect.base import (
+    Array,
+    Effect,
+    GeneratedRecording,
+    Identified,
+    JointSizes,
+    Obstacle,
+    ResidualView,
+    number,
+)
+from stribeck.effect.facts import RecordingFacts
+from stribeck.recording.recording import Recording
+
+#: Ratio of fast to slow speeds from which the curve shows.
+SPEED_RATIO = 2.5
+
+
+def _obstacle(facts: RecordingFacts) -> Obstacle | None:
+    low, high = np.quantile(facts.speed, [0.05, 0.98])
+    if high >= SPEED_RATIO * max(low, 1e-300):
+        return None
+    return Obstacle(
+        f"the speeds lie between {low:.3g} and {high:.3g} {facts.recording.position_unit}/s, too "
+        "narrow to show a curve",
+        "move at speeds from a tenth of the top speed to the top speed",
+    )
+
+
+def _constants(recording: Recording) -> dict[str, float]:
+    return {"reference_velocity": recording.scales()["speed"] or 1.0}
+
+
+def _where(before: Identified, after: Identified) -> str:
+    m = after.model
+    top = max(abs(x) for x in m.box["velocity"])
+    reference = m.constants["reference_velocity"]
+
+    def part(speed: float) -> float:
+        levelled = speed / reference / (1.0 + speed / m.value("nonlinear_viscous_saturation"))
+        power = levelled ** m.value("nonlinear_viscous_exponent")
+        return m.value("nonlinear_viscous_coefficient") * reference * power
+
+    bends = "flattens" if part(0.5 * top) > 0.5 * part(top) else "steepens"
+    return (
+        f"the curve of friction against speed {bends}: the part that is not proportional to speed "
+        f"is {number(part(0.5 * top))} {m.load_unit} at {number(0.5 * top)} and "
+        f"{number(part(top))} {m.load_unit} at {number(top)} {m.position_unit}/s"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Powers of the speed."""
+    v = fit.recording.velocity[fit.rows]
+    speed = np.abs(v) / (fit.recording.scales()["speed"] or 1.0)
+    return [np.sign(v) * speed**power for power in (0.5, 1.5, 2.0, 3.0)]
+
+
+def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
+    return {
+        "nonlinear_viscous_coefficient": 0.6 * joint.viscous,
+        "nonlinear_viscous_exponent": 2.0,
+        "nonlinear_viscous_saturation": 100.0 * joint.speed,
+    }
+
+
+def _generated_constants(made: GeneratedRecording) -> dict[str, float]:
+    return {"reference_velocity": made.joint.speed}
+
+
+EFFECT = Effect(
+    id="nonlinear_viscous",
+    view=ResidualView("speed", along="motion"),
+    obstacle=_obstacle,
+    where=_where,
+    plausible=_plausible,
+    constants=_constants,
+    generated_constants=_generated_constants,
+    flexible_shape=_flexible_shape,
+)

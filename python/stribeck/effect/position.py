@@ -1,0 +1,118 @@
+"""Position: dry friction varies along the stroke, in both directions alike."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from stribeck.effect.base import (
+    Array,
+    Effect,
+    GeneratedRecording,
+    Identified,
+    JointSizes,
+    Obstacle,
+    ResidualView,
+    number,
+)
+from stribeck.effect.columns import half_waves
+from stribeck.effect.direction import one_direction
+from stribeck.effect.facts import RecordingFacts
+from stribeck.recording.recording import Recording
+
+#: Number of times that the stroke must be passed.
+FEWEST_PASSES = 2.5
+#: Parameters, one for each half wave along the stroke.
+WAVES = 8
+
+
+def stroke_is_not_repeated(facts: RecordingFacts) -> Obstacle | None:
+    """The position was not recorded, or the stroke is not passed again in both directions."""
+    q = facts.scored(facts.recording.position)
+    if q is None:
+        return Obstacle("no position was recorded", "record the joint's position")
+    if (only := one_direction(facts)) is not None:
+        return only
+    stroke = float(np.ptp(q))
+    if stroke <= 0:
+        return Obstacle("the position does not vary", "move along the stroke")
+    path = float(np.sum(np.abs(facts.recording.velocity) * facts.recording.dt))
+    if path < FEWEST_PASSES * stroke:
+        return Obstacle(
+            f"the stroke is passed {path / stroke:.1f} times only",
+            "pass the same stroke several times in both directions",
+        )
+    return None
+
+
+def stroke_constants(recording: Recording) -> dict[str, float]:
+    """Start, length and periodicity of the stroke."""
+    if recording.position is None:
+        return {}
+    q = recording.position[recording.moving]
+    start, length = float(q.min()), float(np.ptp(q)) or 1.0
+    if recording.joint_kind == "revolute" and length > 4.0 * math.pi:
+        # Beyond two turns, what varies along the stroke repeats with the turn.
+        return {"position_start": 0.0, "position_length": 2.0 * math.pi, "position_periodic": 1.0}
+    return {"position_start": start, "position_length": length, "position_periodic": 0.0}
+
+
+def stroke_ends(recording: Recording) -> dict[str, float]:
+    """Start and length of the stroke."""
+    stroke = stroke_constants(recording)
+    stroke.pop("position_periodic", None)
+    return stroke
+
+
+def generated_ends(made: GeneratedRecording) -> dict[str, float]:
+    """Start and length of the stroke in a generated recording."""
+    return {
+        "position_start": -1.5 * made.joint.stroke,
+        "position_length": 3.0 * made.joint.stroke,
+    }
+
+
+def _generated_constants(made: GeneratedRecording) -> dict[str, float]:
+    return {**generated_ends(made), "position_periodic": 0.0}
+
+
+def _where(before: Identified, after: Identified) -> str:
+    m = after.model
+    low, high = m.box["position"]
+    q = np.linspace(low, high, 200)
+    top = max(abs(x) for x in m.box["velocity"])
+    dry = m.split(top, position=q)["dry"]
+    at = float(q[int(np.argmax(dry))])
+    return (
+        f"dry friction varies by {number(float(np.ptp(dry)))} {m.load_unit} along the stroke and "
+        f"is highest at {number(at)} {m.position_unit}, in both directions"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Finer waves along the stroke."""
+    if fit.recording.position is None:
+        return []
+    sign = np.sign(fit.recording.velocity[fit.rows])
+    return [sign * wave for wave in half_waves(fit.recording.position[fit.rows], range(1, 15))]
+
+
+def _plausible(joint: JointSizes, random: np.random.Generator) -> dict[str, float]:
+    """Any shape, with less of the shorter waves."""
+    most = 0.22 * joint.coulomb
+    return {
+        f"position_{k}": float(most * random.uniform(-1.0, 1.0) / k) for k in range(1, WAVES + 1)
+    }
+
+
+EFFECT = Effect(
+    id="position",
+    view=ResidualView("position", along="motion"),
+    obstacle=stroke_is_not_repeated,
+    where=_where,
+    plausible=_plausible,
+    constants=stroke_constants,
+    generated_constants=_generated_constants,
+    flexible_shape=_flexible_shape,
+)

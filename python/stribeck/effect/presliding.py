@@ -1,0 +1,76 @@
+"""Presliding: after a reversal friction builds up over a distance, as bristles bend."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.effect.base import (
+    Array,
+    Effect,
+    Identified,
+    JointSizes,
+    Obstacle,
+    ResidualView,
+    number,
+)
+from stribeck.effect.columns import displacement_since_reversal, hats
+from stribeck.effect.facts import RecordingFacts
+
+#: Reversals needed to see what happens in them.
+FEWEST_REVERSALS = 4
+
+#: What to say of averaged points where reversals are needed.
+NO_REVERSALS = Obstacle(
+    "steady-state points hold no reversals", "record the motion through reversals"
+)
+
+
+def _obstacle(facts: RecordingFacts) -> Obstacle | None:
+    if facts.recording.averaged:
+        return NO_REVERSALS
+    if facts.reversals >= FEWEST_REVERSALS:
+        return None
+    return Obstacle(
+        f"there are {facts.reversals} reversals",
+        "record small back-and-forth motions through zero speed",
+    )
+
+
+def _where(before: Identified, after: Identified) -> str:
+    m = after.model
+    slow = 1e-3 * max(abs(x) for x in m.box["velocity"])
+    distance = float(m.split(slow)["dry"][0]) / m.value("presliding_stiffness")
+    return (
+        f"after each reversal friction builds up over about {number(distance)} {m.position_unit} "
+        f"of motion instead of jumping"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Any function of the distance since the last reversal."""
+    sign = np.sign(fit.recording.velocity[fit.rows])
+    travel = displacement_since_reversal(fit.recording)[fit.rows]
+    return [sign * h for h in hats(np.log(travel + 1e-9 * (travel.max() or 1.0)), 8)]
+
+
+def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
+    return {
+        "presliding_stiffness": 150.0 * joint.coulomb / joint.stroke,
+        "presliding_damping": 0.1 * joint.viscous,
+    }
+
+
+EFFECT = Effect(
+    id="presliding",
+    view=ResidualView("reversal", along="motion", log=True),
+    obstacle=_obstacle,
+    where=_where,
+    plausible=_plausible,
+    flexible_shape=_flexible_shape,
+    # The stiffer the bristles, the smaller the effect.
+    size_range=(1.0, 1e4),
+    design_note=(
+        "presliding lasts micrometres to millimetres: record at the highest rate and at the finest "
+        "resolution of the encoder"
+    ),
+)

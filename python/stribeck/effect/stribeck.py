@@ -1,0 +1,79 @@
+"""Stribeck effect: friction falls from its break-away level as the speed grows."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.effect.base import (
+    Array,
+    Effect,
+    Identified,
+    JointSizes,
+    Obstacle,
+    ResidualView,
+    number,
+)
+from stribeck.effect.direction import one_direction
+from stribeck.effect.facts import RecordingFacts
+
+#: Slow motion: slower than this share of the top speed.
+SLOW = 0.15
+#: Slow samples needed in each direction: a number, and a share of all.
+FEWEST_SLOW, SHARE_SLOW = 20, 0.002
+#: The same of steady-state points, and the number that is always enough.
+FEWEST_SLOW_POINTS, ENOUGH_SLOW_POINTS = 5, 2
+
+
+def no_slow_motion(facts: RecordingFacts) -> Obstacle | None:
+    """Slow motion in both directions is missing."""
+    if (only := one_direction(facts)) is not None:
+        return only
+    top = facts.top_speed
+    slow = facts.speed < SLOW * top
+    fewest = min(
+        int(np.count_nonzero(slow & (facts.velocity > 0))),
+        int(np.count_nonzero(slow & (facts.velocity < 0))),
+    )
+    averaged = facts.recording.averaged
+    needed = max(FEWEST_SLOW_POINTS if averaged else FEWEST_SLOW, SHARE_SLOW * facts.speed.size)
+    if fewest >= needed or (averaged and fewest >= ENOUGH_SLOW_POINTS):
+        return None
+    return Obstacle(
+        f"hardly any motion is slower than {SLOW * top:.3g} {facts.recording.position_unit}/s "
+        f"({SLOW:.0%} of the top speed)",
+        "add slow passes in both directions, down to a few per cent of the top speed",
+    )
+
+
+def _where(before: Identified, after: Identified) -> str:
+    m = after.model
+    return (
+        f"at low speed friction is {number(m.value('stribeck_height'))} {m.load_unit} higher than "
+        f"the Coulomb level and falls to it around {number(m.value('stribeck_velocity'))} "
+        f"{m.position_unit}/s"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Curves that fall at smaller and larger speeds."""
+    v = fit.recording.velocity[fit.rows]
+    slow = fit.model.value("stribeck_velocity")
+    return [np.sign(v) * np.exp(-np.abs(v) / (slow * k)) for k in (0.3, 1.0, 3.0)]
+
+
+def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
+    return {
+        "stribeck_height": 0.35 * joint.coulomb,
+        "stribeck_velocity": 0.05 * joint.speed,
+        "stribeck_exponent": 1.4,
+    }
+
+
+EFFECT = Effect(
+    id="stribeck",
+    view=ResidualView("speed", along="motion", log=True),
+    obstacle=no_slow_motion,
+    where=_where,
+    plausible=_plausible,
+    flexible_shape=_flexible_shape,
+)

@@ -1,0 +1,50 @@
+"""Temperature: viscous friction changes with it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.effect.base import Array, Effect, Identified, JointSizes, ResidualView, number
+from stribeck.effect.thermal import (
+    DESIGN_NOTE,
+    cold_and_hot,
+    functions_of_temperature,
+    generated_temperature,
+    half_speed,
+    reference_temperature,
+    temperature_hardly_varies,
+)
+
+
+def _where(before: Identified, after: Identified) -> str:
+    m = after.model
+    cold, hot, at_cold, at_hot = cold_and_hot(after, "rate")
+    more = "higher" if at_cold > at_hot else "lower"
+    return (
+        f"viscous friction at {number(half_speed(after))} {m.position_unit}/s is "
+        f"{number(abs(at_cold - at_hot))} {m.load_unit} {more} at "
+        f"{number(cold)} degC than at {number(hot)} degC"
+    )
+
+
+def _flexible_shape(fit: Identified) -> list[Array]:
+    """Any function of the temperature."""
+    velocity = fit.recording.velocity[fit.rows]
+    return [velocity * h for h in functions_of_temperature(fit)]
+
+
+def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
+    return {"temperature_viscous_slope": 0.03, "temperature_viscous_curvature": 0.02}
+
+
+EFFECT = Effect(
+    id="temperature_viscous",
+    view=ResidualView("temperature", along="motion", regime="high_speed"),
+    obstacle=temperature_hardly_varies,
+    where=_where,
+    plausible=_plausible,
+    constants=reference_temperature,
+    generated_constants=generated_temperature,
+    flexible_shape=_flexible_shape,
+    design_note=DESIGN_NOTE,
+)
