@@ -57,21 +57,21 @@ def triangle(
 ) -> NDArray[np.float64]: ...
 def triangles_of(
     model: Model,
-    measured: Mapping[str, Any],
+    measured: Mapping[str, object],
     groups: int,
     values: ArrayLike,
     wanted: list[int],
     slope: ArrayLike,
 ) -> NDArray[np.float64] | None: ...
-def slides(model: Model, measured: Mapping[str, Any], values: ArrayLike) -> list[bool]: ...
+def slides(model: Model, measured: Mapping[str, object], values: ArrayLike) -> list[bool]: ...
 def search(
     model: Model,
-    measured: Mapping[str, Any],
+    measured: Mapping[str, object],
     starts: ArrayLike,
-    within: Mapping[str, Any],
+    within: Mapping[str, object],
 ) -> list[tuple[NDArray[np.float64], float, bool, str, int, list[int]]]: ...
 def search_by(
-    problem: object, start: ArrayLike, within: Mapping[str, Any]
+    problem: object, start: ArrayLike, within: Mapping[str, object]
 ) -> tuple[NDArray[np.float64], float, bool, str, int, list[int]]: ...
 def bounded_least_squares(
     matrix: ArrayLike, right: ArrayLike, lower: ArrayLike, upper: ArrayLike

@@ -1,1 +1,1 @@
-"""Least squares of one model on one recording: the parts that `stribeck.fit` puts together."""
+"""Least squares of one model on one recording: the parts of `stribeck.fit`."""

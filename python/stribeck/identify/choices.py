@@ -1,4 +1,4 @@
-"""What is said about single parameters of a fit: where they start, their bounds, which are held."""
+"""Starts, bounds and held values that a user gives for single parameters of a fit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from stribeck.base.errors import SpecError, nearest
+from stribeck.base.errors import SpecError, nearest, option
 from stribeck.models.formula_law import number
 from stribeck.models.model import Model
 
@@ -29,11 +29,11 @@ class Choices:
 
     @classmethod
     def parse(cls, start: Iterable[str], bound: Iterable[str], fix: Iterable[str]) -> Choices:
-        """From ``NAME=VALUE`` and ``NAME=LOW:HIGH`` texts; an end that is left out is open."""
+        """From ``NAME=VALUE`` and ``NAME=LOW:HIGH`` texts; an end that is left out is unbounded."""
         return cls(
-            {name: number(text, f"--start {name}") for name, text in _pairs(start, "--start")},
-            {name: _range(name, text) for name, text in _pairs(bound, "--bound")},
-            {name: number(text, f"--fix {name}") for name, text in _pairs(fix, "--fix")},
+            {name: number(text, option("start", name)) for name, text in _pairs(start, "start")},
+            {name: _range(name, text) for name, text in _pairs(bound, "bound")},
+            {name: number(text, option("fix", name)) for name, text in _pairs(fix, "fix")},
         )
 
     def applied(self, model: Model) -> Model:
@@ -42,8 +42,8 @@ class Choices:
         Raises
         ------
         SpecError
-            A parameter that the model does not have, is both bounded and held, or starts outside
-            its bounds.
+            A parameter that the model does not have, or that is both bounded and held, or that
+            starts outside its bounds.
         """
         values = model.values.copy()
         limits = {
@@ -67,13 +67,15 @@ class Choices:
         return replace(model, limits=limits, values=np.asarray(values))
 
 
-def _pairs(texts: Iterable[str], option: str) -> list[tuple[str, str]]:
+def _pairs(texts: Iterable[str], name_of_option: str) -> list[tuple[str, str]]:
     pairs = []
     for text in texts:
         name, mark, value = text.partition("=")
         if not mark or not name.strip() or not value.strip():
-            right = "NAME=LOW:HIGH" if option == "--bound" else "NAME=VALUE"
-            raise SpecError(f"{option} {text}: write {option} {right}")
+            right = "NAME=LOW:HIGH" if name_of_option == "bound" else "NAME=VALUE"
+            raise SpecError(
+                f"{option(name_of_option, text)}: write {option(name_of_option, right)}"
+            )
         pairs.append((name.strip(), value.strip()))
     return pairs
 
@@ -81,9 +83,11 @@ def _pairs(texts: Iterable[str], option: str) -> list[tuple[str, str]]:
 def _range(name: str, text: str) -> tuple[float, float]:
     low, mark, high = text.partition(":")
     if not mark:
-        raise SpecError(f"--bound {name}={text}: write --bound NAME=LOW:HIGH")
-    lower = number(low, f"--bound {name}", infinite=True) if low.strip() else -math.inf
-    upper = number(high, f"--bound {name}", infinite=True) if high.strip() else math.inf
+        raise SpecError(
+            f"{option('bound', f'{name}={text}')}: write {option('bound', 'NAME=LOW:HIGH')}"
+        )
+    lower = number(low, option("bound", name), infinite=True) if low.strip() else -math.inf
+    upper = number(high, option("bound", name), infinite=True) if high.strip() else math.inf
     return lower, upper
 
 

@@ -1,4 +1,4 @@
-"""Why the data cannot show a parameter: what else has the same effect on the prediction."""
+"""Why a parameter is not identifiable: which others have the same effect on the prediction."""
 
 from __future__ import annotations
 
@@ -7,26 +7,26 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: A partner makes up at least this share of a parameter's effect.
+#: Least share of a parameter's effect that another must have to be named.
 LEAST_SHARE = 0.05
 
 
 def partners(jacobian: Array, parameter: int, free: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Parameters that together do what one parameter does, the strongest first.
+    """Parameters that together have the same effect as one parameter, the strongest first.
 
     Parameters
     ----------
     jacobian : array [n, p]
         Derivative of the prediction.
     parameter
-        Index of one that the data does not show apart from the others.
+        Index of a parameter that is not identifiable.
     free : bool array [p]
-        Those that a fit may change.
+        Parameters that a fit may change.
 
     Returns
     -------
     int array
-        Indices; empty where the prediction does not depend on the parameter at all.
+        Indices of the others; empty where the prediction does not depend on the parameter.
 
     Examples
     --------
@@ -47,9 +47,9 @@ def partners(jacobian: Array, parameter: int, free: NDArray[np.bool_]) -> NDArra
 
 
 def reason(names: tuple[str, ...], found: NDArray[np.intp]) -> str:
-    """The sentence, without full stop, for the `partners` that were `found`."""
+    """Why a parameter is not identifiable, from its `partners`; without full stop."""
     if found.size == 0:
-        return "the prediction does not depend on it where the other parameters stand"
+        return "the prediction does not depend on it at the values of the other parameters"
     *most, last = (names[k] for k in found)
-    together = f"{', '.join(most)} and {last} together do" if most else f"{last} does"
-    return f"on this data {together} the same to the prediction"
+    together = f"{', '.join(most)} and {last} together have" if most else f"{last} has"
+    return f"on this data {together} the same effect on the prediction"

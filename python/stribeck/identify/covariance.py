@@ -1,7 +1,7 @@
-"""Standard errors that stand up to autocorrelated residuals.
+"""Standard errors that are valid for autocorrelated residuals.
 
 The sandwich H^-1 S H^-1 with S from sums of scores over contiguous batches that are longer
-than the residual's memory (batch means; Ibragimov and Mueller 2010 for the t quantile).
+than the residual's correlation length (batch means; Ibragimov and Mueller 2010 for the t quantile).
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ Array = NDArray[np.float64]
 
 
 def correlation_length(residual: Array) -> float:
-    """Samples over which a residual remembers itself: 1 + 2 sum of autocorrelations.
+    """Correlation length of a residual in samples: 1 + 2 times the sum of autocorrelations.
 
-    Sokal's automatic window: the sum stops at five times itself.
+    Sokal's automatic window: the sum stops at a lag of five times its value.
     """
     x = residual - residual.mean()
     size = x.size
@@ -27,7 +27,7 @@ def correlation_length(residual: Array) -> float:
         return 1.0
     length = 1.0
     limit = min(size // 4, 20000)
-    # Zeros enough that no lag up to the limit wraps around, to a length that the transform likes.
+    # Padded with zeros so that no lag up to the limit wraps around, to a fast length.
     padded = scipy.fft.next_fast_len(size + limit, real=True)
     spectrum = np.fft.rfft(x, padded)
     correlation = np.fft.irfft(np.abs(spectrum) ** 2, padded)[: limit + 1] / power
@@ -39,9 +39,9 @@ def correlation_length(residual: Array) -> float:
 
 
 def batches(size: int, length: float, fewest: int = 10, most: int = 200) -> NDArray[np.uint32]:
-    """Number each of `size` rows by contiguous batches, well longer than the correlation `length`.
+    """The batch of each of `size` samples; batches are well longer than the correlation `length`.
 
-    Batches are of equal size; there are `fewest` to `most` of them.
+    Batches are contiguous and of equal size; there are `fewest` to `most` of them.
     """
     count = int(np.clip(size / max(4.0 * length, 1.0), fewest, most))
     count = min(count, size)
@@ -51,7 +51,7 @@ def batches(size: int, length: float, fewest: int = 10, most: int = 200) -> NDAr
 def sandwich(
     jacobian: Array, residual: Array, batch: NDArray[np.uint32], free: NDArray[np.bool_]
 ) -> Array:
-    """Covariance [p, p] of the free parameters; infinite where the data does not show one."""
+    """Covariance of the free parameters, array [p, p]; zero for the others."""
     p = jacobian.shape[1]
     covariance = np.zeros((p, p))
     j = jacobian[:, free]
@@ -69,8 +69,9 @@ def sandwich(
 
 
 def independent(jacobian: Array, residual: Array, free: NDArray[np.bool_]) -> Array:
-    """Covariance ``s^2 (J'J)^-1`` [p, p] of the free parameters for errors that know nothing of
-    each other, with ``s^2`` the sum of squares over n - p.
+    """Covariance of the free parameters for independent errors, array [p, p].
+
+    ``s^2 (J'J)^-1`` with ``s^2`` the sum of squares over n - p.
     """
     p = jacobian.shape[1]
     covariance = np.zeros((p, p))
@@ -83,10 +84,10 @@ def independent(jacobian: Array, residual: Array, free: NDArray[np.bool_]) -> Ar
 
 
 def seen(jacobian: Array, free: NDArray[np.bool_], apart: float = 1e-4) -> NDArray[np.bool_]:
-    """Which of the `free` parameters the data can show apart from the others.
+    """Which of the `free` parameters are identifiable, bool array [p].
 
-    A parameter whose tangent lies in the span of the others' to the share `apart` is not
-    identifiable on this data, whatever its standard error says.
+    A parameter is not identifiable on this data if less than the share `apart` of its tangent lies
+    outside the span of the others' tangents, whatever its standard error.
     """
     p = jacobian.shape[1]
     shown = np.zeros(p, dtype=bool)
@@ -99,7 +100,7 @@ def seen(jacobian: Array, free: NDArray[np.bool_], apart: float = 1e-4) -> NDArr
     factor = Triangle.of(j, np.zeros(j.shape[0])).factor
     _, weights, vectors = np.linalg.svd(factor)
     hidden = weights < UNSEEN * weights[0]
-    # What takes part in a combination that changes nothing cannot be told from the others in it.
+    # Parameters in a combination without effect are indistinguishable from each other.
     lost = (vectors[hidden] ** 2).sum(axis=0) > 1e-6
     spread = np.sqrt(((vectors[~hidden] / weights[~hidden, None]) ** 2).sum(axis=0))
     shown[index] = ~lost & (spread * apart < 1.0)

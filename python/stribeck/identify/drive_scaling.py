@@ -1,4 +1,4 @@
-"""What a recording says about the motor before any fit: sizes, and constants that are known."""
+"""Scales and known constants of the motor, from a recording before any fit."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from stribeck.recording.recording import Recording
 
 
 def drive_scales(recording: Recording) -> dict[str, float]:
-    """What the bounds of the motor's constants are multiples of.
+    """The scales of the bounds of the motor's constants.
 
-    ``back_emf`` is the voltage over the largest speed, in V s/rad or V s/m; ``resistance`` the one
-    at which the voltage, with that constant, holds the load.
+    ``back_emf`` is the voltage over the largest speed, in V s/rad or V s/m. ``resistance`` is the
+    one with which the voltage, at that torque constant, holds the load, in ohm.
     """
     s = recording.scales()
     back_emf = (s["effort"] or 1.0) / (s["speed"] or 1.0)
@@ -21,7 +21,7 @@ def drive_scales(recording: Recording) -> dict[str, float]:
 
 
 def known_constants(recording: Recording) -> dict[str, float]:
-    """Constants of the motor that were said with the recording, at the joint.
+    """Constants of the motor that are given with the recording, at the joint.
 
     The motor's torque constant kt [N m/A] times the gear ratio; with the motor constant
     km = kt / sqrt(R) [N m/W^0.5] the resistance as well.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 import scipy
@@ -22,18 +22,18 @@ from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 
-#: What standard errors assume of the residual.
+#: What standard errors assume about the residual.
 #:
-#: ``"robust"``: it may remember itself and scatter unevenly, as the residual of any sampled motion
-#: does: a friction model's error is smooth in time.
-#: ``"independent"``: each row errs for itself and all alike, as separately measured points do.
-#: This is the textbook's ``s^2 (J'J)^-1`` with n - p degrees of freedom; on a sampled motion it
-#: promises far too much.
+#: ``"robust"``: it may be autocorrelated and heteroscedastic, as the residual of any sampled motion
+#: is: the error of a friction model is smooth in time.
+#: ``"independent"``: errors are independent and of equal variance, as those of separately measured
+#: points. This is the textbook's ``s^2 (J'J)^-1`` with n - p degrees of freedom; on a sampled
+#: motion it is far too optimistic.
 Errors = Literal["robust", "independent"]
-#: A bound counts as reached within this share of its range.
+#: A parameter is at its bound within this share of its range.
 AT_BOUND = 1e-6
-#: Least share of a parameter's effect that the other parameters cannot imitate: what systematic
-#: errors of a recording leave no room for, and what rounding does not.
+#: A parameter is identifiable if the others leave at least this share of its effect: more than
+#: systematic errors of a recording, or more than rounding.
 APART: dict[Errors, float] = {"robust": 1e-4, "independent": 1e-8}
 
 
@@ -41,8 +41,8 @@ APART: dict[Errors, float] = {"robust": 1e-4, "independent": 1e-8}
 class Estimate:
     """One identified parameter: value, standard error and 95 % interval in `unit`.
 
-    A parameter that was `held` was not identified and has no error. `why` says of one that is not
-    `identifiable` what else has the same effect.
+    A parameter that was `held` was not identified and has no standard error. `why` states for a
+    parameter that is not `identifiable` which others have the same effect.
     """
 
     name: str
@@ -58,8 +58,8 @@ class Estimate:
     held: bool = False
     why: str | None = None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of a parameter."""
+    def to_dict(self) -> dict[str, object]:
+        """As JSON."""
         return {
             "symbol": self.symbol,
             "value": self.value,
@@ -84,12 +84,10 @@ def estimates(
     batch = batches(residual.size, correlation_length(residual))
     count = int(batch.max()) + 1
     parts = problem.triangles(values, np.arange(values.size), batch, count)
-    return estimates_by_rows(
-        problem.model, values, lower, upper,
-        np.concatenate([part.factor for part in parts]),
-        np.concatenate([part.right for part in parts]),
-        np.repeat(np.arange(count, dtype=np.uint32), values.size),
-    )  # fmt: skip
+    factors = np.concatenate([part.factor for part in parts])
+    rights = np.concatenate([part.right for part in parts])
+    group = np.repeat(np.arange(count, dtype=np.uint32), values.size)
+    return estimates_by_rows(problem.model, values, lower, upper, factors, rights, group)
 
 
 def estimates_by_rows(
@@ -106,9 +104,10 @@ def estimates_by_rows(
     Parameters
     ----------
     jacobian, residual : arrays [n, p] and [n]
-        Rows, or the factors of each batch in their place: sums over a batch are the same.
+        One row a sample, or the triangular factors of each batch: they have the same sums.
     batch : int array [n]
-        Contiguous batches whose sums of scores tell the errors; None: each row errs for itself.
+        Contiguous batches, from whose sums of scores the standard errors follow; None: errors are
+        independent.
     """
     errors: Errors = "independent" if batch is None else "robust"
     held = lower == upper
@@ -145,6 +144,6 @@ def estimates_by_rows(
 
 
 def _reached(values: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
-    """Which values [p] lie at a bound; a bound at infinity is never reached."""
+    """Which values are at a bound, bool array [p]; an infinite bound is never reached."""
     size = np.where(np.isfinite(upper - lower), upper - lower, np.maximum(np.abs(values), 1.0))
     return np.asarray((values <= lower + AT_BOUND * size) | (values >= upper - AT_BOUND * size))

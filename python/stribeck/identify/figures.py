@@ -1,4 +1,4 @@
-"""Error figures over scored rows."""
+"""Error figures over scored samples."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Segments of so many rows are too short to be filtered.
+#: Segments of so many samples are too short to be filtered.
 SHORTEST = 30
 
 
 def rms(values: Array) -> float:
-    """Root mean square; NaN of nothing."""
+    """Root mean square; NaN of an empty array."""
     return float(np.sqrt(np.mean(values**2))) if values.size else float("nan")
 
 
 def torque_cutoff(recording: Recording) -> float | None:
-    """Cut-off of the filtered figure in Hz: ten times the band that holds the motion.
+    """Cut-off frequency of the filtered error in Hz: ten times the bandwidth of the motion.
 
-    The band ends where 99 % of the velocity's power lies below. None where there is nothing to
-    filter: steady-state points, or a motion as fast as the sampling.
+    The bandwidth holds 99 % of the velocity's power. None where there is nothing to filter:
+    steady-state points, or a motion as fast as the sampling.
     """
     if recording.motion_band is None:
         return None
@@ -32,7 +32,7 @@ def torque_cutoff(recording: Recording) -> float | None:
 
 
 def zero_phase(recording: Recording, values: Array) -> Array:
-    """Low-pass at `torque_cutoff` without phase; segments too short stay as they are."""
+    """Zero-phase low-pass at `torque_cutoff`, array [n]; segments too short stay as they are."""
     cutoff = torque_cutoff(recording)
     if cutoff is None:
         return values.copy()
@@ -40,7 +40,7 @@ def zero_phase(recording: Recording, values: Array) -> Array:
     sos = scipy.signal.butter(4, cutoff, fs=recording.rate_hz, output="sos")
     first = np.flatnonzero(np.diff(recording.segment, prepend=-1))
     length = np.diff(first, append=values.size)
-    # Segments of one length go through the filter together.
+    # Segments of equal length are filtered together.
     for size in np.unique(length[length > SHORTEST]):
         rows = first[length == size][:, None] + np.arange(size)
         filtered[rows] = scipy.signal.sosfiltfilt(sos, values[rows])
@@ -48,7 +48,7 @@ def zero_phase(recording: Recording, values: Array) -> Array:
 
 
 def bridged(recording: Recording, values: Array) -> Array:
-    """`values` on scored rows, joined by straight lines across the rows at rest."""
+    """`values` [n] of scored samples, joined by straight lines across samples at rest."""
     moving = recording.moving
     if moving.all() or not moving.any():
         return values
@@ -57,7 +57,7 @@ def bridged(recording: Recording, values: Array) -> Array:
 
 
 def relative_residual(recording: Recording, residual: Array) -> float:
-    """Norm of the residual over norm of the torque, both filtered, on scored rows."""
+    """Norm of the residual over norm of the torque, both filtered, on scored samples."""
     filtered = zero_phase(recording, bridged(recording, residual))
     torque = zero_phase(recording, recording.torque)
     size = rms(torque[recording.moving])

@@ -1,4 +1,4 @@
-"""Prediction of each held-out block by a refit without it."""
+"""Prediction of each block of a recording by a model fitted without it."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from stribeck.identify.triangle import Triangle, triangles
 
 Array = NDArray[np.float64]
 
-#: A refit ends when its next step foresees a smaller relative fall: what it would still move its
-#: prediction is far below what leaving the block out does.
+#: A refit ends when the predicted relative decrease is smaller: further steps would change the
+#: prediction far less than leaving the block out does.
 SETTLED = 1e-8
 
 
 class Refit(Protocol):
-    """How a refit goes on from known values [p]."""
+    """How a refit continues from known values [p]."""
 
     def step(self, values: Array, triangle: Triangle) -> Array:
-        """Values after one Gauss-Newton step of the free parameters, from their factors there."""
+        """Values [p] after one Gauss-Newton step, from the factors of the free parameters."""
 
     def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
-        """Values after more steps, from a `refit` that one step from `values` has led to.
+        """Values [p] after more steps, from the `refit` after one step from `values`.
 
         Parameters
         ----------
         problem
-            On the rows that are left.
+            On the remaining samples.
         square : float
-            Sum of squares at `values`, over these rows.
+            Sum of squares at `values`, over these samples.
         """
 
 
 @dataclass(frozen=True)
 class Bounded:
-    """Refits within bounds [p]; equal ones hold a parameter."""
+    """Refits within bounds [p]; equal bounds hold a parameter."""
 
     lower: Array
     upper: Array
@@ -54,7 +54,7 @@ class Bounded:
         return refit
 
     def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
-        """A second step; a damped search from `values` where the first went too far."""
+        """Values after a second step, or of a damped search where the first raised the error."""
         free = np.flatnonzero(self.lower < self.upper)
         others = problem.triangle(refit, free, np.ones(free.size))
         if others is not None and others.square <= square:
@@ -71,26 +71,28 @@ def held_out_prediction(
     exact: bool = True,
     by: Refit | None = None,
 ) -> tuple[Array, Array]:
-    """Predict each block from a refit without it.
+    """Predict each block by a model fitted without it.
 
-    A refit is Gauss-Newton from the solution on all rows, with the triangular factors of the other
-    blocks: exact for linear parameters, and converged in a round or two for the others, since
-    leaving a tenth of the rows out moves them little. Parameters with equal bounds are held.
+    A refit takes Gauss-Newton steps from the solution on all samples, with the factors of
+    the other blocks. They are exact for linear parameters, and converge in one or two steps for the
+    others, which change little when a tenth of the samples is left out. Parameters with equal
+    bounds are held.
 
     Parameters
     ----------
     exact : bool
-        Evaluate the model at each refit. Otherwise its linearisation serves, which is enough to
-        tell candidates apart and spares running a model with a state many times; rows at rest
-        then keep the prediction of the fit to all rows.
+        Evaluate the model at each refit. Otherwise its linearisation is used, which is enough to
+        rank candidates and does not run a model with a state many times; samples at rest then keep
+        the prediction of the fit to all samples.
     by : Refit
-        How a refit goes; default: within the bounds.
+        How a refit is done; default: within the bounds.
 
     Returns
     -------
     prediction : array [n]
-        Of every row, moving or not, by the refit that has not seen the row's block.
+        Of every sample, moving or not, by the model fitted without the sample's block.
     refits : array [blocks, p]
+        Values of each of these models.
     """
     block = problem.recording.block
     count = problem.recording.block_count

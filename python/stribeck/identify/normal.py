@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class NormalEquations:
-    """Sums of J'J, J'r and r'r over groups of rows.
+    """Sums of J'J, J'r and r'r over groups of samples.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class NormalEquations:
         group: NDArray[np.uint32] | None = None,
         groups: int | None = None,
     ) -> NormalEquations:
-        """Sum row by row; `group` gives each row's group (default: one group)."""
+        """Sum over J [n, p] and r [n]; `group` [n] is each sample's group (default: one group)."""
         if group is None:
             group = np.zeros(residual.size, dtype=np.uint32)
         if groups is None:
@@ -44,19 +44,19 @@ class NormalEquations:
         return cls(*_core.normal_equations(jacobian, residual, group, groups))
 
     def total(self) -> tuple[Array, Array]:
-        """J'J and J'r over all groups."""
+        """J'J [p, p] and J'r [p] over all groups."""
         return self.matrix.sum(axis=0), self.vector.sum(axis=0)
 
 
 def solve_bounded(matrix: Array, vector: Array, lower: Array, upper: Array) -> Array:
-    """Minimise x'Ax/2 - b'x within bounds; directions the data does not show stay at zero.
+    """Minimise x'Ax/2 - b'x within bounds; unidentifiable directions stay at zero.
 
     Parameters
     ----------
     matrix, vector
         A [p, p] positive semidefinite and b [p].
     lower, upper
-        Bounds [p]; zero is moved inside them where it is the fallback.
+        Bounds [p]; a solution outside is moved onto them.
     """
     if vector.size == 0:
         return vector.copy()

@@ -1,12 +1,11 @@
-"""One model bound to one recording: which rows count, what is predicted, against what."""
+"""One model on one recording: the scored samples, the prediction and its residual."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,18 +13,18 @@ from numpy.typing import NDArray
 from stribeck import _core
 from stribeck.base.errors import FitError
 from stribeck.base.pool import threads
+from stribeck.identify.measured import NOT_SUMMED, Found, Measured
 from stribeck.identify.triangle import Triangle, triangles
+from stribeck.models.channels import ChannelArguments
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Steady-state points, one a run, have slid for so long (s) that every state has settled.
+#: Duration (s) for which steady-state points have slid: every state has settled.
 SETTLED = 1e9
-#: The group of a row whose residual is not summed.
-NOT_SUMMED = np.uint32(2**32 - 1)
 
-#: Laws that read the sign of the motor torque and nothing else of it.
+#: Laws that read only the sign of the motor torque.
 SIGN_OF_MOTOR_TORQUE = ("clochiatti",)
 
 
@@ -36,12 +35,13 @@ class Problem:
     Parameters
     ----------
     rows : int array
-        The rows whose residuals are summed. A bristle's state runs through the others too.
+        Indices of the samples whose residuals are summed. The state of a model evolves over the
+        others too.
     load : array [n] or None
         The load torque that friction depends on, where the recording does not give it: that of
         the identified rigid body.
     span : (start, stop) or None
-        The stretch of samples that a model with a memory is run over; None: all.
+        The samples over which a model with a state is evaluated; None: all.
     """
 
     recording: Recording
@@ -52,21 +52,21 @@ class Problem:
 
     @cached_property
     def known(self) -> Array:
-        """The part of the torque that is known beforehand: the load torque, where given."""
+        """The part of the torque that is known before a fit: the load torque, where given, [n]."""
         return self.recording.known_torque
 
     @cached_property
     def target(self) -> Array:
-        """The measured torque on `rows`, exactly as recorded."""
+        """The measured torque of `rows`, as recorded, array [m]."""
         return self.recording.torque[self.rows]
 
     @cached_property
     def torque_norm(self) -> float:
-        """Norm of the measured torque on `rows`."""
+        """Norm of the measured torque of `rows`."""
         return float(np.sqrt(np.sum(self.target**2)))
 
     @cached_property
-    def _all_channels(self) -> dict[str, Any]:
+    def _all_channels(self) -> ChannelArguments:
         r = self.recording
         load = self.load if r.load_torque is None else r.load_torque
         return {
@@ -93,12 +93,12 @@ class Problem:
 
     @cached_property
     def _motor_sign(self) -> Array | None:
-        """Sign of the motor torque, for laws that tell motoring from generating by it; [n].
+        """Sign of the motor torque, for laws that distinguish motoring from generating, [n].
 
-        The sign alone goes in, so nothing is regressed on the measured torque: it chooses which of
-        two coefficients a row belongs to, and turns with the noise only where the torque crosses
-        zero. Laws that read the size of the motor torque get none, nor does a joint whose motor
-        torque was not recorded: it follows from the balance with their own prediction.
+        Only the sign is used, so nothing is regressed on the measured torque: the sign selects one
+        of two coefficients, and noise changes it only where the torque crosses zero. Laws that
+        read the size of the motor torque are not given it: for them, and where the motor torque
+        was not recorded, it follows from the torque balance with the predicted friction.
         """
         if self.model.law not in SIGN_OF_MOTOR_TORQUE or self.model.drive is not None:
             return None
@@ -109,9 +109,10 @@ class Problem:
 
     @cached_property
     def _mean_velocity(self) -> Array:
-        """Mean velocity over each step, which carries a bristle, array [n].
+        """Mean velocity over each step, which deflects a bristle, array [n].
 
-        From positions where they were recorded: their differences do not gather velocity noise.
+        From positions where they were recorded: position differences do not accumulate velocity
+        noise.
         """
         r = self.recording
         if r.averaged:
@@ -124,24 +125,24 @@ class Problem:
         return mean
 
     @cached_property
-    def _row_channels(self) -> dict[str, Any]:
-        """The channels of `rows` alone, for models in which each sample stands by itself."""
-        channels: dict[str, Any] = {
+    def _row_channels(self) -> ChannelArguments:
+        """The channels of `rows` alone, for models without memory."""
+        channels: ChannelArguments = {
             name: None if column is None else np.ascontiguousarray(column[self.rows])
             for name, column in self._all_channels.items()
         }
-        # An identified load is a term of the model: no balance may count it twice.
+        # An identified load is a term of the model: the torque balance must not count it twice.
         return {**channels, "shift_load": self.recording.load_torque is not None}
 
     @cached_property
     def _smooth(self) -> dict[str, Array] | None:
-        """Zero-phase smoothed channels: what `delay` shifts, so that it cannot average noise."""
+        """Zero-phase smoothed channels, which `delay` shifts: so it cannot reduce noise."""
         r = self.recording
         if "delay" not in self.model.effects:
             return None
         velocity = r.denoised("velocity")
         smooth = {
-            # The direction is never in doubt on moving rows; smoothing must not turn it.
+            # The direction of moving samples is certain; smoothing must not reverse it.
             "velocity": np.where(r.moving, np.copysign(velocity, r.velocity), velocity),
             "acceleration": r.denoised("acceleration"),
         }
@@ -153,9 +154,9 @@ class Problem:
             smooth["load_torque"] = self.load
         return smooth
 
-    def _channels_at(self, at: slice | NDArray[np.intp]) -> dict[str, Any]:
-        """The channels of some rows, for models that need what went before."""
-        delayed: dict[str, Any] = {}
+    def _channels_at(self, at: slice | NDArray[np.intp]) -> ChannelArguments:
+        """The channels of some samples, for models with memory."""
+        delayed: ChannelArguments = {}
         if self._smooth is not None:
             smooth = {name: column[at] for name, column in self._smooth.items()}
             delayed = {"smooth": smooth, "shift_load": self.recording.torque_holds_load}
@@ -166,28 +167,28 @@ class Problem:
         known = {"shift_load": self.recording.load_torque is not None}
         return {**channels, **known, **delayed}
 
-    def _stretch(self, start: int, stop: int, values: Array) -> dict[str, Any]:
-        """The channels of a contiguous stretch, each run in it begun as the data says.
+    def _stretch(self, start: int, stop: int, values: Array) -> ChannelArguments:
+        """The channels of contiguous samples; the data decides in which state each run starts.
 
-        Behind a voltage drive each begins without tension.
+        Behind a voltage drive each run starts at zero deflection.
         """
         if not self.in_core or self._moving_begins(start, stop).size == 0:
             return self._channels_at(slice(start, stop))
         measured = self._measured(start, stop)
         slides = _core.slides(self.model.core, measured, values)
-        channels: dict[str, Any] = measured["columns"]
+        channels: ChannelArguments = measured["columns"]
         dt = channels["dt"].copy()
         dt[measured["begins"]] = np.where(slides, np.inf, 0.0)
         return {**channels, "dt": dt}
 
     @property
     def in_core(self) -> bool:
-        """Whether the core can linearise the model: any but one behind a voltage drive."""
+        """Whether the core linearises the model: every model without a voltage drive."""
         return self.model.drive is None
 
     @cached_property
-    def _own(self) -> dict[str, Any]:
-        """What is fitted to, as the core takes it."""
+    def _own(self) -> Measured:
+        """The data of the fit, in the form of the core."""
         if self.model.memoryless:
             return {
                 "columns": self._row_channels,
@@ -200,8 +201,8 @@ class Problem:
             }
         return self._measured(*(self.span or (0, self.recording.time.size)))
 
-    def _measured(self, start: int, stop: int) -> dict[str, Any]:
-        """A contiguous stretch, as the core takes it."""
+    def _measured(self, start: int, stop: int) -> Measured:
+        """Contiguous samples, in the form of the core."""
         r = self.recording
         group = np.full(stop - start, NOT_SUMMED)
         group[self.rows[(self.rows >= start) & (self.rows < stop)] - start] = 0
@@ -216,7 +217,7 @@ class Problem:
         }
 
     def _moving_begins(self, start: int, stop: int) -> NDArray[np.intp]:
-        """Rows at which a run begins in motion, where a model with a memory has to know how."""
+        """Samples at which a run starts in motion, for models with a state."""
         r = self.recording
         if not self.model.has_state or r.averaged:
             return np.empty(0, dtype=np.intp)
@@ -225,14 +226,14 @@ class Problem:
         return start + np.flatnonzero(begins & r.moving[start:stop])
 
     def predict(self, values: Array, rows: NDArray[np.intp] | None = None) -> Array:
-        """Predicted torque of every row of the recording, array [n], or of some `rows`, array [m].
+        """Predicted torque of every sample, array [n], or of some `rows`, array [m].
 
         Raises
         ------
         FitError
-            The model means nothing at these values, or has no answer in some row.
+            The model is not defined at these values, or at some sample.
         """
-        with self._said():
+        with self._named_errors():
             if rows is not None and self.model.memoryless:
                 some = self._channels_at(rows)
                 return self.model.predictor.torque(values, **some) + self.known[rows]
@@ -241,18 +242,18 @@ class Problem:
         return predicted if rows is None else predicted[rows]
 
     def residual(self, values: Array) -> Array:
-        """Measured - predicted on `rows`, array [m]."""
+        """Measured minus predicted torque of `rows`, array [m]."""
         return self.linearise(values, np.empty(0, dtype=np.intp))[0]
 
     def linearise(
         self, values: Array, wanted: NDArray[np.intp] | None = None
     ) -> tuple[Array, Array]:
-        """Residual (measured - predicted) on `rows`, and derivative of the prediction.
+        """Residual (measured minus predicted) of `rows`, and derivatives of the prediction.
 
         Parameters
         ----------
         wanted : int array [k]
-            Parameters to differentiate by; default: all.
+            Indices of the parameters to differentiate by; default: all.
 
         Returns
         -------
@@ -274,10 +275,10 @@ class Problem:
     def triangle(self, values: Array, wanted: NDArray[np.intp], slope: Array) -> Triangle | None:
         """Factors at `values`, columns of the parameters `wanted` times `slope`, arrays [k].
 
-        None where the model is not finite, or means nothing.
+        None where the model is not finite, or not defined.
         """
         if self.in_core:
-            with self._said():
+            with self._named_errors():
                 made = _core.triangles_of(
                     self.model.core, self._own, 1, values, wanted.tolist(), slope
                 )
@@ -285,16 +286,16 @@ class Problem:
         try:
             residual, jacobian = self.linearise(values, wanted)
         except _core.ModelError:
-            # A law of the catalog refuses values at which it means nothing.
+            # A law of the catalog refuses values at which it is not defined.
             return None
         scaled = Triangle.of(jacobian * slope, residual)
-        # One number that is not finite reaches the factor.
+        # One number that is not finite makes the factor not finite.
         return scaled if np.all(np.isfinite(scaled.whole())) else None
 
     def triangles(
         self, values: Array, wanted: NDArray[np.intp], group: NDArray[np.uint32], groups: int
     ) -> list[Triangle]:
-        """Factors of each group of rows by itself, by the parameters `wanted` [k].
+        """Factors of each group of samples, by the parameters `wanted` [k].
 
         Parameters
         ----------
@@ -311,37 +312,41 @@ class Problem:
             return triangles(jacobian, residual, group, groups)
         own = self._own["group"].copy()
         own[own != NOT_SUMMED] = group
-        with self._said():
+        with self._named_errors():
             made = _core.triangles_of(
-                self.model.core, {**self._own, "group": own}, groups, values, wanted.tolist(),
+                self.model.core,
+                {**self._own, "group": own},
+                groups,
+                values,
+                wanted.tolist(),
                 np.ones(wanted.size),
-            )  # fmt: skip
+            )
         if made is None:
             raise FitError(f"{self.model.spec} on {self.recording.path} is not finite")
         return [Triangle.of_whole(whole) for whole in made]
 
-    def search(self, starts: Array, within: dict[str, Any]) -> list[tuple[Any, ...]]:
-        """The core's searches from `starts` [k, p], on all threads."""
-        with self._said():
+    def search(self, starts: Array, within: Mapping[str, object]) -> list[Found]:
+        """The results of the core's searches from `starts` [k, p], on all threads."""
+        with self._named_errors():
             return _core.search(self.model.core, self._own, starts, within)
 
     @contextmanager
-    def _said(self) -> Iterator[None]:
-        """Say of which model and recording the core's error is."""
+    def _named_errors(self) -> Iterator[None]:
+        """Name the model and the recording in an error of the core."""
         try:
             yield
         except _core.ModelError as error:
             raise FitError(f"{self.model.spec} on {self.recording.path}: {error}") from None
 
     def thinned(self, most: int) -> Problem:
-        """The same problem on at most `most` rows, evenly chosen."""
+        """The same problem on at most `most` rows, evenly spaced."""
         step = -(-self.rows.size // most)
         return (
             self if step <= 1 else Problem(self.recording, self.model, self.rows[::step], self.load)
         )
 
     def window(self, most: int) -> Problem:
-        """The same problem on the stretch of at most `most` samples with the most reversals."""
+        """The same problem on at most `most` contiguous samples, those with the most reversals."""
         size = self.recording.time.size
         if size <= most:
             return self

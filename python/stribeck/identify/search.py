@@ -1,4 +1,4 @@
-"""Many starts: coarse searches first, then the best of them are finished on all rows."""
+"""Searches from many starts: on few samples first; the best continue on all samples."""
 
 from __future__ import annotations
 
@@ -22,25 +22,24 @@ from stribeck.identify.space import SearchSpace
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-#: Of coarse searches whose sums of squares agree to this share one is finished.
+#: Coarse searches whose sums of squares agree to this share count as one.
 SAME = 1e-4
-#: Searches have ended in the same place where their search coordinates agree to this as well.
+#: Searches end at the same place if their search coordinates agree to this as well.
 NEAR = 0.01
-#: A coarse search with so many times the sum of squares of the best one is not gone on with: more
-#: rows will not make up for an error a fifth larger.
+#: A coarse search with more than so many times the sum of squares of the best one is dropped: more
+#: samples will not compensate for an error larger by a fifth.
 HOPELESS = 1.5
-#: How often a coarse search that ends blind to a parameter begins anew at most.
+#: Most restarts of a coarse search that ends where a parameter has no effect.
 ANEW = 3
-#: Sums of squares that agree to this share are one minimum, or equal ones.
+#: Sums of squares that agree to this share are at one minimum, or at equal minima.
 TIE = 1e-9
-#: Without bounds, random starts lie within this factor of the given one, either way.
+#: Without bounds, random starts are the given one times or divided by at most this factor.
 SPREAD = 10.0
-#: A search of a model with a state begins on so many times fewer samples. Searches without bounds
-#: take more steps, and a formula is slower than a law of the catalog: they have as many times fewer
-#: rows.
+#: A search of a model with a state starts on so many times fewer samples. So do searches without
+#: bounds, which take more steps, often of a formula, which is slower than a law of the catalog.
 FEWER = 4
-#: A coarse search between bounds, and one without, ends when its next step foresees a smaller
-#: relative fall.
+#: A coarse search with bounds, and one without, ends when the predicted relative decrease of its
+#: next step is smaller.
 COARSE, COARSE_WITHOUT_BOUNDS = 1e-6, 1e-12
 #: Most steps of a search from the given start where there are no bounds.
 MOST_STEPS = 200
@@ -53,13 +52,13 @@ class Effort:
     Attributes
     ----------
     rows, samples
-        Rows that a start is searched on before the best ones are finished on all rows, and the
-        length of the stretch where a model has a state.
+        Samples used for the coarse search of each start; contiguous ones, `samples`, where a model
+        has a state.
     evaluations
         Most evaluations of one start; 0: the start is near the minimum and needs no search.
     finished
-        Starts that are finished on all rows, until the next step foresees a relative fall of the
-        squared error below `tolerance`.
+        Number of starts that continue on all samples, until the predicted relative decrease of the
+        sum of squares is below `tolerance`.
     exact
         Whether held-out predictions evaluate the model at each refit, or its linearisation.
     """
@@ -74,7 +73,7 @@ class Effort:
 
 #: For a fit that is reported.
 THOROUGH = Effort()
-#: For one of many candidates, whose values are known roughly.
+#: For one of many candidates whose values are roughly known.
 QUICK = Effort(evaluations=0, finished=1, tolerance=1e-6, exact=False)
 
 
@@ -90,16 +89,16 @@ def multi_start(
 ) -> tuple[Search, int, int]:
     """The best of searches from `start` and from random ones.
 
-    Levenberg and Marquardt's method goes on from each. Between bounds, random starts are drawn
-    evenly (evenly in the logarithm where a bound above zero allows it). Where a nonlinear parameter
-    has no bounds, they lie within a factor of `SPREAD` of `start`, and from `start` itself it goes
-    twice: in the logarithms of the parameters, which keep the sign, and in the parameters as they
-    are.
+    Each start is continued by Levenberg and Marquardt's method. With bounds, random starts are
+    uniform between them (uniform in the logarithm where the lower bound is above zero). Where a
+    nonlinear parameter has no bounds, they lie within a factor of `SPREAD` of `start`, and `start`
+    itself is searched twice: in the logarithms of the parameters, which keep their signs, and in
+    the parameters.
 
     Parameters
     ----------
     varied : bool array [p]
-        Parameters that random starts change; linear ones follow by themselves.
+        Parameters that random starts change; linear ones are solved for.
 
     Returns
     -------
@@ -107,8 +106,8 @@ def multi_start(
     """
     space = SearchSpace(problem.model, lower, upper)
     nonlinear = space.nonlinear
-    # Behind a bristle the torque is nearly linear in the amplitudes of dry friction: a search finds
-    # them from anywhere, and random ones would only spoil the start.
+    # With a bristle the torque is nearly linear in the amplitudes of dry friction: a search finds
+    # them from any start, and random ones would only make the start worse.
     amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
     moved = varied & nonlinear & ~amplitude
     starts = max(starts, 1) if moved.any() else 1
@@ -130,7 +129,7 @@ def multi_start(
 
 
 def _coarse(problem: Problem, effort: Effort) -> list[Problem]:
-    """The problem on fewer rows: on very few of them first where each costs much."""
+    """The problem on fewer samples: on very few of them first if the model has a memory."""
     if problem.model.memoryless:
         return [problem.thinned(effort.rows)]
     first, second = problem.window(effort.samples // FEWER), problem.window(effort.samples)
@@ -165,15 +164,22 @@ def _between_bounds(
 def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) -> list[Search]:
     """Coarse searches between bounds from `at`, array [k, p].
 
-    Where the height of a curve comes to zero, nothing leads back to a better one. A search that
-    ends so begins anew further on, if a parameter that it is blind to is seen by one before it.
+    Where the height of a curve becomes zero, its other parameters have no effect and the search
+    cannot continue. Such a search starts again elsewhere if an earlier search ended where these
+    parameters have an effect.
     """
 
     def searched(at: Array) -> list[Search]:
         return minimise_from(
-            coarse, at, space.lower, space.upper, most=effort.evaluations, damping=CAUTIOUS,
-            logarithmic=space.logarithmic, tolerance=COARSE,
-        )  # fmt: skip
+            coarse,
+            at,
+            space.lower,
+            space.upper,
+            most=effort.evaluations,
+            damping=CAUTIOUS,
+            logarithmic=space.logarithmic,
+            tolerance=COARSE,
+        )
 
     found = searched(at)
     at = at.copy()
@@ -191,7 +197,7 @@ def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) ->
 
 
 def _lost(found: list[Search], space: SearchSpace) -> list[int]:
-    """The searches that are blind to a parameter at their end which one before them sees."""
+    """Indices of searches that end without effect of a parameter, unlike an earlier search."""
     everything = set(np.flatnonzero(space.nonlinear).tolist())
     seen: set[int] = set()
     lost = []
@@ -204,19 +210,19 @@ def _lost(found: list[Search], space: SearchSpace) -> list[int]:
 
 
 def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
-    """One of each group of searches that ended in the same place, best first."""
+    """One of each group of searches that ended at the same place, best first."""
     ranked = sorted(tried, key=lambda search: search.square)
     return [ranked[k] for k in np.unique(_leaders(ranked, space))]
 
 
 def _leaders(ended: Sequence[Search], space: SearchSpace) -> NDArray[np.intp]:
-    """Of each coarse search the first that ended in the same place: itself or an earlier one."""
+    """For each coarse search the first that ended at the same place: itself or an earlier one."""
     places = space.encode(np.stack([search.values for search in ended]))
     squares = np.array([search.square for search in ended])
     leaders = np.arange(squares.size)
     for k in leaders[1:]:
         own = np.unique(leaders[:k])
-        with np.errstate(invalid="ignore"):  # Where the model is not finite a square is infinite.
+        with np.errstate(invalid="ignore"):  # A sum is infinite where the model is not finite.
             level = np.abs(squares[k] - squares[own]) <= SAME * squares[own]
         near = np.all(np.abs(places[k] - places[own]) <= NEAR, axis=1)
         leaders[k] = next(iter(own[level & near]), k)
@@ -230,11 +236,12 @@ class Ended:
     Attributes
     ----------
     search
-        On all rows.
+        The search on all samples.
     evaluations
-        On fewer rows, and on all rows of a start that went on itself.
+        Evaluations on fewer samples, and on all samples where this start itself continued.
     leader
-        The start that went on for this one: itself, or an earlier one that it had come to.
+        The start that continued for this one: itself, or an earlier one that reached the same
+        place.
     """
 
     search: Search
@@ -245,10 +252,10 @@ class Ended:
 def search_each(
     problem: Problem, lower: Array, upper: Array, starts: Array, effort: Effort
 ) -> list[Ended]:
-    """The minimum on all rows that each of `starts` leads to, array [k, p], between bounds.
+    """The minimum on all samples that each of `starts` leads to, array [k, p], between bounds.
 
-    Starts that a coarse search brings to the same place go on as one, the first of them: where a
-    start ends depends on those before it and on none after it.
+    Of starts that a coarse search brings to the same place only the first continues. So the result
+    of a start depends on earlier starts, not on later ones.
     """
     space = SearchSpace(problem.model, lower, upper)
     leader = np.arange(starts.shape[0])
@@ -291,12 +298,18 @@ def _without_bounds(
 
     def search(at: Array, logarithmic: Mask, most: int) -> None:
         found = minimise_from(
-            coarse, at, lower, upper, most=most, damping=CAUTIOUS, logarithmic=logarithmic,
+            coarse,
+            at,
+            lower,
+            upper,
+            most=most,
+            damping=CAUTIOUS,
+            logarithmic=logarithmic,
             tolerance=COARSE_WITHOUT_BOUNDS,
-        )  # fmt: skip
+        )
         tried.extend(found)
 
-    # First what keeps the given signs: a formula may have the same torque at several values.
+    # First the search that keeps the signs: a formula may have the same torque at several values.
     search(start[None, :], signed, MOST_STEPS)
     search(start[None, :], np.zeros_like(signed), MOST_STEPS)
     at = np.tile(start, (starts - 1, 1))
@@ -308,9 +321,9 @@ def _without_bounds(
 
 
 def _distinct(tried: list[Search], noise: float) -> list[Search]:
-    """The searches that ended in different places, best first.
+    """The searches that ended at different places, best first.
 
-    The first of those that found the same stands for them.
+    Of those with the same sum of squares the first is kept.
     """
     kept: list[Search] = []
     for search in sorted(tried, key=lambda search: search.square):
@@ -320,18 +333,18 @@ def _distinct(tried: list[Search], noise: float) -> list[Search]:
 
 
 def _winner(finished: list[Search], noise: float) -> Search:
-    """The lowest; of those that found the same, the first."""
+    """The search with the least sum of squares; of equal ones the first."""
     best = min(finished, key=lambda search: search.square)
     return next(search for search in finished if _same(search, best, noise))
 
 
 def _same(one: Search, other: Search, noise: float) -> bool:
-    """Whether two sums of squares differ by rounding alone.
+    """Whether two sums of squares differ only by rounding.
 
     Parameters
     ----------
     noise : float
-        Norm of the torque's rounding.
+        Norm of the rounding of the torque.
     """
     if one is other:
         return True

@@ -1,8 +1,7 @@
-"""Separable least squares: the core's search, for problems in memory and for those that are not.
+"""Separable least squares: the core's search, for data in memory and data read in passes.
 
-Steps are taken in the nonlinear parameters alone, by Levenberg and Marquardt's method, and at each
-point the linear ones are solved for. Bounds hold throughout; a parameter whose bounds are equal is
-held.
+Steps change the nonlinear parameters alone, by Levenberg and Marquardt's method; at each point the
+linear parameters are solved for. Bounds hold throughout. A parameter with equal bounds is held.
 """
 
 from __future__ import annotations
@@ -21,15 +20,16 @@ from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 
+#: Most steps of a search.
 MOST_ROUNDS = 50
-#: A fall of the sum of squares by less than this share, foreseen by the undamped step, ends it.
+#: A search ends when the undamped step predicts a smaller relative decrease of the sum of squares.
 TOLERANCE = 1e-18
-#: First damping where the search starts far away, in squared lengths of the columns.
+#: First damping far from the minimum, in squared lengths of the columns.
 CAUTIOUS = 1e-2
 
 
 class LeastSquares(Protocol):
-    """A model against measured torque: rows in memory, or a data set that is read in passes."""
+    """A model and measured torque: samples in memory, or a data set that is read in passes."""
 
     @property
     def model(self) -> Model:
@@ -37,7 +37,7 @@ class LeastSquares(Protocol):
 
     @property
     def torque_norm(self) -> float:
-        """Norm of the measured torque; asked for after the first `triangle`."""
+        """Norm of the measured torque; read only after the first call of `triangle`."""
 
     def triangle(self, values: Array, wanted: NDArray[np.intp], slope: Array) -> Triangle | None:
         """The problem linearised at `values`; None where the model is not finite there.
@@ -46,18 +46,25 @@ class LeastSquares(Protocol):
         ----------
         values : array [p]
         wanted, slope : arrays [k]
-            The parameters to differentiate by, and by what their columns are multiplied.
+            Indices of the parameters to differentiate by, and factors of their columns.
         """
 
 
 @dataclass
 class Search:
-    """Where one search ended.
+    """The end of one search.
 
     Attributes
     ----------
+    values : array [p]
+    square
+        Sum of squares.
+    converged, outcome
+        Whether the search converged, and why it ended.
+    evaluations
+        Number of evaluations of the model.
     blind
-        Places of the nonlinear parameters on which the torque does not depend there.
+        Indices of the nonlinear parameters that have no effect at `values`.
     """
 
     values: Array
@@ -79,31 +86,38 @@ def minimise(
     damping: float = 0.0,
     logarithmic: NDArray[np.bool_] | None = None,
 ) -> Search:
-    """Bring the sum of squares down from `values` to the minimum they lead to.
+    """Minimise the sum of squares, starting from `values`.
 
     Parameters
     ----------
     values, lower, upper : arrays [p]
-        Start and bounds; infinite bounds are none, equal ones hold a parameter.
+        Start and bounds; an infinite bound is no bound, equal ones hold a parameter.
     tolerance : float
-        The search ends when the undamped step foresees a smaller relative fall, or some damped ones
-        bring a smaller one.
+        The search ends when the undamped step predicts a smaller relative decrease, or several
+        damped steps achieve only a smaller one.
     most : int
-        Most steps, those that are taken back included.
+        Most steps, rejected ones included.
     damping : float
-        First damping: 0 from a point near the minimum, `CAUTIOUS` from anywhere else.
+        First damping: 0 near the minimum, `CAUTIOUS` elsewhere.
     logarithmic : bool array [p]
-        Nonlinear parameters whose logarithm is stepped in.
+        Nonlinear parameters that are changed in steps of their logarithm.
 
     Returns
     -------
     Search
-        Its sum of squares is infinite where the model is not finite at `values`.
+        With an infinite sum of squares where the model is not finite at `values`.
     """
-    return minimise_from(
-        problem, values[None, :], lower, upper, tolerance=tolerance, most=most, damping=damping,
+    searches = minimise_from(
+        problem,
+        values[None, :],
+        lower,
+        upper,
+        tolerance=tolerance,
+        most=most,
+        damping=damping,
         logarithmic=logarithmic,
-    )[0]  # fmt: skip
+    )
+    return searches[0]
 
 
 def minimise_from(
@@ -117,7 +131,7 @@ def minimise_from(
     damping: float = 0.0,
     logarithmic: NDArray[np.bool_] | None = None,
 ) -> list[Search]:
-    """`minimise` from each of several `starts`, array [k, p]; rows in memory on all threads."""
+    """`minimise` from each of several `starts` [k, p]; for data in memory on all threads."""
     within = {
         "lower": lower,
         "upper": upper,
@@ -130,12 +144,12 @@ def minimise_from(
     if isinstance(problem, Problem) and problem.in_core:
         found = problem.search(starts, within)
     else:
-        # Steps that leave the range of numbers are taken back.
+        # Steps that overflow are rejected.
         with np.errstate(all="ignore"):
             found = [_core.search_by(problem, start, within) for start in starts]
     return [Search(*one) for one in found]
 
 
 def rounding(problem: LeastSquares) -> float:
-    """Norm of the rounding of the torque: what is left where a model fits exactly."""
+    """Norm of the rounding of the torque: the residual of an exact fit."""
     return float(np.finfo(float).eps) * problem.torque_norm

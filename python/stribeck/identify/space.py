@@ -1,4 +1,4 @@
-"""Where the nonlinear parameters of a model are searched between their bounds."""
+"""Coordinates in which the nonlinear parameters of a model are searched between bounds."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 
-#: The golden section.
+#: The golden ratio minus one.
 GOLDEN = (5.0**0.5 - 1.0) / 2.0
 
 
 class SearchSpace:
     """Coordinates in 0..1 of the nonlinear parameters between their bounds.
 
-    Speeds, exponents and stiffnesses span decades: where a bound above zero allows it, the
-    coordinate is that of the logarithm. A parameter whose bounds are equal is held and has none.
+    Speeds, exponents and stiffnesses span decades: where the lower bound is above zero, the
+    coordinate is linear in the logarithm. A parameter with equal bounds is held and has none.
 
     Parameters
     ----------
@@ -29,8 +29,8 @@ class SearchSpace:
     Attributes
     ----------
     nonlinear, logarithmic : bool arrays [p]
-        Which parameters have a coordinate, and in the logarithm of which a search steps: in that
-        of the stiffness of bristles. A step that suits a soft one is nothing to a stiff one.
+        Which parameters have a coordinate, and which are searched in steps of their logarithm: the
+        stiffness of bristles, since a step that suits a soft bristle hardly changes a stiff one.
     """
 
     def __init__(self, model: Model, lower: Array, upper: Array) -> None:
@@ -43,7 +43,7 @@ class SearchSpace:
         self._log = self._low > 0
 
     def encode(self, values: Array) -> Array:
-        """Search coordinates of the nonlinear ones among `values` [..., p]."""
+        """Search coordinates [..., k] of the k nonlinear parameters among `values` [..., p]."""
         low, high = self._low, self._high
         x = np.clip(values[..., self.nonlinear], low, high)
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -51,7 +51,7 @@ class SearchSpace:
         return np.where(self._log, logarithmic, (x - low) / (high - low))
 
     def decode(self, u: Array) -> Array:
-        """Nonlinear parameters of search coordinates."""
+        """Nonlinear parameters [..., k] at search coordinates `u`, array [..., k]."""
         low, high = self._low, self._high
         with np.errstate(divide="ignore", invalid="ignore"):
             logarithmic = low * (high / low) ** u
@@ -59,9 +59,10 @@ class SearchSpace:
         return np.clip(x, low, high)
 
     def further(self, values: Array, parameters: Sequence[int]) -> Array:
-        """`values` [p] with some nonlinear parameters by the golden section of their range further.
+        """Move some nonlinear parameters of `values` [p] by the golden section of their range.
 
-        Beyond its end it begins anew: never the same place twice, and everywhere in few steps.
+        A parameter that passes the end of its range continues at the other end. So repeated moves
+        cover the range evenly and never meet the same place twice.
         """
         which = np.isin(np.flatnonzero(self.nonlinear), parameters)
         u = self.encode(values)
@@ -70,7 +71,7 @@ class SearchSpace:
         return moved
 
     def drawn(self, start: Array, random: np.random.Generator) -> Array:
-        """`start` [p] with nonlinear parameters at random, even over the search coordinates."""
+        """`start` [p] with random nonlinear parameters, uniform in the search coordinates."""
         values = start.copy()
         values[self.nonlinear] = self.decode(random.uniform(size=int(self.nonlinear.sum())))
         return values

@@ -1,8 +1,8 @@
-"""Stretches that no friction model explains: approach moves, abrupt stops, blows.
+"""Transients that no friction model explains: approach moves, abrupt stops, impacts.
 
-They happen once, where an effect comes back again and again. They are reported, and left out
-of the rows that the parameters are fitted to, so that they do not drive the answer; the error
-figures keep them, since the rows scored are the same for every model.
+They happen once, whereas an effect acts again and again. They are reported and excluded from the
+fit, so that they do not bias the parameters. Error figures include them, since the scored samples
+are the same for every model.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Share of the rows that may be called transient; more than that is how the machine works.
+#: Largest share of samples that are transient; what is more frequent is normal operation.
 MOST = 0.12
-#: The recording is looked at in this many windows.
+#: Number of windows of a recording.
 WINDOWS = 60
-#: A window is wild if its error exceeds so many times the median window's, slow and raw.
-WILD_SLOW, WILD_RAW = 4.0, 3.0
-#: What happens more often than this is not a transient but something to be explained.
+#: A window is an outlier if its error, filtered or raw, exceeds the median by such a factor.
+OUTLIER_FILTERED, OUTLIER_RAW = 4.0, 3.0
+#: Most transients; what happens more often needs an explanation.
 STRETCHES = 3
 
 
 def flexible_columns(recording: Recording) -> list[Array]:
     """Columns of a deliberately flexible friction model, arrays [n].
 
-    Smooth curves of speed in either direction, position and temperature, and the rigid body.
+    Smooth functions of speed in either direction, of position and temperature, and the rigid body.
     """
     v = recording.velocity
     speed = recording.scales()["speed"] or 1.0
@@ -58,7 +58,7 @@ def flexible_columns(recording: Recording) -> list[Array]:
 
 
 def transient_rows(recording: Recording) -> NDArray[np.bool_]:
-    """Rows of stretches whose filtered residual no flexible model brings down, bool [n]."""
+    """Samples of transients, bool [n]: windows that a flexible model does not fit."""
     none = np.zeros(recording.time.size, dtype=bool)
     moving = recording.moving
     if recording.averaged or moving.sum() < 20 * WINDOWS:
@@ -73,26 +73,26 @@ def transient_rows(recording: Recording) -> NDArray[np.bool_]:
     for _ in range(4):
         residual = _left_out(columns, target, window, moving, moving & ~marked)
         slow = zero_phase(recording, residual)
-        wild = np.zeros(WINDOWS, dtype=bool)
-        for values, factor in ((slow, WILD_SLOW), (residual, WILD_RAW)):
+        outlier = np.zeros(WINDOWS, dtype=bool)
+        for values, factor in ((slow, OUTLIER_FILTERED), (residual, OUTLIER_RAW)):
             square = np.bincount(window[moving], values[moving] ** 2, WINDOWS)
             level = np.sqrt(square / np.maximum(count, 1))
-            # Windows differ in what the joint does: a wild one stands out from the worst
-            # ordinary ones too.
-            ordinary = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
-            wild |= level > ordinary
-        again = moving & wild[window]
-        often = np.count_nonzero(np.diff(wild.astype(int), prepend=0) == 1) > STRETCHES
-        if often or again.sum() > MOST * moving.sum() or np.array_equal(again, marked):
+            # The motion differs between windows: an outlier also exceeds the worst normal ones.
+            normal = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
+            outlier |= level > normal
+        again = moving & outlier[window]
+        frequent = np.count_nonzero(np.diff(outlier.astype(int), prepend=0) == 1) > STRETCHES
+        if frequent or again.sum() > MOST * moving.sum() or np.array_equal(again, marked):
             break
         marked = again
     return marked
 
 
 def _of_one_size(columns: list[Array], moving: NDArray[np.bool_]) -> Array:
-    """Columns with a mean square of 1 over the `moving` rows, array [n, k]; none that is nothing.
+    """Columns with a mean square of 1 over the `moving` samples, array [n, k], without zero ones.
 
-    Long recordings fill the memory with them: each is let go as soon as it is in place.
+    The list is emptied: each column is freed once it is copied, since long recordings fill the
+    memory.
     """
     made = np.empty((moving.size, len(columns)))
     used = 0
@@ -112,8 +112,8 @@ def _left_out(
     moving: NDArray[np.bool_],
     kept: NDArray[np.bool_],
 ) -> Array:
-    """Residual of each window by the fit to the other windows' `kept` rows; 0 at rest."""
-    # What is not kept is summed apart: no copy of the others is made.
+    """Residual [n] of each window by a fit to the `kept` samples of the others; 0 at rest."""
+    # Samples that are not kept go to a group of their own: this needs no copy of the others.
     sums = NormalEquations.of(columns, target, np.where(kept, window, WINDOWS), WINDOWS + 1)
     matrix, vector = sums.matrix[:WINDOWS].sum(axis=0), sums.vector[:WINDOWS].sum(axis=0)
     ridge = 1e-6 * kept.sum() * np.eye(columns.shape[1])
@@ -127,7 +127,7 @@ def _left_out(
 
 
 def stretches(recording: Recording, marked: NDArray[np.bool_]) -> list[tuple[float, float]]:
-    """Start and end times of the marked stretches, merged over rows at rest, in s."""
+    """Start and end times of marked samples in s, merged across samples at rest."""
     rows = np.flatnonzero(marked)
     if rows.size == 0:
         return []

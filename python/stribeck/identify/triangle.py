@@ -1,8 +1,8 @@
 """Triangular factors of least-squares problems, and their bounded solution.
 
-The factor R of a Jacobian J = QR has the condition of J; the normal equations J'J have its square
-and keep half the digits. The factors are made in the core, in a fixed order, so that they have the
-same bits on any machine and any number of threads.
+The factor R of a Jacobian J = QR has the condition number of J; the normal equations J'J have its
+square, so half the digits are lost. The core computes the factors in a fixed order: they have the
+same bits on any machine and with any number of threads.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from stribeck import _core
 
 Array = NDArray[np.float64]
 
-#: Directions with a singular value below this share of the largest, all columns brought to length
-#: one, are not shown by the data.
+#: Directions with a singular value below this share of the largest, with columns of unit length,
+#: are not identifiable.
 UNSEEN = 1e-10
 
 
 @dataclass(frozen=True)
 class Triangle:
-    """What a least-squares problem ``min |J x - r|`` comes to.
+    """The triangular form of a least-squares problem ``min |J x - r|``.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class Triangle:
     right : array [p]
         ``Q'r``: the best step solves ``R x = right``.
     rest : float
-        Norm of the part of r that no step explains.
+        Norm of the part of r that no step reduces.
 
     Examples
     --------
@@ -49,25 +49,25 @@ class Triangle:
 
     @classmethod
     def of(cls, jacobian: Array, residual: Array) -> Triangle:
-        """Factor J [n, p] and r [n]."""
+        """The triangular form of J [n, p] and r [n]."""
         return triangles(jacobian, residual, np.zeros(residual.size, dtype=np.uint32), 1)[0]
 
     @classmethod
     def joined(cls, parts: list[Triangle]) -> Triangle:
-        """The problem of all rows together, from the factors of groups of rows."""
+        """The problem of all samples, from the factors of groups of samples."""
         return cls.of(
             np.concatenate([part.factor for part in parts]),
             np.concatenate([part.right for part in parts]),
         )._beside(parts)
 
     def _beside(self, parts: list[Triangle]) -> Triangle:
-        """Count in what was left over in each part already."""
+        """Add the rests of the parts."""
         rest = np.linalg.norm([self.rest, *(part.rest for part in parts)])
         return Triangle(self.factor, self.right, float(rest))
 
     @classmethod
     def of_whole(cls, whole: Array) -> Triangle:
-        """From the factor of ``[J r]``, array [p + 1, p + 1]."""
+        """The triangular form in the factor of ``[J r]``, array [p + 1, p + 1]."""
         return cls(whole[:-1, :-1], whole[:-1, -1], abs(float(whole[-1, -1])))
 
     def whole(self) -> Array:
@@ -77,21 +77,21 @@ class Triangle:
 
     @property
     def square(self) -> float:
-        """Sum of squares before any step."""
+        """Sum of squares before a step."""
         return float(self.right @ self.right) + self.rest * self.rest
 
     def fall(self, step: Array) -> float:
-        """By how much `step` [p] lowers the sum of squares: not a difference of two sums."""
+        """Decrease of the sum of squares by `step` [p], without the rounding of a difference."""
         change = self.factor @ step
         return float(change @ (2.0 * self.right - change))
 
     def solve(self, lower: Array, upper: Array, damping: Array | None = None) -> Array:
-        """The best step [p] within bounds; directions the data does not show stay at zero.
+        """The best step [p] within bounds; unidentifiable directions stay at zero.
 
         Parameters
         ----------
         damping : array [p]
-            Levenberg's: ``|damping * step|^2`` is added to what is minimised.
+            Levenberg's damping: ``|damping * step|^2`` is added to the objective.
         """
         root, right = self.factor, self.right
         if damping is not None and damping.any():
@@ -100,7 +100,7 @@ class Triangle:
         return least_squares(root, right, lower, upper)
 
     def covariance(self) -> Array:
-        """Inverse of J'J [p, p]; what the data does not show is left out (pseudo-inverse)."""
+        """Pseudo-inverse of J'J [p, p], without unidentifiable directions."""
         scale = _lengths(self.factor)
         inverse = np.linalg.pinv(self.factor / scale, rcond=UNSEEN)
         inverse = inverse / scale[:, None]
@@ -110,14 +110,14 @@ class Triangle:
 def triangles(
     jacobian: Array, residual: Array, group: NDArray[np.uint32], groups: int
 ) -> list[Triangle]:
-    """Factor each group of rows by itself.
+    """The triangular form of each group of samples.
 
     Parameters
     ----------
     jacobian, residual
         J [n, p] and r [n].
     group : array [n]
-        Which of the `groups` each row belongs to.
+        Which of the `groups` each sample belongs to.
     """
     return [Triangle.of_whole(whole) for whole in _core.triangle(jacobian, residual, group, groups)]
 
@@ -125,7 +125,7 @@ def triangles(
 def least_squares(matrix: Array, right: Array, lower: Array, upper: Array) -> Array:
     """Minimise ``|A x - b|`` within bounds, from A [m, p] and b [m].
 
-    Where A has left the range of numbers there is no step: zeros.
+    Zeros where A is not finite.
     """
     return _core.bounded_least_squares(matrix, right, lower, upper)
 
@@ -133,8 +133,7 @@ def least_squares(matrix: Array, right: Array, lower: Array, upper: Array) -> Ar
 def _lengths(matrix: Array) -> Array:
     """Lengths of the columns [p], 1 for one that is zero.
 
-    Divided by the largest entries, squares of very large and very small ones stay in the range of
-    numbers.
+    Columns are divided by their largest entries first, so that squares do not overflow.
     """
     size = np.abs(matrix).max(axis=0, initial=0.0)
     size = np.where(size > 0.0, size, 1.0)

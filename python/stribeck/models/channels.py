@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TypedDict
+from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from stribeck import _core
 
 Array = NDArray[np.float64]
+
+#: Channels as keyword arguments of a compiled model.
+ChannelArguments: TypeAlias = dict[str, Any]
 
 #: Channels that a model may read beside the velocity.
 BESIDE_VELOCITY = (
