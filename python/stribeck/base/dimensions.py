@@ -12,8 +12,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
 
+from stribeck.base.units import CHANNEL_POWERS
+
+#: What an operation of a formula works on: a number, the index of a parameter, a name, or nothing.
+Detail = float | int | str | None
+#: One operation of a formula's program: its name and its detail.
+Operation = tuple[str, Detail]
 #: Powers of torque, position, time and temperature.
 Powers = tuple[Fraction, Fraction, Fraction, Fraction]
 
@@ -25,15 +30,7 @@ def powers(torque: int = 0, position: int = 0, time: int = 0, temperature: int =
 
 NUMBER = powers()
 TORQUE = powers(torque=1)
-CHANNELS: dict[str, Powers] = {
-    "velocity": powers(position=1, time=-1),
-    "position": powers(position=1),
-    "acceleration": powers(position=1, time=-2),
-    "temperature": powers(temperature=1),
-    "load_torque": TORQUE,
-    "motor_torque": TORQUE,
-    "external_torque": TORQUE,
-}
+CHANNELS: dict[str, Powers] = {name: powers(*unit) for name, unit in CHANNEL_POWERS.items()}
 #: Functions that keep the unit, take a root of it, or compare two values of one unit.
 _KEEPING = {"abs": Fraction(1), "sqrt": Fraction(1, 2), "cbrt": Fraction(1, 3)}
 _COMPARING = {"min", "max"}
@@ -56,7 +53,7 @@ class _Quantity:
         return _Quantity(known, {k: e for k, e in parameters.items() if e})  # type: ignore[arg-type]
 
 
-def derive(operations: Sequence[tuple[str, Any]], count: int) -> tuple[Powers | None, ...]:
+def derive(operations: Sequence[Operation], count: int) -> tuple[Powers | None, ...]:
     """Powers of each of a formula's `count` parameters; None where the formula does not fix them.
 
     Parameters
@@ -81,7 +78,7 @@ class _Rules:
     def __init__(self) -> None:
         self.equations: list[_Quantity] = []
 
-    def run(self, operations: Sequence[tuple[str, Any]]) -> None:
+    def run(self, operations: Sequence[Operation]) -> None:
         stack: list[_Quantity | None] = []
         for name, detail in operations:
             arguments = [stack.pop() for _ in range(_arity(name, detail))][::-1]
@@ -89,13 +86,13 @@ class _Rules:
         self._equal(stack.pop(), _Quantity(TORQUE))
 
     def _apply(
-        self, name: str, detail: Any, arguments: Sequence[_Quantity | None]
+        self, name: str, detail: Detail, arguments: Sequence[_Quantity | None]
     ) -> _Quantity | None:
-        if name == "constant":
-            return _Quantity(NUMBER, number=float(detail))
-        if name == "parameter":
+        if name == "constant" and isinstance(detail, float):
+            return _Quantity(NUMBER, number=detail)
+        if name == "parameter" and isinstance(detail, int):
             return _Quantity(NUMBER, {detail: Fraction(1)})
-        if name == "channel":
+        if name == "channel" and isinstance(detail, str):
             return _Quantity(CHANNELS[detail])
         x = arguments[0]
         y = arguments[-1]
@@ -112,9 +109,9 @@ class _Rules:
             return x.times(y)
         if name == "divide":
             return x.times(y, Fraction(-1))
-        if name == "integer_power":
+        if name == "integer_power" and isinstance(detail, int):
             return _Quantity(NUMBER).times(x, Fraction(detail))
-        if detail in _KEEPING:
+        if isinstance(detail, str) and detail in _KEEPING:
             return _Quantity(NUMBER).times(x, _KEEPING[detail])
         if detail != "sgn":
             self._plain(x)
@@ -134,7 +131,7 @@ class _Rules:
         return _Quantity(NUMBER)
 
     def _plain(self, x: _Quantity) -> None:
-        """`x` must be a number; `exp(v)`, without a parameter, is the user's own business."""
+        """`x` must be a number; `exp(v)`, without a parameter, is left to the user."""
         if x.parameters:
             self.equations.append(x)
 
@@ -148,7 +145,7 @@ class _Rules:
         self.equations.append(x.times(y, Fraction(-1)))
 
 
-def _arity(name: str, detail: Any) -> int:
+def _arity(name: str, detail: Detail) -> int:
     if name in ("constant", "parameter", "channel"):
         return 0
     if name in ("negate", "integer_power"):
@@ -212,10 +209,10 @@ def unit_text(unit: Powers, torque_unit: str, position_unit: str) -> str:
 
 
 def natural_size(unit: Powers, scales: Mapping[str, float]) -> float:
-    """The size that a quantity of this unit has on a recording, from its largest speed, its torque,
-    its stroke and its span of temperature (`Recording.scales`).
+    """The typical size of a quantity of this unit on a recording.
 
-    Times count as strokes over speeds: a torque per speed is the torque over the largest speed.
+    It follows from the largest speed, the torque, the stroke and the span of temperature
+    (`Recording.scales`). A time is a stroke over a speed.
     """
     torque, position, time, temperature = (float(power) for power in unit)
     speed = scales["speed"] or 1.0

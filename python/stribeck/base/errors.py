@@ -8,8 +8,9 @@ argument. The command line spells the same options as flags (`spell_options`)::
     Python:        ... no time column: say which with `map="time=COLUMN"`
     command line:  ... no time column: say which with --map time=COLUMN
 
-Without a value, ``f"use {option('where')}"`` gives "use option `where`", or "use --where". Write
-the name with underscores, as in Python, and no article before it.
+Several values are a list in Python and a flag each on the command line. Without a value,
+``f"use {option('where')}"`` gives "use option `where`", or "use --where". Write the name with
+underscores, as in Python, and no article before it.
 """
 
 from __future__ import annotations
@@ -71,25 +72,33 @@ def nearest(name: str, options: Iterable[str]) -> str:
 
 
 _OPTION = re.compile(
-    r"option `(?P<bare>\w+)`|`(?P<name>\w+)=(?:\"(?P<text>.*?)\"|(?P<number>\S+?))`"
+    r"option `(?P<bare>\w+)`"
+    r"|`(?P<name>\w+)=(?:\"(?P<text>.*?)\"|\[\"(?P<texts>.*?)\"\]|(?P<number>[^\s\"\[]+?))`"
 )
 
 
-def option(name: str, value: str | float | None = None) -> str:
+def option(name: str, *values: str | float) -> str:
     """An option as sentences name it, with the value to give or the value that was given.
 
     Examples
     --------
     >>> option("map", "time=COLUMN"), option("gear_ratio", 0.0), option("where")
     ('`map="time=COLUMN"`', '`gear_ratio=0`', 'option `where`')
+    >>> option("map", "time=t", "velocity=v")
+    '`map=["time=t", "velocity=v"]`'
     """
-    if value is None:
+    if not values:
         return f"option `{name}`"
+    if len(values) > 1:
+        return "`{}=[{}]`".format(name, ", ".join(f'"{value}"' for value in values))
+    (value,) = values
     return f'`{name}="{value}"`' if isinstance(value, str) else f"`{name}={value:g}`"
 
 
 def spell_options(text: str, spell: Callable[[str, str | None], str]) -> str:
     """Replace every option that `option` wrote by what `spell` returns for its name and value.
+
+    An option with several values is spelt once for each of them.
 
     Examples
     --------
@@ -98,8 +107,11 @@ def spell_options(text: str, spell: Callable[[str, str | None], str]) -> str:
     """
 
     def replaced(found: re.Match[str]) -> str:
-        if found["bare"] is not None:
+        name, texts = found["name"], found["texts"]
+        if name is None:
             return spell(found["bare"], None)
-        return spell(found["name"], found["number"] if found["text"] is None else found["text"])
+        if texts is not None:
+            return " ".join(spell(name, value) for value in texts.split('", "'))
+        return spell(name, found["number"] if found["text"] is None else found["text"])
 
     return _OPTION.sub(replaced, text)

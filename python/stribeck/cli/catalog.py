@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
 from stribeck.cli.common import echo_json, json_option, recording_options, say, seed_option
 from stribeck.diagnosis.inspect import inspect as inspect_file
 from stribeck.models.catalog import catalog
+from stribeck.recording.options import ReadOptions
 from stribeck.report.text import catalog_text, inspection_text
 
 
@@ -41,9 +40,9 @@ def effects(seed: int, as_json: bool) -> None:
 @recording_options
 @seed_option
 @json_option
-def inspect(data: str, reading: dict[str, Any], seed: int, as_json: bool) -> None:
+def inspect(data: str, reading: ReadOptions, seed: int, as_json: bool) -> None:
     """Show what DATA holds, and which effects it can and cannot show."""
-    inspection = inspect_file(data, **reading)
+    inspection = inspect_file(data, **reading.given())
     for note in inspection.notes:
         say(f"note: {note}")
     if as_json:

@@ -20,7 +20,8 @@ from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
-from stribeck.recording.load import read
+from stribeck.recording.load import read_with
+from stribeck.recording.options import TABLE, Entry, ReadOptions
 from stribeck.recording.recording import Recording
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -88,91 +89,39 @@ figures_option = click.option(
     help="Write the figure behind each finding to this folder (PNG).",
 )
 
-_RECORDING_OPTIONS = [
-    click.option("--joint", default=None, help="Which joint of a file that holds several."),
-    click.option("--sidecar", type=click.Path(), default=None, help="Sidecar file (TOML)."),
-    click.option("--map", "maps", multiple=True, metavar="NAME=COLUMN", help="Use COLUMN as NAME."),
-    click.option(
-        "--derive", "derives", multiple=True, metavar="NAME=EXPR", help="Make a column by formula."
-    ),
-    click.option("--where", default=None, metavar="EXPR", help="Keep the rows for which it holds."),
-    click.option(
-        "--average",
-        type=click.Choice(["run", "row"]),
-        default=None,
-        help="Steady-state points: the median of each run, or each row by itself.",
-    ),
-    click.option(
-        "--rows",
-        type=click.Choice(["moving", "all"]),
-        default=None,
-        help="Rows that count: those that move (default), or all.",
-    ),
-    click.option(
-        "--unit", "units", multiple=True, metavar="COLUMN=UNIT", help="Unit of a file's column."
-    ),
-    click.option(
-        "--joint-kind",
-        type=click.Choice(["revolute", "prismatic"]),
-        default=None,
-        help="Default: from the position's unit, else revolute.",
-    ),
-    click.option("--gear-ratio", type=float, default=None, help="Motor turns a joint turn."),
-    click.option("--torque-constant", type=float, default=None, help="N m/A, for a current."),
-    click.option("--inertia", type=float, default=None, help="Known inertia, kg m2 or kg."),
-    click.option(
-        "--drive",
-        type=click.Choice(["voltage"]),
-        default=None,
-        help="The effort is the voltage on a DC motor.",
-    ),
-    click.option(
-        "--hold-out",
-        default=None,
-        metavar="COLUMN[=VALUE]",
-        help="Hold out by the values of a column of the file, not by time or run.",
-    ),
-    click.option("--km", type=float, default=None, help="Motor constant, N m/W^0.5 (energy)."),
-    click.option("--kb", type=float, default=None, help="Back-EMF constant, V s/rad (energy)."),
-    click.option("--kt", type=float, default=None, help="Torque constant, N m/A (energy)."),
-]
+
+def _click_option(entry: Entry) -> Callable[[F], F]:
+    """The flag of one option of `stribeck.read`."""
+    flag = "--" + entry.name.replace("_", "-")
+    if entry.kind == "pairs":
+        return click.option(flag, entry.name, multiple=True, metavar=entry.form, help=entry.help)
+    if entry.kind == "number":
+        help = f"{entry.help} [{entry.unit}]" if entry.unit else entry.help
+        return click.option(flag, type=float, default=None, help=help)
+    if entry.choices:
+        return click.option(flag, type=click.Choice(entry.choices), default=None, help=entry.help)
+    kind = click.Path() if entry.kind == "path" else None
+    return click.option(flag, type=kind, default=None, metavar=entry.form, help=entry.help)
 
 
 def recording_options(command: F) -> F:
     """Add the options that say how a file is read; the command gets them as `reading`."""
+    table = [entry for entry in TABLE if entry.command_line]
 
     @functools.wraps(command)
     def wrapper(**given: Any) -> Any:
-        reading = {
-            "joint": given.pop("joint"),
-            "sidecar": given.pop("sidecar"),
-            "map": given.pop("maps"),
-            "derive": given.pop("derives"),
-            "where": given.pop("where"),
-            "average": given.pop("average"),
-            "rows": given.pop("rows"),
-            "unit": given.pop("units"),
-            "joint_kind": given.pop("joint_kind"),
-            "gear_ratio": given.pop("gear_ratio"),
-            "torque_constant": given.pop("torque_constant"),
-            "inertia": given.pop("inertia"),
-            "drive": given.pop("drive"),
-            "hold_out": given.pop("hold_out"),
-            "km": given.pop("km"),
-            "kb": given.pop("kb"),
-            "kt": given.pop("kt"),
-        }
+        reading = ReadOptions(**{entry.name: given.pop(entry.name) for entry in table})
         return command(reading=reading, **given)
 
     decorated: Any = wrapper
-    for option in reversed(_RECORDING_OPTIONS):
-        decorated = option(decorated)
+    for entry in reversed(table):
+        decorated = _click_option(entry)(decorated)
     return decorated
 
 
-def read_recording(path: str, reading: dict[str, Any]) -> Recording:
+def read_recording(path: str, reading: ReadOptions) -> Recording:
     """Read one joint's recording; its notes go to stderr."""
-    recording = read(path, **reading)
+    recording = read_with(path, reading)
     for note in recording.notes:
         say(f"note: {note}")
     return recording

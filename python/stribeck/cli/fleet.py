@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -20,6 +19,7 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.progress import Progress
+from stribeck.recording.options import ReadOptions
 from stribeck.scale.fleet.changes import Question
 from stribeck.scale.fleet.fleet import STRAGGLER
 from stribeck.scale.fleet.fleet import fleet as run_fleet
@@ -90,7 +90,7 @@ def fleet(
     day: str | None, since: datetime | None, window: int, history: int,
     false_discovery: float, least_change: float, scheduler: str | None, workers: int | None,
     straggler: float, retry_failed: bool, picture: str | None, report: str | None, starts: int,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Identify every joint of FILES: which have changed, which have an effect the others lack.
 
@@ -111,7 +111,7 @@ def fleet(
                 seed=seed, question=Question(first, window, history, false_discovery, least_change),
                 workers=workers, scheduler=scheduler, straggler=straggler,
                 retry_failed=retry_failed, progress=bar.show,
-                note=lambda text: say(f"note: {text}"), **reading,
+                note=lambda text: say(f"note: {text}"), **reading.given(),
             )  # fmt: skip
         except (Stopped, KeyboardInterrupt):
             bar.close()

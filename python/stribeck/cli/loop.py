@@ -44,6 +44,7 @@ from stribeck.diagnosis.run import diagnose as diagnose_fit
 from stribeck.fitting.fit import fit as fit_model
 from stribeck.identify.estimates import Errors
 from stribeck.models.formula_law import effect_name
+from stribeck.recording.options import ReadOptions
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
 
@@ -74,7 +75,7 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 def fit(
     data: str, spec: str | None, written: Written, errors: Errors, passive: bool,
     output: str | None, method: Method, starts: int, streaming: Streaming,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Identify a model's parameters on DATA.
 
@@ -121,7 +122,7 @@ def fit(
 @json_option
 def compare(
     data: str, models: tuple[str, ...], written: Written, picture: str | None, starts: int,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Compare MODELS (specs, model files or formulas) with DATA, and show where each fails."""
     check_output(picture)
@@ -164,7 +165,7 @@ def compare(
 def diagnose(
     data: str, model: str | None, written: Written, report: str | None, figures: str | None,
     candidates: tuple[str, ...], least_fall: float, starts: int, streaming: Streaming,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Find which physical effect MODEL (or the law of --law) is missing on DATA.
 
@@ -215,7 +216,7 @@ def diagnose(
 @json_option
 def add(
     model: str, effect: str, data: str, written: Written, output: str | None, starts: int,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Add EFFECT to MODEL, refit on DATA, and show the error before and after.
 
@@ -258,7 +259,7 @@ def improve(
     data: str, base: str | None, written: Written, output: str | None, report: str | None,
     picture: str | None, figures: str | None, least_fall: float, max_steps: int,
     candidates: tuple[str, ...], reject: tuple[str, ...], starts: int, streaming: Streaming,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Diagnose and add effects to a base model until what is left is noise.
 

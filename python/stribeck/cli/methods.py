@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import click
@@ -27,6 +27,7 @@ from stribeck.fitting.methods.stretches import Search
 from stribeck.fitting.methods.three_step import three_step_fit
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
+from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -54,13 +55,13 @@ class Method:
             )
 
     def fit(
-        self, model: Model, recording: Recording, reading: dict[str, Any], *, starts: int, seed: int
+        self, model: Model, recording: Recording, reading: ReadOptions, *, starts: int, seed: int
     ) -> Fit:
         """Identify `model` by a method other than `rms`."""
         if self.loaded is None or self.presliding is None:
             return grid_fit(model, recording, grid=self.grid)
         loaded = read_recording(self.loaded, reading)
-        slow = {**reading, "average": None, "standstill": True}
+        slow = replace(reading, average=None, standstill=True)
         presliding = read_recording(self.presliding, slow)
         return three_step_fit(model, recording, loaded, presliding, starts=starts, seed=seed)
 
@@ -150,7 +151,7 @@ def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
 @json_option
 def points(
     data: str, method: str, output: str | None, bins: int, tolerance: float, shortest: float,
-    trim: float, reading: dict[str, Any], seed: int, as_json: bool,
+    trim: float, reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Turn passes at constant speed in DATA into steady-state friction points.
 
@@ -159,7 +160,7 @@ def points(
     """
     check_output(output)
     # A line through many samples shows passes that no single row's velocity does.
-    recording = read_recording(data, {**reading, "standstill": True})
+    recording = read_recording(data, replace(reading, standstill=True))
     search = Search(tolerance=tolerance, shortest=shortest, trim=trim)
     if method == "averaging":
         made = averaged_points(recording, bins=bins, search=search)
@@ -198,7 +199,7 @@ def points(
 @json_option
 def arm(
     data: str, first_link_length: float, joints: tuple[str, str], slowest: float, plain: bool,
-    output: str | None, reading: dict[str, Any], seed: int, as_json: bool,
+    output: str | None, reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Identify inertia and friction of a planar two-joint arm together.
 
@@ -206,10 +207,10 @@ def arm(
     second angle relative to the first link. Indri et al., section 4.2: four inertial parameters,
     and a cubic friction polynomial a joint; `--slowest 0 --plain` is the paper's least squares.
     """
-    if reading["joint"] is not None:
-        raise RecordingError(f"--joint {reading['joint']}: an arm has two, name them with --joints")
+    if reading.joint is not None:
+        raise RecordingError(f"--joint {reading.joint}: an arm has two, name them with --joints")
     check_output(output)
-    first, second = (read_recording(data, {**reading, "joint": name}) for name in joints)
+    first, second = (read_recording(data, replace(reading, joint=name)) for name in joints)
     made = arm_fit(
         first, second, first_link_length=first_link_length, slowest=slowest, weighted=not plain
     )

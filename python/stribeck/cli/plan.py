@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -26,6 +25,7 @@ from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes
+from stribeck.recording.options import ReadOptions
 
 FORMATS = (".csv", ".parquet")
 
@@ -60,7 +60,7 @@ def plan(
     data: str, model: str | None, separate: tuple[str, ...], show: tuple[str, ...], position: str,
     speed: float, acceleration: float, duration: float, samples: float | None,
     noise: float | None, output: str | None, picture: str | None, starts: int,
-    reading: dict[str, Any], seed: int, as_json: bool,
+    reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Plan a motion that shows effects which MODEL lacks on DATA, or tells them apart.
 
@@ -96,7 +96,7 @@ def _joint(
     *,
     starts: int,
     seed: int,
-    reading: dict[str, Any],
+    reading: ReadOptions,
 ) -> Fit | ModelFile:
     """A fit to DATA, or the model file that stands in its place."""
     if model is not None:

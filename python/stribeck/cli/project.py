@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -24,6 +23,7 @@ from stribeck.cli.common import (
 )
 from stribeck.cli.formulas import Written, candidate_option, check_candidates
 from stribeck.projects.project import Project
+from stribeck.recording.options import ReadOptions
 
 
 @click.group()
@@ -62,14 +62,14 @@ def _written(made: Project, as_json: bool) -> None:
 @seed_option
 @json_option
 def new(
-    path: str, data: str, base: str, starts: int, reading: dict[str, Any], seed: int, as_json: bool
+    path: str, data: str, base: str, starts: int, reading: ReadOptions, seed: int, as_json: bool
 ) -> None:
     """Make PROJECT of the recording DATA, with the base model fitted."""
     check_output(path)
     if Path(path).exists():
         raise ProjectError(f"{path} is there already: give another name, or remove it first")
     model = Written().model(base)
-    made = Project.new(path, data, model, starts=starts, seed=seed, **reading)
+    made = Project.new(path, data, model, starts=starts, seed=seed, **reading.given())
     for note in made.recording.notes:
         say(f"note: {note}")
     _written(made, as_json)

@@ -12,6 +12,7 @@ import click
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import echo_json, say
 from stribeck.recording.excerpt import SAMPLE_ROWS
+from stribeck.recording.options import ReadOptions
 from stribeck.scale.streaming.dataset import is_data_set
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
@@ -41,9 +42,9 @@ class Streaming:
                     "--stream"
                 )
 
-    def open(self, data: str, reading: dict[str, Any], seed: int) -> Stream:
+    def open(self, data: str, reading: ReadOptions, seed: int) -> Stream:
         """Open `data`; what is noted of it goes to stderr."""
-        opened = stream(data, sample_rows=self.sample_rows, seed=seed, **reading)
+        opened = stream(data, sample_rows=self.sample_rows, seed=seed, **reading.given())
         for note in opened.sample.recording.notes:
             say(f"note: {note}")
         return opened

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -18,6 +17,7 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.progress import Progress
+from stribeck.recording.options import ReadOptions
 from stribeck.scale.study.plan import REVIEW
 from stribeck.scale.study.study import study as make_study
 
@@ -46,7 +46,7 @@ from stribeck.scale.study.study import study as make_study
 @json_option
 def study(
     data: str, laws: tuple[str, ...], output: str | None, starts: int, low_speed: float | None,
-    workers: int | None, reading: dict[str, Any], seed: int, as_json: bool,
+    workers: int | None, reading: ReadOptions, seed: int, as_json: bool,
 ) -> None:  # fmt: skip
     """Fit many laws to every joint of DATA and compare them, as the UR5e review does.
 
@@ -58,7 +58,7 @@ def study(
             result = make_study(
                 data, folder, laws or REVIEW, starts=starts, seed=seed, low_speed=low_speed,
                 workers=workers, progress=bar.show, note=lambda text: say(f"note: {text}"),
-                **reading,
+                **reading.given(),
             )  # fmt: skip
         except (Stopped, KeyboardInterrupt):
             bar.close()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
 from stribeck.base.files import save_figure
@@ -20,6 +18,7 @@ from stribeck.cli.common import (
 )
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.validation import validate as drive
+from stribeck.recording.options import ReadOptions
 
 
 @click.command()
@@ -31,7 +30,7 @@ from stribeck.motion.simulate.validation import validate as drive
 @seed_option
 @json_option
 def validate(
-    data: str, model: str, picture: str | None, starts: int, reading: dict[str, Any], seed: int,
+    data: str, model: str, picture: str | None, starts: int, reading: ReadOptions, seed: int,
     as_json: bool,
 ) -> None:  # fmt: skip
     """Simulate MODEL, driven by the torque of DATA alone, and compare the motion.
@@ -41,7 +40,7 @@ def validate(
     check_output(picture)
     recording = read_recording(data, reading)
     fitted = model_fit(model, recording, starts=starts, seed=seed, refit=False)
-    inertia = reading["inertia"]
+    inertia = reading.inertia
     joint = None if inertia is None else Joint(inertia, kind=recording.joint_kind)
     validation = drive(fitted, recording, joint)
     if picture is not None:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.fitting.fit import fit
 from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
-from stribeck.recording.load import read
+from stribeck.recording.load import read_with
+from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.recording.recording import Recording
-from stribeck.recording.scan import Table, scan
+from stribeck.recording.scan import Table, scan_with
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True)
@@ -86,7 +90,7 @@ class Inspection:
         return made
 
 
-def inspect(path: str, *, joint: str | None = None, **options: Any) -> Inspection:
+def inspect(path: str, **reading: Unpack[ReadArguments]) -> Inspection:
     """Look at a file: columns, units, rate, gaps, ranges, and which effects it can show.
 
     Parameters
@@ -96,11 +100,13 @@ def inspect(path: str, *, joint: str | None = None, **options: Any) -> Inspectio
     **options
         As of `stribeck.read`.
     """
-    table = scan(path, joint=joint, **options)
+    options = ReadOptions(**reading)
+    table = scan_with(path, options)
     if table.problem is not None:
         return Inspection(table, (), {}, table.problem)
+    joint = options.joint
     names: list[str | None] = [joint] if joint is not None else [*table.joints] or [None]
-    recordings = tuple(read(path, joint=name, **options) for name in names)
+    recordings = tuple(read_with(path, replace(options, joint=name)) for name in names)
     answers = [untestable(r, _load(r)) for r in recordings]
     common = {
         effect: answers[0][effect]

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import polars as pl
 
@@ -32,7 +32,11 @@ from stribeck.projects.sides import Sides
 from stribeck.projects.source import Source
 from stribeck.projects.tables import project_dict, project_frame
 from stribeck.projects.tree import Tree
+from stribeck.recording.options import ReadArguments
 from stribeck.recording.recording import Recording
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 def _silent(sentence: str) -> None:
@@ -77,7 +81,7 @@ class Project(Plotted):
         *,
         starts: int = 20,
         seed: int = 0,
-        **reading: Any,
+        **reading: Unpack[ReadArguments],
     ) -> Project:
         """A project of one recording; its first node is `base`, fitted.
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import inspect
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,11 +12,12 @@ from typing import Any
 
 from stribeck.base.errors import ProjectError
 from stribeck.recording.load import read
+from stribeck.recording.options import TABLE
 from stribeck.recording.recording import Recording
 from stribeck.recording.sidecar import find_sidecar
 
-#: What can be said of how a file is read: the options of `stribeck.read`.
-READING = tuple(inspect.signature(read).parameters)[1:]
+#: Keys of ``[reading]``: the options of `stribeck.read`.
+READING = tuple(entry.name for entry in TABLE)
 
 
 @dataclass(frozen=True)

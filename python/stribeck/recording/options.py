@@ -1,210 +1,253 @@
-"""What the user said about a file: flags over sidecar, checked before the data are touched."""
+"""The options that say how a file is read, stated once.
+
+Python takes them as keyword arguments (`ReadArguments`), the command line as flags made from the
+same table (`TABLE`), and project files keep them in ``[reading]``.
+"""
 
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from pathlib import Path
+from dataclasses import dataclass, field, fields
+from typing import Literal, TypedDict, cast
 
-from stribeck.base.errors import RecordingError, nearest
-from stribeck.recording.columns import CHANNELS
-from stribeck.recording.sidecar import Sidecar, find_sidecar, read_sidecar
+from stribeck.base.errors import RecordingError, option
 
-__all__ = ["DRIVES", "Mechanics", "Options", "gather"]
+__all__ = [
+    "TABLE",
+    "Entry",
+    "Limit",
+    "Pairs",
+    "ReadArguments",
+    "ReadOptions",
+    "check_limit",
+    "split_pairs",
+]
 
-_KINDS = {
-    "revolute": "revolute", "rotary": "revolute", "rotational": "revolute", "r": "revolute",
-    "prismatic": "prismatic", "linear": "prismatic", "p": "prismatic",
-}  # fmt: skip
-
-#: What `torque` may be of a motor that is not driven by its torque or current.
-DRIVES = ("voltage",)
-
-#: What makes a steady-state point: the median of a run, or a row, which is one already.
-AVERAGES = ("run", "row")
-#: Which rows count: those that move, or all of them.
-SCORED = ("moving", "all")
-
+#: ``"NAME=VALUE"`` texts, one of them, or a mapping.
 Pairs = Sequence[str] | Mapping[str, str] | str
+#: A file or folder.
+FilePath = str | os.PathLike[str]
+#: What a number must be besides finite.
+Limit = Literal["any", "above zero", "not zero", "not negative"]
 
 
 @dataclass(frozen=True)
-class Mechanics:
-    """What was said about a joint's drive and rigid body."""
+class Entry:
+    """One row of the table of options.
 
-    gear_ratio: float
-    torque_constant: float | None
-    screw_pitch: float | None
-    terms: dict[str, float]  # rigid body: inertia, gravity_cos, gravity_sin, gravity
-    motor: dict[str, float]
+    Attributes
+    ----------
+    name
+        In Python; the command line's flag is ``--name``, with hyphens.
+    kind
+        What is given.
+    help
+        One sentence for the command line's help.
+    unit
+        Of a number; several where it depends on the joint.
+    limit
+        What a number must be.
+    choices
+        The texts that are accepted; empty: any.
+    form
+        How a text or pair is written.
+    command_line
+        Whether the command line has a flag for it.
+    """
+
+    kind: Literal["text", "path", "number", "pairs", "switch"]
+    help: str
+    unit: str | None = None
+    limit: Limit = "any"
+    choices: tuple[str, ...] = ()
+    form: str | None = None
+    command_line: bool = True
+    name: str = ""
 
 
-@dataclass(frozen=True)
-class Options(Mechanics):
-    """Everything said about a recording."""
+def _text(help: str, choices: tuple[str, ...] = (), form: str | None = None) -> dict[str, Entry]:
+    return {"entry": Entry("text", help, choices=choices, form=form)}
+
+
+def _number(help: str, unit: str | None, limit: Limit) -> dict[str, Entry]:
+    return {"entry": Entry("number", help, unit=unit, limit=limit)}
+
+
+def _pairs(help: str, form: str) -> dict[str, Entry]:
+    return {"entry": Entry("pairs", help, form=form)}
+
+
+class ReadArguments(TypedDict, total=False):
+    """The keyword arguments of `stribeck.read`, for type checkers and editors."""
 
     joint: str | None
-    joint_kind: str | None
-    units: dict[str, str]
-    maps: dict[str, str]
-    derive: dict[str, str]
+    sidecar: FilePath | None
+    map: Pairs
+    derive: Pairs
     where: str | None
     average: str | None
-    sidecar: str | None
-    drive: str | None = None
-    hold_out: str | None = None
-    rows: str = "moving"
-    joints: dict[str, Mechanics] = field(default_factory=dict)  # where they differ by joint
-
-    @property
-    def knows_torque_constant(self) -> bool:
-        """Whether a current can be turned into a torque, whichever joint it is of."""
-        own = [joint.torque_constant for joint in self.joints.values()]
-        return self.torque_constant is not None or (bool(own) and None not in own)
-
-    def for_joint(self, joint: str | None) -> Options:
-        """What was said about one joint of a file that holds several."""
-        own = self if joint is None else self.joints.get(joint, self)
-        return replace(
-            self, gear_ratio=own.gear_ratio, torque_constant=own.torque_constant,
-            screw_pitch=own.screw_pitch, terms=own.terms, motor=own.motor, joints={},
-        )  # fmt: skip
+    rows: str | None
+    unit: Pairs
+    joint_kind: str | None
+    gear_ratio: float | None
+    torque_constant: float | None
+    inertia: float | None
+    drive: str | None
+    hold_out: str | None
+    km: float | None
+    kb: float | None
+    kt: float | None
+    standstill: bool
 
 
-def _pairs(said: Pairs, flag: str, right: str, *, last: bool = False) -> dict[str, str]:
-    """Split ``NAME=VALUE`` texts (or take a mapping)."""
+@dataclass(frozen=True, kw_only=True)
+class ReadOptions:
+    """How a file is read, as the user said it; `stribeck.read` says what each option means."""
+
+    joint: str | None = field(
+        default=None, metadata=_text("Which joint of a file that holds several.")
+    )
+    sidecar: FilePath | None = field(
+        default=None, metadata={"entry": Entry("path", "Sidecar file (TOML).")}
+    )
+    map: Pairs = field(default=(), metadata=_pairs("Use COLUMN as NAME.", "NAME=COLUMN"))
+    derive: Pairs = field(
+        default=(), metadata=_pairs("Compute a column by a formula.", "NAME=FORMULA")
+    )
+    where: str | None = field(
+        default=None, metadata=_text("Keep the samples for which it holds.", form="CONDITION")
+    )
+    average: str | None = field(
+        default=None,
+        metadata=_text("Steady-state points: the median of each run, or each row.", ("run", "row")),
+    )
+    rows: str | None = field(
+        default=None,
+        metadata=_text(
+            "Samples that are scored: those that move (default), or all.", ("moving", "all")
+        ),
+    )
+    unit: Pairs = field(default=(), metadata=_pairs("Unit of a file's column.", "COLUMN=UNIT"))
+    joint_kind: str | None = field(
+        default=None,
+        metadata=_text(
+            "Default: from the position's unit, else revolute.", ("revolute", "prismatic")
+        ),
+    )
+    gear_ratio: float | None = field(
+        default=None, metadata=_number("Motor turns per joint turn.", None, "not zero")
+    )
+    torque_constant: float | None = field(
+        default=None, metadata=_number("Torque per current.", "N m/A", "above zero")
+    )
+    inertia: float | None = field(
+        default=None, metadata=_number("Known inertia or mass.", "kg m2 or kg", "not negative")
+    )
+    drive: str | None = field(
+        default=None, metadata=_text("The effort is the voltage on a DC motor.", ("voltage",))
+    )
+    hold_out: str | None = field(
+        default=None,
+        metadata=_text(
+            "Hold out by the values of a column of the file, not by time or run.",
+            form="COLUMN[=VALUE]",
+        ),
+    )
+    km: float | None = field(
+        default=None, metadata=_number("Motor constant, for the energy.", "N m/W^0.5", "above zero")
+    )
+    kb: float | None = field(
+        default=None,
+        metadata=_number("Back-EMF constant, for the energy.", "V s/rad", "above zero"),
+    )
+    kt: float | None = field(
+        default=None, metadata=_number("Torque constant, for the energy.", "N m/A", "above zero")
+    )
+    standstill: bool = field(
+        default=False,
+        metadata={
+            "entry": Entry("switch", "Accept a recording without motion.", command_line=False)
+        },
+    )
+
+    def given(self) -> ReadArguments:
+        """The options that say something, as keyword arguments of `stribeck.read`.
+
+        An inertia of 0 says something; an empty list does not.
+        """
+        values = ((f.name, getattr(self, f.name), f.default) for f in fields(self))
+        said = {name: v for name, v, unsaid in values if v != unsaid and v not in ([], {})}
+        return cast(ReadArguments, said)
+
+    def number(self, name: str) -> float | None:
+        """A number that was given, checked.
+
+        Raises
+        ------
+        RecordingError
+            It is no number, not finite, or out of its limit.
+        """
+        given, entry = getattr(self, name), _BY_NAME[name]
+        if given is None:
+            return None
+        try:
+            value = float(given)
+        except (TypeError, ValueError):
+            raise RecordingError(f"{option(name, str(given))}: is not a number") from None
+        problem = check_limit(value, entry.limit)
+        if problem is not None:
+            raise RecordingError(f"{option(name, value)}: {problem}")
+        return value
+
+    def pairs(self, name: str) -> dict[str, str]:
+        """What was given as ``NAME=VALUE``, split.
+
+        Raises
+        ------
+        RecordingError
+            A text without ``=``, or with nothing on one side of it.
+        """
+        return split_pairs(name, getattr(self, name))
+
+
+#: Every option of `stribeck.read`, in the order of the command line's help.
+TABLE: tuple[Entry, ...] = tuple(
+    Entry(**{**vars(f.metadata["entry"]), "name": f.name}) for f in fields(ReadOptions)
+)
+_BY_NAME = {entry.name: entry for entry in TABLE}
+
+
+def split_pairs(name: str, said: Pairs) -> dict[str, str]:
+    """Split the ``NAME=VALUE`` texts of an option, or take a mapping."""
     if isinstance(said, Mapping):
         return {str(key): str(value) for key, value in said.items()}
+    form = _BY_NAME[name].form or "NAME=VALUE"
     found: dict[str, str] = {}
     for item in [said] if isinstance(said, str) else said:
-        # Column names may hold '=', formulas do: the side that cannot is where the split is.
-        left, mark, value = item.rpartition("=") if last else item.partition("=")
+        # Columns may hold '=', and so do formulas: the split is next to the side that cannot.
+        left, mark, value = item.rpartition("=") if name == "unit" else item.partition("=")
         if not mark or not left.strip() or not value.strip():
-            raise RecordingError(f"{flag} {item}: write {flag} {right}")
+            raise RecordingError(f"{option(name, item)}: write {option(name, form)}")
         found[left.strip()] = value.strip()
     return found
 
 
-def _number(value: float | None, flag: str, *, positive: bool) -> float | None:
-    if value is None:
-        return None
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise RecordingError(f"{flag} {value}: is not a number") from None
-    if not math.isfinite(number) or (positive and number <= 0.0):
-        raise RecordingError(
-            f"{flag} {value}: must be a finite number{' above zero' if positive else ''}"
-        )
-    return number
+def check_limit(value: float, limit: Limit) -> str | None:
+    """What is wrong with a number; None where nothing is.
 
-
-def gather(
-    path: str | Path,
-    *,
-    sidecar: str | Path | None,
-    joint: str | None,
-    joint_kind: str | None,
-    gear_ratio: float | None,
-    torque_constant: float | None,
-    inertia: float | None,
-    km: float | None,
-    kb: float | None,
-    kt: float | None,
-    unit: Pairs,
-    map: Pairs,
-    derive: Pairs,
-    where: str | None,
-    average: str | None,
-    drive: str | None = None,
-    hold_out: str | None = None,
-    rows: str | None = None,
-) -> Options:
-    """Join the flags with the sidecar; a flag wins over what the sidecar says."""
-    beside = sidecar if sidecar is not None else find_sidecar(path)
-    said = read_sidecar(beside) if beside is not None else Sidecar()
-    kind = joint_kind if joint_kind is not None else said.texts.get("joint_kind")
-    if kind is not None:
-        if kind.strip().lower() not in _KINDS:
-            hint = nearest(kind, ("revolute", "prismatic")) or ": it is revolute or prismatic"
-            source = "--joint-kind" if joint_kind is not None else f"{said.path}: joint_kind"
-            raise RecordingError(f"{source} {kind}: unknown kind of joint{hint}")
-        kind = _KINDS[kind.strip().lower()]
-    units = {**said.units, **_pairs(unit, "--unit", "COLUMN=UNIT", last=True)}
-    maps = {**said.map, **_pairs(map, "--map", "NAME=COLUMN")}
-    formulas = {**said.derive, **_pairs(derive, "--derive", "NAME=FORMULA")}
-    # A flag that maps or derives a channel replaces what the sidecar says of the same channel.
-    for channel in _pairs(map, "--map", "NAME=COLUMN"):
-        if channel in said.derive and channel not in _pairs(derive, "--derive", "NAME=FORMULA"):
-            formulas.pop(channel, None)
-    for channel in _pairs(derive, "--derive", "NAME=FORMULA"):
-        if channel in said.map and channel not in _pairs(map, "--map", "NAME=COLUMN"):
-            maps.pop(channel, None)
-    if "effort_unit" in said.texts and "torque" not in units:
-        units["torque"] = said.texts["effort_unit"]
-    flags = {
-        "gear_ratio": _number(gear_ratio, "--gear-ratio", positive=False),
-        "torque_constant": _number(torque_constant, "--torque-constant", positive=True),
-        "inertia": _number(inertia, "--inertia", positive=False),
-        "km": _number(km, "--km", positive=True),
-        "kb": _number(kb, "--kb", positive=True),
-        "kt": _number(kt, "--kt", positive=True),
-    }
-    if flags["gear_ratio"] == 0.0:
-        raise RecordingError("--gear-ratio 0: must not be zero")
-    if flags["inertia"] is not None and flags["inertia"] < 0.0:
-        raise RecordingError(f"--inertia {inertia}: must not be negative")
-    given = {name: value for name, value in flags.items() if value is not None}
-    one_per = average if average is not None else said.texts.get("average")
-    if one_per not in (None, *AVERAGES):
-        raise RecordingError(f"--average {one_per}: only 'run' and 'row' make points")
-    scored = rows if rows is not None else said.texts.get("rows", SCORED[0])
-    if scored not in SCORED:
-        raise RecordingError(f"--rows {scored}: it is {' or '.join(SCORED)}")
-    driven = drive if drive is not None else said.texts.get("drive")
-    if driven not in (None, *DRIVES):
-        source = "--drive" if drive is not None else f"{said.path}: drive"
-        raise RecordingError(f"{source} {driven}: unknown drive; it is {', '.join(DRIVES)}")
-    for channel in maps:
-        if channel not in CHANNELS:
-            hint = nearest(channel, CHANNELS) or f"; the names are {', '.join(CHANNELS)}"
-            raise RecordingError(f"--map {channel}={maps[channel]}: unknown name '{channel}'{hint}")
-    common = _mechanics({**said.numbers, **given})
-    return Options(
-        gear_ratio=common.gear_ratio,
-        torque_constant=common.torque_constant,
-        screw_pitch=common.screw_pitch,
-        terms=common.terms,
-        motor=common.motor,
-        joint=str(joint) if joint is not None else said.texts.get("joint"),
-        joint_kind=kind,
-        units=units,
-        maps=maps,
-        derive=formulas,
-        where=where if where is not None else said.texts.get("where"),
-        average=one_per,
-        sidecar=said.path,
-        drive=driven,
-        hold_out=hold_out,
-        rows=scored,
-        joints={
-            name: _mechanics({**said.numbers, **numbers, **given})
-            for name, numbers in said.joints.items()
-        },
-    )
-
-
-def _mechanics(numbers: Mapping[str, float]) -> Mechanics:
-    """Sort what was said by what it is about."""
-
-    def chosen(*names: str) -> dict[str, float]:
-        return {name: numbers[name] for name in names if name in numbers}
-
-    return Mechanics(
-        gear_ratio=numbers.get("gear_ratio", 1.0),
-        torque_constant=numbers.get("torque_constant"),
-        screw_pitch=numbers.get("screw_pitch"),
-        terms=chosen("inertia", "gravity_cos", "gravity_sin", "gravity"),
-        motor=chosen("km", "kb", "kt", "screw_pitch", "gear_ratio", "torque_constant"),
-    )
+    Examples
+    --------
+    >>> check_limit(0.0, "above zero"), check_limit(0.0, "any")
+    ('must be above zero', None)
+    """
+    if not math.isfinite(value):
+        return "must be a finite number"
+    if limit == "above zero" and value <= 0.0:
+        return "must be above zero"
+    if limit == "not zero" and value == 0.0:
+        return "must not be zero"
+    if limit == "not negative" and value < 0.0:
+        return "must not be negative"
+    return None

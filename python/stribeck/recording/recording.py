@@ -46,6 +46,11 @@ class Column:
     minimum: float = float("nan")
     maximum: float = float("nan")
 
+    @classmethod
+    def of(cls, name: str, source: str, unit: str, derived: bool, values: Floats) -> Column:
+        """A channel with the range of its values."""
+        return cls(name, source, unit, derived, float(values.min()), float(values.max()))
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Recording:

@@ -1,39 +1,48 @@
-"""What `scan` finds: what is in a file before a joint is selected."""
+"""What is in a file before a joint is selected."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import polars as pl
 
 from stribeck.base.errors import RecordingError
-from stribeck.recording.assemble import make_column, require
-from stribeck.recording.columns import CHANNELS, file_unit, wide_groups
-from stribeck.recording.options import Pairs, gather
+from stribeck.base.units import SI
+from stribeck.recording.cells import column_numbers, labels, numbered
+from stribeck.recording.channels import require
+from stribeck.recording.computed import apply_formulas
+from stribeck.recording.names import CHANNELS, file_unit, wide_groups
+from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.recording.readers import read_table
 from stribeck.recording.recording import Column
 from stribeck.recording.rows import segment_rows
-from stribeck.recording.table import (
-    Prepared,
-    apply_formulas,
-    channel_values,
-    column_numbers,
-    joints_of,
-    labels,
-    numbered,
-    prepare,
-)
-from stribeck.recording.units import SI
+from stribeck.recording.settings import Settings, gather
+from stribeck.recording.table import Prepared, channel_values, joints_of, prepare
 
-__all__ = ["FileColumn", "Table", "scan"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+__all__ = ["FileColumn", "Table", "scan", "scan_with"]
 
 
 @dataclass(frozen=True)
 class FileColumn:
-    """A column as the file has it: its type, the unit its name carries, its range and empty "
-    "cells."""
+    """A column as the file has it.
+
+    Attributes
+    ----------
+    unit
+        Named in the column's name.
+    minimum, maximum
+        Range of its numbers.
+    missing
+        Cells that are empty, NaN or infinite.
+    channel
+        That the column is read for.
+    """
 
     name: str
     dtype: str
@@ -52,7 +61,7 @@ class Table:
     Attributes
     ----------
     rows
-        Rows that `where` leaves.
+        Rows for which `where` holds.
     joints
         Joints of a joint column, or the joint numbers of a wide file.
     columns
@@ -60,7 +69,7 @@ class Table:
     channels
         Channel -> column read for it, unit and range in SI.
     problem
-        The sentence with which reading a joint would be refused, as far as the columns tell.
+        Why a joint cannot be read, as far as the columns tell; None where it can.
     """
 
     path: str
@@ -77,88 +86,83 @@ class Table:
     notes: tuple[str, ...]
 
 
-def scan(
-    path: str | Path,
-    *,
-    sidecar: str | Path | None = None,
-    joint: str | None = None,
-    joint_kind: str | None = None,
-    gear_ratio: float | None = None,
-    torque_constant: float | None = None,
-    inertia: float | None = None,
-    km: float | None = None,
-    kb: float | None = None,
-    kt: float | None = None,
-    unit: Pairs = (),
-    map: Pairs = (),
-    derive: Pairs = (),
-    where: str | None = None,
-    average: str | None = None,
-    drive: str | None = None,
-    hold_out: str | None = None,
-    rows: str | None = None,
-) -> Table:
-    """Look at a file without selecting a joint; see `read` for the options."""
-    options = gather(
-        path, sidecar=sidecar, joint=joint, joint_kind=joint_kind, gear_ratio=gear_ratio,
-        torque_constant=torque_constant, inertia=inertia, km=km, kb=kb, kt=kt, unit=unit, map=map,
-        derive=derive, where=where, average=average, drive=drive, hold_out=hold_out,
-        rows=rows,
-    )  # fmt: skip
-    problem: str | None = None
-    prepared: Prepared | None
+def scan(path: str | Path, **options: Unpack[ReadArguments]) -> Table:
+    """Look at a file without selecting a joint; see `read` for the options.
+
+    Raises
+    ------
+    RecordingError
+        The file cannot be opened, or an option or formula is wrong.
+    """
+    return scan_with(path, ReadOptions(**options))
+
+
+def scan_with(path: str | Path, options: ReadOptions) -> Table:
+    """Look at a file without selecting a joint; see `scan`."""
+    prepared, problem = _prepared(str(path), gather(path, options))
+    table, choices = prepared.table, prepared.choices
+    wide = wide_groups(table.columns) if not choices else {}
+    joints = tuple(joints_of(prepared)) or tuple(next(iter(wide.values()), {}))
+    used = {choice.source: channel for channel, choice in choices.items()}
+    channels, wrong = _channels(prepared)
+    runs, rate, gaps = _pace(prepared)
+    return Table(
+        path=prepared.source.path,
+        sha256=prepared.source.sha256,
+        rows=table.height,
+        joints=joints,
+        wide=bool(wide),
+        runs=runs,
+        columns=tuple(
+            _file_column(table[name], name in prepared.derived, used.get(name))
+            for name in table.columns
+        ),
+        channels=channels,
+        rate_hz=rate,
+        gaps=gaps,
+        problem=problem or wrong,
+        notes=prepared.notes,
+    )
+
+
+def _prepared(path: str, settings: Settings) -> tuple[Prepared, str | None]:
+    """The table, and why it could not be read as a recording; then it has no channels."""
     try:
-        prepared = prepare(str(path), options)
-        source, table = prepared.source, prepared.table
+        prepared = prepare(path, settings)
         require(prepared)
     except RecordingError as error:
-        problem = str(error)
         # A file that cannot be opened, or a wrong formula, is refused here as it is by `read`.
-        source = read_table(str(path))
-        table, row, derived, _, notes = apply_formulas(source, options)
-        prepared = Prepared(
-            source,
-            options,
-            table,
-            row,
-            {},
-            derived,
-            source.table.height - table.height,
-            tuple(notes),
-        )
-    wide = wide_groups(table.columns) if not prepared.choices else {}
-    joints = tuple(joints_of(prepared)) or tuple(next(iter(wide.values()), {}))
-    used = {choice.source: channel for channel, choice in prepared.choices.items()}
-    columns = tuple(
-        _file_column(table[name], name in prepared.derived, used.get(name))
-        for name in table.columns
-    )
+        source = read_table(path)
+        made = apply_formulas(source, settings)
+        return Prepared(source, settings, made.table, made.row, {}, made.notes), str(error)
+    return prepared, None
+
+
+def _channels(prepared: Prepared) -> tuple[dict[str, Column], str | None]:
+    """The channels that hold numbers, and what is wrong with the first of the others."""
     channels: dict[str, Column] = {}
-    slides = options.joint_kind == "prismatic" or any(
+    problem: str | None = None
+    slides = prepared.settings.joint_kind == "prismatic" or any(
         choice.unit is not None and choice.unit.dimension.startswith(("length", "linear", "force"))
         for choice in prepared.choices.values()
     )
     for channel, choice in prepared.choices.items():
         if channel in ("joint", "run"):
             continue
+        rows = np.arange(prepared.table.height)
         try:
-            values, unit_named, _ = channel_values(prepared, channel, np.arange(table.height))
+            values, unit_named, _ = channel_values(prepared, channel, rows)
         except RecordingError as error:
             problem = problem or str(error)
             continue
         finite = values[np.isfinite(values)]
         dimensions = CHANNELS[channel]
-        # Angle and torque stand first in the list of a channel, length and force second.
+        # A channel's list begins with angle or torque, then length or force.
         si = unit_named or SI[dimensions[1 if slides and len(dimensions) > 1 else 0]]
         if finite.size:
-            channels[channel] = make_column(
-                channel, choice.source, si, choice.source in prepared.derived, finite
-            )
-    runs, rate, gaps = _pace(prepared)
-    return Table(
-        source.path, source.sha256, table.height, joints, bool(wide), runs, columns, channels, rate,
-        gaps, problem, prepared.notes,
-    )  # fmt: skip
+            derived = choice.source in prepared.derived
+            channels[channel] = Column.of(channel, choice.source, si, derived, finite)
+    return channels, problem
 
 
 def _file_column(series: pl.Series, derived: bool, channel: str | None) -> FileColumn:
@@ -184,7 +188,7 @@ def _file_column(series: pl.Series, derived: bool, channel: str | None) -> FileC
 
 
 def _pace(prepared: Prepared) -> tuple[int, float | None, int | None]:
-    """Count runs and gaps and find the rate over every joint of a file."""
+    """Runs, sampling rate and gaps over every joint of a file."""
     choices = prepared.choices
     if "time" not in choices:
         return 1, None, None

@@ -1,34 +1,48 @@
-"""The sidecar: a small TOML file that says about a recording what its columns cannot."""
+"""The sidecar: a small TOML file with what the columns of a recording do not say."""
 
 from __future__ import annotations
 
 import hashlib
-import math
 import re
 import sys
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from stribeck.base.errors import RecordingError, nearest
+from stribeck.recording.options import TABLE, FilePath, Limit, check_limit
 
 __all__ = ["Sidecar", "find_sidecar", "read_sidecar", "sidecar_hash"]
 
-_NUMBERS = (
-    "gear_ratio", "torque_constant", "km", "kb", "kt", "screw_pitch",
-    "inertia", "gravity_cos", "gravity_sin", "gravity",
-)  # fmt: skip
+#: Numbers, and what each must be: those of the options, and those that only a sidecar gives.
+_NUMBERS: dict[str, Limit] = {
+    **{entry.name: entry.limit for entry in TABLE if entry.kind == "number"},
+    "screw_pitch": "above zero",
+    "gravity_cos": "any",
+    "gravity_sin": "any",
+    "gravity": "any",
+}
 _TEXTS = (
-    "kind", "joint_kind", "where", "average", "rows", "joint", "effort_unit", "drive", "note",
-)  # fmt: skip
+    "kind",
+    "joint_kind",
+    "where",
+    "average",
+    "rows",
+    "joint",
+    "effort_unit",
+    "drive",
+    "note",
+)
 _TABLES = ("units", "map", "derive")
-_JOINTS = "joints"  # [joints.NAME]: numbers of one joint of a file that holds several
-_POSITIVE = ("torque_constant", "screw_pitch", "kt", "km", "kb")
+#: ``[joints.NAME]``: numbers of one joint of a file that holds several.
+_JOINTS = "joints"
+
+#: What TOML gives.
+Toml = dict[str, object]
 
 
 @dataclass(frozen=True)
 class Sidecar:
-    """What a sidecar says; every field is optional."""
+    """What a sidecar says; every field may be empty."""
 
     path: str | None = None
     numbers: dict[str, float] = field(default_factory=dict)
@@ -39,19 +53,19 @@ class Sidecar:
     joints: dict[str, dict[str, float]] = field(default_factory=dict)
 
 
-def find_sidecar(path: str | Path) -> Path | None:
+def find_sidecar(path: FilePath) -> Path | None:
     """Return the sidecar beside a recording (``FILE.EXT.sidecar.toml``), if there is one."""
     beside = Path(f"{path}.sidecar.toml")
     return beside if beside.is_file() else None
 
 
-def sidecar_hash(path: str | Path, named: str | Path | None = None) -> str | None:
+def sidecar_hash(path: FilePath, named: FilePath | None = None) -> str | None:
     """SHA-256 of the sidecar of a recording, `named` or beside it; None where it has none."""
     beside = Path(named) if named is not None else find_sidecar(path)
     return None if beside is None else hashlib.sha256(beside.read_bytes()).hexdigest()
 
 
-def _parse(text: str) -> dict[str, Any]:
+def _parse(text: str) -> Toml:
     if sys.version_info >= (3, 11):
         import tomllib
     else:
@@ -77,17 +91,32 @@ def _line(text: str, key: str, table: str | None = None) -> str:
     return f"key '{key}'"
 
 
-def read_sidecar(path: str | Path) -> Sidecar:
+def read_sidecar(path: FilePath) -> Sidecar:
     """Read and check a sidecar.
 
     Raises
     ------
     RecordingError
-        When it is missing, not TOML, of the wrong kind, or has an unknown key or a bad value.
+        It is missing, is not TOML or of the wrong kind, or has an unknown key or a bad value.
     """
     name = str(path)
+    page = _Page(name, _text(name))
+    page.check_keys()
+    tables = {key: page.text_table(key) for key in _TABLES}
+    return Sidecar(
+        name,
+        page.numbers(page.said, None),
+        page.texts(),
+        tables["units"],
+        tables["map"],
+        tables["derive"],
+        page.joints(),
+    )
+
+
+def _text(name: str) -> str:
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
+        return Path(name).read_bytes().decode("utf-8-sig")
     except FileNotFoundError:
         raise RecordingError(f"{name}: no such sidecar") from None
     except UnicodeDecodeError:
@@ -96,95 +125,87 @@ def read_sidecar(path: str | Path) -> Sidecar:
         raise RecordingError(
             f"{name}: the sidecar cannot be read ({error.strerror or error})"
         ) from None
-    try:
-        said = _parse(text)
-    except ValueError as error:
-        raise RecordingError(f"{name}: is not TOML: {error}") from None
-    known = (*_TEXTS, *_NUMBERS, *_TABLES, _JOINTS)
-    for key in said:
-        if key not in known:
-            hint = nearest(key, known) or f"; the keys are {', '.join(known)}"
-            raise RecordingError(f"{name}, {_line(text, key)}: unknown key '{key}'{hint}")
-    if said.get("kind") != "recording":
-        where = _line(text, "kind") if "kind" in said else "line 1"
-        got = f"kind is {said['kind']!r}" if "kind" in said else "there is no kind"
-        raise RecordingError(f'{name}, {where}: {got}: a sidecar needs kind = "recording"')
-    numbers = _numbers(name, text, said, None)
-    texts: dict[str, str] = {}
-    for key in _TEXTS:
-        if key in said:
-            if key == "joint" and isinstance(said[key], int):
-                said[key] = str(said[key])
-            if not isinstance(said[key], str):
-                raise RecordingError(
-                    f"{name}, {_line(text, key)}: {key} must be a text, not {said[key]!r}"
-                )
-            texts[key] = said[key]
-    tables: dict[str, dict[str, str]] = {}
-    for key in _TABLES:
-        table = said.get(key, {})
+
+
+class _Page:
+    """A sidecar while it is checked."""
+
+    def __init__(self, name: str, text: str) -> None:
+        self.name = name
+        self.text = text
+        try:
+            self.said = _parse(text)
+        except ValueError as error:
+            raise RecordingError(f"{name}: is not TOML: {error}") from None
+
+    def stop(self, problem: str, key: str, table: str | None = None) -> RecordingError:
+        """The error about a key, with its line."""
+        return RecordingError(f"{self.name}, {_line(self.text, key, table)}: {problem}")
+
+    def check_keys(self) -> None:
+        """Refuse unknown keys and files that are no sidecars."""
+        known = (*_TEXTS, *_NUMBERS, *_TABLES, _JOINTS)
+        for key in self.said:
+            if key not in known:
+                hint = nearest(key, known) or f"; the keys are {', '.join(known)}"
+                raise self.stop(f"unknown key '{key}'{hint}", key)
+        if self.said.get("kind") != "recording":
+            there = "kind" in self.said
+            where = _line(self.text, "kind") if there else "line 1"
+            got = f"kind is {self.said['kind']!r}" if there else "there is no kind"
+            raise RecordingError(f'{self.name}, {where}: {got}: a sidecar needs kind = "recording"')
+
+    def texts(self) -> dict[str, str]:
+        """The texts at the top."""
+        texts: dict[str, str] = {}
+        for key in _TEXTS:
+            value = self.said.get(key)
+            if key == "joint" and isinstance(value, int):
+                value = str(value)
+            if key in self.said:
+                if not isinstance(value, str):
+                    raise self.stop(f"{key} must be a text, not {value!r}", key)
+                texts[key] = value
+        return texts
+
+    def text_table(self, key: str) -> dict[str, str]:
+        """A table of texts."""
+        table = self.said.get(key, {})
         if not isinstance(table, dict):
-            raise RecordingError(
-                f"{name}, {_line(text, key)}: {key} must be a table: write [{key}]"
-            )
+            raise self.stop(f"{key} must be a table: write [{key}]", key)
         for inner, value in table.items():
             if not isinstance(value, str):
-                raise RecordingError(
-                    f"{name}, {_line(text, inner, key)}: {key}.{inner} must be a text, not "
-                    f"{value!r}"
-                )
-        tables[key] = dict(table)
-    joints = _joints(name, text, said)
-    return Sidecar(name, numbers, texts, tables["units"], tables["map"], tables["derive"], joints)
+                raise self.stop(f"{key}.{inner} must be a text, not {value!r}", inner, key)
+        return dict(table)
 
+    def numbers(self, said: Toml, table: str | None) -> dict[str, float]:
+        """The numbers at the top, or in one of the tables."""
+        numbers: dict[str, float] = {}
+        for key, limit in _NUMBERS.items():
+            if key not in said:
+                continue
+            value = said[key]
+            if isinstance(value, bool) or not isinstance(value, (int, float)):
+                raise self.stop(f"{key} must be a finite number, not {value!r}", key, table)
+            problem = check_limit(value, limit)
+            if problem is not None:
+                raise self.stop(f"{key} {problem}, it is {value!r}", key, table)
+            numbers[key] = float(value)
+        return numbers
 
-def _numbers(name: str, text: str, said: dict[str, Any], table: str | None) -> dict[str, float]:
-    """Check the numbers at the top of a sidecar, or in one of its tables."""
-    numbers: dict[str, float] = {}
-    for key in _NUMBERS:
-        if key not in said:
-            continue
-        value = said[key]
-        if (
-            isinstance(value, bool)
-            or not isinstance(value, (int, float))
-            or not math.isfinite(value)
-        ):
-            raise RecordingError(
-                f"{name}, {_line(text, key, table)}: {key} must be a finite number, not {value!r}"
-            )
-        if (key in _POSITIVE and value <= 0.0) or (key == "gear_ratio" and value == 0.0):
-            raise RecordingError(
-                f"{name}, {_line(text, key, table)}: {key} must be above zero, not {value!r}"
-            )
-        if key == "inertia" and value < 0.0:
-            raise RecordingError(
-                f"{name}, {_line(text, key, table)}: inertia must not be negative, it is {value!r}"
-            )
-        numbers[key] = float(value)
-    return numbers
-
-
-def _joints(name: str, text: str, said: dict[str, Any]) -> dict[str, dict[str, float]]:
-    """Check the tables ``[joints.NAME]``."""
-    tables = said.get(_JOINTS, {})
-    if not isinstance(tables, dict):
-        raise RecordingError(
-            f"{name}, {_line(text, _JOINTS)}: joints must be tables: write [joints.NAME]"
-        )
-    joints: dict[str, dict[str, float]] = {}
-    for joint, table in tables.items():
-        where = f"{_JOINTS}.{joint}"
-        if not isinstance(table, dict):
-            raise RecordingError(
-                f"{name}, {_line(text, joint, _JOINTS)}: {where} must be a table: write [{where}]"
-            )
-        for key in table:
-            if key not in _NUMBERS:
-                hint = nearest(key, _NUMBERS) or f"; the keys are {', '.join(_NUMBERS)}"
-                raise RecordingError(
-                    f"{name}, {_line(text, key, where)}: unknown key '{key}' of joint '{joint}'"
-                    f"{hint}"
-                )
-        joints[joint] = _numbers(name, text, table, where)
-    return joints
+    def joints(self) -> dict[str, dict[str, float]]:
+        """The tables ``[joints.NAME]``."""
+        tables = self.said.get(_JOINTS, {})
+        if not isinstance(tables, dict):
+            raise self.stop("joints must be tables: write [joints.NAME]", _JOINTS)
+        joints: dict[str, dict[str, float]] = {}
+        for joint, table in tables.items():
+            where = f"{_JOINTS}.{joint}"
+            if not isinstance(table, dict):
+                raise self.stop(f"{where} must be a table: write [{where}]", joint, _JOINTS)
+            for key in table:
+                if key not in _NUMBERS:
+                    hint = nearest(key, _NUMBERS) or f"; the keys are {', '.join(_NUMBERS)}"
+                    raise self.stop(f"unknown key '{key}' of joint '{joint}'{hint}", key, where)
+            joints[joint] = self.numbers(table, where)
+        return joints

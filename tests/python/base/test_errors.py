@@ -20,6 +20,7 @@ def test_examples(module: object) -> None:
     ("python", "command_line"),
     [
         (option("map", "time=COLUMN"), "--map time=COLUMN"),
+        (option("map", "time=t", "velocity=v"), "--map time=t --map velocity=v"),
         (option("hold_out", "day"), "--hold-out day"),
         (option("torque_constant"), "--torque-constant"),
         (option("gear_ratio", 0), "--gear-ratio 0"),

@@ -8,10 +8,10 @@ import numpy as np
 import polars as pl
 import pytest
 from stribeck.base.errors import RecordingError
+from stribeck.base.units import parse_unit
 from stribeck.recording.columns import parse_name
 from stribeck.recording.load import read, read_all
 from stribeck.recording.scan import scan
-from stribeck.recording.units import parse_unit
 
 
 @pytest.mark.parametrize(
@@ -107,7 +107,7 @@ def test_unit_option_wins(write, frame):
         read(path, unit=("velocity=N m",))
     with pytest.raises(RecordingError, match=r"no column 'velocty'; did you mean 'velocity'\?"):
         read(path, unit=("velocty=rpm",))
-    with pytest.raises(RecordingError, match=r"write --unit COLUMN=UNIT"):
+    with pytest.raises(RecordingError, match=r'write `unit="COLUMN=UNIT"`'):
         read(path, unit=("velocity",))
 
 
@@ -124,7 +124,7 @@ def _wide(frame):
 
 def test_wide_files_are_refused_with_the_maps(write, frame):
     path = write(_wide(frame))
-    sentence = "3 joints side by side .*--map position=q_1 --map velocity=dq_1 --map torque=tau_1"
+    sentence = r'3 joints side by side .*`map=\["position=q_1", "velocity=dq_1", "torque=tau_1"\]`'
     for reader in (read, read_all):
         with pytest.raises(RecordingError, match=sentence):
             reader(path)
@@ -143,20 +143,20 @@ def test_map(write, frame):
         read(path, map=("torque=measured", "velocity=w")).torque, frame["torque"].to_numpy()
     )
     with pytest.raises(
-        RecordingError, match=r"no torque column; the file has time, .*--map torque=COLUMN"
+        RecordingError, match=r'no torque column; the file has time, .*`map="torque=COLUMN"`'
     ):
         read(path, map=("velocity=w",))
     with pytest.raises(RecordingError, match=r"no column 'mesured'; did you mean 'measured'\?"):
         read(path, map=("torque=mesured",))
     with pytest.raises(RecordingError, match=r"unknown name 'torqe'; did you mean 'torque'\?"):
         read(path, map=("torqe=measured",))
-    with pytest.raises(RecordingError, match=r"write --map NAME=COLUMN"):
+    with pytest.raises(RecordingError, match=r'write `map="NAME=COLUMN"`'):
         read(path, map=("torque",))
     assert read(path, map={"torque": "measured", "temperature": "none"}).temperature is None
 
 
 def test_missing_columns(write, frame):
-    with pytest.raises(RecordingError, match=r"no time column.*--map time=COLUMN"):
+    with pytest.raises(RecordingError, match=r'no time column.*`map="time=COLUMN"`'):
         read(write(frame.drop("time")))
     with pytest.raises(RecordingError, match=r"neither a velocity nor a position"):
         read(write(frame.drop("velocity", "position")))
@@ -174,15 +174,13 @@ def test_current(write, frame):
     )
     path = write(table)
     with pytest.raises(
-        RecordingError, match=r"a current \('i_A'\) but no torque: give --torque-constant"
+        RecordingError, match=r"a current \('i_A'\) but no torque: give option `torque_constant`"
     ):
         read(path)
     recording = read(path, torque_constant=0.12, gear_ratio=100)
     np.testing.assert_allclose(recording.torque, frame["torque"].to_numpy(), rtol=1e-12)
     assert recording.motor == {"gear_ratio": 100.0, "torque_constant": 0.12}
-    with pytest.raises(
-        RecordingError, match=r"--torque-constant -1: must be a finite number above zero"
-    ):
+    with pytest.raises(RecordingError, match=r"`torque_constant=-1`: must be above zero"):
         read(path, torque_constant=-1)
 
 
@@ -216,14 +214,14 @@ def test_joint_kind(write, frame):
         "m",
     )
     assert any("taken as prismatic" in note for note in recording.notes)
-    with pytest.raises(RecordingError, match=r"said to be revolute"):
+    with pytest.raises(RecordingError, match=r"given as revolute"):
         read(write(line), joint_kind="revolute")
     assert "joint kind not given, taken as revolute" in read(write(frame)).notes
     assert read(write(frame), joint_kind="prismatic").torque_unit == "N"
     with pytest.raises(RecordingError, match=r"unknown kind of joint; did you mean 'prismatic'\?"):
         read(write(frame), joint_kind="prismatik")
     mixed = line.with_columns(pl.col("v_mps").alias("v_radps")).drop("v_mps")
-    with pytest.raises(RecordingError, match=r"a joint turns or slides"):
+    with pytest.raises(RecordingError, match=r"a joint is either prismatic or revolute"):
         read(write(mixed))
 
 
@@ -242,7 +240,7 @@ def test_load_torque(write, frame):
 
 def test_rows_without_a_joint(write, frame):
     with_gaps = pl.concat([frame.with_columns(joint=pl.lit(n)) for n in ("a", None)])
-    with pytest.raises(RecordingError, match=r"name one with --joint \(a, ''\)"):
+    with pytest.raises(RecordingError, match=r"name one with option `joint` \(a, ''\)"):
         read(write(with_gaps))
 
 
@@ -254,7 +252,9 @@ def test_several_joints(write, frame):
         ]
     )
     path = write(two)
-    with pytest.raises(RecordingError, match=r"holds 2 joints: name one with --joint \(a, b\)"):
+    with pytest.raises(
+        RecordingError, match=r"holds 2 joints: name one with option `joint` \(a, b\)"
+    ):
         read(path)
     with pytest.raises(RecordingError, match=r"there is no joint 'c'"):
         read(path, joint="c")

@@ -21,7 +21,7 @@ TABLE = pl.DataFrame(
 
 
 def run(text: str) -> list:
-    formula = compile_formula(text, TABLE.schema, "t.csv: --derive f")
+    formula = compile_formula(text, TABLE.schema, "t.csv: f")
     return TABLE.select(formula.expression.alias("f"))["f"].to_list()
 
 

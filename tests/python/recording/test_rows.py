@@ -24,8 +24,8 @@ def test_gap_and_where_start_segments(write, frame):
     # One removed row is a gap too, although its step is short.
     one = read(write(frame), where="not (time > 4.9999 and time < 5.0001)")
     assert len(one) == 1999 and one.gaps == 1
-    assert "1 row removed by where: not (time > 4.9999 and time < 5.0001)" in one.notes
-    with pytest.raises(RecordingError, match=r"leaves no rows of 2000"):
+    assert "1 sample removed by where: not (time > 4.9999 and time < 5.0001)" in one.notes
+    with pytest.raises(RecordingError, match=r"keeps none of 2000 rows"):
         read(write(frame), where="time > 1e9")
 
 
@@ -51,7 +51,7 @@ def test_many_bad_rows_are_refused(write, frame):
     table = frame.with_columns(
         temperature=pl.when(pl.int_range(pl.len()) % 10 == 3).then("temperature")
     )
-    with pytest.raises(RecordingError, match=r"--map temperature=none"):
+    with pytest.raises(RecordingError, match=r'`map="temperature=none"`'):
         read(write(table))
     recording = read(write(frame.with_columns(temperature=pl.lit(None, dtype=pl.Float64))))
     assert recording.temperature is None and any("is empty" in n for n in recording.notes)
@@ -74,11 +74,11 @@ def test_time_must_increase(write, frame):
     back = pl.concat([frame.head(100), frame.head(100)])
     with pytest.raises(
         RecordingError,
-        match=r"row 101, column 'time': time runs backwards from 0.495 to 0 s.*--map run=COLUMN",
+        match=r"row 101, column 'time': time runs backwards from 0.495 to 0 s.*`map=.run=COLUMN.`",
     ):
         read(write(back))
     named = back.with_columns(file=pl.Series(["a"] * 100 + ["b"] * 100))
-    with pytest.raises(RecordingError, match=r"--map run=file"):
+    with pytest.raises(RecordingError, match=r'`map="run=file"`'):
         read(write(named))
     recording = read(write(named), map=("run=file",))
     assert recording.run_names == ("a", "b") and recording.gaps == 0 and recording.segment[-1] == 1
@@ -102,10 +102,10 @@ def test_interleaved_runs_are_gathered(write, frame):
 def test_too_little(write, frame):
     with pytest.raises(RecordingError, match=r"1 sample is not a recording"):
         read(write(frame.head(1)))
-    with pytest.raises(RecordingError, match=r"nothing moves, velocity is zero throughout"):
+    with pytest.raises(RecordingError, match=r"nothing moves, the velocity is zero throughout"):
         read(write(frame.with_columns(velocity=pl.lit(0.0))))
     rng = np.random.default_rng(0)
-    with pytest.raises(RecordingError, match=r"nothing moves, no row is faster than its own noise"):
+    with pytest.raises(RecordingError, match=r"nothing moves, no sample is faster than"):
         read(write(frame.with_columns(velocity=pl.Series(1e-3 * rng.standard_normal(2000)))))
 
 
@@ -183,7 +183,7 @@ def test_average(write):
     assert list(recording.segment) == list(range(6))
     with pytest.raises(RecordingError, match=r"needs a run column"):
         read(write(table), average="run")
-    with pytest.raises(RecordingError, match=r"--average file: only 'run'"):
+    with pytest.raises(RecordingError, match=r'`average="file"`: unknown value; give run or row'):
         read(write(table), average="file")
 
 
@@ -260,7 +260,7 @@ def test_a_table_of_points_needs_no_time_and_may_count_every_row(tmp_path: Path)
     path = tmp_path / "map.csv"
     path.write_text("v,tau\n0.5,2.5\n-1,-3\n0,0.1\n2,4\n1,3\n")
     said = {"map": ["velocity=v", "friction_torque=tau"]}
-    with pytest.raises(RecordingError, match=r"no time column.* --average row"):
+    with pytest.raises(RecordingError, match=r'no time column.* `average="row"`'):
         read(path, **said)
     points = read(path, **said, average="row")
     assert points.velocity.tolist() == [0.5, -1.0, 0.0, 2.0, 1.0] and points.averaged
@@ -269,6 +269,6 @@ def test_a_table_of_points_needs_no_time_and_may_count_every_row(tmp_path: Path)
     every = read(path, **said, average="row", rows="all")
     assert every.moving.all()
     assert every.scored() == {"rows": 5, "share": 1.0, "velocity_threshold": 0.0}
-    assert every.notes[-1] == "every row counts, whether it moves or not, as said"
-    with pytest.raises(RecordingError, match="--rows most: it is moving or all"):
+    assert every.notes[-1] == "every sample is scored, moving or not, as given"
+    with pytest.raises(RecordingError, match='`rows="most"`: unknown value; give moving or all'):
         read(path, **said, rows="most")

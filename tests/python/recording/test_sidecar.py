@@ -61,7 +61,7 @@ def test_beside_the_file(path, frame):
         ('kind = "recording"\nmap = 3', r"line 2: map must be a table: write \[map\]"),
         ('kind = "recording"\nkm = ?\n', "is not TOML.*line 2"),
         ('kind = "recording"\njoint_kind = "screwed"', "joint_kind screwed: unknown kind of joint"),
-        ('kind = "recording"\naverage = "joint"', "--average joint: only 'run'"),
+        ('kind = "recording"\naverage = "joint"', "average joint: unknown value; give run or row"),
     ],
 )  # fmt: skip
 def test_mistakes(path, tmp_path, text, sentence):

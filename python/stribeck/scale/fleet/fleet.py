@@ -9,9 +9,10 @@ from __future__ import annotations
 import glob
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Executor
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import polars as pl
 
@@ -23,6 +24,7 @@ from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
 from stribeck.models.spec import parse_spec
+from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.recording.sidecar import read_sidecar
 from stribeck.scale.fleet.backend import Backend, DaskCluster, GivenExecutor, Processes
 from stribeck.scale.fleet.changes import Changes, Question, find_changes
@@ -33,6 +35,9 @@ from stribeck.scale.fleet.result import Fleet
 from stribeck.scale.fleet.schedule import run
 from stribeck.scale.fleet.store import FAILED, Store, row_of, row_of_file, row_of_loss
 from stribeck.scale.fleet.task import File, Look, Task, Work, answer, look
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 #: A task under way for so many times the median is handed out a second time.
 STRAGGLER = 5.0
@@ -60,7 +65,7 @@ def fleet(
     retry_failed: bool = False,
     progress: Progress | None = None,
     note: Callable[[str], None] = lambda sentence: None,
-    **reading: Any,
+    **reading: Unpack[ReadArguments],
 ) -> Fleet:
     """Identify every joint of many files, and say which joints changed and which stand out.
 
@@ -113,12 +118,13 @@ def fleet(
     """
     if starts < 1 or seed < 0:
         raise SpecError(f"{starts} starts, seed {seed}: give at least 1 start and a seed from 0 on")
-    if reading.get("sidecar") is not None:
-        read_sidecar(reading["sidecar"])
-        reading["sidecar"] = str(Path(reading["sidecar"]).absolute())
+    options = ReadOptions(**reading)
+    if options.sidecar is not None:
+        read_sidecar(options.sidecar)
+        options = replace(options, sidecar=str(Path(options.sidecar).absolute()))
     work = Work(
         model=_model_text(model), base=_model_text(base), starts=starts, seed=seed,
-        reading=reading, name=name, day_column=day, version=__version__,
+        reading=options, name=name, day_column=day, version=__version__,
     )  # fmt: skip
     naming, paths = Naming(name), _expand(files)
     store = Store(Path(output), work, retry_failed=retry_failed)

@@ -94,7 +94,7 @@ class Store:
             self._results.mkdir(exist_ok=True)
         except OSError as error:
             raise unwritable(folder, error) from None
-        self._sidecar = work.reading.get("sidecar")
+        self._sidecar = work.reading.sidecar
         self._parts = sorted(self._results.glob("part-*.parquet"))
         self._new: list[dict[str, Any]] = []
         self._added: list[pl.DataFrame] = []
@@ -240,6 +240,6 @@ def _read(path: Path) -> pl.DataFrame:
 
 def _manifest(work: Work) -> dict[str, Any]:
     said = asdict(work)
-    said["reading"] = {k: v for k, v in said["reading"].items() if v not in (None, (), [], {}, "")}
+    said["reading"] = {k: v for k, v in work.reading.given().items() if v != ""}
     # As it reads back: tuples are lists in JSON.
     return dict(json.loads(json.dumps({"kind": "fleet", **said}, default=str)))

@@ -7,19 +7,19 @@ and what is wrong with a file is part of the answer.
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from datetime import date, datetime
 from pathlib import Path
-from typing import Any
 
 from threadpoolctl import threadpool_limits
 
 from stribeck.base.errors import RecordingError, StribeckError, nearest
 from stribeck.base.version import __version__
-from stribeck.recording.load import read
+from stribeck.recording.load import read_with
+from stribeck.recording.options import ReadOptions
 from stribeck.recording.readers import read_table
-from stribeck.recording.scan import scan
+from stribeck.recording.scan import scan_with
 from stribeck.recording.sidecar import sidecar_hash
 from stribeck.scale.fleet.identified import IMPROVE, Identified, identify, start_model
 from stribeck.scale.fleet.naming import as_date
@@ -38,7 +38,7 @@ class Work:
     starts, seed
         Of every fit.
     reading
-        Options of `stribeck.read`.
+        How the files are read.
     name
         How paths name robots and days (`Naming`).
     day_column
@@ -51,7 +51,7 @@ class Work:
     base: str
     starts: int
     seed: int
-    reading: Mapping[str, Any]
+    reading: ReadOptions
     name: str | None
     day_column: str | None
     version: str
@@ -148,7 +148,7 @@ def answer(task: Task, work: Work) -> Answer:
     failure: str | None = None
     try:
         with threadpool_limits(1):
-            recording = read(task.file, **{**work.reading, "joint": task.select})
+            recording = read_with(task.file, replace(work.reading, joint=task.select))
             if recording.sha256 != task.sha256:
                 raise RecordingError(f"{task.file} was changed meanwhile: run the command again")
             identified = identify(recording, work.model, work.base, work.starts, work.seed)
@@ -159,12 +159,12 @@ def answer(task: Task, work: Work) -> Answer:
 
 def _tasks(file: File, work: Work) -> tuple[Task, ...]:
     stat = Path(file.path).stat()
-    table = scan(file.path, **work.reading)
+    table = scan_with(file.path, work.reading)
     if table.problem is not None:
         raise RecordingError(table.problem)
-    wanted = _wanted(table.joints, work.reading.get("joint") or file.joint, file)
+    wanted = _wanted(table.joints, work.reading.joint or file.joint, file)
     day = file.day if work.day_column is None else _day(file.path, work.day_column)
-    sidecar = sidecar_hash(file.path, work.reading.get("sidecar"))
+    sidecar = sidecar_hash(file.path, work.reading.sidecar)
     return tuple(
         Task(
             file.path, name, file.robot, day, select, stat.st_size, stat.st_mtime_ns,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.models.model import Model
-from stribeck.recording.assemble import BANDS
 from stribeck.recording.derive import motion_band
 from stribeck.recording.recording import Recording
+from stribeck.recording.sampled import BANDS
 
 __all__ = ["Margin", "acceleration_band", "smoothed"]
 

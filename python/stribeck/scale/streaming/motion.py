@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.recording.assemble import Channels
+from stribeck.recording.channels import Channels
 from stribeck.recording.derive import Smoother
 
 __all__ = ["Motion"]

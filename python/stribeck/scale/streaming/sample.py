@@ -8,13 +8,13 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from stribeck.base.errors import RecordingError
+from stribeck.base.errors import RecordingError, option
 from stribeck.recording.assemble import build
 from stribeck.recording.columns import Choice
 from stribeck.recording.excerpt import stretches
-from stribeck.recording.options import Options
 from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
+from stribeck.recording.settings import Settings
 from stribeck.recording.table import Prepared, joint_rows, prepared_table
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.runs import block_edges, run_starts
@@ -68,7 +68,7 @@ class _Rows(Source):
         return self._data.place(row)
 
 
-def take(data: DataSet, options: Options, most: int, seed: int) -> Sample:
+def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
     """Read at most `most` rows of a data set.
 
     Raises
@@ -76,30 +76,28 @@ def take(data: DataSet, options: Options, most: int, seed: int) -> Sample:
     RecordingError
         What a recording is refused for, or an option that needs all rows at once.
     """
-    _refuse(data, options)
+    _refuse(data, settings)
     taken = stretches(data.rows, most, seed)
     table = pl.concat([data.frame(*stretch) for stretch in taken])
     number = np.concatenate([np.arange(*stretch) for stretch in taken])
-    prepared = prepared_table(_Rows(data, table), options)
+    prepared = prepared_table(_Rows(data, table), settings)
     starts = _starts(data, prepared)
     row = number[prepared.row]
     prepared = _with_runs(replace(prepared, row=row), row, starts)
-    joint, own = joint_rows(prepared, options.joint)
+    joint, own = joint_rows(prepared, settings.joint)
     recording = build(prepared, joint, own)
     edges = block_edges(data.rows, starts)
     return Sample(recording, prepared, joint, starts, edges)
 
 
-def _refuse(data: DataSet, options: Options) -> None:
+def _refuse(data: DataSet, settings: Settings) -> None:
     """Refuse what needs more than one stretch at a time."""
-    for flag, said in (
-        ("--average", options.average), ("--drive", options.drive),
-        ("--hold-out", options.hold_out),
-    ):  # fmt: skip
+    for name in ("average", "drive", "hold_out"):
+        said: str | None = getattr(settings, name)
         if said is not None:
             raise RecordingError(
-                f"{data.path}: {flag} {said} needs all rows in memory: leave it out, or give one "
-                "file without --stream"
+                f"{data.path}: {option(name, said)} needs all samples in memory: leave it out, or "
+                f"read one file without {option('stream')}"
             )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from stribeck.diagnosis.improve import improve as improve_in_memory
 from stribeck.diagnosis.run import LEAST_FALL
@@ -15,7 +15,8 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.search import QUICK
 from stribeck.models.model import Model
 from stribeck.recording.excerpt import SAMPLE_ROWS
-from stribeck.recording.options import gather
+from stribeck.recording.options import ReadArguments, ReadOptions
+from stribeck.recording.settings import gather
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.fit import streamed_fit
@@ -25,15 +26,10 @@ from stribeck.scale.streaming.result import StreamedFit
 from stribeck.scale.streaming.sample import Sample, take
 from stribeck.scale.streaming.windows import WINDOW_ROWS
 
-__all__ = ["Stream", "stream"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
-#: Options of `stribeck.read`, and what they are where nothing is said.
-_UNSAID: dict[str, Any] = {
-    "sidecar": None, "joint": None, "joint_kind": None, "gear_ratio": None,
-    "torque_constant": None, "inertia": None, "km": None, "kb": None, "kt": None, "unit": (),
-    "map": (), "derive": (), "where": None, "average": None, "drive": None, "hold_out": None,
-    "rows": None,
-}  # fmt: skip
+__all__ = ["Stream", "stream"]
 
 
 def _silent(done: int, total: int, number: int) -> None:
@@ -156,7 +152,7 @@ def stream(
     sample_rows: int = SAMPLE_ROWS,
     window_rows: int = WINDOW_ROWS,
     seed: int = 0,
-    **reading: Any,
+    **reading: Unpack[ReadArguments],
 ) -> Stream:
     """Open a data set that is read in passes, a window at a time.
 
@@ -186,6 +182,6 @@ def stream(
 
         fitted = sb.stream("logs/", map=["velocity=dq_3"]).fit("coulomb+load")
     """
-    options = gather(path, **{**_UNSAID, **reading})
+    settings = gather(path, ReadOptions(**reading))
     data = DataSet.open(path)
-    return Stream(data, take(data, options, sample_rows, seed), window_rows)
+    return Stream(data, take(data, settings, sample_rows, seed), window_rows)

@@ -12,19 +12,17 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError
 from stribeck.models.model import Model
-from stribeck.recording.assemble import (
-    Channels,
-    measured_torque,
-    rigid_body_load,
-    settle_units,
-    wanted_channels,
-)
+from stribeck.recording.cells import labels
+from stribeck.recording.channels import Channels, wanted_channels
+from stribeck.recording.computed import apply_formulas
 from stribeck.recording.derive import Smoother
 from stribeck.recording.drive import with_drive
+from stribeck.recording.joint_units import settle_units
+from stribeck.recording.loads import measured_torque, rigid_body_load
 from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import segment_rows
-from stribeck.recording.table import Prepared, apply_formulas, labels
+from stribeck.recording.table import Prepared
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.margin import Margin, acceleration_band, smoothed
 from stribeck.scale.streaming.motion import Motion
@@ -129,8 +127,8 @@ class Windows:
 
     def _read(self) -> list[str] | None:
         """Columns of the files that are needed; None: all, since a formula may read any."""
-        options = self.sample.prepared.options
-        if options.derive or options.where is not None:
+        settings = self.sample.prepared.settings
+        if settings.derive or settings.where is not None:
             return None
         chosen = [c.source for c in self.sample.prepared.choices.values() if c.source != CLOCK_RUN]
         return [name for name in self.data.schema if name in chosen]
@@ -180,9 +178,10 @@ class Windows:
         """The channels of the rows of `frame`, the first of which is row `begin`."""
         known = self.sample.prepared
         source = Source(self.data.path, "", frame, 0)
-        table, row, *_ = apply_formulas(source, known.options, all_may_go=True)
+        made = apply_formulas(source, known.settings, may_be_empty=True)
+        table = made.table
         prepared = Prepared(
-            source, known.options, table, row + begin, dict(known.choices), known.derived, 0, ()
+            source, known.settings, table, made.row + begin, dict(known.choices), ()
         )
         rows = np.arange(table.height)
         if self.sample.joint is not None and "joint" in known.choices:
@@ -217,7 +216,7 @@ class Windows:
             )
         elif self._smoothed:
             load_smooth = Smoother(time, segment, sample.cutoff_hz).smooth(load)
-        every = data.prepared.options.rows == "all"
+        every = data.prepared.settings.rows == "all"
         moving = np.abs(motion.velocity) > sample.velocity_threshold
         made = replace(
             sample, time=time, segment=segment, run=run, dt=dt, torque=torque, load_torque=load,

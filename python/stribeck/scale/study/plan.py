@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import groupby
-from typing import Any
 
 import numpy as np
 
@@ -13,9 +12,10 @@ from stribeck.base.errors import FitError, SpecError
 from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
-from stribeck.recording.load import read
+from stribeck.recording.load import read_with
+from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
-from stribeck.recording.scan import scan
+from stribeck.recording.scan import scan_with
 from stribeck.recording.sidecar import sidecar_hash
 
 #: The 25 laws that the review compares, in the order of its tables 1, 2 and 3.
@@ -98,7 +98,7 @@ class StudyPlan:
     """
 
     path: str
-    reading: Mapping[str, Any]
+    reading: ReadOptions
     data: Mapping[str, str | None]
     joints: tuple[str | None, ...]
     laws: tuple[str, ...]
@@ -117,12 +117,12 @@ class StudyPlan:
 
     def read(self, joint: str | None) -> Recording:
         """The recording of one joint."""
-        return read(self.path, **{**self.reading, "joint": joint})
+        return read_with(self.path, replace(self.reading, joint=joint))
 
 
 def make_plan(
     path: str,
-    reading: Mapping[str, Any],
+    reading: ReadOptions,
     laws: Sequence[str] = REVIEW,
     *,
     starts: int = STARTS,
@@ -155,7 +155,7 @@ def make_plan(
     notes: list[str] = []
     sha256 = ""
     for joint in joints:
-        recording = read(path, **{**reading, "joint": joint})
+        recording = read_with(path, replace(reading, joint=joint))
         sha256 = recording.sha256
         notes += recording.notes
         counts: dict[str, int] = {}
@@ -171,8 +171,8 @@ def make_plan(
         raise FitError(f"{path}: no law of the study can be fitted: {skipped[0].why}")
     return StudyPlan(
         path=path,
-        reading=dict(reading),
-        data={"sha256": sha256, "sidecar_sha256": sidecar_hash(path, reading.get("sidecar"))},
+        reading=reading,
+        data={"sha256": sha256, "sidecar_sha256": sidecar_hash(path, reading.sidecar)},
         joints=joints,
         laws=tuple(laws),
         starts=starts,
@@ -183,11 +183,11 @@ def make_plan(
     )
 
 
-def _joints(path: str, reading: Mapping[str, Any]) -> tuple[str | None, ...]:
+def _joints(path: str, reading: ReadOptions) -> tuple[str | None, ...]:
     """The joint that was named, or every joint of the file."""
-    if reading.get("joint") is not None:
-        return (str(reading["joint"]),)
-    return scan(path, **reading).joints or (None,)
+    if reading.joint is not None:
+        return (str(reading.joint),)
+    return scan_with(path, reading).joints or (None,)
 
 
 def _useful_starts(law: str, recording: Recording, starts: int) -> int:

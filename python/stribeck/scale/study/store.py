@@ -118,7 +118,7 @@ def _manifest(plan: StudyPlan) -> dict[str, Any]:
         "kind": "study",
         "path": str(plan.path),
         "data": dict(plan.data),
-        "reading": {k: v for k, v in plan.reading.items() if v not in (None, (), [], {}, "")},
+        "reading": {k: v for k, v in plan.reading.given().items() if v != ""},
         "joints": list(plan.joints),
         "laws": list(plan.laws),
         "starts": plan.starts,

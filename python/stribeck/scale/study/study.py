@@ -9,18 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from stribeck.base.errors import FitError, SpecError
 from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
+from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
 from stribeck.scale.study.desk import Desk, StudyWorkers, study_workers
 from stribeck.scale.study.plan import REVIEW, STARTS, Job, StudyPlan, make_plan
 from stribeck.scale.study.result import Study, Table, make_tables
 from stribeck.scale.study.store import Store
 from stribeck.scale.study.trial import Trial, fit_trials
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 #: Told after each fit: fits made now and before, and all there are.
 Progress = Callable[[int, int], None]
@@ -37,7 +41,7 @@ def study(
     workers: int | None = 1,
     progress: Progress | None = None,
     note: Callable[[str], None] | None = None,
-    **reading: Any,
+    **reading: Unpack[ReadArguments],
 ) -> Study:
     """Fit `laws` to every joint of a recording from many starts, and compare them.
 
@@ -73,7 +77,7 @@ def study(
     """
     if low_speed is not None and not low_speed > 0.0:
         raise SpecError(f"low speed {low_speed:g} must be above zero")
-    plan = make_plan(str(path), reading, laws, starts=starts, seed=seed)
+    plan = make_plan(str(path), ReadOptions(**reading), laws, starts=starts, seed=seed)
     if note is not None:
         for sentence in plan.notes:
             note(sentence)

@@ -124,7 +124,7 @@ def test_what_cannot_be_driven_is_refused(tmp_path: Path, frame: pl.DataFrame) -
         sb.read(path, **options)
     with pytest.raises(RecordingError, match="needs an effort in V, the torque is in N m"):
         sb.read(path, **{**options, "unit": ["effort_V=Nm"]}, inertia=0.005)
-    with pytest.raises(RecordingError, match="unknown drive"):
+    with pytest.raises(RecordingError, match="unknown value; give voltage"):
         sb.read(path, **{**options, "drive": "current"})
     with pytest.raises(RecordingError, match="there is no column 'gains'; did you mean 'gain'"):
         sb.read(path, **options, inertia=0.005, hold_out="gains")

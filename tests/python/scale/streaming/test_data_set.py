@@ -112,5 +112,5 @@ def test_what_cannot_be_read_is_said_in_one_line(
 
 def test_what_needs_all_rows_at_once_is_refused(tmp_path: Path) -> None:
     folder = parts(tmp_path / "set", joint(rows=2000))
-    with pytest.raises(sb.RecordingError, match="--average run needs all rows in memory"):
+    with pytest.raises(sb.RecordingError, match='`average="run"` needs all samples in memory'):
         sb.stream(folder, average="run")

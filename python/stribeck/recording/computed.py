@@ -1,0 +1,131 @@
+"""Columns computed by formulas, and the rows that a condition keeps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import polars as pl
+
+from stribeck.base.errors import RecordingError, option
+from stribeck.recording.arrays import Bools, Ints
+from stribeck.recording.cells import column_numbers
+from stribeck.recording.formula import Formula, compile_formula
+from stribeck.recording.names import file_unit, parse_name
+from stribeck.recording.readers import Source
+from stribeck.recording.settings import Settings
+
+__all__ = ["Computed", "apply_formulas"]
+
+
+@dataclass(frozen=True)
+class Computed:
+    """A table with its derived columns.
+
+    Attributes
+    ----------
+    table
+        The rows that are kept.
+    row
+        Their row numbers in the file, from 0.
+    units
+        Column -> unit: those that were given, and those that follow from a formula.
+    """
+
+    table: pl.DataFrame
+    row: Ints
+    units: dict[str, str]
+    notes: tuple[str, ...]
+
+
+def apply_formulas(source: Source, settings: Settings, *, may_be_empty: bool = False) -> Computed:
+    """Add the derived columns and keep the rows for which `where` holds.
+
+    Raises
+    ------
+    RecordingError
+        A formula cannot be used, or no row is left and the table may not be empty.
+    """
+    table, units = source.table, dict(settings.units)
+    notes: list[str] = []
+    for name, text in settings.derive.items():
+        where = f"{source.path}: {option('derive', f'{name}={text}')}"
+        formula = _compile(source, table, text, where)
+        expression = formula.expression
+        if formula.kind == "truth":
+            expression = expression.cast(pl.Float64)
+        table = _run(where, table.with_columns, expression.alias(name))
+        inferred = _inferred_unit(formula)
+        effort = parse_name(name).channel in ("torque", "load_torque", "friction_torque")
+        if effort and name not in units and inferred is not None:
+            units[name] = inferred
+            notes.append(f"'{name}' is in {inferred}, the unit of the columns in its formula")
+    row = np.arange(table.height)
+    if settings.where is not None:
+        mask = _mask(source, table, settings.where)
+        if not (mask.any() or may_be_empty):
+            raise RecordingError(
+                f"{source.path}: {option('where', settings.where)} keeps none of {table.height} "
+                "rows"
+            )
+        row = np.flatnonzero(mask)
+        table = table.filter(pl.Series(mask))
+    return Computed(table, row, units, tuple(notes))
+
+
+def _mask(source: Source, table: pl.DataFrame, text: str) -> Bools:
+    """The rows for which a condition holds; a number holds unless it is zero."""
+    where = f"{source.path}: {option('where', text)}"
+    formula = _compile(source, table, text, where)
+    if formula.kind == "text":
+        raise RecordingError(f"{where}: is a text, not a condition")
+    condition = formula.expression if formula.kind == "truth" else formula.expression != 0.0
+    mask: Bools = _run(where, table.select, condition.fill_null(False).alias("keep"))[
+        "keep"
+    ].to_numpy()
+    # A condition without a column has one value.
+    return mask if mask.shape[0] == table.height else np.full(table.height, bool(mask[0]))
+
+
+def _inferred_unit(formula: Formula) -> str | None:
+    """Return V or % when a formula only scales one column in that unit by powers of ten.
+
+    ``pwm_permille/1000*supply_V`` is a voltage; ``u_V*35.15`` may be anything.
+    """
+    if not formula.product or not formula.columns:
+        return None
+    if any(
+        n <= 0.0 or not math.isclose(math.log10(n) % 1.0, 0.0, abs_tol=1e-12)
+        for n in formula.numbers
+    ):
+        return None
+    units = [u for u in map(file_unit, formula.columns) if u is not None and u.name != "permille"]
+    if len(units) == 1 and units[0].name in ("V", "%"):
+        return units[0].name
+    return None
+
+
+def _compile(source: Source, table: pl.DataFrame, text: str, where: str) -> Formula:
+    try:
+        return compile_formula(text, table.schema, where)
+    except RecordingError:
+        # One bad cell turns a column of numbers into text: then the cell is what is wrong.
+        for name in table.columns:
+            if table.schema[name] == pl.String and name in text:
+                bare = table[name].str.strip_chars().drop_nulls()
+                numbers = bare.cast(pl.Float64, strict=False).drop_nulls()
+                if 2 * len(numbers) > len(bare):
+                    column_numbers(source, table, np.arange(table.height), name)
+        raise
+
+
+def _run(
+    where: str, compute: Callable[[pl.Expr], pl.DataFrame], expression: pl.Expr
+) -> pl.DataFrame:
+    try:
+        return compute(expression)
+    except (pl.exceptions.PolarsError, pl.exceptions.PanicException) as error:
+        reason = str(error).strip().splitlines()[0][:120]
+        raise RecordingError(f"{where}: cannot be computed ({reason})") from None

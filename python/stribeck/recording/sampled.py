@@ -1,0 +1,113 @@
+"""A recording of samples in time: derived channels, segments and held-out blocks."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.recording.arrays import Floats, Ints
+from stribeck.recording.channels import Channels, Layout
+from stribeck.recording.complete import Clock, Motion, complete
+from stribeck.recording.derive import Smoother, choose_cutoff, motion_band
+from stribeck.recording.joint_units import natural_unit
+from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
+from stribeck.recording.recording import Column, Recording
+from stribeck.recording.rows import held_out_blocks, noise_level, segment_rows, segment_slices
+
+__all__ = ["BANDS", "sampled"]
+
+#: The cut-off of a derived acceleration is at most this many times the band of the motion.
+BANDS = 20.0
+
+
+def sampled(data: Channels, layout: Layout) -> Recording:
+    """The recording of channels sampled in time."""
+    time = data.values["time"]
+    segment, dt, typical = segment_rows(time, layout.run, data.prepared.row[data.rows])
+    motion, smoother = _motion(data, layout, segment, typical)
+    loads = _loads(data, layout, motion, smoother)
+    block, count = held_out_blocks(dt, segment, layout.run, typical)
+    clock = Clock(
+        time=time,
+        segment=segment,
+        dt=dt,
+        block=block,
+        block_count=count,
+        rate_hz=1.0 / typical if typical > 0.0 else 0.0,
+        gaps=len(segment_slices(segment)) - len(layout.run_names),
+    )
+    return complete(data, layout, motion, loads, clock, averaged=False)
+
+
+def _motion(
+    data: Channels, layout: Layout, segment: Ints, typical: float
+) -> tuple[Motion, Smoother]:
+    """Position, velocity and acceleration, derived where they were not recorded."""
+    time = data.values["time"]
+    position, velocity = data.values.get("position"), data.values.get("velocity")
+    if velocity is not None:
+        sigma = noise_level(time, velocity, segment)
+        cutoff = choose_cutoff(time, velocity, segment, 1)
+        smoother = Smoother(time, segment, cutoff)
+        velocity_smooth = smoother.smooth(velocity)
+        origin, source, derivative = "velocity", velocity, 1
+    else:
+        assert position is not None
+        # The raw difference quotient of two samples, each with the noise of the position.
+        step = typical if typical > 0.0 else float(np.median(np.diff(time)))
+        sigma = np.sqrt(2.0) * noise_level(time, position, segment) / step
+        cutoff = choose_cutoff(time, position, segment, 2)
+        smoother = Smoother(time, segment, cutoff)
+        velocity = velocity_smooth = smoother.smooth(position, 1)
+        origin, source, derivative = "position", position, 2
+        unit = f"{layout.position_unit}/s"
+        data.columns["velocity"] = Column.of("velocity", "position", unit, True, velocity)
+        data.notes.append(_derived_note("velocity", "position", cutoff))
+    acceleration = data.values.get("acceleration")
+    if acceleration is None:
+        # Differentiation amplifies vibration above the motion, which no rigid body follows:
+        # where noise does not limit the cut-off, the band of the motion does.
+        band = motion_band(time, velocity, segment)
+        limits = [x for x in (cutoff, None if band is None else BANDS * band) if x is not None]
+        highest = min(limits, default=None)
+        acceleration = Smoother(time, segment, highest).smooth(source, derivative)
+        acceleration_smooth = acceleration
+        unit = f"{layout.position_unit}/s2"
+        data.columns["acceleration"] = Column.of("acceleration", origin, unit, True, acceleration)
+        data.notes.append(_derived_note("acceleration", origin, highest))
+    else:
+        acceleration_smooth = smoother.smooth(acceleration)
+    position_smooth = None if position is None else smoother.smooth(position)
+    motion = Motion(
+        position,
+        velocity,
+        acceleration,
+        position_smooth,
+        velocity_smooth,
+        acceleration_smooth,
+        float(sigma),
+        cutoff,
+    )
+    return motion, smoother
+
+
+def _loads(data: Channels, layout: Layout, motion: Motion, smoother: Smoother) -> Loads:
+    torque, load = measured_torque(data)
+    if load is not None:
+        return Loads(torque, load, smoother.smooth(load))
+    kind = layout.joint_kind
+    unit = layout.torque_unit if data.prepared.settings.drive is None else natural_unit(kind)
+    load = rigid_body_load(data, motion.position, motion.acceleration, unit, smooth=False)
+    smooth: Floats | None = None
+    if load is not None:
+        smooth = rigid_body_load(
+            data, motion.position_smooth, motion.acceleration_smooth, unit, smooth=True
+        )
+    return Loads(torque, load, smooth)
+
+
+def _derived_note(name: str, source: str, cutoff: float | None) -> str:
+    if cutoff is None:
+        return f"{name} derived from {source}, no filter: the data show no noise above the motion"
+    return (
+        f"{name} derived from {source}, zero-phase low-pass at {cutoff:.3g} Hz chosen from the data"
+    )

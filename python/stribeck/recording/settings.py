@@ -1,0 +1,195 @@
+"""What is known about a file: the options joined with its sidecar, checked before data are read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from stribeck.base.errors import RecordingError, nearest, option
+from stribeck.recording.names import CHANNELS
+from stribeck.recording.options import TABLE, ReadOptions
+from stribeck.recording.sidecar import Sidecar, find_sidecar, read_sidecar
+
+__all__ = ["Mechanics", "Settings", "gather"]
+
+_KINDS = {
+    "revolute": "revolute",
+    "rotary": "revolute",
+    "rotational": "revolute",
+    "r": "revolute",
+    "prismatic": "prismatic",
+    "linear": "prismatic",
+    "p": "prismatic",
+}
+_RIGID_BODY = ("inertia", "gravity_cos", "gravity_sin", "gravity")
+_MOTOR = ("km", "kb", "kt", "screw_pitch", "gear_ratio", "torque_constant")
+_NUMBERS = tuple(entry.name for entry in TABLE if entry.kind == "number")
+_CHOICES = {entry.name: entry.choices for entry in TABLE}
+
+
+@dataclass(frozen=True)
+class Mechanics:
+    """What is known about a joint's drive and rigid body.
+
+    Attributes
+    ----------
+    gear_ratio
+        Motor turns per joint turn.
+    torque_constant
+        N m/A.
+    screw_pitch
+        m per turn.
+    terms
+        Rigid body: inertia, gravity_cos, gravity_sin, gravity, where known.
+    motor
+        Constants of motor and transmission, where known.
+    """
+
+    gear_ratio: float
+    torque_constant: float | None
+    screw_pitch: float | None
+    terms: dict[str, float]
+    motor: dict[str, float]
+
+    @classmethod
+    def of(cls, numbers: Mapping[str, float]) -> Mechanics:
+        """Sort the numbers by what they are about."""
+        return cls(
+            gear_ratio=numbers.get("gear_ratio", 1.0),
+            torque_constant=numbers.get("torque_constant"),
+            screw_pitch=numbers.get("screw_pitch"),
+            terms={name: numbers[name] for name in _RIGID_BODY if name in numbers},
+            motor={name: numbers[name] for name in _MOTOR if name in numbers},
+        )
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything that is known about a recording besides its data.
+
+    Attributes
+    ----------
+    mechanics
+        Of the joint that is read, or of all joints where they do not differ.
+    joints
+        Of each joint, where they differ.
+    units, maps, derive
+        Column -> unit, channel -> column, new column -> formula.
+    sidecar
+        Its path.
+    rows
+        Which samples are scored: ``"moving"`` or ``"all"``.
+    """
+
+    mechanics: Mechanics
+    joint: str | None
+    joint_kind: str | None
+    units: dict[str, str]
+    maps: dict[str, str]
+    derive: dict[str, str]
+    where: str | None
+    average: str | None
+    sidecar: str | None
+    drive: str | None = None
+    hold_out: str | None = None
+    rows: str = "moving"
+    joints: dict[str, Mechanics] = field(default_factory=dict)
+
+    @property
+    def knows_torque_constant(self) -> bool:
+        """Whether the current of every joint can be converted into a torque."""
+        own = [joint.torque_constant for joint in self.joints.values()]
+        return self.mechanics.torque_constant is not None or (bool(own) and None not in own)
+
+    def for_joint(self, joint: str | None) -> Settings:
+        """What is known about one joint of a file that holds several."""
+        own = self.mechanics if joint is None else self.joints.get(joint, self.mechanics)
+        return replace(self, mechanics=own, joints={})
+
+
+def gather(path: str | Path, options: ReadOptions) -> Settings:
+    """Join the options with the sidecar; an option wins over the sidecar.
+
+    Raises
+    ------
+    RecordingError
+        The sidecar cannot be used, or an option has a bad value.
+    """
+    beside = options.sidecar if options.sidecar is not None else find_sidecar(path)
+    sidecar = read_sidecar(beside) if beside is not None else Sidecar()
+    kind = _joint_kind(options, sidecar)
+    units = {**sidecar.units, **options.pairs("unit")}
+    maps, derive = _columns(options, sidecar)
+    if "effort_unit" in sidecar.texts and "torque" not in units:
+        units["torque"] = sidecar.texts["effort_unit"]
+    numbers = {name: options.number(name) for name in _NUMBERS}
+    given = {name: value for name, value in numbers.items() if value is not None}
+    texts = {name: _chosen(name, options, sidecar) for name in ("average", "rows", "drive")}
+    for channel in maps:
+        if channel not in CHANNELS:
+            hint = nearest(channel, CHANNELS) or f"; the names are {', '.join(CHANNELS)}"
+            said = option("map", f"{channel}={maps[channel]}")
+            raise RecordingError(f"{said}: unknown name '{channel}'{hint}")
+    joint = options.joint
+    return Settings(
+        mechanics=Mechanics.of({**sidecar.numbers, **given}),
+        joint=str(joint) if joint is not None else sidecar.texts.get("joint"),
+        joint_kind=kind,
+        units=units,
+        maps=maps,
+        derive=derive,
+        where=options.where if options.where is not None else sidecar.texts.get("where"),
+        average=texts["average"],
+        sidecar=sidecar.path,
+        drive=texts["drive"],
+        hold_out=options.hold_out,
+        rows=texts["rows"] or "moving",
+        joints={
+            name: Mechanics.of({**sidecar.numbers, **own, **given})
+            for name, own in sidecar.joints.items()
+        },
+    )
+
+
+def _joint_kind(options: ReadOptions, sidecar: Sidecar) -> str | None:
+    kind = options.joint_kind if options.joint_kind is not None else sidecar.texts.get("joint_kind")
+    if kind is None:
+        return None
+    known = _KINDS.get(kind.strip().lower())
+    if known is None:
+        hint = nearest(kind, _CHOICES["joint_kind"]) or ": it is revolute or prismatic"
+        said = _said("joint_kind", kind, options.joint_kind is not None, sidecar)
+        raise RecordingError(f"{said}: unknown kind of joint{hint}")
+    return known
+
+
+def _columns(options: ReadOptions, sidecar: Sidecar) -> tuple[dict[str, str], dict[str, str]]:
+    """Mapped and derived columns; an option replaces what the sidecar says of the same channel."""
+    maps, derive = options.pairs("map"), options.pairs("derive")
+    kept = {
+        channel: column
+        for channel, column in sidecar.map.items()
+        if channel not in derive or channel in maps
+    }
+    made = {
+        channel: formula
+        for channel, formula in sidecar.derive.items()
+        if channel not in maps or channel in derive
+    }
+    return {**kept, **maps}, {**made, **derive}
+
+
+def _chosen(name: str, options: ReadOptions, sidecar: Sidecar) -> str | None:
+    """A text of which only some are accepted."""
+    given: str | None = getattr(options, name)
+    text = given if given is not None else sidecar.texts.get(name)
+    if text is not None and text not in _CHOICES[name]:
+        said = _said(name, text, given is not None, sidecar)
+        raise RecordingError(f"{said}: unknown value; give {' or '.join(_CHOICES[name])}")
+    return text
+
+
+def _said(name: str, value: str, as_option: bool, sidecar: Sidecar) -> str:
+    """What was said, and where."""
+    return option(name, value) if as_option else f"{sidecar.path}: {name} {value}"
