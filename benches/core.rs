@@ -6,8 +6,8 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use stribeck::Spec;
 use stribeck::batch::{self, Channels, Columns, TimeStep};
-use stribeck::composed::Spec;
 
 const ROWS: usize = 4096;
 

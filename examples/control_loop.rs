@@ -4,11 +4,8 @@
 //!
 //! cargo run --example control_loop
 
-use stribeck::error::ModelError;
-use stribeck::feedforward::{Feedforward, Limits, Source};
-use stribeck::fixed::FixedLaw;
 use stribeck::law::Lugre;
-use stribeck::sample::Sample;
+use stribeck::{Feedforward, FixedLaw, Limits, ModelError, Sample, Source};
 
 const PERIOD: f32 = 2.5e-4;
 
@@ -30,7 +27,7 @@ struct Joint {
     position: f32,
     velocity: f32,
     friction: FixedLaw<Lugre<f32>, f32>,
-    state: stribeck::dynamics::State<f32>,
+    state: stribeck::State<f32>,
 }
 
 impl Joint {
@@ -63,7 +60,7 @@ fn track(compensate: bool) -> Result<(f32, u32), ModelError<'static>> {
         position: 0.0,
         velocity: 0.0,
         friction: FixedLaw::new(FRICTION),
-        state: stribeck::dynamics::State::default(),
+        state: stribeck::State::default(),
     };
     let (mut last, mut squares, mut bridged) = (Sample::at(0.0), 0.0, 0);
     const STEPS: u32 = 40_000;

@@ -6,7 +6,12 @@ use crate::effect::{self, FrictionEffect};
 use crate::law::{self, FrictionLaw};
 use crate::sample::{Sample, Split};
 use crate::scalar::{Real, Scalar};
-use crate::table::{EffectInfo, LawInfo, Parameters, Presence};
+use crate::table::Parameters;
+
+pub use crate::constants::CONSTANTS;
+pub use crate::table::{
+    ConstantInfo, EffectInfo, LawInfo, ParameterInfo, Pole, Presence, Role, Scale,
+};
 
 macro_rules! laws {
     ($($law:ident),+; $own:ident) => {
@@ -20,8 +25,7 @@ macro_rules! laws {
 
         /// A law with its parameter values.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        #[allow(missing_docs)]
-        pub enum Law<S> {
+        pub(crate) enum Law<S> {
             $($law(law::$law<S>),)+
             $own(law::$own<S>),
         }
@@ -50,7 +54,7 @@ macro_rules! laws {
 
             /// The law with the parameters that `next` returns.
             #[inline]
-            pub fn read<S: Real>(self, next: impl FnMut(Presence) -> S) -> Law<S> {
+            pub(crate) fn read<S: Real>(self, next: impl FnMut(Presence) -> S) -> Law<S> {
                 match self {
                     $(Self::$law => Law::$law(law::$law::read(next)),)+
                     Self::$own => Law::$own(law::$own::read(next)),
@@ -169,10 +173,9 @@ macro_rules! effects {
 
         /// Effects with their parameter values.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        #[allow(missing_docs)]
-        pub struct Effects<S> {
+        pub(crate) struct Effects<S> {
             present: EffectSet,
-            $(pub $id: Option<effect::$effect<S>>,)+
+            $(pub(crate) $id: Option<effect::$effect<S>>,)+
         }
 
         impl<S: Real> Effects<S> {
@@ -194,6 +197,7 @@ macro_rules! effects {
             }
 
             /// Whether an effect has a state, separate from that of a bristle.
+            #[cfg(feature = "std")]
             #[must_use]
             pub fn have_state(&self) -> bool {
                 self.present.iter().any(EffectId::has_state)

@@ -289,8 +289,9 @@ pub struct Composed<S: Real> {
 
 impl<S: Real> Composed<S> {
     /// The effects with their parameters.
+    #[cfg(feature = "std")]
     #[must_use]
-    pub const fn effects(&self) -> &Effects<S> {
+    pub(crate) const fn effects(&self) -> &Effects<S> {
         &self.effects
     }
 
@@ -337,7 +338,7 @@ impl<S: Real> Composed<S> {
     /// The bristle through which dry friction acts, if the state is a bristle.
     #[inline(always)]
     #[must_use]
-    pub fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+    pub(crate) fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
         self.bristle.or_else(|| self.law.bristle(sample, &self.constants))
     }
 
@@ -368,8 +369,9 @@ impl<S: Real> Composed<S> {
 
     /// Whether several samples can be evaluated in parallel, because the effect of a step does not
     /// depend on the state: without a state, or with only that of a bristle.
+    #[cfg(feature = "std")]
     #[must_use]
-    pub fn runs_side_by_side(&self) -> bool {
+    pub(crate) fn runs_side_by_side(&self) -> bool {
         let is_bristle = || self.bristle(&Sample::at(S::Plain::zero())).is_some();
         !self.has_state || (!self.effects.have_state() && is_bristle())
     }

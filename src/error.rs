@@ -8,6 +8,7 @@ use crate::formula::FormulaError;
 
 /// Why a model cannot be built.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ModelError<'a> {
     /// There is no law with this id.
     UnknownLaw(&'a str),

@@ -5,8 +5,8 @@
 mod common;
 
 use common::{Motion, close, motion};
+use stribeck::Spec;
 use stribeck::batch::{self, BatchError, Channels, Columns};
-use stribeck::composed::Spec;
 
 const LAWS: [&str; 6] = ["bam_m1", "bam_m2", "bam_m3", "bam_m4", "bam_m5", "bam_m6"];
 

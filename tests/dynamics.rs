@@ -4,9 +4,7 @@
 mod common;
 
 use common::close;
-use stribeck::composed::{Composed, Spec};
-use stribeck::dynamics::{Interval, Memory, State};
-use stribeck::sample::Sample;
+use stribeck::{Composed, Interval, Memory, Sample, Spec, State};
 
 /// Dry friction of the test models at rest (T): no elastic torque exceeds it.
 const MOST: f64 = 9.0;
@@ -55,8 +53,8 @@ fn velocity(i: u32) -> f64 {
 /// The numbers in which a state is kept.
 fn forces(model: &Composed<f64>, state: &State<f64>) -> Vec<f64> {
     match model.memory() {
-        Memory::Forces(count) => state.elements.force[..count].to_vec(),
-        _ => vec![state.bristle.z],
+        Memory::Forces(count) => state.forces()[..count].to_vec(),
+        _ => vec![state.deflection()],
     }
 }
 

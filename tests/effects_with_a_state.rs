@@ -4,9 +4,7 @@
 mod common;
 
 use common::close;
-use stribeck::composed::{Composed, Spec};
-use stribeck::dynamics::{Interval, State};
-use stribeck::sample::Sample;
+use stribeck::{Composed, Interval, Sample, Spec, State};
 
 /// Viscous and Coulomb friction, Stribeck curve.
 const DRY: [f64; 5] = [0.8, 3.0, 1.5, 0.2, 1.6];

@@ -1,11 +1,7 @@
 //! Friction in a controller: readings that are missing, cannot be, or come first.
 
-use stribeck::composed::Spec;
-use stribeck::error::ModelError;
-use stribeck::feedforward::{Feed, Feedforward, Friction, Limits, Source};
-use stribeck::fixed::FixedLaw;
 use stribeck::law::Lugre;
-use stribeck::sample::Sample;
+use stribeck::{Feed, Feedforward, FixedLaw, Friction, Limits, ModelError, Sample, Source, Spec};
 
 const PERIOD: f64 = 2.5e-4;
 const LIMITS: Limits<f64> = Limits { torque: 5.0, speed: 6.0, held: 3 };
@@ -56,11 +52,11 @@ fn readings_that_cannot_be_leave_the_state_as_it_is() {
     for reading in readings {
         let mut joint = joint();
         let last = fed(&mut joint, 0.01);
-        let z = joint.state().bristle.z;
+        let z = joint.state().deflection();
         for _ in 0..LIMITS.held {
             let feed = joint.next(reading.as_ref());
             assert_eq!(feed, Feed { torque: last.torque, source: Source::Last });
-            assert_eq!(joint.state().bristle.z, z);
+            assert_eq!(joint.state().deflection(), z);
         }
         let mut untouched = self::joint();
         fed(&mut untouched, 0.01);
@@ -77,7 +73,7 @@ fn after_too_many_the_torque_is_zero_and_the_state_forgotten() {
     }
     for _ in 0..3 {
         assert_eq!(joint.next(None), Feed { torque: 0.0, source: Source::None });
-        assert_eq!(joint.state().bristle.z, 0.0);
+        assert_eq!(joint.state().deflection(), 0.0);
     }
     assert_eq!(fed(&mut joint, -0.3), fed(&mut self::joint(), -0.3));
 }
@@ -97,7 +93,7 @@ fn torque_is_limited_and_the_state_is_not() {
         Feedforward::new(FixedLaw::new(LUGRE), PERIOD, Limits { torque: 1e3, ..LIMITS }).unwrap();
     fed(&mut wide, 5.0);
     fed(&mut wide, -6.0);
-    assert_eq!(joint.state().bristle.z, wide.state().bristle.z);
+    assert_eq!(joint.state().deflection(), wide.state().deflection());
 }
 
 #[test]
@@ -112,7 +108,7 @@ fn whatever_is_read_the_state_stays_bounded() {
         let velocity = if seed.is_multiple_of(3) { any } else { (seed as f64 / 1e19 - 0.9) * 7.0 };
         let feed = joint.next((!seed.is_multiple_of(11)).then(|| Sample::at(velocity)).as_ref());
         assert!(feed.torque.abs() <= LIMITS.torque);
-        assert!(joint.state().bristle.z.abs() <= FARTHEST * (1.0 + 1e-12));
+        assert!(joint.state().deflection().abs() <= FARTHEST * (1.0 + 1e-12));
     }
 }
 

@@ -5,13 +5,8 @@ mod common;
 
 use common::{motion, values};
 use stribeck::catalog::LawId;
-use stribeck::composed::Spec;
-use stribeck::constants::Constants;
-use stribeck::dynamics::State;
-use stribeck::error::ModelError;
-use stribeck::fixed::FixedLaw;
 use stribeck::law;
-use stribeck::sample::Sample;
+use stribeck::{Constants, FixedLaw, ModelError, Sample, Spec, State};
 
 const ROWS: usize = 500;
 

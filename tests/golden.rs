@@ -7,10 +7,7 @@
 mod common;
 
 use common::close;
-use stribeck::composed::Spec;
-use stribeck::dynamics::{Bristle, BristleState, State};
-use stribeck::sample::{Sample, Split, StribeckCurve};
-use stribeck::scalar::Real;
+use stribeck::{Real, Sample, Spec, State};
 
 fn at(law: &str, effects: &[&str], values: &[f64], sample: &Sample<f64>) -> f64 {
     let spec = Spec::new(law, effects.iter().copied()).unwrap();
@@ -272,20 +269,4 @@ fn lugre_of_the_1995_paper() {
     let step = model.step(&mut state, &Sample::at(1e-3), 5e-3);
     close(step.torque, 0.71160483134668455, 1e-14);
     close(step.mean_torque, 0.59611178951080239, 1e-14);
-}
-
-#[test]
-fn bristle_approaches_the_static_law() {
-    let bristle = Bristle::new(1e4, 30.0);
-    let split = Split {
-        coulomb: 2.0,
-        height: 1.0,
-        shape: StribeckCurve { value: 0.25, ..StribeckCurve::flat() },
-        rate: -0.3,
-        additive: 0.1,
-        ..Split::zero()
-    };
-    let mut state = BristleState::default();
-    let step = bristle.step(&mut state, &split, -0.5, 10.0);
-    close(step.torque, split.torque(-1.0), 1e-14);
 }

@@ -4,8 +4,8 @@
 mod common;
 
 use common::{every_model, motion, values};
+use stribeck::Spec;
 use stribeck::batch::{self, BatchError, TimeStep};
-use stribeck::composed::Spec;
 
 #[test]
 fn gradient_is_the_derivative_of_every_model() {

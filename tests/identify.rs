@@ -5,8 +5,8 @@
 mod common;
 
 use common::close;
+use stribeck::Spec;
 use stribeck::batch::{self, BatchError, Channels, Columns, TimeStep};
-use stribeck::composed::Spec;
 use stribeck::identify::{
     Bounds, LeastSquares, NOT_SCORED, Outcome, Problem, Steps, Triangle, bounded_least_squares,
     minimise, triangles,

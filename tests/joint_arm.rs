@@ -1,8 +1,7 @@
 //! A planar arm of two joints, friction in both.
 
-use stribeck::composed::{Composed, Spec};
-use stribeck::dynamics::State;
 use stribeck::joint::{ArmPosture, ArmPush, PlanarArm, Taken};
+use stribeck::{Composed, Spec, State};
 
 const DT: f64 = 1e-3;
 

@@ -1,10 +1,8 @@
 //! Friction compensated by a model of it, and the observer for what is left.
 #![allow(clippy::disallowed_methods)]
 
-use stribeck::composed::{Composed, Spec};
-use stribeck::dynamics::State;
 use stribeck::joint::{self, Compensator, Joint, Observer, Posture, Push};
-use stribeck::sample::Sample;
+use stribeck::{Composed, Sample, Spec, State};
 
 const DT: f64 = 1e-3;
 

@@ -1,10 +1,9 @@
 //! A motor that moves its load through a spring with play.
 
-use stribeck::composed::{Composed, Spec};
-use stribeck::dynamics::State;
 use stribeck::joint::{
     self, ElasticJoint, ElasticPosture, Joint, Posture, Push, Taken, Transmission,
 };
+use stribeck::{Composed, Spec, State};
 
 const DT: f64 = 1e-3;
 const AT_REST: Posture<f64> = Posture { position: 0.0, velocity: 0.0 };

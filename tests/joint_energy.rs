@@ -2,11 +2,8 @@
 
 mod common;
 
-use stribeck::composed::Spec;
-use stribeck::dynamics::State;
 use stribeck::joint::{self, Joint, Posture, Push};
-use stribeck::sample::Sample;
-use stribeck::scalar::Scalar;
+use stribeck::{Sample, Scalar, Spec, State};
 
 /// A joint that swings in gravity, pushed back and forth: per step, kinetic energy, potential energy
 /// and what friction takes against the work of the motor, relative to the largest of them.
@@ -97,7 +94,7 @@ fn a_passive_joint_only_loses_energy() {
     let mut posture = Posture { position: 0.9, velocity: -2.0 };
     let mut state = State::default();
     let push = Push::by_motor(0.0);
-    let stored = |state: &State<f64>| 0.5 * values[0] * state.bristle.z * state.bristle.z;
+    let stored = |state: &State<f64>| 0.5 * values[0] * state.deflection() * state.deflection();
     let mut before = joint.energy(&posture, 0.0) + stored(&state);
     for _ in 0..20_000 {
         let mut body = joint.moving(posture, &push);

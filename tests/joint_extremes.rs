@@ -2,10 +2,8 @@
 
 mod common;
 
-use stribeck::composed::Spec;
-use stribeck::dynamics::State;
 use stribeck::joint::{self, ElasticJoint, ElasticPosture, Joint, Posture, Push, Transmission};
-use stribeck::scalar::Scalar;
+use stribeck::{Scalar, Spec, State};
 
 /// Numbers that look random (xorshift64*).
 struct Random(u64);

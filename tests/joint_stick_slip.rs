@@ -1,8 +1,7 @@
 //! Stick and slip of the example of Canudas de Wit et al. 1995.
 
-use stribeck::composed::{Composed, Spec};
-use stribeck::dynamics::State;
 use stribeck::joint::{self, Joint, Posture, Push};
+use stribeck::{Composed, Spec, State};
 
 /// s0, s1, s2, Fc, Fs, vs, alpha.
 const LUGRE_1995: [f64; 7] = [1e5, 316.227_766_016_837_95, 0.4, 1.0, 1.5, 1e-3, 2.0];

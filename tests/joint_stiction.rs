@@ -3,10 +3,8 @@
 mod common;
 
 use stribeck::catalog::LawId;
-use stribeck::composed::{Composed, Spec};
-use stribeck::dynamics::{Memory, State};
 use stribeck::joint::{self, Joint, Posture, Push, Taken};
-use stribeck::sample::Sample;
+use stribeck::{Composed, Memory, Sample, Spec, State};
 
 const DT: f64 = 1e-3;
 

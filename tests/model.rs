@@ -3,13 +3,9 @@
 mod common;
 
 use common::every_model;
+use stribeck::catalog::ParameterInfo;
 use stribeck::catalog::{EffectId, LawId};
-use stribeck::composed::Spec;
-use stribeck::dynamics::State;
-use stribeck::error::ModelError;
-use stribeck::sample::Sample;
-use stribeck::scalar::Dual;
-use stribeck::table::ParameterInfo;
+use stribeck::{Dual, ModelError, Sample, Spec, State};
 
 fn names(spec: &Spec) -> Vec<&'static str> {
     spec.parameters().map(|p| p.name).collect()
@@ -174,4 +170,21 @@ fn a_model_is_read_from_what_it_displays_as() {
         assert!(matches!(Spec::parse(unknown), Err(ModelError::UnknownLaw(_))), "{unknown}");
     }
     assert_eq!(Spec::parse("coulomb+").unwrap_err(), ModelError::UnknownEffect(""));
+}
+
+#[test]
+fn single_precision_agrees_with_double() {
+    for spec in common::every_model() {
+        let values = common::values(&spec);
+        let single: Vec<f32> = values.iter().map(|&x| x as f32).collect();
+        let (model, model32) = (spec.with(&values).unwrap(), spec.with(&single).unwrap());
+        let (mut state, mut state32) = (State::default(), State::default());
+        for v in [0.3, -0.02, 0.0, 0.7] {
+            let sample = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v) };
+            let sample32 = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v as f32) };
+            let torque = model.step(&mut state, &sample, 0.01).torque;
+            let torque32 = f64::from(model32.step(&mut state32, &sample32, 0.01).torque);
+            assert!((torque - torque32).abs() < 3e-5 * (1.0 + torque.abs()), "{spec}: {torque}");
+        }
+    }
 }

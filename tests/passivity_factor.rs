@@ -1,11 +1,7 @@
 //! The largest factor of a compensator, against the least ratio over a grid of frictions.
 
-use stribeck::composed::Spec;
-use stribeck::passivity::enclosure::Enclosure;
-use stribeck::passivity::factor::largest;
-use stribeck::passivity::region::Side;
-use stribeck::sample::Sample;
-use stribeck::table::Channel;
+use stribeck::passivity::{Side, largest_factor};
+use stribeck::{Channel, Sample, Spec};
 
 const SIDES: [Side; 1] = [Side { channel: Channel::Velocity, lower: -1.0, upper: 2.0 }];
 const BUDGET: usize = 20_000;
@@ -17,13 +13,14 @@ fn spec() -> Spec {
 /// Viscous, Coulomb, height, velocity and exponent of the Stribeck curve.
 const VALUES: [f64; 5] = [0.5, 2.0, 1.0, 0.05, 2.0];
 
-fn within(reach: f64) -> Vec<Enclosure> {
-    VALUES.iter().map(|x| Enclosure::new(x * (1.0 - reach), x * (1.0 + reach))).collect()
+fn within(reach: f64) -> Vec<[f64; 2]> {
+    VALUES.iter().map(|x| [x * (1.0 - reach), x * (1.0 + reach)]).collect()
 }
 
 #[test]
 fn known_exactly_all_may_be_cancelled() {
-    let found = largest((&spec(), &VALUES), (&spec(), &within(0.0)), &SIDES, BUDGET).unwrap();
+    let found =
+        largest_factor((&spec(), &VALUES), (&spec(), &within(0.0)), &SIDES, BUDGET).unwrap();
     assert_eq!(found.proved, 1.0);
 }
 
@@ -33,8 +30,9 @@ fn numbers_outside_the_bounds_are_compared_all_the_same() {
     let mut other = VALUES;
     other[3] *= 4.0;
     for (cancels, resists) in [(VALUES, other), (other, VALUES)] {
-        let points = resists.map(Enclosure::point);
-        let found = largest((&spec(), &cancels), (&spec(), &points), &SIDES, BUDGET).unwrap();
+        let points = resists.map(|x| [x, x]);
+        let found =
+            largest_factor((&spec(), &cancels), (&spec(), &points), &SIDES, BUDGET).unwrap();
         let (cancels, resists) = (spec().with(&cancels).unwrap(), spec().with(&resists).unwrap());
         let ratio = |v: f64| {
             let sample = Sample::at(v);
@@ -49,7 +47,8 @@ fn numbers_outside_the_bounds_are_compared_all_the_same() {
 #[test]
 fn no_friction_within_the_bounds_is_exceeded() {
     let reach = 0.04;
-    let found = largest((&spec(), &VALUES), (&spec(), &within(reach)), &SIDES, BUDGET).unwrap();
+    let found =
+        largest_factor((&spec(), &VALUES), (&spec(), &within(reach)), &SIDES, BUDGET).unwrap();
     let nominal = spec().with(&VALUES).unwrap();
     let mut least = f64::INFINITY;
     for corner in 0..32_u32 {

@@ -5,7 +5,7 @@ mod common;
 
 use common::{every_model, motion, values};
 use stribeck::batch::{self, TimeStep};
-use stribeck::dynamics::{Interval, State};
+use stribeck::{Interval, State};
 
 /// More than two blocks, and a part of one.
 const ROWS: usize = 300;
@@ -32,7 +32,7 @@ fn every_model_steps_as_it_does_alone() {
             let mut state = State::default();
             let torque = batch::torque(&spec, &values, &columns).unwrap();
             for (i, &torque) in torque.iter().enumerate() {
-                let sample = stribeck::sample::Sample::of(|channel| {
+                let sample = stribeck::Sample::of(|channel| {
                     columns.channels.get(channel).map_or(0.0, |column| column[i])
                 });
                 let settled = steps[i] == f64::INFINITY;

@@ -4,11 +4,7 @@ use core::ffi::{CStr, c_char};
 use core::mem::{align_of, size_of};
 use core::slice;
 
-use stribeck::composed::{Composed, Spec};
-use stribeck::error::ModelError;
-use stribeck::feedforward::{Feedforward, Limits, Source};
-use stribeck::sample::Sample;
-use stribeck::scalar::Scalar;
+use stribeck::{Composed, Feedforward, Limits, ModelError, Sample, Scalar, Source, Spec};
 
 /// The result of a call.
 #[repr(C)]

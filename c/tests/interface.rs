@@ -3,7 +3,7 @@
 use core::ptr::{null, null_mut};
 use std::ffi::CStr;
 
-use stribeck::composed::Spec;
+use stribeck::Spec;
 use stribeck_c::{
     STRIBECK_VERSION, StribeckConstant, StribeckJointF64, StribeckSampleF64, StribeckSettingsF64,
     StribeckStatus, stribeck_joint_init_f64, stribeck_joint_next_f64, stribeck_message,

@@ -6,10 +6,8 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use stribeck::feedforward::{Feedforward, Limits, Source};
-use stribeck::fixed::FixedLaw;
 use stribeck::law::Lugre;
-use stribeck::sample::Sample;
+use stribeck::{Feedforward, FixedLaw, Limits, Sample, Source};
 
 const LIBRARIES: [&str; 2] = ["libstribeck_c.a", "libstribeck_c.so"];
 

@@ -8,6 +8,7 @@ use crate::table::Channel;
 
 /// Why a model cannot be evaluated over columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BatchError {
     /// The model itself cannot be used.
     Model(ModelError<'static>),

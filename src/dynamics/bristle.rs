@@ -10,7 +10,9 @@
 //! |S|`, and the target is `S D/s0`.
 
 use super::{Approach, Deflection, Interval, SATURATED, Step, following};
-use crate::sample::{Sample, Split, arctangent_sign};
+#[cfg(test)]
+use crate::sample::Sample;
+use crate::sample::{Split, arctangent_sign};
 use crate::scalar::{Mask, Real, Scalar};
 
 /// A bristle with a shorter settling time (s) is settled at the end of any step.
@@ -88,7 +90,7 @@ impl<S: Real> Bristle<S> {
     /// At rest the deflection does not change. For a dry magnitude `D <= 0` the limit `z = sgn(v)
     /// D/s0` is used, so that a fit that passes through it gets a finite slope.
     #[inline(always)]
-    pub fn course(&self, dry: S, velocity: S::Plain, dt: S::Plain) -> Course<S> {
+    pub(crate) fn course(&self, dry: S, velocity: S::Plain, dt: S::Plain) -> Course<S> {
         let lasts = dt.is_positive();
         let dt = S::Plain::choose(lasts, dt, S::Plain::zero());
         let pull = self.pull(velocity, velocity.abs());
@@ -103,14 +105,14 @@ impl<S: Real> Bristle<S> {
 
     /// The target of the deflection (X).
     #[inline(always)]
-    pub fn target(&self, dry: S, velocity: S::Plain) -> S {
+    pub(crate) fn target(&self, dry: S, velocity: S::Plain) -> S {
         self.along(velocity, dry / self.stiffness)
     }
 
     /// Correction of the deflection at the end of a step (X), where dry magnitude and velocity have
     /// changed from the constant values to those at the end.
     #[inline(always)]
-    pub fn shift(
+    pub(crate) fn shift(
         &self,
         course: &Course<S>,
         [dry, end]: [S; 2],
@@ -129,13 +131,13 @@ impl<S: Real> Bristle<S> {
 
     /// Torque at the deflection `z` with `dz/dt = rate` (X/s).
     #[inline(always)]
-    pub fn torque(&self, z: S, rate: S, split: &Split<S>) -> S {
+    pub(crate) fn torque(&self, z: S, rate: S, split: &Split<S>) -> S {
         self.stiffness * z + self.damping * rate + split.rate + split.additive
     }
 
     /// `dz/dt` at `z`; 0 for a bristle that settles at once.
     #[inline(always)]
-    pub fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
+    pub(crate) fn rate(&self, z: S, dry: S, velocity: S::Plain) -> S {
         let pull = self.pull(velocity, velocity.abs());
         let (_, settled) = settling(pull, dry, S::Plain::zero());
         let rate = match self.sign_steepness {
@@ -150,7 +152,7 @@ impl<S: Real> Bristle<S> {
     /// The equation of the deflection at `velocity`, for proofs.
     #[inline]
     #[must_use]
-    pub fn deflection(&self, velocity: S::Plain) -> Deflection<S>
+    pub(crate) fn deflection(&self, velocity: S::Plain) -> Deflection<S>
     where
         S: Scalar,
     {
@@ -163,7 +165,7 @@ impl<S: Real> Bristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
     /// at the end.
     #[inline(always)]
-    pub fn over(
+    pub(crate) fn over(
         &self,
         state: &mut BristleState<S>,
         dry: S,
@@ -193,8 +195,8 @@ impl<S: Real> Bristle<S> {
 
     /// Steps over `dt` (s) with `velocity` and `split` constant. With `dt <= 0` the state is
     /// unchanged.
-    #[inline]
-    pub fn step(
+    #[cfg(test)]
+    pub(crate) fn step(
         &self,
         state: &mut BristleState<S>,
         split: &Split<S>,

@@ -14,10 +14,13 @@ mod gap;
 mod lag;
 mod leuven;
 mod maxwell_slip;
+#[cfg(feature = "python")]
 mod part;
 mod relaxation;
+#[cfg(test)]
+mod tests;
 
-pub use bristle::{Bristle, BristleState, Course};
+pub use bristle::{Bristle, BristleState};
 pub use dahl::DahlBristle;
 pub use deflection::{Approach, Deflection};
 pub use elastoplastic::ElastoplasticBristle;
@@ -26,6 +29,7 @@ pub use gap::{Flanks, Gap};
 pub use lag::{Lag, Lagging};
 pub use leuven::LeuvenBristle;
 pub use maxwell_slip::MaxwellSlip;
+#[cfg(feature = "python")]
 pub use part::Part;
 pub use relaxation::Relaxation;
 
@@ -125,13 +129,13 @@ impl Memory {
 #[derive(Clone, Copy, Debug)]
 pub struct State<S: Real> {
     /// Deflection of a bristle.
-    pub bristle: BristleState<S>,
+    pub(crate) bristle: BristleState<S>,
     /// Forces of elements in parallel.
-    pub elements: Elements<S>,
+    pub(crate) elements: Elements<S>,
     /// The lagging Stribeck curve.
-    pub curve: Lagging<S>,
+    pub(crate) curve: Lagging<S>,
     /// The gap of backlash.
-    pub flanks: Flanks<S>,
+    pub(crate) flanks: Flanks<S>,
     /// Dry magnitude at the end of the step before (T).
     dry: Option<S>,
 }
@@ -166,6 +170,22 @@ impl<S: Real> State<S> {
             *own = force;
         }
         state
+    }
+}
+
+impl<S: Real> State<S> {
+    /// Deflection of a bristle (X).
+    #[inline]
+    #[must_use]
+    pub const fn deflection(&self) -> S {
+        self.bristle.z
+    }
+
+    /// Forces of the elements in parallel (T): as many as the model has, then zeros.
+    #[inline]
+    #[must_use]
+    pub const fn forces(&self) -> &[S] {
+        &self.elements.force
     }
 }
 

@@ -3,9 +3,6 @@
 use super::{SATURATED, following};
 use crate::scalar::{Mask, Real};
 
-/// Above this ratio of pull to hold the state is always at its target.
-const LOOSE: f64 = 1e30;
-
 /// `dz/ds = (target - z) pull/hold` along a travel `s`, with `pull >= 0`; with `hold = 0` the state
 /// is at its target as soon as there is travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,15 +47,6 @@ impl<S: Real> Relaxation<S> {
             .at_zero()
             .either(|| [z, z, S::zero()], || pull.reaches(bound).either(settles, follows));
         Relaxed { end, mean, decay }
-    }
-
-    /// `dz/ds` at `z`.
-    #[inline]
-    #[must_use]
-    pub fn slope(&self, z: S) -> S {
-        let bound = self.hold.plain() * S::Plain::from_f64(LOOSE);
-        let loose = self.pull.reaches(bound);
-        loose.either(S::zero, || (self.target - z) * (self.pull / self.hold))
     }
 }
 

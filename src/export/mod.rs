@@ -7,4 +7,4 @@
 mod program;
 
 pub use crate::graph::{Binary, Operation, Unary};
-pub use program::{Input, Program, StateNumber};
+pub use program::{Input, Program};

@@ -6,16 +6,17 @@ use super::vocabulary::Function;
 
 /// Why a text is not a formula, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FormulaError<'a> {
     /// Position of the character, counted from 1.
     pub position: usize,
     /// The reason.
-    pub reason: Reason<'a>,
+    pub(super) reason: Reason<'a>,
 }
 
 /// The reasons why a text is not a formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reason<'a> {
+pub(crate) enum Reason<'a> {
     /// The text is empty or blank.
     Empty,
     /// Every name is a channel, so there is nothing to identify.

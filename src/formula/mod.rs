@@ -13,15 +13,14 @@
 //! | `linear` | the parameters in which the torque is linear |
 //!
 //! ```
-//! use stribeck::formula::{Formula, OwnTerms};
-//! use stribeck::sample::Sample;
+//! use stribeck::{Formula, FormulaError, Sample, Spec};
 //!
 //! let (formula, names) = Formula::parse("c1*v + c2*tanh(v/c3)*abs(load)")?;
 //! assert_eq!(names.as_slice(), ["c1", "c2", "c3"]);
-//! let terms = OwnTerms::new(&formula, &[2.0, 0.5, 1e-3]);
+//! let model = Spec::by_formula(&formula, [])?.with(&[2.0, 0.5, 1e-3])?;
 //! let sample = Sample { load_torque: -4.0, ..Sample::at(0.25) };
-//! assert_eq!(terms.split(&sample).torque(1.0), 2.5);
-//! # Ok::<(), stribeck::formula::FormulaError<'_>>(())
+//! assert_eq!(model.static_torque(&sample), 2.5);
+//! # Ok::<(), stribeck::ModelError>(())
 //! ```
 
 mod error;
@@ -31,8 +30,16 @@ mod program;
 mod terms;
 mod vocabulary;
 
-pub use error::{FormulaError, Reason};
-pub use parser::Names;
-pub use program::{MAX_CONSTANTS, MAX_DEPTH, MAX_OPERATIONS, MAX_PARAMETERS, Operation};
-pub use terms::{Formula, MAX_TERMS, OwnTerms, Term, TermKind};
-pub use vocabulary::Function;
+#[cfg(test)]
+mod tests;
+
+pub use error::FormulaError;
+pub use parser::FormulaNames;
+#[cfg(feature = "python")]
+pub(crate) use program::Operation;
+pub use terms::Formula;
+pub(crate) use terms::OwnTerms;
+#[cfg(feature = "python")]
+pub(crate) use terms::Term;
+#[cfg(feature = "std")]
+pub(crate) use terms::TermKind;

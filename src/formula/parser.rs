@@ -17,12 +17,12 @@ use crate::sample::Sample;
 
 /// The names of the parameters, in the order of their first use in the formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Names<'a> {
+pub struct FormulaNames<'a> {
     names: [&'a str; MAX_PARAMETERS],
     count: usize,
 }
 
-impl<'a> Names<'a> {
+impl<'a> FormulaNames<'a> {
     /// The names as a slice.
     #[must_use]
     pub fn as_slice(&self) -> &[&'a str] {
@@ -40,13 +40,13 @@ impl<'a> Names<'a> {
 }
 
 /// Parses a text.
-pub(super) fn parse(text: &str) -> Result<(Program, Names<'_>), FormulaError<'_>> {
+pub(super) fn parse(text: &str) -> Result<(Program, FormulaNames<'_>), FormulaError<'_>> {
     let mut parser = Parser {
         text,
         at: 0,
         token: Token { kind: Kind::End, start: 0, end: 0 },
         program: Program::EMPTY,
-        names: Names { names: [""; MAX_PARAMETERS], count: 0 },
+        names: FormulaNames { names: [""; MAX_PARAMETERS], count: 0 },
     };
     parser.advance()?;
     if parser.token.kind == Kind::End {
@@ -97,7 +97,7 @@ struct Parser<'a> {
     at: usize,
     token: Token,
     program: Program,
-    names: Names<'a>,
+    names: FormulaNames<'a>,
 }
 
 impl<'a> Parser<'a> {

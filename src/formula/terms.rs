@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use super::error::{FormulaError, Reason};
 use super::linear::{ParameterSet, linear_parameters};
-use super::parser::{self, Names};
+use super::parser::{self, FormulaNames};
 use super::program::{MAX_OPERATIONS, MAX_PARAMETERS, Operation, Program, Replacement};
 use super::vocabulary::Function;
 use crate::sample::{Sample, Split};
@@ -99,7 +99,7 @@ impl Formula {
     ///
     /// # Errors
     /// What is wrong with the text, and where.
-    pub fn parse(text: &str) -> Result<(Self, Names<'_>), FormulaError<'_>> {
+    pub fn parse(text: &str) -> Result<(Self, FormulaNames<'_>), FormulaError<'_>> {
         let (program, names) = parser::parse(text)?;
         Ok((Self::of(program)?, names))
     }
@@ -339,6 +339,7 @@ impl<S: Real> OwnTerms<S> {
     }
 
     /// The formula with these parameters; missing ones are zero.
+    #[cfg(test)]
     #[must_use]
     pub fn new(formula: &Formula, parameters: &[S]) -> Self {
         let mut parameters = parameters.iter().copied();
@@ -346,6 +347,7 @@ impl<S: Real> OwnTerms<S> {
     }
 
     /// The torque at one sample, by terms.
+    #[cfg(test)]
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {

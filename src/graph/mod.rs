@@ -19,8 +19,12 @@ mod schedule;
 pub use derivative::derivatives;
 pub use model::model;
 pub use numbers::Numbers;
-pub use operation::{Binary, Id, Operation, Unary};
-pub use recorded::{Format, Recorded};
+pub use operation::Operation;
+#[cfg(feature = "python")]
+pub use operation::{Binary, Id, Unary};
+#[cfg(feature = "python")]
+pub use recorded::Format;
+pub use recorded::Recorded;
 pub use recorder::Recorder;
 pub use run::{Beginning, Inputs, run};
 pub use schedule::Schedule;

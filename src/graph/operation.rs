@@ -112,6 +112,7 @@ impl Operation {
     }
 
     /// The same operation on other nodes and columns.
+    #[cfg(feature = "python")]
     #[must_use]
     pub fn moved(self, node: impl Fn(Id) -> Id, column: impl Fn(usize) -> usize) -> Self {
         match self {

@@ -47,7 +47,7 @@ pub use bittencourt_2010::{M0, M1};
 pub use bittencourt_a::BittencourtA;
 pub use bittencourt_b::{BittencourtB, MStar};
 pub use bliman_sorine::BlimanSorine;
-pub use by_formula::ByFormula;
+pub(crate) use by_formula::ByFormula;
 pub use clochiatti::Clochiatti;
 pub use coulomb::Coulomb;
 pub use dahl::Dahl;
@@ -76,11 +76,15 @@ pub use wolf::Wolf;
 pub use xiao::Xiao;
 pub use zhou::Zhou;
 
+pub use crate::dynamics::{Approach, Bristle, Deflection};
+pub use crate::sample::{Split, StribeckCurve};
+pub use crate::table::Parameters;
+
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
-use crate::sample::{Sample, Split};
+use crate::dynamics::{Interval, Memory, State, Step};
+use crate::sample::Sample;
 use crate::scalar::{Real, Scalar};
-use crate::table::{LawInfo, Parameters};
+use crate::table::LawInfo;
 
 /// The interface of a law.
 pub trait FrictionLaw<S: Real>: Parameters<S> {

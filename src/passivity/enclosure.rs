@@ -367,3 +367,50 @@ impl Real for Enclosure {
         self.growing_through_zero(elementary::atan)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::Enclosure;
+    use crate::Real;
+    use crate::common::random::cases;
+
+    /// An interval within `[-scale, scale]` and a number in it.
+    fn pair(scale: f64) -> impl Strategy<Value = (Enclosure, f64)> {
+        (-scale..scale, -scale..scale, 0.0..=1.0).prop_map(|(a, b, share): (f64, f64, f64)| {
+            let whole = Enclosure::new(a.min(b), a.max(b));
+            let inside = whole.lower + share * (whole.upper - whole.lower);
+            (whole, inside.clamp(whole.lower, whole.upper))
+        })
+    }
+
+    proptest! {
+        #![proptest_config(cases(100_000))]
+
+        #[test]
+        fn intervals_hold_what_is_computed_at_points((x, a) in pair(4.0), (y, b) in pair(3.0)) {
+            let pairs = [
+                (x + y, a + b),
+                (x * y, a * b),
+                (x / y, a / b),
+                (x.exp(), Real::exp(a)),
+                (x.expm1(), Real::expm1(a)),
+                (x.phi(1), Real::phi(a, 1)),
+                (x.phi(2), Real::phi(a, 2)),
+                (x.tanh(), Real::tanh(a)),
+                (x.atan(), Real::atan(a)),
+                (x.cbrt(), Real::cbrt(a)),
+                (x.sin(), Real::sin(a)),
+                (x.cos(), Real::cos(a)),
+                (x.abs(), a.abs()),
+                (x.abs().sqrt(), Real::sqrt(a.abs())),
+                (x.abs().powf(y), Real::powf(a.abs(), b)),
+                (x.square(), a * a),
+            ];
+            for (k, (whole, at)) in pairs.into_iter().enumerate() {
+                prop_assert!(whole.lower <= at && at <= whole.upper, "{k}: {whole:?} {at}");
+            }
+        }
+    }
+}

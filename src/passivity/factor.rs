@@ -43,21 +43,23 @@ pub struct Factor {
 ///
 /// # Errors
 /// A model or a box that cannot be used.
-pub fn largest(
+pub fn largest_factor(
     (compensator, values): (&Spec, &[f64]),
-    (friction, bounds): (&Spec, &[Enclosure]),
+    (friction, bounds): (&Spec, &[[f64; 2]]),
     sides: &[Side],
     budget: usize,
 ) -> Result<Factor, PassivityError> {
     for spec in [compensator, friction] {
         check_sides(spec, sides)?;
     }
+    let bounds: Vec<_> =
+        bounds.iter().map(|&[lower, upper]| Enclosure::new(lower, upper)).collect();
     let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
     let pair = Pair {
         cancels: compensator.with(&numbers)?,
-        resists: friction.with(bounds)?,
+        resists: friction.with(&bounds)?,
         spread: if compensator == friction {
-            Some(Spread::of(friction, values, bounds)?)
+            Some(Spread::of(friction, values, &bounds)?)
         } else {
             None
         },

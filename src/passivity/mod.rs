@@ -2,28 +2,33 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`enclosure`] | interval arithmetic: a law evaluated on intervals is bounded |
-//! | [`region`] | boxes of operating points, split so that laws do not branch inside |
-//! | [`search`] | minimum over boxes by branch and bound |
+//! | `enclosure` | interval arithmetic: a law evaluated on intervals is bounded |
+//! | `region` | boxes of operating points, split so that laws do not branch inside |
+//! | `search` | minimum over boxes by branch and bound |
 //! | `friction` | friction along the motion |
-//! | [`cycles`] | the exact condition for a single deflection |
-//! | [`replay`] | counterexamples, simulated with the exact step |
-//! | [`factor`] | the largest share of friction that may be cancelled |
-//! | [`requirement`] | conditions on the parameters, for a fit |
-//! | [`spread`] | these conditions at points spread over the box |
+//! | `cycles` | the exact condition for a single deflection |
+//! | `replay` | counterexamples, simulated with the exact step |
+//! | `factor` | the largest share of friction that may be cancelled |
+//! | `requirement` | conditions on the parameters, for a fit |
+//! | `spread` | these conditions at points spread over the box |
 //!
 //! All motions within the box are covered: velocity, temperature, load ... may change at any time
-//! in any way. Speeds below [`LEAST`](region::LEAST) count as rest.
+//! in any way. Speeds below 1e-30 count as rest.
 
-pub mod cycles;
-pub mod enclosure;
-pub mod factor;
+mod cycles;
+mod enclosure;
+mod factor;
 mod friction;
-pub mod region;
-pub mod replay;
-pub mod requirement;
-pub mod search;
-pub mod spread;
+mod region;
+mod replay;
+mod requirement;
+mod search;
+mod spread;
+
+pub use factor::{Factor, largest_factor};
+pub use region::{Point, Side};
+pub use replay::{Counterexample, Hold, work};
+pub use requirement::Requirement;
 
 use core::fmt;
 use std::vec::Vec;
@@ -37,9 +42,7 @@ use crate::table::Channel;
 use cycles::{Outcome, Reach};
 use enclosure::Enclosure;
 use friction::{Bristled, sliding};
-use region::{Point, Region, Side, faster_than, pieces};
-use replay::Counterexample;
-use requirement::Requirement;
+use region::{Region, faster_than, pieces};
 use search::Search;
 
 /// Relative accuracy of a reported margin.
@@ -114,6 +117,7 @@ pub struct Verdict {
 
 /// Why passivity cannot be checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum PassivityError {
     /// The model cannot be used.
     Model(ModelError<'static>),

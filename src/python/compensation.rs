@@ -18,8 +18,7 @@ use crate::dynamics::State;
 use crate::joint::{
     self, Compensator, Controller, Effort, Joint, Observer, Posture, Push, Reference, Taken,
 };
-use crate::passivity::enclosure::Enclosure;
-use crate::passivity::factor;
+use crate::passivity;
 use crate::sample::Sample;
 
 /// Inputs of a control loop, one row per step.
@@ -281,10 +280,12 @@ pub(super) fn largest_factor<'py>(
     let bounds: Vec<_> = contiguous(lower)
         .iter()
         .zip(contiguous(upper).iter())
-        .map(|(&lower, &upper)| Enclosure::new(lower, upper))
+        .map(|(&lower, &upper)| [lower, upper])
         .collect();
     let found = py
-        .detach(|| factor::largest((cancels, &values), (resists, &bounds), &sides, budget))
+        .detach(|| {
+            passivity::largest_factor((cancels, &values), (resists, &bounds), &sides, budget)
+        })
         .map_err(refuse)?;
     let channels: Vec<_> = sides.iter().map(|side| side.channel).collect();
     let place = found.point.map(|at| point(py, &at, &channels)).transpose()?;

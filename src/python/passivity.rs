@@ -12,9 +12,7 @@ use pyo3::types::{PyDict, PyList};
 use super::columns::{Array, contiguous};
 use super::model::Model;
 use super::{ModelError, refuse};
-use crate::passivity::region::{Point, Side};
-use crate::passivity::replay::{self, Counterexample, Hold};
-use crate::passivity::{PassivityError, Verdict, check, requirement};
+use crate::passivity::{Counterexample, Hold, PassivityError, Point, Side, Verdict, check};
 use crate::table::Channel;
 
 /// Whether a model is passive over a box, with all of it as friction: dict of `passive`,
@@ -51,7 +49,7 @@ pub(super) fn missed<'py>(
     match py.detach(|| check(&model.spec, &values, &sides, budget)) {
         Ok(verdict) => Ok((verdict.passive, verdict.condition.name(), verdict.open.map(own))),
         Err(PassivityError::NoBristle(point, _)) => {
-            let asked = requirement::Requirement::Strength(point);
+            let asked = crate::passivity::Requirement::Strength(point);
             Ok((Some(false), asked.name(), Some(own(asked))))
         }
         Err(error) => Err(refuse(error)),
@@ -100,7 +98,7 @@ pub(super) fn margins<'py>(
 /// A condition of passivity on the parameters at single operating points.
 #[pyclass(frozen, module = "stribeck._core")]
 pub(super) struct Requirement {
-    asked: requirement::Requirement,
+    asked: crate::passivity::Requirement,
     channels: Vec<Channel>,
 }
 
@@ -122,7 +120,7 @@ impl Requirement {
     #[getter]
     fn force(&self) -> Option<f64> {
         match self.asked {
-            requirement::Requirement::Cycle { force, .. } => Some(force),
+            crate::passivity::Requirement::Cycle { force, .. } => Some(force),
             _ => None,
         }
     }
@@ -168,7 +166,7 @@ pub(super) fn work(
             Hold { point, duration: *duration }
         })
         .collect();
-    Ok(replay::work(&exact, deflection, &holds))
+    Ok(crate::passivity::work(&exact, deflection, &holds))
 }
 
 fn written<'py>(

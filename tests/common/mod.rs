@@ -1,8 +1,10 @@
 //! Models and motions that several tests share.
 #![allow(dead_code)]
 
+pub mod random;
+
+use stribeck::Spec;
 use stribeck::catalog::{EffectId, LawId};
-use stribeck::composed::Spec;
 
 /// Laws around which each effect stands alone: static, with a bristle, with many states.
 const WITH_EACH_EFFECT: [&str; 3] = ["coulomb", "lugre", "gms"];

@@ -3,11 +3,9 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use stribeck::composed::Spec;
-use stribeck::dynamics::State;
 use stribeck::joint::{self, Joint, Posture, Push};
 use stribeck::math;
-use stribeck::sample::Sample;
+use stribeck::{Sample, Spec, State};
 
 use crate::{Kernel, Work};
 

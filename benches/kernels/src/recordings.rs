@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
+use stribeck::Spec;
 use stribeck::batch::{self, Channels, Columns, TimeStep};
-use stribeck::composed::Spec;
 use stribeck::identify;
 use stribeck::math;
 

@@ -2,11 +2,8 @@
 //! of their torques.
 #![no_std]
 
-use stribeck::constants::Constants;
-use stribeck::dynamics::State;
-use stribeck::fixed::FixedLaw;
 use stribeck::law::{BittencourtA, Coulomb, Elastoplastic, FrictionLaw, Gms, Lugre, TadeseFull};
-use stribeck::sample::Sample;
+use stribeck::{Constants, FixedLaw, Sample, State};
 
 /// The number type that is tested.
 #[cfg(not(feature = "double"))]

@@ -6,9 +6,7 @@ use core::arch::global_asm;
 use core::hint::black_box;
 use core::panic::PanicInfo;
 
-use stribeck::composed::Spec;
-use stribeck::dynamics::State;
-use stribeck::sample::Sample;
+use stribeck::{Sample, Spec, State};
 
 global_asm!(include_str!("../reset.s"));
 

@@ -3,15 +3,10 @@
 // All the digits that mpmath printed.
 #![allow(clippy::excessive_precision)]
 
-mod common;
-
-use common::close;
-use stribeck::composed::Spec;
-use stribeck::dynamics::State;
-use stribeck::formula::{Formula, OwnTerms, TermKind};
-use stribeck::sample::Sample;
-use stribeck::scalar::{Dual, Real};
-use stribeck::table::{Channel, Role};
+use super::{OwnTerms, TermKind};
+use crate::catalog::Role;
+use crate::common::close;
+use crate::{Channel, Dual, Formula, Real, Sample, Spec, State};
 
 fn parse(text: &str) -> Formula {
     Formula::parse(text).unwrap_or_else(|error| panic!("{text}: {error}")).0

@@ -1,10 +1,8 @@
 //! What the exact step promises, for any stiffness and any step.
 
-mod common;
-
-use common::close;
-use stribeck::dynamics::{Bristle, BristleState, State};
-use stribeck::sample::{Sample, Split};
+use super::super::{Bristle, BristleState};
+use crate::common::close;
+use crate::sample::{Split, StribeckCurve};
 
 fn split(dry: f64) -> Split<f64> {
     Split { coulomb: dry, ..Split::zero() }
@@ -96,18 +94,17 @@ fn work_of_a_cycle_is_never_gained() {
 }
 
 #[test]
-fn single_precision_agrees_with_double() {
-    for spec in common::every_model() {
-        let values = common::values(&spec);
-        let single: Vec<f32> = values.iter().map(|&x| x as f32).collect();
-        let (model, model32) = (spec.with(&values).unwrap(), spec.with(&single).unwrap());
-        let (mut state, mut state32) = (State::default(), State::default());
-        for v in [0.3, -0.02, 0.0, 0.7] {
-            let sample = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v) };
-            let sample32 = Sample { temperature: 31.0, load_torque: 2.0, ..Sample::at(v as f32) };
-            let torque = model.step(&mut state, &sample, 0.01).torque;
-            let torque32 = f64::from(model32.step(&mut state32, &sample32, 0.01).torque);
-            assert!((torque - torque32).abs() < 3e-5 * (1.0 + torque.abs()), "{spec}: {torque}");
-        }
-    }
+fn bristle_approaches_the_static_law() {
+    let bristle = Bristle::new(1e4, 30.0);
+    let split = Split {
+        coulomb: 2.0,
+        height: 1.0,
+        shape: StribeckCurve { value: 0.25, ..StribeckCurve::flat() },
+        rate: -0.3,
+        additive: 0.1,
+        ..Split::zero()
+    };
+    let mut state = BristleState::default();
+    let step = bristle.step(&mut state, &split, -0.5, 10.0);
+    close(step.torque, split.torque(-1.0), 1e-14);
 }

@@ -4,10 +4,8 @@
 //! What is dissipated is computed apart from the step: with `x = s0 z sgn(v)/D` the power is
 //! `|v| (D x^2 + s1 |v| (1 - x) + V sgn v)`, and `1 - x` falls as `e^(-r t)`.
 
-use stribeck::composed::Spec;
-use stribeck::dynamics::{Bristle, BristleState, State};
-use stribeck::sample::{Sample, Split};
-use stribeck::scalar::{Real, Scalar};
+use super::super::{Bristle, BristleState};
+use crate::{Real, Sample, Scalar, Spec, State, law::Split};
 
 const MANY: u32 = 10_000_000;
 const SOME: u32 = 1_000_000;

@@ -1,0 +1,4 @@
+//! What the exact steps promise.
+
+mod bristle;
+mod energy;

@@ -1,0 +1,34 @@
+//! Random inputs of property tests, the same in every run unless `PROPTEST_RNG_SEED` says otherwise.
+
+use proptest::prelude::*;
+use proptest::test_runner::{RngSeed, TestRunner};
+
+/// The settings of a property that is tried on this many inputs.
+pub fn cases(count: u32) -> ProptestConfig {
+    let usual = ProptestConfig::default();
+    let rng_seed = match usual.rng_seed {
+        RngSeed::Random => RngSeed::Fixed(1),
+        given @ RngSeed::Fixed(_) => given,
+    };
+    ProptestConfig { cases: count, rng_seed, failure_persistence: None, ..usual }
+}
+
+/// What tries a property on this many inputs.
+pub fn runner(count: u32) -> TestRunner {
+    TestRunner::new(cases(count))
+}
+
+/// From `2^low` to `2^high`, uniform over the powers of two.
+pub fn decades(low: i32, high: i32) -> impl Strategy<Value = f64> {
+    (low..high, 1.0..2.0)
+        .prop_map(|(power, share)| share * f64::from_bits(((1023 + power) as u64) << 52))
+}
+
+/// As [`decades`], of either sign; one in eight is zero.
+pub fn spread(low: i32, high: i32) -> impl Strategy<Value = f64> {
+    prop_oneof![
+        1 => Just(0.0),
+        4 => decades(low, high),
+        3 => decades(low, high).prop_map(|x| -x),
+    ]
+}
