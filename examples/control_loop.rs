@@ -4,13 +4,12 @@
 //!
 //! cargo run --example control_loop
 
-use stribeck::law::Lugre;
-use stribeck::{Feedforward, FixedLaw, Limits, ModelError, Sample, Source};
+use stribeck::prelude::*;
 
 const PERIOD: f32 = 2.5e-4;
 
 /// Identified on a test bench (`stribeck fit --model lugre`).
-const FRICTION: Lugre<f32> = Lugre {
+const FRICTION: law::Lugre<f32> = law::Lugre {
     bristle_stiffness: 2000.0,
     bristle_damping: 4.0,
     viscous_friction: 1.5,
@@ -26,8 +25,8 @@ const LIMITS: Limits<f32> = Limits { torque: 8.0, speed: 6.0, held: 8 };
 struct Joint {
     position: f32,
     velocity: f32,
-    friction: FixedLaw<Lugre<f32>, f32>,
-    state: stribeck::State<f32>,
+    friction: FixedLaw<law::Lugre<f32>, f32>,
+    state: State<f32>,
 }
 
 impl Joint {
@@ -49,7 +48,7 @@ impl Joint {
 /// A slow oscillation: position and velocity.
 fn desired(k: u32) -> (f32, f32) {
     let time = k as f32 * PERIOD;
-    let (sin, cos) = stribeck::math::f32::sin_cos(time);
+    let (sin, cos) = math::f32::sin_cos(time);
     (0.3 * (1.0 - cos), 0.3 * sin)
 }
 
@@ -60,7 +59,7 @@ fn track(compensate: bool) -> Result<(f32, u32), ModelError<'static>> {
         position: 0.0,
         velocity: 0.0,
         friction: FixedLaw::new(FRICTION),
-        state: stribeck::State::default(),
+        state: State::default(),
     };
     let (mut last, mut squares, mut bridged) = (Sample::at(0.0), 0.0, 0);
     const STEPS: u32 = 40_000;
@@ -78,7 +77,7 @@ fn track(compensate: bool) -> Result<(f32, u32), ModelError<'static>> {
         joint.drive(feedback + if compensate { feed.torque } else { 0.0 });
         squares += (position - joint.position) * (position - joint.position);
     }
-    Ok((stribeck::math::f32::sqrt(squares / STEPS as f32), bridged))
+    Ok((math::f32::sqrt(squares / STEPS as f32), bridged))
 }
 
 fn main() -> Result<(), ModelError<'static>> {

@@ -80,3 +80,9 @@ impl fmt::Display for ModelError<'_> {
 }
 
 impl core::error::Error for ModelError<'_> {}
+
+impl<'a> From<FormulaError<'a>> for ModelError<'a> {
+    fn from(error: FormulaError<'a>) -> Self {
+        Self::Formula(error)
+    }
+}

@@ -76,10 +76,8 @@ pub struct Feed<S> {
 /// Friction of one joint, sampled at a fixed period.
 ///
 /// ```
-/// use stribeck::feedforward::{Feedforward, Limits, Source};
-/// use stribeck::fixed::FixedLaw;
 /// use stribeck::law::Coulomb;
-/// use stribeck::sample::Sample;
+/// use stribeck::{Feedforward, FixedLaw, Limits, Sample, Source};
 ///
 /// let law = FixedLaw::new(Coulomb { viscous_friction: 0.5_f32, coulomb_friction: 2.0 });
 /// let limits = Limits { torque: 10.0, speed: 6.0, held: 1 };
@@ -87,7 +85,7 @@ pub struct Feed<S> {
 /// assert_eq!(friction.next(Some(&Sample::at(1.0))).torque, 2.5);
 /// assert_eq!(friction.next(Some(&Sample::at(f32::NAN))).torque, 2.5);
 /// assert_eq!(friction.next(None).source, Source::None);
-/// # Ok::<(), stribeck::error::ModelError>(())
+/// # Ok::<(), stribeck::ModelError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Feedforward<F, S: Scalar> {

@@ -13,10 +13,8 @@ use crate::table::{self, Presence};
 /// The torque has the bits of [`Composed`](crate::composed::Composed) for a law without effects.
 ///
 /// ```
-/// use stribeck::dynamics::State;
-/// use stribeck::fixed::FixedLaw;
 /// use stribeck::law::Coulomb;
-/// use stribeck::sample::Sample;
+/// use stribeck::{FixedLaw, Sample, State};
 ///
 /// let law = FixedLaw::new(Coulomb { viscous_friction: 0.5_f32, coulomb_friction: 2.0 });
 /// assert_eq!(law.torque(&mut State::default(), &Sample::at(-1.0), 1e-3), -2.5);

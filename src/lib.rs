@@ -1,4 +1,28 @@
-//! Friction laws, the effects that can be missing from them, and exact bristle steps.
+#![doc = include_str!("../docs/rust.md")]
+//!
+//! # Architecture
+//!
+//! Dependencies point one way, down this list. Modules that are not public are listed for those who
+//! read the source.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`math`] | elementary functions with the same bits on every target |
+//! | `scalar` | [`Real`]: `f32`, `f64`, [`Dual`] for gradients |
+//! | `sample` | [`Sample`], the input of a law; [`Split`](law::Split), its torque by parts |
+//! | `table`, `constants` | names, symbols, units and bounds of parameters; [`Constants`] |
+//! | `formula` | [`Formula`]: friction terms that a user writes as text |
+//! | `dynamics` | laws with a state: [`State`], each kind of state stepped exactly |
+//! | [`law`], `effect` | one file each: parameters, table and formula |
+//! | [`catalog`] | the list of laws and effects |
+//! | `composed`, `error` | [`Spec`] and [`Composed`]: a law with effects; [`ModelError`] |
+//! | `fixed`, `feedforward` | [`FixedLaw`], a law chosen at compile time; [`Feedforward`] |
+//! | [`joint`] | friction coupled to an inertia: joints in motion |
+//! | `graph` (`std`) | the operations of a law, recorded, differentiated and vectorised |
+//! | `batch` (`std`) | whole recordings: torque, gradient, delay |
+//! | `identify` (`std`) | parameters from recordings: separable least squares |
+//! | `passivity` (`std`) | proofs over a box of operating points, and counterexamples |
+//! | `export`, `units`, `python` (`python`) | the extension module `stribeck._core` |
 #![cfg_attr(not(test), no_std)]
 #![forbid(unsafe_code)]
 

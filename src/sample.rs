@@ -88,7 +88,7 @@ impl<S: Real> Sample<S> {
     /// without load.
     #[inline]
     #[must_use]
-    pub fn in_quadrant<T: Real<Plain = S, Mask = S::Mask>>(&self, of: &Quadrants<T>) -> T {
+    pub(crate) fn in_quadrant<T: Real<Plain = S, Mask = S::Mask>>(&self, of: &Quadrants<T>) -> T {
         let (v, tl) = (self.velocity, self.load_torque);
         let (forward, loaded) = (v.is_positive(), tl.is_positive());
         let moving_forward = T::choose(loaded, of.first, of.fourth);
@@ -100,7 +100,7 @@ impl<S: Real> Sample<S> {
 
 /// One value for each combination of signs of velocity and load torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Quadrants<T> {
+pub(crate) struct Quadrants<T> {
     /// Forward against the load: motoring.
     pub first: T,
     /// Backward with a positive load: generating.
@@ -240,7 +240,7 @@ impl<S: Real> StribeckCurve<S> {
 /// The Stribeck curve at `velocity`: 1 at rest, whatever the Stribeck velocity.
 #[inline(always)]
 #[must_use]
-pub fn stribeck_curve<S: Real>(
+pub(crate) fn stribeck_curve<S: Real>(
     velocity: S::Plain,
     stribeck_velocity: S,
     exponent: S,
@@ -253,6 +253,6 @@ pub fn stribeck_curve<S: Real>(
 /// `(2/pi) atan(k v)`: the sign of the velocity, smoothed over `1/k`.
 #[inline]
 #[must_use]
-pub fn arctangent_sign<S: Real>(velocity: S::Plain, steepness: S) -> S {
+pub(crate) fn arctangent_sign<S: Real>(velocity: S::Plain, steepness: S) -> S {
     steepness.scale(velocity).atan().scale(S::Plain::from_f64(core::f64::consts::FRAC_2_PI))
 }

@@ -4,7 +4,7 @@ use core::ffi::{CStr, c_char};
 use core::mem::{align_of, size_of};
 use core::slice;
 
-use stribeck::{Composed, Feedforward, Limits, ModelError, Sample, Scalar, Source, Spec};
+use stribeck::prelude::*;
 
 /// The result of a call.
 #[repr(C)]

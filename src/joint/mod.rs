@@ -17,9 +17,8 @@
 //! | `compensator`, `observer` | friction compensation, and a disturbance observer for its error |
 //!
 //! ```
-//! use stribeck::composed::Spec;
-//! use stribeck::dynamics::State;
 //! use stribeck::joint::{self, Joint, Posture, Push};
+//! use stribeck::{Spec, State};
 //!
 //! let friction = Spec::new("coulomb", [])?.with(&[0.5, 2.0])?;
 //! let (joint, mut state) = (Joint::revolute(0.3, 1.0, 0.0), State::default());
@@ -32,7 +31,7 @@
 //! }
 //! // 2.5 N m against gravity of 1 N m: less than the 2 N m that hold it.
 //! assert_eq!(posture.position, 0.0);
-//! # Ok::<(), stribeck::error::ModelError>(())
+//! # Ok::<(), stribeck::ModelError>(())
 //! ```
 
 mod arm;

@@ -116,7 +116,7 @@ impl Spread {
                 variables[k] = Dual::variable(between[k], direction);
             }
             let off = some.iter().map(|&k| bounds[k] - Enclosure::point(values[k])).collect();
-            Ok((spec.with(&variables)?, off))
+            Ok::<_, ModelError<'static>>((spec.with(&variables)?, off))
         };
         let parts = uncertain.chunks(AT_ONCE).map(part).collect::<Result<_, _>>()?;
         Ok(Self { parts })

@@ -2,8 +2,8 @@
 //! of their torques.
 #![no_std]
 
-use stribeck::law::{BittencourtA, Coulomb, Elastoplastic, FrictionLaw, Gms, Lugre, TadeseFull};
-use stribeck::{Constants, FixedLaw, Sample, State};
+use stribeck::law::{BittencourtA, Coulomb, Elastoplastic, Gms, Lugre, TadeseFull};
+use stribeck::prelude::{Constants, FixedLaw, FrictionLaw, Sample, State};
 
 /// The number type that is tested.
 #[cfg(not(feature = "double"))]

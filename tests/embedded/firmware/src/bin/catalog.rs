@@ -6,7 +6,7 @@ use core::arch::global_asm;
 use core::hint::black_box;
 use core::panic::PanicInfo;
 
-use stribeck::{Sample, Spec, State};
+use stribeck::prelude::*;
 
 global_asm!(include_str!("../reset.s"));
 
