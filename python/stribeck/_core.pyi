@@ -4,6 +4,7 @@ from typing import Any, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stribeck.exporters.rows import ProgramRow
 from stribeck.models.rows import CoreCatalog, ParameterRow
 from stribeck.passivity.rows import AnswerRow
 
@@ -197,7 +198,7 @@ class Model:
     @property
     def needs(self) -> list[str]: ...
     def parameters(self) -> list[ParameterRow]: ...
-    def program(self, *, single: bool = False) -> dict[str, Any]: ...
+    def program(self, *, single: bool = False) -> ProgramRow: ...
     def torque(
         self,
         values: ArrayLike,

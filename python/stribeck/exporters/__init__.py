@@ -1,1 +1,1 @@
-"""Export: a fitted model as a program for the joint's controller."""
+"""Export of a model as a program for the controller of a joint."""

@@ -1,13 +1,14 @@
-"""What an exported file says of itself: model, provenance, whether it is passive."""
+"""The header of an exported file: model, provenance, whether it is passive."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 from stribeck.base.errors import SpecError
+from stribeck.base.version import __version__
 from stribeck.models.catalog import law_row
+from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
 from stribeck.passivity.certificate import Certificate
 from stribeck.passivity.check import check
@@ -20,15 +21,15 @@ class About:
     Attributes
     ----------
     fitted_on
-        As in a model file: ``path``, ``sha256``, ``rows``, ``rmse`` ...; empty where unknown.
+        As in a model file; empty where unknown.
     certificate
-        Whether it is passive over its operating box; None where that cannot be asked.
+        Whether the model is passive over its operating box; None where it cannot be checked.
     no_certificate
-        Why there is none.
+        Why it cannot be checked.
     """
 
     model: Model
-    fitted_on: Mapping[str, Any] = field(default_factory=dict)
+    fitted_on: FittedOn = field(default_factory=FittedOn)
     certificate: Certificate | None = None
     no_certificate: str = ""
 
@@ -36,10 +37,10 @@ class About:
     def of(
         cls,
         model: Model,
-        fitted_on: Mapping[str, Any],
+        fitted_on: FittedOn,
         box: Mapping[str, tuple[float, float]],
     ) -> About:
-        """Check the model over its box, if it has one."""
+        """Describe a model; it is checked over its operating box, if it has one."""
         try:
             certificate = check(model, box)
         except SpecError as error:
@@ -48,14 +49,12 @@ class About:
 
     @property
     def formula(self) -> str:
-        """What the law computes, in symbols."""
+        """Formula of the law."""
         row = law_row(self.model.law)
         return str(row["formula"]) if row else self.model.own[0].text
 
     def lines(self) -> Iterator[str]:
-        """Plain sentences, for a comment."""
-        from stribeck.base.version import __version__
-
+        """Lines of a comment."""
         yield f"Friction model {self.model.spec}, written by stribeck {__version__}."
         yield ""
         yield f"Law: {self.formula}"
@@ -69,7 +68,7 @@ class About:
         if self.model.rigid_body:
             yield f"Rigid-body terms in the torque: {', '.join(self.model.rigid_body)}"
         if "delay" in self.model.effects:
-            yield "The delay belongs to the recording, not to the joint: it is left out."
+            yield "The delay is part of the recording, not of the joint: it is left out."
         constants = self.model.core.constants
         if constants:
             yield "Constants: " + ", ".join(f"{k} = {v:g}" for k, v in sorted(constants.items()))
@@ -80,9 +79,9 @@ class About:
     def _provenance(self) -> Iterator[str]:
         fitted = self.fitted_on
         if not fitted:
-            yield "Fitted on: not said."
+            yield "Fitted to: unknown data."
             return
-        yield f"Fitted on: {fitted.get('path', 'not said')}, {fitted.get('rows', '?')} rows"
+        yield f"Fitted to: {fitted.get('path', 'unknown data')}, {fitted.get('rows', '?')} samples"
         unit = self.model.torque_unit
         if "rmse_held_out" in fitted:
             held_out = f"held out {fitted['rmse_held_out']:.4g} {unit}"
@@ -94,10 +93,10 @@ class About:
 
     def _passivity(self) -> Iterator[str]:
         if self.certificate is None:
-            yield f"Passive: not known ({self.no_certificate})"
+            yield f"Passive: unknown ({self.no_certificate})"
             return
         certificate = self.certificate
-        words = {True: "yes, proved", False: "no, there is a counterexample", None: "cannot decide"}
+        words = {True: "yes, proved", False: "no, with a counterexample", None: "undecided"}
         sides = ", ".join(f"{k} {low:g} .. {high:g}" for k, (low, high) in certificate.box.items())
         yield f"Passive: {words[certificate.passive]} (condition: {certificate.condition})"
         yield f"Operating box: {sides}"

@@ -1,15 +1,15 @@
-"""Export as data: the model and the operations of its step, for other generators."""
+"""Export as JSON: the model and the operations of its step, for other generators."""
 
 from __future__ import annotations
 
 import json
 import math
 from collections.abc import Mapping
-from typing import Any
 
 from stribeck.exporters.about import About
-from stribeck.exporters.c.number import Precision
-from stribeck.exporters.program import Program
+from stribeck.exporters.precision import Precision
+from stribeck.exporters.program import Operation, Program
+from stribeck.exporters.rows import Argument
 
 #: Version of the document's keys.
 SCHEMA = 1
@@ -20,8 +20,8 @@ def json_files(
 ) -> Mapping[str, str]:
     """One JSON document, by file name.
 
-    ``step`` holds the operations of one step, each a list of its name, the operations that it takes
-    its numbers from, and what else it says; an infinite constant is written ``"inf"``.
+    ``step`` holds the operations of one step, each as a list of name, operands and argument; an
+    infinite constant is written ``"inf"``.
     """
     model = about.model
     document = {
@@ -41,7 +41,7 @@ def json_files(
         "step": {
             "precision": precision,
             "operations": [
-                [operation.name, list(operation.operands), _said(operation.said)]
+                [operation.name, list(operation.operands), _argument(operation)]
                 for operation in program.operations
             ],
             "torque": program.torque,
@@ -54,7 +54,8 @@ def json_files(
     return {f"{name}.json": json.dumps(document, indent=1, allow_nan=False) + "\n"}
 
 
-def _said(said: Any) -> Any:
-    if isinstance(said, float) and math.isinf(said):
-        return "inf" if said > 0.0 else "-inf"
-    return said
+def _argument(operation: Operation) -> Argument:
+    argument = operation.argument
+    if isinstance(argument, float) and math.isinf(argument):
+        return "inf" if argument > 0.0 else "-inf"
+    return argument

@@ -1,4 +1,4 @@
-"""Export of a fitted model to a controller's language."""
+"""Export of a model as a program for a controller."""
 
 from __future__ import annotations
 
@@ -6,19 +6,20 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeVar, get_args
+from typing import Literal, TypeVar, get_args
 
-from stribeck.base.errors import ModelFileError, SpecError, nearest
+from stribeck.base.errors import ModelFileError, SpecError, nearest, option
 from stribeck.base.files import write_whole
 from stribeck.exporters.about import About
 from stribeck.exporters.c.files import c_files, identifier
-from stribeck.exporters.c.number import Precision
 from stribeck.exporters.document import json_files
-from stribeck.exporters.fixed.files import FIXED, FixedPrecision, analyse, fixed_files
+from stribeck.exporters.fixed.files import analyse, fixed_files
+from stribeck.exporters.precision import FIXED, FLOATING, FixedPrecision, Precision
 from stribeck.exporters.program import Program
 from stribeck.exporters.rust.files import rust_files
 from stribeck.exporters.vectors import vectors
 from stribeck.fitting.result import Fit
+from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 
@@ -32,12 +33,11 @@ class Export:
     Attributes
     ----------
     model
-        What was exported: the friction, and rigid-body terms that were identified with it.
+        The exported part: the friction, and rigid-body terms that were identified with it.
     passive
-        Whether it is proved passive over its operating box; None where neither that nor the
-        opposite is known.
+        Whether it is passive over its operating box; None where that is unknown.
     files
-        In the order in which they are read.
+        The files that were written.
     """
 
     model: Model
@@ -46,7 +46,7 @@ class Export:
     passive: bool | None
     files: tuple[Path, ...]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         return {
             "model": self.model.spec,
@@ -57,7 +57,7 @@ class Export:
         }
 
     def __repr__(self) -> str:
-        """One line a file."""
+        """The model, then one line a file."""
         head = f"{self.model.spec} in {self.language}, {self.precision}"
         return "\n".join([head, *(f"  {path}" for path in self.files)])
 
@@ -75,7 +75,7 @@ def export(
 ) -> Export:
     """Write a model as a program for a controller, with test vectors and a self-test.
 
-    One step of the model is written down as the core carries it out, so that C, crate and Python
+    One step of the model is written with the operations of the core, so that C, crate and Python
     give the same bits.
 
     Parameters
@@ -85,19 +85,19 @@ def export(
     to : {"c", "rust", "json"}
         C99 without libraries, a Rust module for the crate, or the operations of the step as data.
     folder
-        Where to; it is made if it does not exist. Files of the same names are replaced.
+        Folder of the files, created if needed. Files with the same names are replaced.
     name
-        What files, types and functions begin with. [default: the model's spec]
+        Start of the names of files, types and functions. [default: the model's spec]
     precision : {"f64", "f32", "q31", "q15"}
-        Format of all numbers. In fixed point, of laws and effects without a memory, the header
-        states how far the torque may be off over the operating box.
+        Number format. In fixed point, for models without memory only, the header states a bound of
+        the torque's error over the operating box.
     libm
         In C, use the platform's ``math.h``: smaller, but the bits are the platform's.
     box : dict of (low, high)
-        Operating box in SI units and degC, for the certificate and the test vectors. What it leaves
-        out is taken from the model's own box.
+        Operating box in SI units and degC, for the certificate and the test vectors. Sides that are
+        left out are taken from the model's own box.
     seed
-        Of the test vectors.
+        Seed of the test vectors.
 
     Returns
     -------
@@ -120,11 +120,11 @@ def export(
     (['coulomb.h', 'coulomb.c', 'coulomb_vectors.h', 'coulomb_test.c'], True)
     """
     language: Language = _choice("to", to, get_args(Language))
-    form: Precision | FixedPrecision = _choice(
-        "precision", precision, (*get_args(Precision), *FIXED)
-    )
+    form: Precision | FixedPrecision = _choice("precision", precision, (*FLOATING, *FIXED))
     if libm and (language != "c" or form in FIXED):
-        raise SpecError("libm is for C in floating point: leave it out, or give --to c")
+        raise SpecError(
+            f"libm is for C in floating point: leave it out, or give {option('to', 'c')}"
+        )
     asked = model if isinstance(model, Model) else model.model
     asked.known_values()
     friction = asked.friction
@@ -152,7 +152,9 @@ def _texts(
 ) -> Mapping[str, str]:
     if form == "q31" or form == "q15":
         if language != "c":
-            raise SpecError(f"{form} is for C alone: give --to c, or --precision f32")
+            raise SpecError(
+                f"{form} is for C only: give {option('to', 'c')}, or {option('precision', 'f32')}"
+            )
         analysis = analyse(about, Program.of(about.model), box, form)
         return fixed_files(about, analysis, name=name, precision=form, seed=seed)
     program = Program.of(about.model, "single" if form == "f32" else "double")
@@ -166,7 +168,7 @@ def _texts(
             return json_files(about, program, name=name, precision=form)
 
 
-def _provenance(model: Model | ModelFile | Fit) -> Mapping[str, Any]:
+def _provenance(model: Model | ModelFile | Fit) -> FittedOn:
     match model:
         case Model():
             return {}
@@ -178,12 +180,13 @@ def _provenance(model: Model | ModelFile | Fit) -> Mapping[str, Any]:
 _Named = TypeVar("_Named", bound=str)
 
 
-def _choice(option: str, given: str, known: tuple[_Named, ...]) -> _Named:
+def _choice(name_of_option: str, given: str, known: tuple[_Named, ...]) -> _Named:
     for name in known:
         if name == given:
             return name
     raise SpecError(
-        f"{option} cannot be {given!r}{nearest(given, known)}; give one of {', '.join(known)}"
+        f"{name_of_option} cannot be {given!r}{nearest(given, known)}; give one of "
+        f"{', '.join(known)}"
     )
 
 
@@ -192,8 +195,8 @@ def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ModelFileError(
-            f"cannot make the folder {folder}: {error.strerror or error}; give another one"
+            f"cannot create the folder {folder}: {error.strerror or error}; give another one"
         ) from None
     for name, text in texts.items():
-        write_whole(folder / name, text)
+        write_whole(folder / name, text, ModelFileError)
     return tuple(folder / name for name in texts)

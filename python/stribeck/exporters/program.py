@@ -1,7 +1,7 @@
-"""A model's step as operations, and in which branch each of them is needed.
+"""A step of a model as a list of operations, placed in branches.
 
-The core writes down what one step of a model computes, both ways of every choice included. Here
-each operation is moved into the branch in which alone it is needed, so that a program computes no
+The core lists the operations of one step, with both alternatives of every choice. Here an operation
+that only one alternative needs is moved into its branch, so that the exported program computes no
 more than the core does.
 """
 
@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
+from stribeck.exporters.rows import Argument
 from stribeck.models.model import Model
 
-#: Operations that answer yes or no.
+#: Operations whose result is true or false.
 MASKS = frozenset({"below", "above", "equal", "and", "or", "not", "is_finite"})
 
 #: Operations that are written where they are used.
@@ -23,7 +24,7 @@ LEAVES = frozenset({"constant", "parameter", "channel", "time_step", "state"})
 
 @dataclass(frozen=True)
 class Operation:
-    """What one node computes.
+    """One operation; its number in the list is its node.
 
     Attributes
     ----------
@@ -31,19 +32,37 @@ class Operation:
         ``add``, ``exp``, ``choose`` ...; ``constant``, ``parameter``, ``channel``, ``time_step``
         and ``state`` take no operands.
     operands
-        The nodes it takes its numbers from; all come before it.
-    said
+        Nodes of the operands, all earlier in the list.
+    argument
         Value of a constant, index of a parameter or state, name of a channel, order of ``phi``.
     """
 
     name: str
     operands: tuple[int, ...]
-    said: Any
+    argument: Argument
+
+    @property
+    def value(self) -> float:
+        """Value of a constant."""
+        assert isinstance(self.argument, float)
+        return self.argument
+
+    @property
+    def index(self) -> int:
+        """Index of a parameter or a state."""
+        assert isinstance(self.argument, int)
+        return self.argument
+
+    @property
+    def channel(self) -> str:
+        """Name of a channel."""
+        assert isinstance(self.argument, str)
+        return self.argument
 
 
 @dataclass(frozen=True)
 class StateNumber:
-    """A number that a model remembers: 0 at the start, node `after` at the end of a step."""
+    """A state of a model: 0 at the start, the value of node `after` at the end of a step."""
 
     name: str
     unit: str
@@ -53,7 +72,7 @@ class StateNumber:
 
 @dataclass(frozen=True)
 class Choice:
-    """Consecutive choices by one mask: the node's number is that of `yes` where it holds."""
+    """Consecutive choices by one mask: each node takes its value from branch `yes` or `no`."""
 
     mask: int
     nodes: tuple[int, ...]
@@ -62,20 +81,20 @@ class Choice:
 
     @property
     def branches(self) -> tuple[Branch, Branch]:
-        """What is computed where the mask holds, and where it does not."""
+        """The branches where the mask is true and where it is false."""
         return self.yes, self.no
 
 
 @dataclass
 class Branch:
-    """What is computed in one branch, in order: nodes and further choices."""
+    """The nodes and choices of one branch, in order."""
 
     parent: Branch | None = None
     items: list[int | Choice] = field(default_factory=list)
 
     @cached_property
     def depth(self) -> int:
-        """How many branches it is in."""
+        """Number of enclosing branches."""
         return 0 if self.parent is None else self.parent.depth + 1
 
 
@@ -86,11 +105,11 @@ class Program:
     Attributes
     ----------
     operations
-        In an order in which they can be computed.
+        In an order of evaluation.
     torque
-        The node that yields the torque at the end of the step.
+        Node of the torque at the end of the step.
     states
-        What is remembered from step to step.
+        States, kept from step to step.
     """
 
     operations: tuple[Operation, ...]
@@ -99,7 +118,7 @@ class Program:
 
     @classmethod
     def of(cls, model: Model, precision: Literal["double", "single"] = "double") -> Program:
-        """The step of a model; what is known beforehand is computed in this precision.
+        """The step of a model; constants are computed in the given precision.
 
         Examples
         --------
@@ -107,20 +126,20 @@ class Program:
         >>> [number.name for number in Program.of(model("lugre")).states]
         ['deflection']
         """
-        told = model.core.program(single=precision == "single")
+        listed = model.core.program(single=precision == "single")
         return cls(
-            operations=tuple(Operation(n, tuple(o), said) for n, o, said in told["operations"]),
-            torque=told["torque"],
+            operations=tuple(Operation(n, tuple(o), x) for n, o, x in listed["operations"]),
+            torque=listed["torque"],
             states=tuple(
                 StateNumber(row["name"], row["unit"], row["what"], row["after"])
-                for row in told["states"]
+                for row in listed["states"]
             ),
         )
 
     @cached_property
     def channels(self) -> tuple[str, ...]:
-        """The channels it reads, in the order in which it does."""
-        return tuple(dict.fromkeys(o.said for o in self.operations if o.name == "channel"))
+        """The channels that it reads, in order of their first use."""
+        return tuple(dict.fromkeys(o.channel for o in self.operations if o.name == "channel"))
 
     @property
     def functions(self) -> frozenset[str]:
@@ -137,16 +156,16 @@ class Program:
         return self.operations[node].name in LEAVES
 
     def is_mask(self, node: int) -> bool:
-        """Whether a node answers yes or no."""
+        """Whether the result of a node is true or false."""
         return self.operations[node].name in MASKS
 
     def branches(self) -> Branch:
-        """The whole step, each operation in the innermost branch in which it is needed."""
+        """The whole step, each operation in the innermost branch that holds all its uses."""
         return _Placing(self).root
 
 
 class _Placing:
-    """Finds the branch of each node, from the last to the first."""
+    """Finds the branch of each node, from the last node to the first."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
@@ -195,7 +214,7 @@ def _innermost_common(one: Branch, other: Branch) -> Branch:
 
 
 def _runs(program: Program) -> Iterator[tuple[int, ...]]:
-    """Choices by one mask with only leaves between them, none of which takes another."""
+    """Choices by one mask with only leaves between them, none an operand of another."""
     run: list[int] = []
     for node, operation in enumerate(program.operations):
         if program.is_leaf(node):

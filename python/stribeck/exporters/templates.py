@@ -1,4 +1,4 @@
-"""The templates that files are written from."""
+"""The templates of exported files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import jinja2
 
 @cache
 def template(language: str, name: str) -> jinja2.Template:
-    """A template of ``export/LANGUAGE/templates``; what it reads has to be given."""
+    """A template of ``exporters/LANGUAGE/templates``; each variable must be given."""
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader("stribeck", f"exporters/{language}/templates"),
         undefined=jinja2.StrictUndefined,

@@ -1,21 +1,21 @@
-"""Test vectors: random cycles over a model's operating box, and the torque that it gives."""
+"""Test vectors: random cycles over a model's operating box, and their torque."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.errors import SpecError
-from stribeck.exporters.c.number import Precision
+from stribeck.base.errors import SpecError, option
+from stribeck.exporters.precision import Precision
 from stribeck.exporters.program import Program
+from stribeck.models.channels import ChannelArguments
 from stribeck.models.model import Model
 
-#: Where a channel lies that neither the box nor the model speaks of.
+#: Sides of channels that neither the given box nor the model has.
 _USUAL: dict[str, tuple[float, float]] = {
     "velocity": (-2.0, 2.0),
     "position": (-math.pi, math.pi),
@@ -30,22 +30,22 @@ _USUAL: dict[str, tuple[float, float]] = {
 #: Lengths of a cycle, s.
 _STEPS = (2e-3, 1e-3, 5e-4)
 
-#: Rows of a test vector file.
+#: Cycles of a test vector file.
 ROWS = 500
 
 
 @dataclass(frozen=True)
 class Vectors:
-    """Cycles from a fresh state on.
+    """Consecutive cycles that start from the initial state.
 
     Attributes
     ----------
     dt : array [n]
-        s.
+        Lengths of the cycles, s.
     channels : dict of array [n]
         SI units and degC.
     torque : array [n]
-        At the end of each cycle, by the core.
+        Torque at the end of each cycle as the core computes it, N m or N.
     """
 
     dt: NDArray[np.float64]
@@ -67,12 +67,12 @@ def vectors(
     rows: int = ROWS,
     seed: int = 0,
 ) -> Vectors:
-    """Cycles over all of the operating box: smooth motion, reversals, rest, and jumps.
+    """Cycles over the whole operating box: smooth motion, reversals, rest and jumps.
 
     Parameters
     ----------
     box
-        Sides by channel, SI units and degC; others are taken from the model, or as is usual.
+        Sides by channel, SI units and degC; others are those of the model, or usual ones.
 
     Raises
     ------
@@ -82,28 +82,31 @@ def vectors(
     rng = np.random.default_rng(seed)
     form = np.float32 if precision == "f32" else np.float64
     channels = {
-        name: _course(_side(model, name, box), rows, rng).astype(form).astype(np.float64)
+        name: _waveform(_side(model, name, box), rows, rng).astype(form).astype(np.float64)
         for name in program.channels
     }
     dt = np.repeat(rng.choice(_STEPS, size=-(-rows // 25)), 25)[:rows]
     dt = dt.astype(form).astype(np.float64)
     friction = model.without_effect("delay")
-    given: dict[str, Any] = {
+    given: ChannelArguments = {
         name: column for name, column in channels.items() if name != "velocity"
     }
     velocity = channels.get("velocity", np.zeros(rows))
     try:
         torque = friction.core.torque(
-            friction.values, dt if friction.has_state else None, velocity, **given,
+            friction.values,
+            dt if friction.has_state else None,
+            velocity,
+            **given,
             single=precision == "f32",
-        )  # fmt: skip
+        )
     except ValueError as error:
         raise SpecError(f"{model.spec} has no test vectors: {error}") from None
     unbounded = np.flatnonzero(~np.isfinite(torque))
     if unbounded.size:
         raise SpecError(
             f"{model.spec} has no finite torque at {_point(channels, int(unbounded[0]))}: "
-            f"give a --box in which it has"
+            f"give {option('box')} in which it has"
         )
     return Vectors(dt, channels, np.asarray(torque))
 
@@ -125,8 +128,10 @@ def _side(
     return _USUAL[channel]
 
 
-def _course(side: tuple[float, float], rows: int, rng: np.random.Generator) -> NDArray[np.float64]:
-    """A channel's course: a slow wave, then a fast one, rest, and jumps anywhere in its side."""
+def _waveform(
+    side: tuple[float, float], rows: int, rng: np.random.Generator
+) -> NDArray[np.float64]:
+    """Values of a channel: a slow wave, a fast one, rest, and jumps over its whole side."""
     low, high = side
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     time = np.arange(rows)

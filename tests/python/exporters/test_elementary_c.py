@@ -12,7 +12,8 @@ from exported_models import FLAGS, needs
 from numpy.typing import NDArray
 from stribeck import _core
 from stribeck.exporters.c import elementary
-from stribeck.exporters.c.number import FORMATS, Precision
+from stribeck.exporters.c.number import FORMATS
+from stribeck.exporters.precision import Precision
 from stribeck.exporters.templates import template
 
 ONE = ("exp", "expm1", "phi", "ln", "sqrt", "cbrt", "sin", "cos", "tanh", "atan")

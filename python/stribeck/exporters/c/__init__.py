@@ -1,1 +1,1 @@
-"""Self-contained C99: header, source, test vectors, self-test."""
+"""Export to self-contained C99: header, source, test vectors, self-test."""

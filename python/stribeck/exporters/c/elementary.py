@@ -1,21 +1,20 @@
-"""Elementary functions in C with the bits of the core's.
+"""Elementary functions in C that give the same bits as those of the core.
 
-The algorithms stand in ``templates/elementary.c.j2``; constants and coefficients come from the
-core, so that they are stated once.
+The algorithms are in ``templates/elementary.c.j2``; constants and coefficients come from the core,
+so that they are stated once.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 
 from stribeck import _core
 from stribeck.exporters.c.number import Format
 
-#: What a function is built from.
+#: The functions that each function calls.
 PARTS: dict[str, tuple[str, ...]] = {
     "infinity": ("of_bits",),
     "not_a_number": ("of_bits",),
@@ -33,8 +32,16 @@ PARTS: dict[str, tuple[str, ...]] = {
     "ln": ("exponent_and_significand", "log_beyond", "infinity", "not_a_number"),
     "log2_pair": ("exponent_and_significand", "short_of", "log_tail"),
     "power": (
-        "log2_pair", "nearest", "within", "times_power_of_two", "exp2_series", "abs", "copy_sign",
-        "infinity", "not_a_number", "short_of",
+        "log2_pair",
+        "nearest",
+        "within",
+        "times_power_of_two",
+        "exp2_series",
+        "abs",
+        "copy_sign",
+        "infinity",
+        "not_a_number",
+        "short_of",
     ),
     "tanh": ("half_expm1", "within", "abs", "copy_sign"),
     "atan": ("abs", "copy_sign", "atan_series"),
@@ -42,10 +49,10 @@ PARTS: dict[str, tuple[str, ...]] = {
     "cos": ("sin",),
     "sqrt": ("infinity", "not_a_number", "to_bits"),
     "cbrt": ("to_bits", "of_bits"),
-}  # fmt: skip
+}
 
-#: Polynomials: their variable, and whether ``first`` stands before the coefficients, alone or
-#: with a gap behind it.
+#: Polynomials: the variable, and whether an argument ``first`` is the constant term ("first"), or
+#: is added to a polynomial that has one ("gap").
 POLYNOMIALS: dict[str, tuple[str, str | None]] = {
     "exp_beyond": ("r", "gap"),
     "expm1_beyond": ("r", "gap"),
@@ -57,19 +64,34 @@ POLYNOMIALS: dict[str, tuple[str, str | None]] = {
     "cos_beyond": ("z", "gap"),
 }
 
-#: The binary digits of 2/pi behind 64 zeros, and zeros that are never of weight.
+#: 64 zeros, the binary digits of 2/pi, and 64 more zeros that never matter.
 TWO_OVER_PI = (
-    "0x0000000000000000", "0xa2f9836e4e441529", "0xfc2757d1f534ddc0", "0xdb6295993c439041",
-    "0xfe5163abdebbc561", "0xb7246e3a424dd2e0", "0x06492eea09d1921c", "0xfe1deb1cb129a73e",
-    "0xe88235f52ebb4484", "0xe99c7026b45f7e41", "0x3991d639835339f4", "0x9c845f8bbdf9283b",
-    "0x1ff897ffde05980f", "0xef2f118b5a0a6d1f", "0x6d367ecf27cb09b7", "0x4f463f669e5fea2d",
-    "0x7527bac7ebe5f17b", "0x3d0739f78a5292ea", "0x6bfb5fb11f8d5d08", "0x56033046fc7b6bab",
     "0x0000000000000000",
-)  # fmt: skip
+    "0xa2f9836e4e441529",
+    "0xfc2757d1f534ddc0",
+    "0xdb6295993c439041",
+    "0xfe5163abdebbc561",
+    "0xb7246e3a424dd2e0",
+    "0x06492eea09d1921c",
+    "0xfe1deb1cb129a73e",
+    "0xe88235f52ebb4484",
+    "0xe99c7026b45f7e41",
+    "0x3991d639835339f4",
+    "0x9c845f8bbdf9283b",
+    "0x1ff897ffde05980f",
+    "0xef2f118b5a0a6d1f",
+    "0x6d367ecf27cb09b7",
+    "0x4f463f669e5fea2d",
+    "0x7527bac7ebe5f17b",
+    "0x3d0739f78a5292ea",
+    "0x6bfb5fb11f8d5d08",
+    "0x56033046fc7b6bab",
+    "0x0000000000000000",
+)
 
 
 def with_parts(functions: Iterable[str], form: Format) -> frozenset[str]:
-    """Functions and all that they are built from."""
+    """The given functions and all that they call."""
     found: set[str] = set()
     wanted = list(functions)
     if "cbrt" in wanted and not form.single:
@@ -82,8 +104,8 @@ def with_parts(functions: Iterable[str], form: Format) -> frozenset[str]:
     return frozenset(found)
 
 
-def context(functions: Iterable[str], form: Format) -> dict[str, Any]:
-    """What the template of the elementary functions reads."""
+def context(functions: Iterable[str], form: Format) -> dict[str, object]:
+    """The variables of the template of the elementary functions."""
     constants = _core.elementary_constants(single=form.single)
     whole = 2.0**form.stored
     one_bits = form.bias << form.stored
@@ -122,7 +144,7 @@ def context(functions: Iterable[str], form: Format) -> dict[str, Any]:
         "whole_bits": _bits(whole, form),
         "normal_offset": whole + form.bias,
         "lifted_offset": whole + form.bias + 2 * form.stored,
-        # Fractions and bounds that the core has in single precision, in both formats.
+        # The core has these fractions and bounds in single precision, in both formats.
         "three_fifths": float(np.float32(3.0) / np.float32(5.0)),
         "three_sevenths": float(np.float32(3.0) / np.float32(7.0)),
         "atan_small": float(np.float32(0.41421357)),
@@ -138,7 +160,7 @@ def _bits(x: float, form: Format) -> int:
 
 
 def polynomial(name: str, coefficients: Sequence[float], form: Format) -> str:
-    """A polynomial as a C function, by Estrin's scheme as the core joins it.
+    """A polynomial as a C function, by Estrin's scheme with the core's order of operations.
 
     Examples
     --------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import textwrap
 from collections.abc import Iterator, Mapping
@@ -9,15 +10,16 @@ from dataclasses import dataclass
 
 from stribeck.exporters.about import About
 from stribeck.exporters.c import elementary
-from stribeck.exporters.c.number import FORMATS, Format, Precision
+from stribeck.exporters.c.number import FORMATS, Format
 from stribeck.exporters.c.statements import Statements
+from stribeck.exporters.precision import Precision
 from stribeck.exporters.program import Program
 from stribeck.exporters.templates import template
 from stribeck.exporters.vectors import Vectors
 from stribeck.models.model import Model
 from stribeck.models.parameter import joint_unit
 
-#: Words of C and C++ that no member can have.
+#: Keywords of C and C++, which cannot be the name of a member.
 _KEYWORDS = frozenset(
     """alignas alignof and asm auto bool break case catch char class const constexpr continue
     default delete do double else enum explicit export extern false float for friend goto if inline
@@ -26,20 +28,36 @@ _KEYWORDS = frozenset(
     unsigned using virtual void volatile while xor""".split()
 )
 
+#: Units as in the catalog: T torque or force, X position.
 _CHANNEL_UNITS = {
-    "velocity": "X/s", "position": "X", "acceleration": "X/s2", "temperature": "degC",
-    "load_torque": "T", "load_torque_curvature": "T/s2", "motor_torque": "T",
-    "external_torque": "T", "time": "s",
-}  # fmt: skip
+    "velocity": "X/s",
+    "position": "X",
+    "acceleration": "X/s2",
+    "temperature": "degC",
+    "load_torque": "T",
+    "load_torque_curvature": "T/s2",
+    "motor_torque": "T",
+    "external_torque": "T",
+    "time": "s",
+}
 
 #: Functions of math.h, by operation.
 _LIBM = {
-    "abs": "fabs", "exp": "exp", "expm1": "expm1", "ln": "log", "sqrt": "sqrt", "cbrt": "cbrt",
-    "sin": "sin", "cos": "cos", "tanh": "tanh", "atan": "atan", "power": "pow",
-}  # fmt: skip
+    "abs": "fabs",
+    "exp": "exp",
+    "expm1": "expm1",
+    "ln": "log",
+    "sqrt": "sqrt",
+    "cbrt": "cbrt",
+    "sin": "sin",
+    "cos": "cos",
+    "tanh": "tanh",
+    "atan": "atan",
+    "power": "pow",
+}
 
-#: By how much a torque may differ from its test vector where the platform's functions are used,
-#: relative to the largest torque.
+#: Largest difference of a torque from its test vector with the platform's functions, relative to
+#: the largest torque.
 _LIBM_TOLERANCE = {"f64": 1e-9, "f32": 1e-3}
 
 
@@ -55,7 +73,7 @@ class Member:
 
     @property
     def description(self) -> str:
-        """What it is, as a comment holds it."""
+        """Description that cannot end a comment."""
         return self.what.replace("*/", "* /")
 
 
@@ -75,7 +93,7 @@ def c_files(
     name
         A C identifier: files, types and functions begin with it.
     libm
-        Use the platform's ``math.h`` in place of own functions: smaller, but with its bits.
+        Use the platform's ``math.h``: smaller, but the bits are the platform's.
     """
     form = FORMATS[precision]
     model = about.model
@@ -113,7 +131,7 @@ def c_files(
 
 
 def identifier(text: str) -> str:
-    """A C identifier made of a text.
+    """A C identifier from a text.
 
     Examples
     --------
@@ -149,7 +167,7 @@ def _functions(form: Format, libm: bool) -> dict[str, str]:
 
 def _elementary(program: Program, form: Format, libm: bool) -> str:
     functions = set(program.functions)
-    if any(o.name == "constant" and abs(o.said) == float("inf") for o in program.operations):
+    if any(o.name == "constant" and math.isinf(o.value) for o in program.operations):
         functions.add("infinity")
     if libm:
         functions -= set(_LIBM)
@@ -174,13 +192,13 @@ def _unused(program: Program) -> Iterator[str]:
 
 
 def wrapped(lines: Iterator[str]) -> Iterator[str]:
-    """Lines of a comment, none of which ends it."""
+    """Lines wrapped for a comment; none of them ends it."""
     for line in lines:
         yield from textwrap.wrap(line.replace("*/", "* /"), 96, subsequent_indent="    ") or [""]
 
 
 class _Rows(list[list[str]]):
-    """Rows of numbers as C writes them."""
+    """Rows of numbers as literals in C."""
 
     def __init__(self, rows: list[list[float]], form: Format) -> None:
         super().__init__([form.literal(x).strip("()") for x in row] for row in rows)

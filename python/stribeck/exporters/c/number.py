@@ -1,18 +1,26 @@
-"""How numbers of a precision are written in C."""
+"""Number literals in C."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 
-Precision = Literal["f64", "f32"]
+from stribeck.exporters.precision import Precision
 
 
 @dataclass(frozen=True)
 class Format:
-    """A floating-point format, as the templates need it.
+    """A floating-point format, for the templates.
+
+    Attributes
+    ----------
+    real, word
+        The type, and the unsigned integer of the same size.
+    bits, stored
+        Its size, and the stored bits of its significand.
+    suffix
+        Of literals.
 
     Examples
     --------
@@ -37,18 +45,18 @@ class Format:
         return self.bits == 32
 
     def literal(self, x: float) -> str:
-        """A finite number: the fewest digits that read back with the same bits."""
+        """A finite number with the fewest digits that read back with the same bits."""
         text = str(np.float32(x)) if self.single else repr(float(x))
         if not any(mark in text for mark in ".e"):
             text += ".0"
         return f"({text}{self.suffix})" if text.startswith("-") else f"{text}{self.suffix}"
 
     def integer(self, x: int) -> str:
-        """A whole number of the format's bits."""
+        """An unsigned integer of the format's size."""
         return f"UINT{self.bits}_C({x})"
 
     def hexadecimal(self, x: int) -> str:
-        """The same, as bits."""
+        """The same in hexadecimal."""
         return f"UINT{self.bits}_C({x:#x})"
 
 

@@ -1,4 +1,4 @@
-"""A program's operations as statements of C."""
+"""The operations of a program as statements in C."""
 
 from __future__ import annotations
 
@@ -9,22 +9,29 @@ from stribeck.exporters.c.number import Format
 from stribeck.exporters.program import Branch, Choice, Program
 
 _OPERATORS = {
-    "add": "+", "subtract": "-", "multiply": "*", "divide": "/", "below": "<", "above": ">",
-    "equal": "==", "and": "&&", "or": "||",
-}  # fmt: skip
+    "add": "+",
+    "subtract": "-",
+    "multiply": "*",
+    "divide": "/",
+    "below": "<",
+    "above": ">",
+    "equal": "==",
+    "and": "&&",
+    "or": "||",
+}
 
 _INDENT = "    "
 
 
 class Statements:
-    """Prints the body of a step: one operation a line, a branch where only one way is needed.
+    """The body of a step: one operation a line, with a branch for each choice.
 
     Parameters
     ----------
     parameters
-        What each parameter is called in C.
+        Names of the parameters in C.
     functions
-        What each elementary function is called.
+        Names of the elementary functions in C, by operation.
     """
 
     def __init__(
@@ -90,16 +97,16 @@ class Statements:
     def _number(self, node: int) -> str:
         operation = self.program.operations[node]
         match operation.name:
-            case "constant" if math.isinf(operation.said):
-                return "infinity()" if operation.said > 0.0 else "(-infinity())"
+            case "constant" if math.isinf(operation.value):
+                return "infinity()" if operation.value > 0.0 else "(-infinity())"
             case "constant":
-                return self.form.literal(operation.said)
+                return self.form.literal(operation.value)
             case "parameter":
-                return f"parameters->{self.parameters[operation.said]}"
+                return f"parameters->{self.parameters[operation.index]}"
             case "channel":
-                return f"sample->{operation.said}"
+                return f"sample->{operation.channel}"
             case "time_step":
                 return "dt"
             case "state":
-                return f"before_{self.program.states[operation.said].name}"
+                return f"before_{self.program.states[operation.index].name}"
         return f"t{node}"

@@ -1,1 +1,1 @@
-"""C in fixed point, with a bound of the error over the operating box."""
+"""Export to C in fixed point, with an error bound over the operating box."""

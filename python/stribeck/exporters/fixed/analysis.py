@@ -1,7 +1,7 @@
-"""Where every number of a program lies over an operating box, its format, and its error bound.
+"""Range, format and error bound of every number of a program over an operating box.
 
-Ranges are found by interval arithmetic, errors by what each operation adds and passes on. Channels
-count as exact: the bound is for the sample that the controller sees.
+Ranges follow from interval arithmetic, error bounds from the error that each operation adds and
+passes on. Channels are taken as exact: the bound holds for the sample that the controller reads.
 """
 
 from __future__ import annotations
@@ -14,38 +14,41 @@ from typing import NoReturn
 
 import numpy as np
 
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import SpecError, option
 from stribeck.exporters.fixed.functions import FUNCTIONS, Function, Table, power, tabulate
 from stribeck.exporters.program import Operation, Program
 
-#: Cells of a table by the bits of a number.
+#: Cells of a table, by the bits of a number.
 CELLS = {32: 2048, 16: 128}
 
-#: Largest bound of the error that is of use, over the largest torque.
+#: Largest error bound that is accepted, as a share of the largest torque.
 MOST_ERROR = 0.05
 
-#: What is computed beforehand of two numbers that are the same all over the box.
+#: Operations that are evaluated in advance where both operands are constant over the box.
 _EXACTLY: dict[str, Callable[[float, float], float]] = {
-    "add": operator.add, "subtract": operator.sub, "multiply": operator.mul,
-}  # fmt: skip
+    "add": operator.add,
+    "subtract": operator.sub,
+    "multiply": operator.mul,
+}
 
+#: Ranges are widened by this share for the rounding of their own computation.
 _WIDER = 1e-12
 
 
 @dataclass(frozen=True)
 class Number:
-    """What is known of one number of a program.
+    """Range, format and error bound of one number of a program.
 
     Attributes
     ----------
     low, high
-        It lies between these over the box.
+        Range over the box.
     digits
-        Binary digits behind the point: it is a whole number of ``2^-digits``.
+        Binary digits behind the point: the number is a multiple of ``2^-digits``.
     error
-        How far it may be from what it would be without rounding.
+        Bound of the difference from exact arithmetic.
     table
-        Of a function, what it is taken from.
+        For a function, the table that it is read from.
     """
 
     low: float
@@ -56,7 +59,7 @@ class Number:
 
     @property
     def step(self) -> float:
-        """The smallest difference that it shows."""
+        """The smallest difference that the format represents."""
         return math.ldexp(1.0, -self.digits)
 
     @property
@@ -66,7 +69,7 @@ class Number:
 
     @property
     def is_fixed(self) -> bool:
-        """Whether it is the same all over the box."""
+        """Whether the number is constant over the box."""
         return self.low == self.high
 
 
@@ -76,17 +79,19 @@ class Analysis:
     Parameters
     ----------
     values
-        The parameters.
+        Values of the parameters.
     box
-        Sides by channel.
+        Sides by channel, SI units and degC.
     bits
-        Of a number: 32 or 16.
+        Size of a number: 32 or 16.
+    spec
+        The model, as errors name it.
 
     Raises
     ------
     SpecError
-        The program does what has no bound: a memory, a division by a range that holds 0, a choice
-        by a number that is rounded.
+        The error has no bound: the model has a memory, divides by a range that contains 0, or a
+        choice depends on a rounded number.
     """
 
     def __init__(
@@ -108,24 +113,25 @@ class Analysis:
 
     def _stop(self, why: str) -> NoReturn:
         raise SpecError(
-            f"{self.spec} cannot be exported in fixed point: {why}; export it with --precision f32"
+            f"{self.spec} cannot be exported in fixed point: {why}; export it with "
+            f"{option('precision', 'f32')}"
         )
 
     def _digits(self, low: float, high: float) -> int:
-        """As many digits as the range leaves room for; one bit is the sign, one is spare."""
+        """The most digits that the range allows; one bit is the sign, one is spare."""
         size = max(abs(low), abs(high))
         return 0 if size == 0.0 else self.bits - 2 - math.ceil(math.log2(size) + 1e-9)
 
     def _rounded(self, low: float, high: float, error: float, most: int | None = None) -> Number:
-        """A result that is rounded to its format, by less than one step."""
+        """A result that is rounded to its format, with an error of less than one step."""
         if not (math.isfinite(low) and math.isfinite(high)):
-            self._stop("a number in it has no bound over the box")
+            self._stop("one of its numbers has no bound over the box")
         digits = self._digits(low - error, high + error)
         digits = digits if most is None else min(digits, most)
         return Number(low, high, digits, error + math.ldexp(1.0, -digits))
 
     def _of(self, node: int) -> Number:
-        """What is known of a node; of a choice that is certain, only the way that is taken."""
+        """The number of a node; where a choice is certain, only the chosen node is analysed."""
         if node not in self.numbers:
             self.numbers[node] = self._number(self.program.operations[node])
         return self.numbers[node]
@@ -136,13 +142,13 @@ class Analysis:
         known = [self._of(own) for own in operation.operands]
         match operation.name:
             case "constant":
-                return self._fixed(operation.said)
+                return self._fixed(operation.value)
             case "parameter":
-                return self._fixed(float(self.values[operation.said]))
+                return self._fixed(float(self.values[operation.index]))
             case "time_step":
                 return self._fixed(0.0)
             case "channel":
-                low, high = self.box[operation.said]
+                low, high = self.box[operation.channel]
                 return Number(low, high, self._digits(low, high))
             case "add" | "subtract" | "multiply" | "divide" | "power":
                 return self._binary(operation.name, *known)
@@ -181,7 +187,7 @@ class Analysis:
         if name in ("add", "subtract"):
             other = (y.low, y.high) if name == "add" else (-y.high, -y.low)
             error = x.error + y.error
-            # What has too many digits for the other loses them first.
+            # A number with too many digits for the other one is rounded first.
             aligned = self.aligned(x, y)
             error += math.ldexp(1.0, -aligned) * sum(n.digits > aligned for n in (x, y))
             return self._rounded(*_wider(x.low + other[0], x.high + other[1]), error)
@@ -195,11 +201,11 @@ class Analysis:
         corners = [a / b for a in (x.low, x.high) for b in (y.low, y.high)]
         low, high = _wider(min(corners), max(corners))
         error = (x.error + max(abs(low), abs(high)) * y.error) / least
-        # The numerator is moved up by no more than the bits that a product has beside a number.
+        # A wide number has so many bits more than a number: the numerator is shifted by no more.
         return self._rounded(low, high, error, x.digits - y.digits + self.bits - 1)
 
     def aligned(self, x: Number, y: Number) -> int:
-        """Digits in which a sum is formed."""
+        """Digits behind the point in which two numbers are added."""
         return min(max(x.digits, y.digits), min(x.digits, y.digits) + self.bits - 2)
 
     def _compared(self, name: str, x: Number, y: Number) -> Number:
@@ -211,7 +217,7 @@ class Analysis:
         else:
             certain = (behind, x.high <= y.low)
         if not any(certain) and (x.error or y.error):
-            self._stop("it chooses by a number that is rounded")
+            self._stop("one of its choices depends on a rounded number")
         return Number(float(certain[0]), float(not certain[1]))
 
     def _chosen(self, decides: int, chosen: int, other: int) -> Number:
@@ -229,13 +235,13 @@ class Analysis:
 
     def _sign(self, x: Number) -> Number:
         if x.error and x.low <= 0.0 <= x.high:
-            self._stop("it chooses by a number that is rounded")
+            self._stop("one of its choices depends on a rounded number")
         low, high = float(np.sign(x.low)), float(np.sign(x.high))
         return Number(low, high, self._digits(-1.0, 1.0))
 
     def _power(self, x: Number, p: Number) -> Number:
         if not p.is_fixed:
-            self._stop("an exponent in it varies")
+            self._stop("one of its exponents varies")
         if p.low == 2.0:
             square = self._binary("multiply", x, x)
             low = 0.0 if x.low <= 0.0 <= x.high else square.low
@@ -254,7 +260,7 @@ class Analysis:
         return self._tabulated(FUNCTIONS[name], x)
 
     def _tabulated(self, function: Function, x: Number) -> Number:
-        # An argument that rounding has taken out of its range is put back: that is no further off.
+        # An argument that rounding moved out of its range is clipped, which adds no error.
         low, high = (
             min(max(end, function.settled[0]), function.settled[1]) for end in (x.low, x.high)
         )
@@ -268,7 +274,7 @@ class Analysis:
         ]
         error = table.deviation + passed_on + max(clipped, default=0.0)
         found = self._rounded(below, above, error)
-        # An entry is rounded, and so is the line between two.
+        # The entries are rounded, and so is the interpolation between two of them.
         return Number(found.low, found.high, found.digits, found.error + 2.0 * found.step, table)
 
 

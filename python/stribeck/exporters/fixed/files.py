@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, get_args
 
 import numpy as np
 
@@ -11,15 +10,13 @@ from stribeck.exporters.about import About
 from stribeck.exporters.c.files import channel_members, wrapped
 from stribeck.exporters.fixed.analysis import Analysis
 from stribeck.exporters.fixed.statements import Statements
+from stribeck.exporters.precision import FixedPrecision
 from stribeck.exporters.program import Program
 from stribeck.exporters.templates import template
+from stribeck.models.channels import ChannelArguments
 from stribeck.passivity.operating_box import operating_box
 
-FixedPrecision = Literal["q31", "q15"]
-
-FIXED: tuple[FixedPrecision, ...] = get_args(FixedPrecision)
-
-#: Rows of a test vector file.
+#: Samples of a test vector file.
 ROWS = 500
 
 
@@ -34,7 +31,7 @@ def analyse(
     Raises
     ------
     SpecError
-        A channel without a range, or a model that has no bound.
+        A channel without a range, or a model whose error has no bound.
     """
     model = about.model
     sides = operating_box(model, box)
@@ -78,11 +75,11 @@ def fixed_files(
 
 
 def _place(program: Program, channel: str) -> int:
-    return next(k for k, o in enumerate(program.operations) if o.said == channel)
+    return next(k for k, o in enumerate(program.operations) if o.argument == channel)
 
 
 def _rows(about: About, analysis: Analysis, seed: int) -> Sequence[Sequence[int]]:
-    """Samples anywhere in the box, and the nearest torque, all as whole numbers."""
+    """Random samples in the box and the nearest torque, all as whole numbers."""
     rng = np.random.default_rng(seed)
     program = analysis.program
     given = {}
@@ -90,7 +87,7 @@ def _rows(about: About, analysis: Analysis, seed: int) -> Sequence[Sequence[int]
         number = analysis.numbers[_place(program, channel)]
         low, high = (np.trunc(np.ldexp(x, number.digits)) for x in analysis.box[channel])
         given[channel] = rng.integers(int(low), int(high), ROWS, endpoint=True), number.digits
-    columns: dict[str, Any] = {
+    columns: ChannelArguments = {
         name: np.ldexp(x.astype(np.float64), -digits) for name, (x, digits) in given.items()
     }
     model = about.model.without_effect("delay")

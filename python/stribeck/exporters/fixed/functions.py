@@ -1,8 +1,8 @@
-"""Functions of one number as tables with straight lines between, and how far these are off.
+"""Functions of one number as tables with linear interpolation, and bounds of its error.
 
-Between two entries a distance `h` apart a straight line is off by no more than ``h/4`` times what
-the slope changes by in between if the slope grows or falls throughout, else ``h/2`` times; where
-the slope has no bound, by no more than the function changes. Of a known curvature `c` it is
+Between two entries at a distance `h` the error of linear interpolation is at most ``h/4`` times the
+change of the slope if the slope is monotonic, else ``h/2`` times. Where the slope has no bound the
+error is at most the change of the function. With a second derivative of at most `c` it is at most
 ``c h^2/8``.
 """
 
@@ -19,18 +19,18 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Function:
-    """A function that grows or falls throughout on each side of its `turns`.
+    """A function of an array, with its slope.
 
     Attributes
     ----------
     value, slope
-        Of an array.
+        The function and its derivative.
     turns
-        Where its slope has an extreme.
-    curvature
-        What its second derivative never exceeds; where it is known, no turns are needed.
+        Arguments at which the slope has an extremum; between them it is monotonic.
     settled
-        Outside of this range it is as good as constant.
+        Outside of this range the function is practically constant.
+    curvature
+        Bound of the second derivative; where it is given, no turns are needed.
     """
 
     value: Callable[[Array], Array]
@@ -58,7 +58,7 @@ def _phi_slope(x: Array) -> Array:
     return np.where(np.abs(x) < 1e-3, 0.5 + x / 3.0, (np.exp(safe) - _phi(safe)) / safe)
 
 
-#: Functions by operation; 24 bits are as many as a result of 32 bits shows of an exponential's end.
+#: Functions by operation; below exp(-24) an exponential is smaller than 32 bits resolve.
 FUNCTIONS: dict[str, Function] = {
     "exp": Function(np.exp, np.exp, settled=(-24.0, np.inf)),
     "expm1": Function(np.expm1, np.exp, settled=(-24.0, np.inf)),
@@ -74,22 +74,22 @@ FUNCTIONS: dict[str, Function] = {
 
 
 def power(exponent: float) -> Function:
-    """``x^p`` of numbers that are not negative."""
+    """``x^p`` for x that is not negative."""
     return _root(exponent)
 
 
 @dataclass(frozen=True)
 class Table:
-    """Values at equal distances.
+    """Values of a function at equal distances.
 
     Attributes
     ----------
     start, cell
-        Of the argument, in its smallest steps: entry `k` stands at ``start + k cell``.
+        Arguments in steps of their format: entry `k` is at ``start + k cell``.
     values
-        The function there.
+        The function at the entries.
     deviation
-        How far a straight line between two entries is off at most.
+        Bound of the error of linear interpolation.
     steepness
         The largest slope between two entries.
     """
@@ -102,9 +102,9 @@ class Table:
 
 
 def tabulate(function: Function, low: float, high: float, step: float, cells: int) -> Table:
-    """The table of a function between two arguments, in smallest steps of the argument `step`.
+    """The table of a function from `low` to `high`, with arguments in multiples of `step`.
 
-    A cell is a power of two of steps, so that a place in it needs no division.
+    The number of steps in a cell is a power of two, so that interpolation needs no division.
     """
     first, last = int(np.floor(low / step)), int(np.ceil(high / step))
     cell = 1
@@ -123,7 +123,7 @@ def tabulate(function: Function, low: float, high: float, step: float, cells: in
 
 
 def _deviations(function: Function, x: Array, slopes: Array, h: float) -> Array:
-    """How far a straight line between each two entries is off at most; infinite where unknown."""
+    """Bounds of the interpolation error between entries; infinite where unknown."""
     if function.curvature is not None:
         return np.full(x.size - 1, function.curvature * h * h / 8.0)
     with np.errstate(all="ignore"):

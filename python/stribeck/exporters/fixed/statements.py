@@ -1,4 +1,4 @@
-"""A program's operations as statements of C on whole numbers."""
+"""The operations of a program as statements in C on whole numbers."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from stribeck.exporters.fixed.analysis import Analysis, Number
 
 
 class Statements:
-    """Prints the body of a step, one operation a line, and the tables that it reads.
+    """The body of a step, one operation a line, and the tables that it reads.
 
-    Every shift is a multiplication or division by a power of two: what C says of shifting negative
-    numbers differs between compilers.
+    Shifts are written as multiplications and divisions by powers of two, since the shift of a
+    negative number differs between C compilers.
     """
 
     def __init__(self, analysis: Analysis) -> None:
@@ -35,7 +35,7 @@ class Statements:
         yield f"return {self._number(self.program.torque)};"
 
     def _needed(self) -> set[int]:
-        """What the torque depends on and is not the same all over the box."""
+        """The nodes that the torque depends on and that are not constant over the box."""
         needed: set[int] = set()
         open_ = [self.program.torque]
         while open_:
@@ -63,22 +63,22 @@ class Statements:
         )
 
     def _number(self, node: int) -> str:
-        """A number, in its own format."""
+        """A node in its own format."""
         operation, number = self.program.operations[node], self._known(node)
         if self.program.is_mask(node):
             return str(bool(number.low)).lower() if number.is_fixed else f"t{node}"
         if number.is_fixed:
             return f"(({self.word}){self._literal(round(math.ldexp(number.low, number.digits)))})"
-        return f"sample->{operation.said}" if operation.name == "channel" else f"t{node}"
+        return f"sample->{operation.channel}" if operation.name == "channel" else f"t{node}"
 
     def _moved(self, text: str, by: int) -> str:
-        """A wide number with as many digits more, or fewer."""
+        """A wide number with `by` more digits behind the point, or fewer."""
         if by == 0:
             return text
         return f"({text} {'*' if by > 0 else '/'} {self._literal(2 ** abs(by))})"
 
     def _in(self, node: int, digits: int) -> str:
-        """A number with so many digits, as a wide one."""
+        """A node as a wide number with so many digits behind the point."""
         return self._moved(f"({self.wide}){self._number(node)}", digits - self._known(node).digits)
 
     def _mask(self, node: int) -> str:
@@ -151,7 +151,8 @@ class Statements:
         rows = [", ".join(str(x) for x in entries[k : k + 10]) for k in range(0, entries.size, 10)]
         self.tables.append(
             f"static const {self.word} table_{node}[{entries.size}] = {{\n    "
-            + ",\n    ".join(rows) + "\n};"
-        )  # fmt: skip
+            + ",\n    ".join(rows)
+            + "\n};"
+        )
         given = f"({self.wide}){self._number(operand)} - {self._literal(table.start)}"
         return f"between(table_{node}, {entries.size}, {self._literal(table.cell)}, {given})"

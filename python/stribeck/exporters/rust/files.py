@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from stribeck.exporters.about import About
-from stribeck.exporters.c.number import Precision
+from stribeck.exporters.precision import Precision
 from stribeck.exporters.program import Program
 from stribeck.exporters.templates import template
 from stribeck.exporters.vectors import Vectors
