@@ -34,7 +34,7 @@ def test_the_header_says_where_the_model_is_from(model_file: str, tmp_path: Path
     names = [Path(path).name for path in answer["files"]]
     assert names == ["shoulder.h", "shoulder.c", "shoulder_vectors.h", "shoulder_test.c"]
     header = (tmp_path / "out" / "shoulder.h").read_text()
-    for said in ("day_1.csv, 4000 rows", "RMSE: 0.031 N m", "Passive: yes", "velocity -3 .. 3"):
+    for said in ("day_1.csv, 4000 samples", "RMSE: 0.031 N m", "Passive: yes", "velocity -3 .. 3"):
         assert said in header
     assert "double viscous_friction; /* a1 [N m s/rad]" in header
 
@@ -75,7 +75,7 @@ def test_a_model_without_values_is_refused(tmp_path: Path) -> None:
 def test_a_folder_that_cannot_be_made_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     model = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
-    with pytest.raises(sb.ModelFileError, match="cannot make the folder"):
+    with pytest.raises(sb.ModelFileError, match="cannot create the folder"):
         sb.export(model, "c", tmp_path / "file")
 
 
