@@ -22,7 +22,7 @@ from stribeck.identify.reduced import ReducedProblem
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.motion.generate.files import write_robot
 from stribeck.motion.generate.ur5e import RobotRecording
-from stribeck.report.figures import AFTER, BEFORE, new_figure, style, title
+from stribeck.report.style import AFTER, BEFORE, new_figure, style, title
 
 Array = NDArray[np.float64]
 

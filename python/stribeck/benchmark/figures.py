@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from stribeck.benchmark.score import Confusion, Reliability
-from stribeck.report.figures import AFTER, BEFORE, DPI, MEASURED
+from stribeck.report.style import AFTER, BEFORE, DPI, MEASURED
 
 #: From no answer to all answers of a row.
 SHADES = LinearSegmentedColormap.from_list("shares", ["#ffffff", AFTER])

@@ -16,7 +16,7 @@ from stribeck.benchmark.score import (
     Score,
     Share,
 )
-from stribeck.report.text import table
+from stribeck.report.layout import table
 
 #: Wrong answers that are listed one by one.
 MOST_LISTED = 40

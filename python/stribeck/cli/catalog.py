@@ -8,7 +8,8 @@ from stribeck.cli.common import echo_json, json_option, recording_options, say, 
 from stribeck.diagnosis.inspect import inspect as inspect_file
 from stribeck.models.catalog import catalog
 from stribeck.recording.options import ReadOptions
-from stribeck.report.text import catalog_text, inspection_text
+from stribeck.report.catalog import catalog_text
+from stribeck.report.inspection import inspection_text
 
 
 @click.command()

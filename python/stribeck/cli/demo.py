@@ -19,17 +19,12 @@ from stribeck.fitting.result import Fit
 from stribeck.motion.generate.demo import DEMO, demo_path, demo_recording
 from stribeck.recording.load import read
 from stribeck.recording.recording import Recording
+from stribeck.report.comparison import worst_places
+from stribeck.report.diagnosis import indistinguishable_sentence, untestable_text
+from stribeck.report.improvement import improvement_bars, summary_sentence
+from stribeck.report.layout import paragraph, table
 from stribeck.report.numbers import confidence_words, listed, plain
-from stribeck.report.text import (
-    held_out_meaning,
-    improvement_bars,
-    indistinguishable_sentence,
-    paragraph,
-    summary_sentence,
-    table,
-    untestable_text,
-    worst_places,
-)
+from stribeck.report.recording import held_out_meaning
 
 BASE = "coulomb"
 
@@ -86,8 +81,8 @@ def write_report(improvement: Improvement, folder: Path) -> dict[str, str]:
     """Write page, picture and model file; return where they are."""
     # Drawing is slow to import, and the commands above it must not wait for it.
     from stribeck.base.files import save_figure
-    from stribeck.report.figures import improvement_figure
-    from stribeck.report.html import improvement_page
+    from stribeck.report.improvement_figure import improvement_figure
+    from stribeck.report.page import improvement_page
 
     page, picture, model = folder / "report.html", folder / "report.png", folder / "model.toml"
     save_figure(improvement_figure(improvement), picture)

@@ -16,8 +16,8 @@ from stribeck.motion.generate.files import file_bytes, sidecar_text, write_robot
 from stribeck.motion.generate.hidden import generate as make
 from stribeck.motion.generate.motion import JOINTS
 from stribeck.motion.generate.ur5e import RATE, REPEATS, TESTS, RobotRecording
-from stribeck.report.numbers import listed, plain, thousands
-from stribeck.report.text import table, unit_text
+from stribeck.report.layout import table
+from stribeck.report.numbers import listed, plain, thousands, unit_text
 
 #: Options that belong to one of the two kinds of recording.
 OF_A_JOINT = ("effects", "law", "seconds", "noise", "warming", "joint_kind")

@@ -193,7 +193,7 @@ def diagnose(
         )  # fmt: skip
     save_findings(diagnosis.findings, figures)
     if report is not None:
-        from stribeck.report.html import diagnosis_page
+        from stribeck.report.page import diagnosis_page
 
         save_page(diagnosis_page(diagnosis), report)
     if streamed is not None:
@@ -301,7 +301,7 @@ def improve(
         say(f"wrote {picture}")
     save_findings([step.finding for step in improvement.steps], figures)
     if report is not None:
-        from stribeck.report.html import improvement_page
+        from stribeck.report.page import improvement_page
 
         save_page(improvement_page(improvement), report)
     if streamed is not None:

@@ -109,7 +109,7 @@ def diagnose(
     assert made.diagnosis is not None
     save_findings(made.diagnosis.findings, figures)
     if report is not None:
-        from stribeck.report.html import diagnosis_page
+        from stribeck.report.page import diagnosis_page
 
         save_page(diagnosis_page(made.diagnosis), report)
     if as_json:

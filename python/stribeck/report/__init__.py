@@ -9,8 +9,8 @@ from stribeck.base.shown import register
 #: Renderers by class and kind, in modules of this room.
 RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.fitting.result:Fit": {
-        "text": "text:fit_text",
-        "figure": "figures:fit_figure",
+        "text": "fit:fit_text",
+        "figure": "fit:fit_figure",
         "notebook": "notebook:frame",
     },
     "stribeck.fitting.methods.arm:ArmFit": {
@@ -23,48 +23,50 @@ RENDERERS: dict[str, dict[str, str]] = {
     },
     "stribeck.passivity.certificate:Certificate": {"text": "certificate:certificate_text"},
     "stribeck.diagnosis.compare:Comparison": {
-        "text": "text:comparison_text",
-        "figure": "figures:comparison_figure",
+        "text": "comparison:comparison_text",
+        "figure": "comparison:comparison_figure",
         "notebook": "notebook:frame",
     },
     "stribeck.diagnosis.result:Finding": {
-        "text": "text:finding_text",
+        "text": "diagnosis:finding_text",
         "figure": "finding:finding_figure",
     },
     "stribeck.diagnosis.result:Diagnosis": {
-        "text": "text:diagnosis_text",
-        "figure": "figures:diagnosis_figure",
+        "text": "diagnosis:diagnosis_text",
+        "figure": "diagnosis:diagnosis_figure",
     },
-    "stribeck.diagnosis.improve:Addition": {"text": "text:addition_text"},
+    "stribeck.diagnosis.improve:Addition": {"text": "improvement:addition_text"},
     "stribeck.diagnosis.improve:Improvement": {
-        "text": "text:improvement_text",
-        "figure": "figures:improvement_figure",
+        "text": "improvement:improvement_text",
+        "figure": "improvement_figure:improvement_figure",
     },
     "stribeck.motion.simulate.result:Simulation": {
         "text": "simulation:simulation_text",
-        "figure": "simulation_figure:simulation_figure",
+        "figure": "simulation:simulation_figure",
     },
     "stribeck.motion.simulate.validation:Validation": {
         "text": "simulation:validation_text",
-        "figure": "simulation_figure:validation_figure",
+        "figure": "simulation:validation_figure",
     },
     "stribeck.motion.compensate.tracking:Tracking": {
         "text": "compensation:tracking_text",
-        "figure": "compensation_figure:tracking_figure",
+        "figure": "compensation:tracking_figure",
     },
     "stribeck.motion.compensate.factor:Factor": {"text": "compensation:factor_text"},
     "stribeck.motion.compensate.teaching:Teaching": {"text": "compensation:teaching_text"},
     "stribeck.motion.design.result:Plan": {
         "text": "design:plan_text",
-        "figure": "design_figure:plan_figure",
+        "figure": "design:plan_figure",
     },
     "stribeck.scale.streaming.result:StreamedFit": {
-        "text": "streaming:fit_text",
+        "text": "streaming:streamed_fit_text",
         "notebook": "notebook:frame",
     },
-    "stribeck.scale.streaming.diagnosis:StreamedDiagnosis": {"text": "streaming:diagnosis_text"},
+    "stribeck.scale.streaming.diagnosis:StreamedDiagnosis": {
+        "text": "streaming:streamed_diagnosis_text"
+    },
     "stribeck.scale.streaming.improvement:StreamedImprovement": {
-        "text": "streaming:improvement_text",
+        "text": "streaming:streamed_improvement_text",
     },
     "stribeck.scale.study.result:Study": {
         "text": "study:study_text",
@@ -78,11 +80,11 @@ RENDERERS: dict[str, dict[str, str]] = {
     },
     "stribeck.projects.project:Project": {
         "text": "project:project_text",
-        "figure": "figures:project_figure",
+        "figure": "project:project_figure",
     },
     "stribeck.projects.sides:Sides": {
         "text": "project:sides_text",
-        "figure": "figures:sides_figure",
+        "figure": "project:sides_figure",
     },
 }
 

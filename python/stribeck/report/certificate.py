@@ -1,16 +1,20 @@
-"""A check of passivity in words."""
+"""A check of passivity as text."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
-from stribeck.passivity.certificate import MEANING, Certificate, Counterexample, Margin
+from stribeck.passivity.certificate import MEANING
+from stribeck.report.numbers import listed
+
+if TYPE_CHECKING:
+    from stribeck.passivity.certificate import Certificate, Counterexample, Margin
 
 #: Units of a box's sides other than those of the joint.
 UNITS = {"temperature": "degC", "time": "s"}
 
-
-#: Torques below are what viscous friction leaves next to rest.
+#: Smaller torques than this are those of viscous friction next to rest: zero.
 REST = 1e-20
 
 
@@ -22,14 +26,15 @@ def certificate_text(certificate: Certificate) -> str:
     unit = certificate.friction.torque_unit
     shown = [m for m in certificate.margins if m.lower is not None]
     if shown:
-        lines.append("  Conditions, and bounds of their margins over the whole box:")
+        lines.append("  Conditions, with proved bounds of their margins over the whole box:")
         lines += [f"    {_bound(m, unit):>12}  {MEANING[m.condition]}" for m in shown]
     if certificate.passive and certificate.condition in ("storage", "cycle", "elements"):
-        lines.append(f"  The proof rests on: {MEANING[certificate.condition]}.")
+        lines.append(f"  The proof uses this condition: {MEANING[certificate.condition]}.")
     if certificate.left_out:
         lines.append(
-            f"  It is about the friction, {certificate.friction.spec}; "
-            f"{', '.join(certificate.left_out)} is left out, being none."
+            f"  Only the friction {certificate.friction.spec} was checked; "
+            f"{listed(certificate.left_out)} {'is' if len(certificate.left_out) == 1 else 'are'} "
+            f"not friction."
         )
     return "\n".join(lines)
 
@@ -52,27 +57,27 @@ def _box(certificate: Certificate) -> str:
 
 def _unit(certificate: Certificate, channel: str) -> str:
     position = certificate.friction.position_unit
-    torque = certificate.friction.torque_unit
-    joint = {
-        "velocity": f"{position}/s", "position": position, "acceleration": f"{position}/s2",
-    }  # fmt: skip
-    return {**joint, **UNITS}.get(channel, torque)
+    units = {
+        "velocity": f"{position}/s",
+        "position": position,
+        "acceleration": f"{position}/s2",
+        **UNITS,
+    }
+    return units.get(channel, certificate.friction.torque_unit)
 
 
 def _motion(example: Counterexample) -> list[str]:
     unit = example.friction.position_unit
-    if example.deflection is None:
-        start = "Energy comes out of"
-    else:
-        start = (
-            f"With the bristle deflected by {example.deflection:.6g} {unit}, energy comes out of"
-        )
-    steps = [f"    {_step(step, unit)}" for step in example.steps]
-    returned = "" if example.kind == "operating point" else " and the bristle is where it was"
+    start = f"This {example.kind} generates energy"
+    if example.deflection is not None:
+        start += f", from a bristle deflection of {example.deflection:.6g} {unit}"
+    returned = ""
+    if example.kind != "operating point":
+        returned = "; the bristle returns to where it was"
     return [
-        f"  {start} this {example.kind}:",
-        *steps,
-        f"  Net work {example.net_work:.3g} J by the model's exact step{returned}.",
+        f"  {start}:",
+        *(f"    {_step(step, unit)}" for step in example.steps),
+        f"  Net work {example.net_work:.3g} J, by the model's exact step{returned}.",
     ]
 
 
@@ -87,9 +92,9 @@ def _step(step: Mapping[str, float], unit: str) -> str:
 
 
 def _bound(margin: Margin, unit: str) -> str:
-    """The least margin where the condition holds, else how far it is broken."""
+    """The smallest margin where the condition holds, else by how much it is violated."""
     lower = margin.lower or 0.0
     if lower < 0.0:
         return f"{lower:.3g} {unit}"
-    # In viscous friction the least is what is left at the slowest motion.
+    # For viscous friction the smallest margin is that of the slowest motion.
     return f">= {0.0 if lower < REST else lower:.3g} {unit}"

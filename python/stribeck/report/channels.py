@@ -1,4 +1,4 @@
-"""Against what residuals are drawn: channels, and which of them shows an effect."""
+"""The channels that residuals are drawn against, and which of them shows an effect."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Channel:
-    """What a residual is drawn against: one value a row and the axis label."""
+    """What a residual is drawn against: one value a sample and the axis label."""
 
     values: Array
     label: str
@@ -37,7 +37,7 @@ def view_of(effect: str) -> ResidualView:
 
 
 def clock(r: Recording) -> Channel:
-    """Time for drawing, runs one after another; steady-state points stand at their velocity."""
+    """Time for drawing, runs one after another; the velocity for steady-state points."""
     if r.averaged:
         return Channel(r.velocity, f"velocity [{r.position_unit}/s]")
     if r.runs <= 1:
@@ -49,12 +49,12 @@ def clock(r: Recording) -> Channel:
 
 
 def load_of(fit: Fit) -> Array | None:
-    """Load torque of every row, recorded or identified with the friction; None where unknown."""
+    """Load torque of every sample, recorded or identified; None where unknown."""
     return fit.recording.load_torque if fit.recording.load_torque is not None else fit.load
 
 
 def torque_name(unit: str) -> str:
-    """Torque, force or whatever the effort is measured in."""
+    """Torque, force, or effort where the unit is neither N m nor N."""
     return {"N m": "torque", "N": "force"}.get(unit, "effort")
 
 
@@ -106,7 +106,7 @@ def _acceleration_along(fit: Fit) -> Channel | None:
         return None
     return Channel(
         made.values * np.sign(r.velocity),
-        f"acceleration · sgn v [{r.position_unit}/s²], below 0 it slows down",
+        f"acceleration · sgn v [{r.position_unit}/s²], below 0: decelerating",
     )
 
 
@@ -122,7 +122,7 @@ def _load(fit: Fit) -> Channel | None:
 
 def _load_size(fit: Fit) -> Channel | None:
     load, unit = load_of(fit), fit.model.load_unit
-    return None if load is None else Channel(np.abs(load), f"size of the load [{unit}]")
+    return None if load is None else Channel(np.abs(load), f"load magnitude [{unit}]")
 
 
 def _load_along(fit: Fit) -> Channel | None:
@@ -130,7 +130,7 @@ def _load_along(fit: Fit) -> Channel | None:
     if load is None:
         return None
     return Channel(
-        load * np.sign(fit.recording.velocity), f"load · sgn v [{unit}], below 0 the load drives"
+        load * np.sign(fit.recording.velocity), f"load · sgn v [{unit}], below 0: the load drives"
     )
 
 
@@ -159,11 +159,11 @@ def _reversal(fit: Fit) -> Channel | None:
     if r.averaged:
         return None
     way = np.asarray(displacement_since_reversal(r), dtype=np.float64)
-    return Channel(way, f"way since the last reversal [{r.position_unit}]")
+    return Channel(way, f"displacement since the last reversal [{r.position_unit}]")
 
 
 def _load_reversal(fit: Fit) -> Channel | None:
-    """Way moved since the load last changed its sign."""
+    """Displacement since the load last changed its sign."""
     r, load = fit.recording, load_of(fit)
     if load is None or r.averaged:
         return None
@@ -171,7 +171,9 @@ def _load_reversal(fit: Fit) -> Channel | None:
     began = np.concatenate([[True], np.diff(np.sign(load)) != 0]) | (r.dt <= 0)
     start = np.maximum.accumulate(np.where(began, np.arange(load.size), 0))
     way = np.cumsum(steps)
-    return Channel(way - way[start], f"way since the load changed its sign [{r.position_unit}]")
+    return Channel(
+        way - way[start], f"displacement since the load changed sign [{r.position_unit}]"
+    )
 
 
 _CHANNELS: dict[str, Callable[[Fit], Channel | None]] = {

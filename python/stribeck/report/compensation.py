@@ -1,73 +1,104 @@
-"""Compensation in words and tables."""
+"""Friction compensation: text and figure."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from stribeck.report.channels import torque_name
+from stribeck.report.layout import joined, paragraph, table
+from stribeck.report.numbers import DASH, MINUS, listed
+from stribeck.report.style import COLOURS, MEASURED, new_figure, strided, style, title
+
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from stribeck.motion.compensate.factor import Factor
     from stribeck.motion.compensate.teaching import Teaching
     from stribeck.motion.compensate.tracking import Tracking
 
 
 def tracking_text(tracking: Tracking) -> str:
-    """How far off the joint was, without compensation and with each."""
+    """The tracking error without compensation and with each."""
     _, unit = tracking.joint.units
     seconds = tracking.desired_position.size * tracking.step
-    width = max(len("compensation"), *(len(motion.name) for motion in tracking.motions))
-    lines = [
-        f"A joint with the friction {tracking.friction.spec}, H-infinity PID, {seconds:g} s:",
-        f"  {'compensation':<{width}}  alpha  from      RMSE ({unit})  largest ({unit})  RMSE by",
-    ]
+    rows = [["compensation", "alpha", "from", f"RMSE [{unit}]", f"maximum [{unit}]", "change"]]
     for motion in tracking.motions:
         compensator = motion.compensator
-        alpha, source, change = "-", "-", "-"
+        alpha, source, change = DASH, DASH, DASH
         if compensator is not None:
             alpha = f"{compensator.factor:5.3f}"
             source = "measured" if compensator.feedback else "desired"
-            change = f"{-100.0 * tracking.reduction(motion):+.0f} %"
-        lines.append(
-            f"  {motion.name:<{width}}  {alpha:>5}  {source:<8}  "
-            f"{motion.rmse:>{7 + len(unit)}.3g}  {motion.largest_error:>{10 + len(unit)}.3g}  "
-            f"{change:>7}"
-        )
+            change = f"{-100.0 * tracking.reduction(motion):+.0f} %".replace("-", MINUS)
+        errors = [f"{motion.rmse:.3g}", f"{motion.largest_error:.3g}"]
+        rows.append([motion.name, alpha, source, *errors, change])
+    observer = ""
     if tracking.observer is not None:
-        lines.append(
-            f"  with an observer of {tracking.observer:g} Hz for the friction that is left"
+        observer = paragraph(
+            f"With a disturbance observer of {tracking.observer:g} Hz for the remaining friction."
         )
-    return "\n".join(lines)
+    return joined(
+        f"Tracking error of a joint with friction {tracking.friction.spec}, H-infinity PID, "
+        f"{seconds:g} s:",
+        table(rows, right=(1, 3, 4, 5)),
+        observer,
+    )
 
 
 def teaching_text(teaching: Teaching) -> str:
-    """What the hand had to give."""
+    """The torque that the hand had to apply."""
     unit, _ = teaching.joint.units
-    width = max(len("compensation"), *(len(motion.name) for motion in teaching.motions))
-    lines = [
-        f"A hand guides a joint with the friction {teaching.friction.spec}:",
-        f"  {'compensation':<{width}}  alpha  hand, RMS ({unit})  largest ({unit})  "
-        f"exceeds friction",
+    rows = [
+        ["compensation", "alpha", f"hand, RMS [{unit}]", f"maximum [{unit}]", "overcompensated"]
     ]
     for motion in teaching.motions:
-        alpha = "-" if motion.compensator is None else f"{motion.compensator.factor:5.3f}"
+        alpha = DASH if motion.compensator is None else f"{motion.compensator.factor:5.3f}"
         rms, largest = teaching.interaction(motion)
         share = 100.0 * teaching.overcompensated(motion)
-        lines.append(
-            f"  {motion.name:<{width}}  {alpha:>5}  {rms:>{12 + len(unit)}.3g}  "
-            f"{largest:>{10 + len(unit)}.3g}  {share:>7.2g} % of the time"
+        rows.append(
+            [motion.name, alpha, f"{rms:.3g}", f"{largest:.3g}", f"{share:.2g} % of the motion"]
         )
-    return "\n".join(lines)
+    return joined(
+        f"A hand guides a joint with friction {teaching.friction.spec}:",
+        table(rows, right=(1, 2, 3, 4)),
+    )
 
 
 def factor_text(factor: Factor) -> str:
-    """The factor, and what stands in the way of a larger one."""
+    """The factor, and what prevents a larger one."""
     sides = ", ".join(f"{name} {low:g} to {high:g}" for name, (low, high) in factor.box.items())
     lines = [
-        f"Largest factor of {factor.compensator.spec} for {factor.friction.spec}: "
+        f"Largest compensation factor of {factor.compensator.spec} for {factor.friction.spec}: "
         f"{factor.value:.3f}, proved for {sides}."
     ]
     if factor.point is not None and factor.bound < 1.0:
         at = ", ".join(f"{name} {factor.point[name]:.4g}" for name in factor.box)
-        lines.append(f"  More could exceed the friction at {at}.")
+        lines.append(f"  A larger factor could exceed the friction at {at}.")
     if factor.exact:
-        lines.append(f"  Taken as exact, as no error is known: {', '.join(factor.exact)}.")
+        lines.append(f"  Assumed exact, since no standard error is known: {listed(factor.exact)}.")
     return "\n".join(lines)
+
+
+def tracking_figure(tracking: Tracking) -> Figure:
+    """The desired position, the tracking errors, and friction with its compensation, over time."""
+    torque_unit, position_unit = tracking.joint.units
+    rows = strided(tracking.desired_position.size)
+    time = tracking.step * rows
+    figure = new_figure(9.0, 7.0)
+    top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=(1, 2, 2))
+    top.plot(time, tracking.desired_position[rows], color=MEASURED, lw=1.3)
+    for k, motion in enumerate(tracking.motions):
+        colour = COLOURS[k % len(COLOURS)]
+        middle.plot(time, motion.error[rows], color=colour, lw=1.1, label=motion.name)
+        if motion.compensator is not None:
+            bottom.plot(time, motion.compensation[rows], color=colour, lw=1.1, label=motion.name)
+    friction = tracking.motions[-1].friction_torque[rows]
+    bottom.plot(time, friction, color=MEASURED, lw=0.8, label="friction")
+    title(top, f"Desired position [{position_unit}]")
+    title(middle, f"Tracking error [{position_unit}]")
+    title(bottom, f"Friction and compensation, {torque_name(torque_unit)} [{torque_unit}]")
+    bottom.set_xlabel("time [s]")
+    for axes in (top, middle, bottom):
+        style(axes)
+    for axes in (middle, bottom):
+        axes.legend(loc="upper right", frameon=False, fontsize=9)
+    return figure

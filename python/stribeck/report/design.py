@@ -1,13 +1,16 @@
-"""What `stribeck plan` prints."""
+"""A planned motion: text and figure."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from stribeck.report.numbers import listed, plain
-from stribeck.report.text import notes_text, paragraph, table, unit_text
+from stribeck.report.layout import bullets, joined, notes_text, paragraph, table
+from stribeck.report.numbers import listed, plain, unit_text
+from stribeck.report.style import AFTER, BEFORE, headline, new_figure, style
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from stribeck.motion.design.result import Plan, Prospect, Size
 
 
@@ -15,35 +18,39 @@ def plan_text(plan: Plan) -> str:
     """A plan at a glance: the motion, what it shows, what it cannot do."""
     limits, unit = plan.limits, plan.model.position_unit
     effects = [row.effect for row in plan.prospects]
-    parts = [
-        paragraph(
-            f"A motion of {plain(plan.duration)} s that shows {listed(effects)} beside "
-            f"{plan.model.spec}: {plan.kind}, within {plain(limits.low)} .. {plain(limits.high)} "
-            f"{unit}, {plain(limits.speed)} {unit}/s and {plain(limits.acceleration)} {unit}/s2.",
-            0,
-        ),
-        "The smallest effect that a diagnosis sees 19 times in 20, by size and by torque (RMS):",
+    motion = (
+        f"A motion of {plain(plan.duration)} s to test {listed(effects)} with the model "
+        f"{plan.model.spec}: {plan.kind}, position {plain(limits.low)} to {plain(limits.high)} "
+        f"{unit}, speed up to {plain(limits.speed)} {unit}/s, acceleration up to "
+        f"{plain(limits.acceleration)} {unit}/s2."
+    )
+    smallest = (
+        "Smallest effect that a diagnosis finds 19 times in 20, as the value of its parameter and "
+        "as torque (RMS):"
+    )
+    return joined(
+        paragraph(motion, 0),
+        paragraph(smallest, 0),
         table(_rows(plan), right=(2, 3, 4)),
-    ]
-    parts += [_cosines(plan)] if plan.cosines else []
-    advice: dict[str, list[str]] = {row.advice: [] for row in plan.prospects if row.advice}
+        _cosines(plan),
+        bullets("What this motion cannot do:", _advice(plan)),
+        notes_text(plan.notes),
+    )
+
+
+def _advice(plan: Plan) -> list[str]:
+    """What cannot be done, effects with the same advice together."""
+    effects: dict[str, list[str]] = {}
     for row in plan.prospects:
         if row.advice:
-            advice[row.advice].append(row.effect)
-    if advice:
-        lines = ["What this motion cannot do:"]
-        lines += [paragraph(f"• {listed(names)}: {text}.", 2, 2) for text, names in advice.items()]
-        parts.append("\n".join(lines))
-    parts.append(notes_text(plan.notes))
-    return "\n\n".join(part for part in parts if part)
+            effects.setdefault(row.advice, []).append(row.effect)
+    return [f"{listed(names)}: {text}." for text, names in effects.items()]
 
 
 def _rows(plan: Plan) -> list[list[str]]:
     head = ["effect", "parameter", "on this data", "planned", "gain"]
-    rows = [_row(row, plan.model.torque_unit) for row in plan.prospects]
-    if plan.source is None:
-        return [[r[0], r[1], r[3]] for r in [head, *rows]]
-    return [head, *rows]
+    rows = [head, *(_row(row, plan.model.torque_unit) for row in plan.prospects)]
+    return rows if plan.source is not None else [[r[0], r[1], r[3]] for r in rows]
 
 
 def _row(row: Prospect, torque_unit: str) -> list[str]:
@@ -58,13 +65,37 @@ def _size(size: Size | None, unit: str, torque_unit: str) -> str:
     if size is None:
         return ""
     if size.value is None or size.rms is None:
-        return "at no size"
+        return "cannot be tested"
     return f"{plain(size.value, 2)}{unit} ({plain(size.rms, 2)} {torque_unit})"
 
 
 def _cosines(plan: Plan) -> str:
-    lines = ["How alike they look beside the model (0 not at all, 1 the same):"]
-    for pair, (before, after) in plan.cosines.items():
-        here = "" if before is None else f"{before:.3f} on this data, "
-        lines.append(f"  • {listed(pair)}: {here}{after:.3f} planned.")
-    return "\n".join(lines)
+    return bullets(
+        "Similarity of effects (0: none, 1: indistinguishable):",
+        [
+            f"{listed(pair)}: {'' if before is None else f'{before:.3f} on this data, '}"
+            f"{after:.3f} planned."
+            for pair, (before, after) in plan.cosines.items()
+        ],
+    )
+
+
+def plan_figure(plan: Plan) -> Figure:
+    """Position, velocity and acceleration over time, each with its limits."""
+    m, limits, unit = plan.motion, plan.limits, plan.model.position_unit
+    figure = new_figure(9.0, 6.5)
+    panels = (
+        (f"position [{unit}]", m.position, (limits.low, limits.high)),
+        (f"velocity [{unit}/s]", m.velocity, (-limits.speed, limits.speed)),
+        (f"acceleration [{unit}/s²]", m.acceleration, (-limits.acceleration, limits.acceleration)),
+    )
+    for axes, (label, values, ends) in zip(figure.subplots(3, 1, sharex=True), panels, strict=True):
+        style(axes)
+        axes.plot(m.time, values, color=AFTER, linewidth=1.0)
+        for end in ends:
+            axes.axhline(end, color=BEFORE, linewidth=0.9, linestyle="--")
+        axes.set_ylabel(label)
+    axes.set_xlabel("time [s]")
+    effects = listed([row.effect for row in plan.prospects])
+    headline(figure, f"{plan.kind} to test {effects}; limits dashed", 11)
+    return figure

@@ -6,50 +6,52 @@ import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.compare import REVERSAL_WINDOW, regime_rows
 from stribeck.models.catalog import catalog
 from stribeck.report.channels import channel, clock, load_of, view_of
-from stribeck.report.figures import (
+from stribeck.report.numbers import change_text, plain
+from stribeck.report.style import (
     AFTER,
     BEFORE,
     binned_quartiles,
     dots,
+    headline,
     limits,
     new_figure,
     style,
     thin,
+    zero_line,
 )
-from stribeck.report.numbers import change_text, plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from stribeck.diagnosis.result import Finding
     from stribeck.fitting.result import Fit
 
-#: How the residual is called by what it is taken along.
+#: What the residual is multiplied by, as its label says.
 ALONG = {None: "", "motion": " · sgn v", "load": " · sgn load"}
-#: How the rows that are drawn are called, where it is not all of them.
+#: Which samples are drawn, where it is not all of them.
 REGIMES = {
-    "low_speed": "the slowest quarter",
-    "high_speed": "the fastest quarter",
-    "sliding": f"more than {REVERSAL_WINDOW} s from a reversal",
+    "low_speed": "slowest quarter of the samples",
+    "high_speed": "fastest quarter of the samples",
+    "sliding": f"samples more than {REVERSAL_WINDOW} s from a reversal",
 }
 
 
 def finding_figure(finding: Finding, *, headed: bool = True) -> Figure:
-    """What a finding rests on: the residual without and with the effect, binned.
+    """The residual without and with the effect, in bins of the channel in which it shows.
 
-    Lines are medians, bands hold the middle half of the rows. The residual is that of the rows
-    that are fitted to; what no bin can be made of is drawn row by row.
+    Lines are medians, bands hold the middle half of the samples. Only the samples that were fitted
+    to are drawn, one by one where they are too few for bins.
 
     Parameters
     ----------
     headed : bool
-        Whether the effect's title and the sentence that says where the data shows it stand above.
+        Whether the title of the effect and the sentence on where it shows stand above.
     """
     effect = finding.effect
     figure = new_figure(7.6, 5.0)
@@ -57,12 +59,17 @@ def finding_figure(finding: Finding, *, headed: bool = True) -> Figure:
     style(axes)
     finding_panel(axes, effect, finding.before, finding.fit)
     if headed:
-        figure.suptitle(_headline(finding), fontsize=10.5, x=0.01, ha="left")
+        headline(figure, _headline(finding), 10.5)
     _name_errors(axes, finding)
     figure.legend(
-        *axes.get_legend_handles_labels(), loc="outside lower center", ncols=2, frameon=False,
-        fontsize=9, title=panel_legend(effect), title_fontsize=8.5,
-    )  # fmt: skip
+        *axes.get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=2,
+        frameon=False,
+        fontsize=9,
+        title=panel_legend(effect),
+        title_fontsize=8.5,
+    )
     return figure
 
 
@@ -75,7 +82,7 @@ def _headline(finding: Finding) -> str:
 
 
 def _name_errors(axes: Axes, finding: Finding) -> None:
-    """Say in the legend what is left without and with the effect, on data not seen."""
+    """Put the held-out errors without and with the effect into the legend."""
     before, after = finding.rmse_held_out_before, finding.rmse_held_out_after
     unit = finding.fit.model.torque_unit
     texts = {
@@ -96,14 +103,14 @@ def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
     rows = _rows(before, view.regime)
     sign = _sign(after, along)
     x = made.values[rows]
-    residuals = [(fit.residual * sign)[rows] for fit in (before, after)]
-    axes.axhline(0.0, color="#999999", linewidth=0.8)
+    zero_line(axes)
     shown = []
-    for y, colour, label in zip(residuals, (BEFORE, AFTER), ("without", "with"), strict=True):
+    for fit, colour, label in ((before, BEFORE, "without"), (after, AFTER, "with")):
+        y = (fit.residual * sign)[rows]
         at, lower, median, upper = binned_quartiles(x, y, log=view.log)
         if at.size == 0:
             some = thin(np.arange(x.size))
-            axes.plot(x[some], y[some], color=colour, label=label, **dots(some.size))
+            dots(axes, x[some], y[some], colour, label)
             shown.append(y)
             continue
         axes.fill_between(at, lower, upper, color=colour, alpha=0.2, linewidth=0)
@@ -119,15 +126,14 @@ def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
 def panel_legend(effect: str) -> str:
     """How a panel is to be read, in one or two lines."""
     view = view_of(effect)
-    lines = ["line: median, band: middle half"]
-    notes = ["above 0: too little friction"] if view.along == "motion" else []
+    notes = ["above 0: the model has too little friction"] if view.along == "motion" else []
     if view.regime is not None:
         notes.append(REGIMES[view.regime])
-    return "\n".join([*lines, "; ".join(notes)] if notes else lines)
+    return "\n".join(["line: median, band: middle half", *(["; ".join(notes)] if notes else [])])
 
 
 def _sign(fit: Fit, along: str | None) -> NDArray[np.float64]:
-    """What the residual is multiplied by, every row."""
+    """What the residual is multiplied by, [n]."""
     if along is None:
         return np.ones_like(fit.residual)
     load = load_of(fit) if along == "load" else None
@@ -135,7 +141,7 @@ def _sign(fit: Fit, along: str | None) -> NDArray[np.float64]:
 
 
 def _rows(fit: Fit, regime: str | None) -> NDArray[np.intp]:
-    """The rows fitted to, or those of them in a regime."""
+    """The samples that were fitted to, or those of them in a regime."""
     if regime is None:
         return fit.rows
     regimes = regime_rows(fit)

@@ -1,4 +1,4 @@
-"""What `stribeck fleet` prints: what was done, which joints changed, which stand out."""
+"""A fleet as text: what was done, which joints changed, which differ from their peers."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.report.layout import joined, paragraph, table
 from stribeck.report.numbers import (
     DASH,
     MINUS,
@@ -14,9 +15,9 @@ from stribeck.report.numbers import (
     percent,
     plain,
     thousands,
+    unit_text,
     with_error,
 )
-from stribeck.report.text import paragraph, table, unit_text
 
 if TYPE_CHECKING:
     from stribeck.scale.fleet.changes import Change, Changes, JointChange
@@ -26,19 +27,20 @@ if TYPE_CHECKING:
 #: Rows of a table before it says how many more there are.
 MOST_ROWS = 20
 PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
+CHANGED = "Which joints have changed"
+ODD = "Which joints have an effect that their peers lack"
 
 
 def fleet_text(fleet: Fleet) -> str:
     """The whole answer."""
-    parts = [
+    return joined(
         heading(fleet),
-        "Which joints have changed\n\n" + _changes(fleet.changes),
-        "Which have an effect that the others lack\n\n" + _effects(fleet.effects),
+        f"{CHANGED}\n\n{_changes(fleet.changes)}",
+        f"{ODD}\n\n{_effects(fleet.effects)}",
         "\n".join(paragraph(f"Note: {note}.", 0, 2) for note in fleet.reading_notes()),
         _failures(fleet.failures),
-        f"Every joint and day is in {fleet.to_dict()['output']}",
-    ]
-    return "\n\n".join(part for part in parts if part)
+        f"The results of every joint and day are in {fleet.to_dict()['output']}",
+    )
 
 
 def heading(fleet: Fleet) -> str:
@@ -48,7 +50,7 @@ def heading(fleet: Fleet) -> str:
     return (
         f"{fleet.work.label} on {counted(count['robots'], 'robot')}, "
         f"{counted(count['joints'], 'joint')}, {counted(count['days'], 'day')}: "
-        f"{counted(count['done'], 'task')} done ({thousands(count['new'])} now){failed}"
+        f"{counted(count['done'], 'task')} done ({thousands(count['new'])} in this run){failed}"
     )
 
 
@@ -58,7 +60,7 @@ def counted(count: int, what: str) -> str:
 
 
 def joint_name(robot: str | None, joint: str | None) -> str:
-    """Robot and joint as people say it."""
+    """Robot and joint, as far as they are named."""
     return " ".join(name for name in (robot, joint) if name) or "unnamed"
 
 
@@ -80,32 +82,34 @@ def _more(count: int, what: str) -> list[str]:
 def changes_sentence(changes: Changes) -> str:
     """What was compared, and how many changed."""
     if changes.why is not None:
-        return f"Cannot be said: {changes.why}."
+        return f"Not known: {changes.why}."
     asked = changes.question
     apart = ""
     if changes.not_compared:
-        apart = f" {counted(changes.not_compared, 'joint')} had no day in one of the periods."
+        apart = f" Not compared, for lack of days: {counted(changes.not_compared, 'joint')}."
     return (
         f"{counted(len(changes.changed), 'joint')} of {thousands(len(changes.joints))} changed by "
-        f"at least {percent(asked.least_change)}: {changes.since} to {changes.newest} against the "
-        f"{asked.history} days before (at most {percent(asked.false_discovery_rate)} of those "
-        f"listed by chance).{apart}"
+        f"at least {percent(asked.least_change)}: {changes.since} to {changes.newest} compared "
+        f"with the {asked.history} days before. False discovery rate: at most "
+        f"{percent(asked.false_discovery_rate)}.{apart}"
     )
 
 
 def change_rows(joints: Sequence[JointChange]) -> list[list[str]]:
     """A heading and a row a joint."""
-    rows = [["joint", "mean friction", "surest of what changed", "before", "after", "days"]]
+    rows = [["joint", "mean friction", "most significant change", "before", "after", "days"]]
     for each in joints:
         change, friction = each.largest, each.friction
         rows.append(
             [
                 joint_name(each.robot, each.joint),
                 DASH if friction is None else relative_text(friction.relative),
-                change.quantity.replace("_", " "), plain(change.before), _after(change),
+                change.quantity.replace("_", " "),
+                plain(change.before),
+                _after(change),
                 f"{each.days_before} + {each.days_after}",
             ]
-        )  # fmt: skip
+        )
     return rows
 
 
@@ -122,10 +126,10 @@ def relative_text(share: float) -> str:
 
 
 def shift_sentences(joints: Sequence[JointChange]) -> list[str]:
-    """Effects that came or went."""
+    """Effects that appeared or disappeared."""
     return [
         f"{joint_name(each.robot, each.joint)}: {shift.effect} found on {shift.before} of "
-        f"{each.days_before} days before, {shift.after} of {each.days_after} since"
+        f"{each.days_before} days before, on {shift.after} of {each.days_after} since"
         for each in joints
         for shift in each.effects
     ]
@@ -139,34 +143,38 @@ def _effects(effects: Effects) -> str:
     shares = share_rows(effects)
     if shares:
         right = range(1, len(shares[0]))
-        lines += ["", "  How many of the joints have an effect:", "", table(shares, right)]
+        lines += ["", "  Joints that have each effect:", "", table(shares, right)]
     return "\n".join(lines)
 
 
 def effects_sentence(effects: Effects) -> str:
-    """How many effects stand out."""
+    """How many joints have an effect that their peers lack."""
     if effects.why is not None:
-        return f"Cannot be said: {effects.why}."
+        return f"Not known: {effects.why}."
     if not effects.odd:
-        return "None: no effect was found at a few joints only."
+        return "None: no effect is limited to a few joints."
     joints = len({(each.robot, each.joint) for each in effects.odd})
+    its = "its" if joints == 1 else "their"
     return (
-        f"{counted(joints, 'joint')}, found on most of {'its' if joints == 1 else 'their'} days, "
-        f"against the same joint of other robots."
+        f"{counted(joints, 'joint')}. The effect was found on most of {its} days, but not on the "
+        f"same joint of most other robots."
     )
 
 
 def odd_rows(odd: Sequence[JointEffect]) -> list[list[str]]:
     """A heading and a row for each joint and effect that its peers lack."""
-    rows = [["joint", "effect", "days", "peers with it", "confidence", "cannot be told from"]]
+    rows = [["joint", "effect", "days", "peers with it", "confidence", "indistinguishable from"]]
     for each in odd:
         rows.append(
             [
-                joint_name(each.robot, each.joint), each.effect,
-                f"{each.days_found} of {each.days}", f"{each.peers_with} of {each.peers}",
-                confidence_text(each.confidence), listed(each.tied) or DASH,
+                joint_name(each.robot, each.joint),
+                each.effect,
+                f"{each.days_found} of {each.days}",
+                f"{each.peers_with} of {each.peers}",
+                confidence_text(each.confidence),
+                listed(each.tied) or DASH,
             ]
-        )  # fmt: skip
+        )
     return rows
 
 
@@ -181,10 +189,10 @@ def share_rows(effects: Effects) -> list[list[str]]:
 
 
 def _failures(failures: Sequence[Failure]) -> str:
-    """What gave no answer, and why."""
+    """Tasks without a result, and why."""
     if not failures:
         return ""
-    lines = [f"Without an answer ({counted(len(failures), 'task')}), skipped:", ""]
+    lines = [f"Without a result ({counted(len(failures), 'task')}):", ""]
     lines += [paragraph(said, hang=2) for said in failure_sentences(failures[:MOST_ROWS])]
     return "\n".join([*lines, *_more(len(failures), "tasks")])
 

@@ -1,4 +1,4 @@
-"""The picture of a fleet: how much each joint's friction changed, and who has which effect."""
+"""The figure of a fleet: the change of each joint's friction, and which joint has which effect."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stribeck.report.figures import AFTER, BEFORE, MEASURED, new_figure, style, title
 from stribeck.report.fleet import changes_sentence, joint_name
 from stribeck.report.numbers import percent
+from stribeck.report.style import AFTER, BEFORE, MEASURED, new_figure, style, title
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,9 +44,16 @@ def _draw_changes(axes: Axes, changes: Changes) -> None:
     if not drawn:
         axes.set_axis_off()
         axes.text(
-            0.5, 0.5, changes_sentence(changes), ha="center", va="center", wrap=True, fontsize=10,
-            color=MEASURED, transform=axes.transAxes,
-        )  # fmt: skip
+            0.5,
+            0.5,
+            changes_sentence(changes),
+            ha="center",
+            va="center",
+            wrap=True,
+            fontsize=10,
+            color=MEASURED,
+            transform=axes.transAxes,
+        )
         return
     drawn.sort(key=lambda pair: pair[1].relative)
     shares = np.array([100.0 * change.relative for _, change in drawn])
@@ -54,29 +61,40 @@ def _draw_changes(axes: Axes, changes: Changes) -> None:
     changed = np.array([joint.changed for joint, _ in drawn])
     places = np.arange(shares.size)
     for chosen, colour, label in (
-        (~changed, MEASURED, "within the scatter from day to day"),
+        (~changed, MEASURED, "within the variation from day to day"),
         (changed, BEFORE, "changed"),
     ):
         if chosen.any():
             axes.errorbar(
-                shares[chosen], places[chosen], xerr=errors[chosen], fmt="o", color=colour,
-                markersize=4.0, elinewidth=1.0, label=label,
-            )  # fmt: skip
+                shares[chosen],
+                places[chosen],
+                xerr=errors[chosen],
+                fmt="o",
+                color=colour,
+                markersize=4.0,
+                elinewidth=1.0,
+                label=label,
+            )
     for place in np.flatnonzero(changed)[:MOST_NAMED]:
         joint = drawn[place][0]
         axes.annotate(
-            joint_name(joint.robot, joint.joint), (shares[place], place), xytext=(0, 5),
-            textcoords="offset points", ha="center", fontsize=8.5, color=BEFORE,
-        )  # fmt: skip
+            joint_name(joint.robot, joint.joint),
+            (shares[place], place),
+            xytext=(0, 5),
+            textcoords="offset points",
+            ha="center",
+            fontsize=8.5,
+            color=BEFORE,
+        )
     axes.axvline(0.0, color=MEASURED, linewidth=0.8)
     axes.margins(y=0.12)
     axes.set_yticks([])
-    axes.set_xlabel(f"since {changes.since}, against the days before [%], 95 % intervals")
+    axes.set_xlabel(f"change since {changes.since} [%], with 95 % intervals")
     axes.legend(loc="lower right", frameon=False, fontsize=8.5)
 
 
 def _draw_effects(axes: Axes, effects: Effects) -> None:
-    """Share of the joints of a name that have an effect; who they are, where they are few."""
+    """Share of the joints of a name that have an effect, and the robots that stand out."""
     title(axes, "Share of the joints that have an effect")
     rows = list(dict.fromkeys(share.joint for share in effects.shares))
     columns = list(dict.fromkeys(share.effect for share in effects.shares))
@@ -102,7 +120,7 @@ def _draw_effects(axes: Axes, effects: Effects) -> None:
 
 
 def _cell(share: float, odd: list[JointEffect]) -> str:
-    """The share, and the robots that have what their peers lack."""
+    """The share, and the robots that have an effect that their peers lack."""
     if share == 0.0:
         return ""
     robots = [each.robot or "unnamed" for each in odd]

@@ -1,4 +1,4 @@
-"""A page on a fleet: the picture, every joint that changed, every effect that stands out."""
+"""A page on a fleet: the figure, every joint that changed, every joint that stands out."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from stribeck.report.fleet import (
+    CHANGED,
+    ODD,
     change_rows,
     changes_sentence,
     counted,
@@ -17,7 +19,7 @@ from stribeck.report.fleet import (
     shift_sentences,
 )
 from stribeck.report.fleet_figure import fleet_figure
-from stribeck.report.html import picture_text, render
+from stribeck.report.page import picture_text, render
 
 if TYPE_CHECKING:
     from stribeck.scale.fleet.result import Fleet
@@ -33,26 +35,29 @@ class Section:
 
 
 def fleet_page(fleet: Fleet) -> str:
-    """The whole answer as a page; nothing is left out where there is much."""
+    """The whole answer as a page; no table is shortened."""
     changes, effects = fleet.changes, fleet.effects
     changed = change_rows(changes.changed)
     odd = odd_rows(effects.odd)
     sections = [
         Section(
-            "Which joints have changed",
+            CHANGED,
             [changes_sentence(changes), *shift_sentences(changes.joints)],
             [changed] if len(changed) > 1 else [],
         ),
         Section(
-            "Which have an effect that the others lack",
+            ODD,
             [effects_sentence(effects)],
             [rows for rows in (odd, share_rows(effects)) if len(rows) > 1],
         ),
     ]
     if fleet.failures:
-        title = f"Without an answer ({counted(len(fleet.failures), 'task')})"
+        title = f"Without a result ({counted(len(fleet.failures), 'task')})"
         sections.append(Section(title, failure_sentences(fleet.failures), []))
     return render(
-        "fleet.html", name=f"Fleet {fleet.folder.name}", summary=heading(fleet),
-        picture=picture_text(fleet_figure(fleet)), sections=sections,
-    )  # fmt: skip
+        "fleet.html",
+        name=f"Fleet {fleet.folder.name}",
+        summary=heading(fleet),
+        picture=picture_text(fleet_figure(fleet)),
+        sections=sections,
+    )

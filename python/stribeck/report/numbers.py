@@ -1,4 +1,4 @@
-"""Numbers as people read them: as many digits as the data supports."""
+"""Numbers with as many digits as the data supports."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ import math
 
 MINUS = "\N{MINUS SIGN}"
 DASH = "\N{EN DASH}"
-#: Digits where no error is known.
+#: Digits where no standard error is known.
 PLAIN_DIGITS = 4
 
 
 def plain(value: float, digits: int = 3) -> str:
-    """`value` with significant digits, without exponents for everyday sizes.
+    """`value` with significant digits; an exponent only for very small and very large values.
 
     Examples
     --------
@@ -48,8 +48,27 @@ def with_error(value: float, error: float | None) -> tuple[str, str]:
     return f"{value:.{max(-last, 0)}f}", f"{error:.{max(-last, 0)}f}"
 
 
+def unit_text(unit: str) -> str:
+    """A unit, or a dash for a pure number: a lone 1 reads like a value."""
+    return DASH if unit == "1" else unit
+
+
+def signed(value: float, beside: float) -> str:
+    """`value` with its sign and as many decimals as `plain` shows of `beside`.
+
+    Examples
+    --------
+    >>> signed(0.01234, 0.0456), signed(0.00001, 0.0456)
+    ('+0.0123', '0.0000')
+    """
+    shown = plain(beside)
+    decimals = 9 if "e" in shown else len(shown.partition(".")[2])
+    text = f"{abs(value):.{decimals}f}"
+    return ("+" if value > 0 else MINUS) + text if text.strip("0.") else text
+
+
 def percent(share: float) -> str:
-    """A share as a percentage with two digits, and no false 100 % or 0 %.
+    """A share as a percentage with two digits; 100 % and 0 % only where they are exact.
 
     Examples
     --------
@@ -82,12 +101,12 @@ def confidence_words(confidence: float) -> str:
         0.45: "as likely as not",
         0.05: "possible",
     }
-    words = next((said for least, said in levels.items() if confidence >= least), "hardly")
+    words = next((said for least, said in levels.items() if confidence >= least), "unlikely")
     return f"{words} (confidence {confidence_text(confidence)})"
 
 
 def confidence_text(confidence: float) -> str:
-    """A confidence (0..1) with two digits, and no false 1.
+    """A confidence (0..1) with two digits; never rounded up to 1.
 
     Examples
     --------
@@ -98,14 +117,14 @@ def confidence_text(confidence: float) -> str:
 
 
 def change_text(before: float, after: float) -> str:
-    """How much a number rose or fell, in per cent with its sign."""
+    """The relative change of a number in per cent, with its sign."""
     if not before:
         return ""
     return f"{MINUS if after <= before else '+'}{percent(abs(1.0 - after / before))}"
 
 
 def thousands(count: int) -> str:
-    """A count with a thin gap every three digits.
+    """A count with a space every three digits.
 
     Examples
     --------

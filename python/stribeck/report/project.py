@@ -1,4 +1,4 @@
-"""What the commands print of a project: the tree with its errors, and the node worked on."""
+"""A project as text and figure: the tree of models with their errors, and the current node."""
 
 from __future__ import annotations
 
@@ -8,32 +8,32 @@ from typing import TYPE_CHECKING
 
 from stribeck.diagnosis.trial import TIE
 from stribeck.effect.describe import physically
-from stribeck.report.numbers import DASH, change_text, confidence_words, listed, plain, with_error
-from stribeck.report.text import (
-    BAR,
-    WIDTH,
-    bar,
-    comparison_text,
-    paragraph,
-    parameters_text,
-    table,
+from stribeck.report.comparison import comparison_figure, comparison_text
+from stribeck.report.diagnosis import VERDICTS
+from stribeck.report.layout import BAR, WIDTH, bar, bars_legend, bullets, joined, paragraph, table
+from stribeck.report.numbers import (
+    DASH,
+    change_text,
+    confidence_words,
+    listed,
+    plain,
     unit_text,
+    with_error,
 )
+from stribeck.report.parameters import parameters_text
+from stribeck.report.residual import residual_figure
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from stribeck.projects.findings import Found
     from stribeck.projects.node import Node
     from stribeck.projects.project import Project
     from stribeck.projects.sides import Sides
     from stribeck.projects.tree import Tree
 
-#: What marks the current node.
+#: Marks the current node.
 HERE = "▸"
-VERDICTS = {
-    "missing": "Missing here, best first:",
-    "none": "Nothing is missing here: what the model leaves is noise.",
-    "unexplained": "Something is missing here, but none of the known effects explains it.",
-}
 
 
 def project_text(project: Project) -> str:
@@ -41,17 +41,28 @@ def project_text(project: Project) -> str:
     count = len(project.tree)
     joint = project.source.reading.get("joint")
     of = f"{Path(project.source.path).name}{f', joint {joint}' if joint else ''}"
-    parts = [
+    return joined(
         f"{project.path.name}: {count} model{'s' * (count != 1)} of {of}",
-        "Held-out error of each node, and its change from the one before:\n\n" + tree_text(project),
+        "Held-out error of each node, and its change from the parent node:",
+        tree_text(project),
         rejected_text(project),
         node_text(project),
-    ]
-    return "\n\n".join(part for part in parts if part)
+    )
+
+
+def project_figure(project: Project) -> Figure:
+    """Residual of the base and of the current model against each channel."""
+    numbers = (project.tree.root.number, project.current)
+    return residual_figure([project.fit_of(n) for n in project.tree if n.number in numbers])
+
+
+def sides_figure(sides: Sides) -> Figure:
+    """Residual of both models against each channel."""
+    return comparison_figure(sides.comparison)
 
 
 def _error(node: Node) -> float:
-    """What is drawn of a node: its held-out error, where there is one."""
+    """The held-out error of a node, or its error where there is none."""
     kept = node.kept
     return kept.rmse if kept.rmse_held_out is None else kept.rmse_held_out
 
@@ -59,8 +70,8 @@ def _error(node: Node) -> float:
 def _branches(tree: Tree, number: int, before: str = "") -> list[tuple[Node, str]]:
     """The nodes in the order in which they are drawn, with the lines before their labels.
 
-    A single child stands straight below its parent, as a step of the same branch; several are
-    indented, each a branch.
+    A single child stands directly below its parent, as a step of the same branch; several children
+    are indented, each as a branch.
     """
     node = tree.node(number)
     children = tree.children(number)
@@ -96,39 +107,36 @@ def tree_text(project: Project) -> str:
             f"{unseen}{change}{name}"
         )
     if floor is not None:
-        lines.append(
-            f"{'':{digits + wide + 4}}  ▒ noise floor, {plain(floor)} {unit}   █ error above it"
-        )
+        lines.append(f"{'':{digits + wide + 4}}  {bars_legend(floor, unit)}")
     return "\n".join(line.rstrip() for line in lines)
 
 
 def rejected_text(project: Project) -> str:
-    """Which effects are not tried, and why, node by node."""
-    lines = [
-        paragraph(
-            f"• {effect}, at node {node.number} and after it{f': {why}' if why else ''}.", 2, 2
-        )
-        for node in project.tree
-        for effect, why in node.rejected.items()
-    ]
-    return "\n".join(["Rejected:", *lines]) if lines else ""
+    """The effects that are not tried, and why, node by node."""
+    return bullets(
+        "Rejected:",
+        [
+            f"{effect}, at node {node.number} and below it{f': {why}' if why else ''}."
+            for node in project.tree
+            for effect, why in node.rejected.items()
+        ],
+    )
 
 
 def node_text(project: Project) -> str:
-    """The current node: how it came about, its parameters, and what is known to be missing."""
+    """The current node: what was added, its parameters, and what is known to be missing."""
     node = project.node
     name = f", {node.name!r}" if node.name else ""
-    parts = [
+    return joined(
         f"{HERE} Node {node.number}: {node.kept.model.spec}{name}",
         change_sentence(project, node),
         parameters_text(node.kept.estimates),
         missing_text(project),
-    ]
-    return "\n\n".join(part for part in parts if part)
+    )
 
 
 def change_sentence(project: Project, node: Node) -> str:
-    """What was added or dropped to make a node, what that brought, and how sure it is."""
+    """What was added or dropped to make a node, how sure that is, and how the error changed."""
     if node.found is None or node.parent is None:
         return ""
     parent = project.tree.node(node.parent)
@@ -153,7 +161,7 @@ def _here(found: Found, node: Node) -> list[str]:
     """What an effect is, and where the data shows it."""
     lines = [paragraph(physically(found.effect, node.kept.model))]
     if found.where:
-        lines.append(paragraph(f"Here: {found.where}."))
+        lines.append(paragraph(f"In this data: {found.where}."))
     return lines
 
 
@@ -177,36 +185,33 @@ def missing_text(project: Project) -> str:
         error = (
             "" if found.rmse_held_out is None else f", error → {plain(found.rmse_held_out)} {unit}"
         )
-        ties = f"; cannot be told apart from {listed(found.ties, 'or')}" if found.ties else ""
+        ties = f"; indistinguishable from {listed(found.ties, 'or')}" if found.ties else ""
         lines.append(paragraph(f"• {found.effect}{mark}: {sure}{error}{ties}.", 2, 2))
         lines.append(paragraph(f"{found.where}.", 4))
     if said.left is not None and said.left_where is not None:
-        lines.append(paragraph(f"What is left: {said.left_where}.", 2))
+        lines.append(paragraph(f"Unexplained structure remains: {said.left_where}.", 2))
     return "\n".join(lines)
 
 
 def sides_text(sides: Sides) -> str:
-    """Two nodes side by side: errors, where each fails, parameters, and whether it is chance."""
+    """Two nodes side by side: errors, whether they differ, parameters, and where each fails."""
     first, second = sides.nodes
     better, worse = sides.nodes[sides.better], sides.nodes[1 - sides.better]
     unit = first.kept.model.torque_unit
     statistic = sides.difference.statistic
-    surely = (
-        f"That is {statistic:.1f} standard errors of the difference, more than chance."
-        if statistic > TIE else "That is within chance on this data."
-    )  # fmt: skip
+    significance = "The errors are not significantly different on this data."
+    if statistic > TIE:
+        significance = f"The difference is significant: {statistic:.1f} standard errors."
     verdict = (
-        f"Node {better.number} errs less than node {worse.number} on data not seen, "
-        f"{plain(_error(better))} against {plain(_error(worse))} {unit}. {surely}"
+        f"Node {better.number} has the smaller held-out error, {plain(_error(better))} {unit}; "
+        f"that of node {worse.number} is {plain(_error(worse))} {unit}. {significance}"
     )
-    return "\n\n".join(
-        [
-            f"Node {first.number} ({first.kept.model.spec}) and node {second.number} "
-            f"({second.kept.model.spec})",
-            paragraph(verdict, 0),
-            parameters_beside(first, second),
-            comparison_text(sides.comparison),
-        ]
+    return joined(
+        f"Node {first.number} ({first.kept.model.spec}) and node {second.number} "
+        f"({second.kept.model.spec})",
+        paragraph(verdict, 0),
+        parameters_beside(first, second),
+        comparison_text(sides.comparison),
     )
 
 

@@ -1,4 +1,4 @@
-"""What `stribeck study` prints: the tables of the review, in plain words with units."""
+"""A study as text: the tables of the review, with units."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.report.layout import WIDTH, paragraph, table
 from stribeck.report.numbers import MINUS, listed, plain, thousands
-from stribeck.report.text import WIDTH, paragraph, table
 
 if TYPE_CHECKING:
     from stribeck.fitting.energy import Energy
@@ -41,9 +41,9 @@ def _heading(study: Study) -> str:
 
 
 def spread_text(spread: Spread, digits: int) -> str:
-    """``mean ± standard deviation`` with as many decimals; a dash where there are no rows."""
+    """``mean ± standard deviation`` with `digits` decimals."""
     if spread.rows == 0:
-        return "no rows"
+        return "no samples"
     return f"{_signed(spread.mean, digits)} {PLUS_MINUS} {spread.std:.{digits}f}"
 
 
@@ -64,7 +64,7 @@ def _error_tables(study: Study, each: Table) -> list[str]:
     )
     for title, low in (
         (f"torque error, measured {MINUS} modelled, all speeds [{names}]", False),
-        (f"the same at low speed, |v| < {' or '.join(lows)} [{names}]", True),
+        (f"torque error at low speed, |v| < {' or '.join(lows)} [{names}]", True),
     ):
         lines += [f"  {title}"] if not lines else ["", f"  {title}"]
         blocks = -(-len(joints) // ((WIDTH - 20) // 16))
@@ -103,7 +103,7 @@ def _energy_table(each: Table) -> list[str]:
         if row.energy is not None:
             rows.append([row.law, *energy_cells(row.energy)])
     return [
-        f"  electrical energy over the scored rows, all joints (error: measured {MINUS} modelled)",
+        f"  electrical energy of the scored samples, all joints (error: measured {MINUS} modelled)",
         "",
         table(rows, right=range(1, 5)),
     ]
@@ -124,22 +124,23 @@ def _notes(study: Study) -> list[str]:
     if study.skipped:
         lines += ["Skipped:", *_skipped(study)]
     if study.failed:
-        lines.append(f"Fits that could not be made: {len(study.failed)}")
+        lines.append(f"Failed fits: {len(study.failed)}")
         seen: dict[tuple[str | None, str], int] = {}
         for t in study.failed:
             seen[(t.job.joint, t.job.law)] = seen.get((t.job.joint, t.job.law), 0) + 1
         for (joint, law), count in seen.items():
             first = next(t for t in study.failed if (t.job.joint, t.job.law) == (joint, law))
             where = law if joint is None else f"{law} on {joint}"
-            lines.append(paragraph(f"{where}: {count}, the first: {first.failure}"))
+            lines.append(paragraph(f"{where}: {count}, the first because {first.failure}"))
     if all(row.energy is None for each in study.tables for row in each.rows):
         lines.append(
             paragraph(
-                "No electrical energy: it needs km, kb, kt and the gear ratio of every joint, by "
-                "--km, --kb, --kt and --gear-ratio or in the sidecar.", 0,
+                "No electrical energy: it needs the motor constants km, kb and kt and the gear "
+                "ratio of every joint; give them as options or in the sidecar.",
+                0,
             )
-        )  # fmt: skip
-    lines.append(f"All fits, tables and pictures are in {study.folder}")
+        )
+    lines.append(f"All fits, tables and figures are in {study.folder}")
     return lines
 
 

@@ -1,22 +1,20 @@
-"""Pictures of a study: box plots of the torque error, and friction against velocity."""
+"""Figures of a study: box plots of the torque error, and friction against velocity."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from stribeck.report.channels import torque_name
-from stribeck.report.figures import AFTER, BEFORE, DPI, FLOOR, MEASURED
 from stribeck.report.numbers import MINUS, plain, thousands
+from stribeck.report.style import AFTER, BEFORE, FLOOR, MEASURED, new_figure, style
 from stribeck.scale.study.plan import DYNAMIC, STATIC, THERMAL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
     from stribeck.scale.study.assess import Entry, Spread
     from stribeck.scale.study.result import Study
@@ -30,21 +28,8 @@ NAMES = {
 COLUMNS = 5
 
 
-def _figure(width: float, height: float, layout: Literal["constrained"] | None) -> Figure:
-    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
-    FigureCanvasAgg(figure)
-    return figure
-
-
-def _bare(axes: Axes) -> None:
-    axes.set_axisbelow(True)
-    axes.grid(True, color="#e6e6e6", linewidth=0.6)
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
-
-
 def _of_joint(study: Study, joint: str | None) -> list[tuple[str, str, Entry]]:
-    """Group, law and figures of each law fitted to a joint, table by table."""
+    """Group, law and results of each law fitted to a joint, table by table."""
     return [
         (table.group.id, row.law, row.entries[joint])
         for table in study.tables
@@ -60,14 +45,16 @@ def _name(study: Study, joint: str | None) -> str:
 def error_figure(study: Study, joint: str | None) -> Figure:
     """Box plots of the torque error of every law on one joint: all speeds, and low speed.
 
-    As figures 7, 12 and 15 of the review: the line is the median, the box the quartiles, whiskers
-    reach to the last row within 1.5 times the box's length; rows beyond are not drawn.
+    As figures 7, 12 and 15 of the review: the line is the median, the box ends at the quartiles,
+    whiskers reach to the last sample within 1.5 box lengths. Samples beyond are not drawn.
     """
+    from matplotlib.patches import Patch
+
     rows = _of_joint(study, joint)
     data = study.joints[joint]
     quantity = torque_name(data.torque_unit)
-    figure = _figure(10.5, 2.2 + 0.27 * len(rows), layout="constrained")
-    both: Any = figure.subplots(1, 2, sharey=True)
+    figure = new_figure(10.5, 2.2 + 0.27 * len(rows))
+    both = figure.subplots(1, 2, sharey=True)
     slow = f"|v| < {plain(data.low_speed, 2)} {data.velocity_unit}"
     spreads = [
         ("all speeds", [entry.whole for _, _, entry in rows]),
@@ -75,27 +62,31 @@ def error_figure(study: Study, joint: str | None) -> Figure:
     ]
     at = _places([group for group, _, _ in rows])
     for axes, (title, boxes) in zip(both, spreads, strict=True):
-        _bare(axes)
+        style(axes)
         axes.axvline(0.0, color=MEASURED, linewidth=0.8)
         for place, (group, _, _), spread in zip(at, rows, boxes, strict=True):
             _box(axes, place, spread, COLOURS[group])
-        axes.set_title(f"{title} ({thousands(boxes[0].rows)} rows)", loc="left", fontsize=10.5)
+        axes.set_title(f"{title} ({thousands(boxes[0].rows)} samples)", loc="left", fontsize=10.5)
         axes.set_xlabel(f"{quantity} error, measured {MINUS} modelled [{data.torque_unit}]")
     both[0].set_yticks(at, [law for _, law, _ in rows])
     both[0].set_ylim(max(at) + 0.7, min(at) - 0.7)
     figure.supxlabel(
-        "line: median; box: middle half of the rows; whiskers: last row within 1.5 box lengths",
-        fontsize=8, color=MEASURED,
-    )  # fmt: skip
+        "line: median; box: quartiles; whiskers: last sample within 1.5 box lengths",
+        fontsize=8,
+        color=MEASURED,
+    )
     used = [group for group in COLOURS if any(group == g for g, _, _ in rows)]
     figure.legend(
         handles=[
             Patch(facecolor=_tint(COLOURS[group]), edgecolor=COLOURS[group], label=NAMES[group])
             for group in used
         ],
-        loc="outside upper center", ncols=len(used), frameon=False, fontsize=9,
+        loc="outside upper center",
+        ncols=len(used),
+        frameon=False,
+        fontsize=9,
         title=f"{quantity.capitalize()} error of each law{_name(study, joint)}",
-    )  # fmt: skip
+    )
     return figure
 
 
@@ -110,18 +101,30 @@ def _places(groups: list[str]) -> list[float]:
 
 def _box(axes: Axes, place: float, spread: Spread, colour: str) -> None:
     if spread.rows == 0:
-        axes.text(0.0, place, " no rows", va="center", fontsize=8, color=MEASURED)
+        axes.text(0.0, place, " no samples", va="center", fontsize=8, color=MEASURED)
         return
     low, middle, high = spread.quartiles
-    stats = {"q1": low, "med": middle, "q3": high, "whislo": spread.whiskers[0],
-             "whishi": spread.whiskers[1]}  # fmt: skip
+    stats = {
+        "q1": low,
+        "med": middle,
+        "q3": high,
+        "whislo": spread.whiskers[0],
+        "whishi": spread.whiskers[1],
+    }
     line = {"color": colour, "linewidth": 1.2}
     axes.bxp(
-        [stats], positions=[place], orientation="horizontal", widths=0.62, showfliers=False,
-        patch_artist=True, manage_ticks=False, medianprops={"color": "black", "linewidth": 1.3},
+        [stats],
+        positions=[place],
+        orientation="horizontal",
+        widths=0.62,
+        showfliers=False,
+        patch_artist=True,
+        manage_ticks=False,
+        medianprops={"color": "black", "linewidth": 1.3},
         boxprops={"facecolor": _tint(colour), "edgecolor": colour, "linewidth": 1.2},
-        whiskerprops=line, capprops=line,
-    )  # fmt: skip
+        whiskerprops=line,
+        capprops=line,
+    )
 
 
 def _tint(colour: str) -> str:
@@ -138,18 +141,22 @@ def friction_figure(study: Study, joint: str | None) -> Figure:
     columns = min(COLUMNS, len(rows))
     lines = -(-len(rows) // columns)
     width, height = max(2.5 * columns, 5.0), 1.3 + 2.0 * lines
-    figure = _figure(width, height, layout=None)
-    grid: Any = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
-    # Set by hand: with so many panels, finding room for all their labels takes longer than to draw.
+    figure = new_figure(width, height, layout=None)
+    grid = figure.subplots(lines, columns, sharex=True, sharey=True, squeeze=False)
+    # A layout engine would take longer than drawing with this many panels.
     figure.subplots_adjust(
-        left=0.72 / width, right=1.0 - 0.1 / width, bottom=0.6 / height, top=1.0 - 0.85 / height,
-        wspace=0.08, hspace=0.22,
-    )  # fmt: skip
+        left=0.72 / width,
+        right=1.0 - 0.1 / width,
+        bottom=0.6 / height,
+        top=1.0 - 0.85 / height,
+        wspace=0.08,
+        hspace=0.22,
+    )
     dots = {"linestyle": "none", "marker": ".", "markeredgewidth": 0, "rasterized": True}
     for axes in grid.flat[len(rows) :]:
         axes.set_visible(False)
     for axes, (group, law, entry) in zip(grid.flat, rows, strict=False):
-        _bare(axes)
+        style(axes)
         cloud = entry.cloud
         axes.plot(cloud.velocity, cloud.measured, color="#b0b0b0", markersize=3.0, **dots)
         axes.plot(cloud.velocity, cloud.modelled, color=COLOURS[group], markersize=2.2, **dots)
@@ -165,11 +172,17 @@ def friction_figure(study: Study, joint: str | None) -> Figure:
     handles = [_dot("#b0b0b0", "measured")]
     handles += [_dot(COLOURS[group], f"modelled, {NAMES[group]}") for group in used]
     figure.legend(
-        handles=handles, loc="upper center", ncols=len(handles), frameon=False, fontsize=9,
+        handles=handles,
+        loc="upper center",
+        ncols=len(handles),
+        frameon=False,
+        fontsize=9,
         title=f"Friction against velocity{_name(study, joint)} (law: RMS error)",
-    )  # fmt: skip
+    )
     return figure
 
 
 def _dot(colour: str, label: str) -> Line2D:
+    from matplotlib.lines import Line2D
+
     return Line2D([], [], linestyle="none", marker="o", markersize=6, color=colour, label=label)

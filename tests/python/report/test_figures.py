@@ -13,20 +13,23 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from stribeck.base import files
 from stribeck.base.errors import StribeckError
-from stribeck.report import figures
+from stribeck.report import style
+from stribeck.report.fit import fit_figure
+from stribeck.report.improvement_figure import improvement_figure, telling_window
+from stribeck.report.residual import residual_figure
 
 
 def drawn(improvement: sb.Improvement, steady: sb.Fit) -> dict[str, Figure]:
     base, final = improvement.base, improvement.final
     nothing = replace(improvement, steps=(), final=base)
     return {
-        "improvement": figures.improvement_figure(improvement),
-        "nothing found": figures.improvement_figure(nothing),
-        "fit": figures.fit_figure(final),
-        "steady": figures.fit_figure(steady),
-        "residual": figures.residual_figure([base, final]),
-        "one residual": figures.residual_figure([final]),
-        "steady residual": figures.residual_figure([steady]),
+        "improvement": improvement_figure(improvement),
+        "nothing found": improvement_figure(nothing),
+        "fit": fit_figure(final),
+        "steady": fit_figure(steady),
+        "residual": residual_figure([base, final]),
+        "one residual": residual_figure([final]),
+        "steady residual": residual_figure([steady]),
     }
 
 
@@ -54,7 +57,7 @@ def test_legends_do_not_lie_over_the_data(improvement: sb.Improvement, steady: s
 @pytest.mark.parametrize("kind", files.FORMATS)
 def test_a_figure_is_written_whole(improvement: sb.Improvement, tmp_path: Path, kind: str) -> None:
     path = tmp_path / f"made.{kind}"
-    files.save_figure(figures.fit_figure(improvement.final), path)
+    files.save_figure(fit_figure(improvement.final), path)
     assert path.stat().st_size > 10_000
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
     if kind == "png":
@@ -77,14 +80,14 @@ def test_what_cannot_be_written_is_refused(
 
 def test_medians_leave_out_bins_that_hold_little() -> None:
     x = np.concatenate([np.linspace(0, 1, 1000), [5.0]])
-    at, median = figures.binned_median(x, 2 * x)
+    at, median = style.binned_median(x, 2 * x)
     assert at.max() <= 1.0
     np.testing.assert_allclose(median, 2 * at)
-    assert figures.binned_median(np.zeros(500), np.zeros(500))[0].size == 0
+    assert style.binned_median(np.zeros(500), np.zeros(500))[0].size == 0
 
 
 def test_the_window_is_where_the_gain_is(improvement: sb.Improvement) -> None:
-    window = figures.telling_window(improvement)
+    window = telling_window(improvement)
     base, final = improvement.base, improvement.final
     gain = np.where(base.recording.moving, base.residual**2 - final.residual**2, 0.0)
     assert gain[window].mean() > gain.mean()

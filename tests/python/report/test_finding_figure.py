@@ -14,8 +14,8 @@ from stribeck.effect.describe import where
 from stribeck.effect.registry import effects
 from stribeck.motion.generate.hidden import generate
 from stribeck.report.channels import channel
-from stribeck.report.figures import binned_quartiles
 from stribeck.report.finding import finding_figure
+from stribeck.report.style import binned_quartiles
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from html.parser import HTMLParser
 
 import stribeck as sb
-from stribeck.report.html import diagnosis_page, improvement_page
+from stribeck.report.page import diagnosis_page, improvement_page
 
 VOID = {"meta", "img", "br", "link", "hr"}
 
@@ -64,7 +64,7 @@ def test_the_page_of_a_diagnosis(diagnosis: sb.Diagnosis) -> None:
     for row in (*diagnosis.untestable, *diagnosis.smallest_visible):
         assert row.effect in page
     nothing = replace(diagnosis, verdict="none", findings=())
-    assert "Nothing that this recording can show is missing" in diagnosis_page(nothing)
+    assert "No effect that this recording can show is missing" in diagnosis_page(nothing)
 
 
 def test_a_file_name_cannot_break_the_page(improvement: sb.Improvement) -> None:
@@ -75,4 +75,4 @@ def test_a_file_name_cannot_break_the_page(improvement: sb.Improvement) -> None:
 
 def test_a_page_where_nothing_was_found(improvement: sb.Improvement) -> None:
     nothing = replace(improvement, steps=(), final=improvement.base)
-    assert "What it is, physically" not in improvement_page(nothing)
+    assert "What was found" not in improvement_page(nothing)

@@ -52,7 +52,7 @@ def test_text_loads_no_plotting_library() -> None:
         [
             sys.executable,
             "-c",
-            "import sys, stribeck.report.text, stribeck as sb; sb.model('coulomb');"
+            "import sys, stribeck.report.fit, stribeck as sb; sb.model('coulomb');"
             "print(sorted({'matplotlib', 'jinja2'} & set(sys.modules)))",
         ],
         check=True,

@@ -7,28 +7,36 @@ from dataclasses import replace
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.testable import Untestable
-from stribeck.report import text
+from stribeck.report import (
+    comparison,
+    diagnosis,
+    fit,
+    layout,
+    parameters,
+)
+from stribeck.report import (
+    improvement as improving,
+)
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
 
 
 def every_text(improvement: sb.Improvement, steady: sb.Fit) -> dict[str, str]:
     base, final = improvement.base, improvement.final
-    comparison = sb.compare([base, final], final.recording)
+    compared = sb.compare([base, final], final.recording)
     return {
-        "fit": text.fit_text(final),
-        "steady": text.fit_text(steady),
-        "comparison": text.comparison_text(comparison),
-        "diagnosis": text.diagnosis_text(improvement.last),
-        "addition": text.addition_text(sb.Addition("load", base, final)),
-        "improvement": text.improvement_text(improvement),
-        "model": text.model_text(final.model),
+        "fit": fit.fit_text(final),
+        "steady": fit.fit_text(steady),
+        "comparison": comparison.comparison_text(compared),
+        "diagnosis": diagnosis.diagnosis_text(improvement.last),
+        "addition": improving.addition_text(sb.Addition("load", base, final)),
+        "improvement": improving.improvement_text(improvement),
     }
 
 
 def test_no_line_is_wider_than_a_terminal(improvement: sb.Improvement, steady: sb.Fit) -> None:
     for name, shown in every_text(improvement, steady).items():
         for line in shown.splitlines():
-            assert len(line) <= 100, (name, line)
+            assert len(line) <= layout.WIDTH, (name, line)
             assert line == line.rstrip(), (name, line)
 
 
@@ -39,7 +47,7 @@ def test_no_number_is_missing(improvement: sb.Improvement, steady: sb.Fit) -> No
 
 
 def test_an_improvement_tells_what_was_found(improvement: sb.Improvement) -> None:
-    shown = text.improvement_text(improvement)
+    shown = improving.improvement_text(improvement)
     assert [s.finding.effect for s in improvement.steps] == ["load"]
     assert "The model coulomb lacks load" in shown
     assert "N m" in shown
@@ -48,22 +56,22 @@ def test_an_improvement_tells_what_was_found(improvement: sb.Improvement) -> Non
 
 
 def test_bars_are_as_long_as_the_errors() -> None:
-    shown = text.bars(["base", "+ load"], [2.0, 0.5], 0.5, "N m").splitlines()
-    assert shown[0].count("█") + shown[0].count("▒") == text.BAR
-    assert shown[1].count("▒") == text.BAR // 4
+    shown = layout.bars(["base", "+ load"], [2.0, 0.5], 0.5, "N m").splitlines()
+    assert shown[0].count("█") + shown[0].count("▒") == layout.BAR
+    assert shown[1].count("▒") == layout.BAR // 4
     assert "█" not in shown[1]
     assert "75 %" in shown[1]
     assert "noise floor, 0.500 N m" in shown[2]
 
 
 def test_bars_without_figures() -> None:
-    assert "no held-out figure" in text.bars(["base"], [None], None, "N")
+    assert "no held-out error" in layout.bars(["base"], [None], None, "N")
 
 
 def test_ties_are_said(improvement: sb.Improvement) -> None:
     finding = replace(improvement.steps[0].finding, indistinguishable_from=("gravity", "inertia"))
-    shown = text.finding_text(finding, "N m")
-    assert "Cannot be told apart from gravity or inertia on this data" in " ".join(shown.split())
+    shown = diagnosis.finding_text(finding)
+    assert "Indistinguishable from gravity or inertia on this data" in " ".join(shown.split())
 
 
 def test_flags_of_parameters(improvement: sb.Improvement) -> None:
@@ -71,13 +79,13 @@ def test_flags_of_parameters(improvement: sb.Improvement) -> None:
     top = replace(e, value=e.upper, at_bound=True, stderr=None, ci95=None)
     blind = replace(e, identifiable=False, stderr=None, ci95=None)
     vague = replace(e, stderr=e.value)
-    flags = [row[-1] for row in text.parameter_rows([e, top, blind, vague])]
-    assert flags == ["", "at its upper bound", "not identifiable on this data", "hardly determined"]
+    flags = [row[-1] for row in parameters.parameter_rows([e, top, blind, vague])]
+    assert flags == ["", "at its upper bound", "not identifiable on this data", "poorly determined"]
 
 
 def test_effects_with_the_same_reason_stand_together() -> None:
     rows = [Untestable("a", "why", "do"), Untestable("b", "why", "do"), Untestable("c", "x", "y")]
-    assert text.untestable_rows(rows) == [("a and b", "why", "do"), ("c", "x", "y")]
+    assert diagnosis.untestable_rows(rows) == [("a and b", "why", "do"), ("c", "x", "y")]
 
 
 @pytest.mark.parametrize(

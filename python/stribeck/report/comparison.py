@@ -1,0 +1,154 @@
+"""Models side by side: text and figure."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from stribeck.report.layout import WIDTH, joined, notes_text, paragraph, table, width_of
+from stribeck.report.numbers import percent, plain, signed
+from stribeck.report.recording import REGIMES, file_name, held_out_meaning, scored_sentence
+from stribeck.report.residual import residual_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from stribeck.diagnosis.compare import Assessment, Comparison
+
+#: Columns of models in one table, and the longest spec that heads one.
+MOST_COLUMNS, LONGEST = 3, 16
+
+
+def comparison_text(comparison: Comparison) -> str:
+    """Models side by side, and where each fails."""
+    r, unit = comparison.recording, comparison.recording.torque_unit
+    models = comparison.models
+    floor = f"No noise floor: {comparison.noise_floor_why}."
+    if comparison.noise_floor is not None:
+        floor = noise_floor_sentence(comparison.noise_floor, unit)
+    return joined(
+        f"{len(models)} model{'s' if len(models) > 1 else ''} on {file_name(r)}",
+        paragraph(scored_sentence(r)),
+        _overview(comparison),
+        paragraph(f"Held-out: {_compared(comparison)}. {floor}"),
+        _regimes_text(comparison),
+        notes_text(r.notes, *(a.fit.notes for a in models)),
+    )
+
+
+def comparison_figure(comparison: Comparison) -> Figure:
+    """Residual of each model against each channel."""
+    return residual_figure([assessment.fit for assessment in comparison.models])
+
+
+def noise_floor_sentence(floor: float, unit: str) -> str:
+    """The noise floor, and what it is."""
+    return (
+        f"Noise floor {plain(floor)} {unit}: no function of the recorded channels can have a "
+        f"smaller error (estimated from repeats of the same state)."
+    )
+
+
+def _overview(comparison: Comparison) -> str:
+    """One line a model; long specs are numbered, and listed below."""
+    models, unit = comparison.models, comparison.recording.torque_unit
+    heading = ["model", f"RMSE [{unit}]", "held-out", "rel. residual", "R²", "mean error"]
+    with_energy = any(a.energy is not None for a in models)
+    if with_energy:
+        heading.append("energy error")
+    figures = [[*_figures(a), *([_energy_error(a)] if with_energy else [])] for a in models]
+    columns = range(1, len(heading))
+    names = [a.model for a in models]
+    numbers = [f"[{k}]" for k in range(1, len(models) + 1)]
+    shown = table([heading, *_beside(numbers, figures)], right=columns)
+    if width_of(shown) + max(map(len, names)) - len(heading[0]) <= WIDTH:
+        return table([heading, *_beside(names, figures)], right=columns)
+    listed = [f"  {tag} {name}" for tag, name in zip(numbers, names, strict=True)]
+    return joined(shown, "\n".join(listed))
+
+
+def _beside(names: list[str], figures: list[list[str]]) -> list[list[str]]:
+    return [[name, *row] for name, row in zip(names, figures, strict=True)]
+
+
+def _figures(a: Assessment) -> list[str]:
+    return [
+        plain(a.rmse),
+        "same data" if a.rmse_held_out is None else plain(a.rmse_held_out),
+        "" if a.relative_residual is None else percent(a.relative_residual),
+        f"{a.r2:.4f}",
+        signed(a.mean, a.rmse),
+    ]
+
+
+def _energy_error(a: Assessment) -> str:
+    error = a.energy["error_percent"] if a.energy else math.nan
+    return f"{error:+.1f} %" if math.isfinite(error) else ""
+
+
+def _compared(comparison: Comparison) -> str:
+    """What "held-out" means: specs are fitted here, model files are not."""
+    stored = [a.fit.starts == 0 for a in comparison.models]
+    file = (
+        "a model read from a file is not refitted, and its error is held-out unless it was fitted "
+        "to this data"
+    )
+    if all(stored):
+        return file
+    fitted = held_out_meaning(comparison.recording)
+    return f"{fitted}; {file}" if any(stored) else fitted
+
+
+def _regimes_text(comparison: Comparison) -> str:
+    """RMSE by regime: one column a model, the worst places marked."""
+    models = comparison.models
+    if not models or not models[0].regimes:
+        return ""
+    blocks = [_regimes_block(comparison, first) for first in range(0, len(models), MOST_COLUMNS)]
+    legend = (
+        "Where each model fails: ▲ marks an RMSE of at least 1.2 times that of all scored samples; "
+        "the mean error is measured minus modelled."
+    )
+    return joined(paragraph(legend), *blocks)
+
+
+def _regimes_block(comparison: Comparison, first: int) -> str:
+    """The table of a few models, from the one numbered `first` on."""
+    part = comparison.models[first : first + MOST_COLUMNS]
+    tags = [a.model if len(a.model) <= LONGEST else f"[{first + k}]" for k, a in enumerate(part, 1)]
+    heading = [f"RMSE (mean error) [{comparison.recording.torque_unit}]", "share", *tags]
+    rows = [heading]
+    for index, regime in enumerate(part[0].regimes):
+        cells = []
+        for a in part:
+            g = a.regimes[index]
+            mark = "▲" if g.regime != "standstill" and g.rmse > 1.2 * a.rmse else " "
+            cells.append(f"{plain(g.rmse)} ({signed(g.bias, g.rmse)}) {mark}")
+        rows.append([REGIMES[regime.regime], percent(regime.share), *cells])
+    text = table(rows, right=range(1, len(heading)))
+    long = [f"  {tag} {a.model}" for tag, a in zip(tags, part, strict=True) if tag[0] == "["]
+    return "\n".join([text, *long])
+
+
+def worst_places(assessment: Assessment, most: int = 3) -> list[str]:
+    """The regimes in which a model has the largest errors, as sentences."""
+    unit = assessment.fit.model.torque_unit
+    rows = [
+        g
+        for g in assessment.regimes
+        if g.regime != "standstill" and g.share > 0.005 and g.rmse > 1.15 * assessment.rmse
+    ]
+    rows.sort(key=lambda g: -g.rmse)
+    sentences = []
+    for g in rows[:most]:
+        bias = ""
+        if abs(g.bias) > 0.3 * g.rmse:
+            bias = (
+                f"; on average the measured torque is {plain(abs(g.bias))} {unit} "
+                f"{'above' if g.bias > 0 else 'below'} the model"
+            )
+        sentences.append(
+            f"{REGIMES[g.regime]}: RMSE {plain(g.rmse)} {unit}, "
+            f"{g.rmse / assessment.rmse:.1f} times that of all scored samples{bias}"
+        )
+    return sentences

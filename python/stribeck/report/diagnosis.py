@@ -1,0 +1,205 @@
+"""A diagnosis as text and figure: what is missing, what remains, what cannot be tested."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from stribeck.effect.describe import physically
+from stribeck.report.comparison import noise_floor_sentence
+from stribeck.report.layout import bullets, joined, notes_text, paragraph
+from stribeck.report.numbers import confidence_words, listed, percent, plain
+from stribeck.report.recording import file_name, held_out_meaning
+from stribeck.report.residual import residual_figure
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from stribeck.diagnosis.bound import Explainable
+    from stribeck.diagnosis.floor import NoiseFloor
+    from stribeck.diagnosis.result import Diagnosis, Finding
+    from stribeck.diagnosis.testable import Untestable
+    from stribeck.diagnosis.unexplained import Unexplained
+    from stribeck.diagnosis.visibility import Group, SmallestVisible
+
+VERDICTS = {
+    "missing": "Missing, best first:",
+    "none": "Nothing is missing: the residual is noise.",
+    "unexplained": "Unexplained structure remains, but none of the known effects explains it.",
+}
+#: Headings of the two lists of a diagnosis.
+VISIBLE = "Not found; each would have been found (19 times in 20) with an RMS torque of at least"
+ALIKE = "Indistinguishable from each other on this data"
+
+
+def diagnosis_text(diagnosis: Diagnosis) -> str:
+    """What is missing from a model."""
+    f = diagnosis.fit
+    findings = [finding_text(finding, k) for k, finding in enumerate(diagnosis.findings, 1)]
+    following = ""
+    if findings:
+        following = (
+            "Each effect was tried alone. Add the first one and diagnose again (`improve` does "
+            "this): others may then disappear or appear."
+        )
+    return joined(
+        f"What is missing from {f.model.spec} on {file_name(f.recording)}?",
+        paragraph(errors_sentence(diagnosis)),
+        joined(VERDICTS[diagnosis.verdict], *findings),
+        paragraph(left_after(diagnosis), 0),
+        paragraph(explainable_text(diagnosis.explainable, f.model.spec, f.model.torque_unit), 0),
+        paragraph(following, 0),
+        bullets(f"{VISIBLE}:", visible_rows(diagnosis.smallest_visible)),
+        bullets(f"{ALIKE}:", group_rows(diagnosis.groups)),
+        untestable_text(diagnosis.untestable),
+        notes_text(f.recording.notes, f.notes),
+    )
+
+
+def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
+    """Residual against each channel, without the first finding and with it."""
+    after = [diagnosis.findings[0].fit] if diagnosis.findings else []
+    return residual_figure([diagnosis.fit, *after])
+
+
+def diagnosis_summary(diagnosis: Diagnosis) -> str:
+    """What a diagnosis found, in one sentence."""
+    spec, unit = diagnosis.fit.model.spec, diagnosis.fit.model.torque_unit
+    if not diagnosis.findings:
+        return nothing_found(spec, unexplained=diagnosis.verdict != "none")
+    best = diagnosis.findings[0]
+    return (
+        f"What the model {spec} lacks most is {best.effect}: adding it lowers the held-out error "
+        f"from {plain(best.rmse_held_out_before)} to {plain(best.rmse_held_out_after)} {unit}."
+    )
+
+
+def nothing_found(spec: str, *, unexplained: bool) -> str:
+    """That no effect was found, and whether something remains unexplained."""
+    if unexplained:
+        return (
+            f"The model {spec} leaves unexplained structure on this recording, but no known effect "
+            f"lowers its held-out error significantly."
+        )
+    return f"No effect that this recording can show is missing from the model {spec}."
+
+
+def finding_text(finding: Finding, number: int | None = None) -> str:
+    """One finding: what, how sure, its physics, where it shows, what it brings."""
+    unit = finding.fit.model.torque_unit
+    share = ""
+    if finding.share_of_unexplained is not None:
+        explained = percent(finding.share_of_unexplained)
+        share = f". It explains {explained} of the squared error above the noise floor"
+    lead = "" if number is None else f"{number}. "
+    parts = [
+        f"  {lead}{finding.effect}: {confidence_words(finding.confidence)}",
+        paragraph(physically(finding.effect, finding.fit.model), 5),
+        paragraph(f"In this data: {finding.where}.", 5),
+        paragraph(
+            f"Held-out error {plain(finding.rmse_held_out_before)} → "
+            f"{plain(finding.rmse_held_out_after)} {unit}{share}.",
+            5,
+        ),
+    ]
+    if finding.indistinguishable_from:
+        parts.append(paragraph(indistinguishable_sentence(finding), 5))
+    return "\n".join(parts)
+
+
+def indistinguishable_sentence(finding: Finding) -> str:
+    """Which other effects predict as well."""
+    return (
+        f"Indistinguishable from {listed(finding.indistinguishable_from, 'or')} on this data: the "
+        f"held-out errors are not significantly different. The simplest effect is listed first."
+    )
+
+
+def errors_sentence(diagnosis: Diagnosis) -> str:
+    """The held-out error and the noise floor."""
+    f = diagnosis.fit
+    noise = floor_sentence(diagnosis.noise_floor, f.model.torque_unit)
+    if f.rmse_held_out is None:
+        return noise
+    meaning = held_out_meaning(f.recording)
+    return f"Held-out error {plain(f.rmse_held_out)} {f.model.torque_unit} ({meaning}). {noise}"
+
+
+def floor_sentence(floor: NoiseFloor, unit: str) -> str:
+    """The noise floor, or why there is none."""
+    if floor.value is None:
+        return f"The noise floor cannot be estimated: {floor.why}."
+    return noise_floor_sentence(floor.value, unit)
+
+
+def left_after(diagnosis: Diagnosis) -> str:
+    """How much of the error is more than noise once the first finding is added."""
+    left = left_text(diagnosis.unexplained)
+    if not diagnosis.findings:
+        return left
+    return f"With {diagnosis.findings[0].effect} added, {left[0].lower()}{left[1:]}"
+
+
+def left_text(left: Unexplained) -> str:
+    """How much of the error is more than noise."""
+    if left.share is None:
+        return "It cannot be estimated from this data how much of the remaining error is noise."
+    if not left.is_structure:
+        return (
+            f"No significant structure remains: {percent(left.share)} of the squared held-out "
+            f"error is more than noise."
+        )
+    where = f"; {left.where}" if left.where and left.where != "everywhere" else ""
+    return (
+        f"Unexplained structure remains: {percent(left.share)} of the squared held-out error is "
+        f"more than noise{where}."
+    )
+
+
+def explainable_text(explainable: Explainable | None, spec: str, unit: str) -> str:
+    """How much a model explains of what the channels could explain."""
+    if explainable is None:
+        return ""
+    share = f"{100.0 * explainable.share:.1f} %" if explainable.share < 0.9995 else "> 99.9 %"
+    return (
+        f"{spec} explains {share} of the torque variation that the recorded channels can explain: "
+        f"a flexible regressor without physics, fitted to its residual, brings the held-out error "
+        f"to {plain(explainable.rmse)} {unit}."
+    )
+
+
+def untestable_rows(rows: Iterable[Untestable]) -> list[tuple[str, str, str]]:
+    """Effects with the same reason together: (effects, why, do)."""
+    grouped: dict[tuple[str, str], list[str]] = {}
+    for row in rows:
+        grouped.setdefault((row.why, row.do), []).append(row.effect)
+    return [(listed(names), why, do) for (why, do), names in grouped.items()]
+
+
+def untestable_text(rows: Iterable[Untestable]) -> str:
+    """Effects that the data cannot test, why, and what would."""
+    return bullets(
+        "Cannot be tested with this data:",
+        [f"{names}: {why}. To test: {do}." for names, why, do in untestable_rows(rows)],
+    )
+
+
+def visible_rows(rows: Sequence[SmallestVisible]) -> list[str]:
+    """From which size on each effect would have been found, similar sizes together."""
+    bands: list[list[SmallestVisible]] = []
+    for row in sorted(rows, key=lambda row: row.rms):
+        if not bands or row.rms > 1.5 * bands[-1][0].rms:
+            bands.append([])
+        bands[-1].append(row)
+    return [f"{plain(b[-1].rms, 2)} {b[-1].unit}: {listed([r.effect for r in b])}." for b in bands]
+
+
+def group_rows(groups: Sequence[Group]) -> list[str]:
+    """Effects that are indistinguishable on this data, and below which size."""
+    return [
+        listed(group.effects)
+        + (f", below {plain(group.rms, 2)} {group.unit} RMS" if math.isfinite(group.rms) else "")
+        + "."
+        for group in groups
+    ]

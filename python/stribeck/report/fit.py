@@ -1,0 +1,181 @@
+"""A fit as text and figure."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from stribeck.identify.figures import torque_cutoff
+from stribeck.report.channels import clock, load_of, torque_name
+from stribeck.report.layout import joined, notes_text, paragraph
+from stribeck.report.numbers import change_text, percent, plain
+from stribeck.report.parameters import parameters_text
+from stribeck.report.recording import file_name, held_out_meaning, scored_sentence
+from stribeck.report.residual import velocity_panel
+from stribeck.report.style import (
+    AFTER,
+    MEASURED,
+    broken,
+    legend_above,
+    limits,
+    new_figure,
+    over_time,
+    style,
+    thin,
+    title,
+    zero_line,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from stribeck.fitting.result import Fit
+
+PASSIVITY = {
+    True: "Passive: this friction is proved to generate no energy within its operating box.",
+    False: "Not passive: somewhere in its operating box this friction generates energy (a "
+    "passivity check shows where).",
+    None: "Whether this friction is passive within its operating box could not be decided.",
+}
+
+
+def fit_text(fit: Fit) -> str:
+    """A fit at a glance."""
+    r = fit.recording
+    search = ""
+    if fit.starts > 0:
+        search = (
+            f"Search: {fit.starts} start{'s' if fit.starts > 1 else ''}, {fit.evaluations} "
+            f"evaluations, {fit.seconds:.1f} s. "
+        )
+    legend = _errors_legend(fit)
+    return joined(
+        f"{fit.model.spec} {'fitted to' if search else 'evaluated on'} {file_name(r)}",
+        paragraph(search + scored_sentence(r)),
+        parameters_text(fit.estimates) + ("\n" + legend if legend else ""),
+        "\n".join(
+            paragraph(f"{name} is not identifiable: {e.why}.", 2, 2)
+            for name, e in fit.estimates.items()
+            if e.why is not None
+        ),
+        errors_text(fit),
+        paragraph(PASSIVITY[fit.passive()] + _cost_sentence(fit)),
+        "" if fit.converged else paragraph(f"The search did not converge ({fit.outcome})."),
+        notes_text(r.notes, fit.notes),
+    )
+
+
+def _errors_legend(fit: Fit) -> str:
+    """What the standard errors mean, where there are some."""
+    if all(e.stderr is None for e in fit.estimates.values()):
+        return ""
+    assumed = (
+        "assuming independent errors of the samples"
+        if fit.errors == "independent"
+        else "allowing for noise that is correlated in time"
+    )
+    return paragraph(
+        f"± is one standard error, {assumed}. It does not account for effects that the model lacks."
+    )
+
+
+def errors_text(fit: Fit) -> str:
+    """The errors of a fit, one a line."""
+    unit, r = fit.model.torque_unit, fit.recording
+    meaning = "root mean square over the scored samples"
+    rows = [("error (RMSE)", f"{plain(fit.rmse)} {unit}", meaning)]
+    if fit.rmse_held_out is not None:
+        rows.append(("held-out error", f"{plain(fit.rmse_held_out)} {unit}", held_out_meaning(r)))
+    if fit.relative_residual is not None:
+        cutoff = torque_cutoff(r)
+        below = f", both below {cutoff:.3g} Hz" if cutoff else ""
+        rows.append(
+            ("relative residual", percent(fit.relative_residual), f"held-out error / torque{below}")
+        )
+    first, second = max(len(a) for a, _, _ in rows), max(len(b) for _, b, _ in rows)
+    return "\n".join(f"  {a:<{first}}  {b:>{second}}  {c}" for a, b, c in rows)
+
+
+def _cost_sentence(fit: Fit) -> str:
+    """What passivity costs, where it was asked for; with a space before it."""
+    cost = fit.passive_cost
+    if cost is None:
+        return ""
+    if not cost.imposed:
+        return " Passivity costs nothing here: the best fit is already passive."
+    unit = fit.model.torque_unit
+    change = change_text(cost.rmse_free, fit.rmse)
+    sentence = (
+        f" Imposing passivity, at {cost.conditions} operating points and cycles, changes the RMSE "
+        f"from {plain(cost.rmse_free)} to {plain(fit.rmse)} {unit} ({change})"
+    )
+    if cost.rmse_held_out_free is None or fit.rmse_held_out is None:
+        return sentence + "."
+    held_out = f"{plain(cost.rmse_held_out_free)} to {plain(fit.rmse_held_out)} {unit}"
+    return f"{sentence} and the held-out RMSE from {held_out}."
+
+
+def fit_figure(fit: Fit) -> Figure:
+    """Measured and modelled torque over time, the residual, and the friction curve."""
+    figure = new_figure(12.0, 9.0)
+    grid = figure.add_gridspec(3, 2, height_ratios=[1.15, 0.8, 1.15])
+    top, middle = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, :])
+    left, right = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
+    for axes in (top, middle, left, right):
+        style(axes)
+    _over_time(top, middle, fit)
+    _friction_panel(left, fit)
+    velocity_panel(right, fit, AFTER)
+    return figure
+
+
+def _over_time(top: Axes, middle: Axes, fit: Fit) -> None:
+    """Torque and residual over the same time."""
+    r, unit, time = fit.recording, fit.model.torque_unit, clock(fit.recording)
+    what = torque_name(unit)
+    over_time(top, r, time.values, r.torque, MEASURED, (2.4, 5.0), "measured", 0.5)
+    modelled = broken(r, fit.prediction)
+    over_time(top, r, time.values, modelled, AFTER, (0.9, 3.0), fit.model.spec)
+    top.margins(x=0.01)
+    top.set_ylabel(f"{what} [{unit}]")
+    title(top, f"Measured and modelled {what}")
+    legend_above(top)
+    top.tick_params(labelbottom=False)
+    middle.sharex(top)
+    zero_line(middle)
+    over_time(middle, r, time.values, broken(r, fit.residual), AFTER, (0.9, 3.0))
+    limits(middle, [fit.residual[r.moving]])
+    middle.set_ylabel(f"residual [{unit}]")
+    middle.set_xlabel(time.label)
+    title(middle, f"Residual (measured minus modelled): RMSE {plain(fit.rmse)} {unit}")
+
+
+def _friction_panel(axes: Axes, fit: Fit) -> None:
+    """Friction against velocity, measured and modelled."""
+    r, unit = fit.recording, fit.model.torque_unit
+    what, load = torque_name(unit), load_of(fit)
+    some = thin(np.flatnonzero(r.moving))
+    # The prediction contains the torque of an identified rigid body or of a known load.
+    rest = np.zeros_like(r.torque) if load is None else load
+    for values, colour, size, alpha, label in (
+        (r.torque, MEASURED, 6.0, 0.35, "measured"),
+        (fit.prediction, AFTER, 2.2, 1.0, fit.model.spec),
+    ):
+        axes.plot(
+            r.velocity[some],
+            (values - rest)[some],
+            ".",
+            color=colour,
+            markersize=size,
+            alpha=alpha,
+            label=label,
+            markeredgewidth=0,
+            rasterized=True,
+        )
+    name = what if load is None else f"friction {what}"
+    without = "" if load is None else f" ({what} minus load)"
+    axes.set_xlabel(f"velocity [{r.position_unit}/s]")
+    axes.set_ylabel(f"{name} [{unit}]")
+    title(axes, f"{name[0].upper()}{name[1:]} against velocity{without}")

@@ -1,0 +1,149 @@
+"""An improvement or a single added effect as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from stribeck.effect.describe import physically
+from stribeck.report.diagnosis import (
+    explainable_text,
+    finding_text,
+    floor_sentence,
+    left_text,
+    nothing_found,
+    untestable_text,
+)
+from stribeck.report.fit import errors_text
+from stribeck.report.layout import bars, joined, notes_text, paragraph
+from stribeck.report.numbers import listed, percent, plain
+from stribeck.report.parameters import parameters_text
+from stribeck.report.recording import file_name, held_out_meaning
+
+if TYPE_CHECKING:
+    from stribeck.diagnosis.floor import NoiseFloor
+    from stribeck.diagnosis.improve import Addition, Improvement
+    from stribeck.fitting.result import Fit
+
+STOPPED = {
+    "noise_floor": "The residual is noise: no structure above the noise floor.",
+    "nothing_passes": "Stopped: no further effect lowers the held-out error significantly.",
+    "max_steps": "Stopped at the maximum number of steps; more effects may be missing.",
+}
+
+#: An RMSE of all samples within the first ratio of the noise floor has reached it; a held-out error
+#: of at least the second ratio times the RMSE is larger than it.
+AT_THE_FLOOR, LARGER = 1.05, 1.1
+
+
+def improvement_text(improvement: Improvement) -> str:
+    """The way from the base model to the final one."""
+    final, floor = improvement.final, improvement.noise_floor
+    r, unit = final.recording, final.model.torque_unit
+    steps = [finding_text(step.finding, k) for k, step in enumerate(improvement.steps, 1)]
+    stopped = STOPPED[improvement.stopped]
+    is_structure = improvement.unexplained.is_structure
+    return joined(
+        f"Improving {improvement.base.model.spec} on {file_name(r)}",
+        paragraph(summary_sentence(improvement), 0),
+        paragraph(f"Held-out error after each step ({held_out_meaning(r)}):", 0),
+        improvement_bars(improvement),
+        paragraph(floor_sentence(floor, unit), 0) if floor.value is None else "",
+        joined("Found, in this order:", *steps) if steps else "",
+        paragraph(f"{stopped} {left_text(improvement.unexplained)}", 0),
+        paragraph("" if is_structure else _above_the_floor(final, floor), 0),
+        paragraph(explainable_text(improvement.last.explainable, final.model.spec, unit), 0),
+        f"Final model: {final.model.spec}",
+        parameters_text(final.estimates),
+        errors_text(final),
+        untestable_text(improvement.untestable),
+        notes_text(r.notes, final.notes),
+    )
+
+
+def step_labels(improvement: Improvement) -> list[str]:
+    """The base and each added effect."""
+    return [improvement.base.model.spec, *(f"+ {s.finding.effect}" for s in improvement.steps)]
+
+
+def step_errors(improvement: Improvement) -> list[float | None]:
+    """Held-out error of the base and after each step."""
+    return [improvement.base.rmse_held_out, *(s.after.rmse_held_out for s in improvement.steps)]
+
+
+def improvement_bars(improvement: Improvement) -> str:
+    """The held-out error after each step as a bar, with the noise floor shaded."""
+    return bars(
+        step_labels(improvement),
+        step_errors(improvement),
+        improvement.noise_floor.value,
+        improvement.final.model.torque_unit,
+    )
+
+
+def summary_sentence(improvement: Improvement) -> str:
+    """What was found, in one sentence."""
+    base, final = improvement.base, improvement.final
+    unit, spec = final.model.torque_unit, base.model.spec
+    if not improvement.steps:
+        return nothing_found(spec, unexplained=improvement.unexplained.is_structure)
+    text = f"The model {spec} lacks {listed([step.finding.effect for step in improvement.steps])}"
+    if base.rmse_held_out is None or final.rmse_held_out is None:
+        return text + "."
+    it = "it" if len(improvement.steps) == 1 else "them"
+    text += (
+        f": with {it} the held-out error falls from {plain(base.rmse_held_out)} to "
+        f"{plain(final.rmse_held_out)} {unit}"
+    )
+    floor = improvement.noise_floor.value
+    if floor is None:
+        return text + "."
+    noise = f"noise floor {plain(floor)} {unit}"
+    if final.rmse_held_out < LARGER * floor:
+        return f"{text}, and the remaining error is noise ({noise})."
+    return f"{text} ({noise})."
+
+
+def _above_the_floor(fitted: Fit, floor: NoiseFloor) -> str:
+    """Why an error without significant structure exceeds the noise floor."""
+    if floor.value is None or fitted.rmse_held_out is None:
+        return ""
+    spec, unit = fitted.model.spec, fitted.model.torque_unit
+    if not floor.is_reached_by(fitted.rmse):
+        return (
+            f"Repeats of the same state differ by only {plain(floor.value)} {unit}: the residual "
+            f"of {spec} repeats, but it is not a function of the recorded channels (structural "
+            f"vibration, for example)."
+        )
+    if fitted.rmse > AT_THE_FLOOR * floor.value or fitted.rmse_held_out < LARGER * fitted.rmse:
+        return ""
+    return (
+        f"Fitted to all samples, {spec} has an error of {plain(fitted.rmse)} {unit}, the noise "
+        f"floor. The held-out error is larger because a part of the recording shows what no other "
+        f"part does. A longer recording would settle it."
+    )
+
+
+def addition_text(addition: Addition) -> str:
+    """An effect added: error before and after, and the new parameters."""
+    before, after, effect = addition.before, addition.after, addition.effect
+    unit = after.model.torque_unit
+    kind, first, second = "error", before.rmse, after.rmse
+    if before.rmse_held_out is not None and after.rmse_held_out is not None:
+        kind = f"held-out error ({held_out_meaning(after.recording)})"
+        first, second = before.rmse_held_out, after.rmse_held_out
+    change = f"{percent(abs(1 - second / first))}, from {plain(first)} to {plain(second)} {unit}"
+    verdict = f"The {kind} falls by {change}."
+    if second >= first:
+        verdict = (
+            f"The {kind} does not fall: it rises by {change}. The effect does not improve the "
+            f"prediction of held-out data."
+        )
+    return joined(
+        f"{effect} added to {before.model.spec} on {file_name(after.recording)}",
+        paragraph(physically(effect, after.model)),
+        bars([before.model.spec, f"+ {effect}"], [first, second], None, unit),
+        paragraph(verdict),
+        parameters_text(after.estimates),
+        errors_text(after),
+        notes_text(after.recording.notes, after.notes),
+    )

@@ -1,0 +1,139 @@
+"""How text is set on a terminal: paragraphs, tables, bars. No line is wider than `WIDTH`."""
+
+from __future__ import annotations
+
+import io
+import math
+import textwrap
+from collections.abc import Collection, Iterable, Sequence
+
+from stribeck.report.numbers import change_text, plain
+
+WIDTH = 98
+BAR = 40
+EIGHTHS = " ▏▎▍▌▋▊▉█"
+
+#: A rule below the heading of a table and nothing else, in the notation of rich.
+_RULED = "    \n    \n ── \n    \n    \n    \n    \n    \n"
+
+
+def paragraph(text: str, indent: int = 2, hang: int = 0) -> str:
+    """`text` wrapped to the width, each line indented."""
+    first = " " * indent
+    return textwrap.fill(
+        text,
+        WIDTH,
+        initial_indent=first,
+        subsequent_indent=first + " " * hang,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+
+
+def bullets(heading: str, items: Iterable[str]) -> str:
+    """A heading and one bullet an item; nothing where there is no item."""
+    lines = [paragraph(f"• {item}", 2, 2) for item in items]
+    return "\n".join([heading, *lines]) if lines else ""
+
+
+def joined(*parts: str) -> str:
+    """The parts that say something, with an empty line between them."""
+    return "\n\n".join(part for part in parts if part)
+
+
+def notes_text(*groups: Iterable[str]) -> str:
+    """Notes, each once."""
+    notes = list(dict.fromkeys(note for group in groups for note in group))
+    return "\n".join(paragraph(f"note: {note}", 2, 6) for note in notes)
+
+
+def table(rows: Sequence[Sequence[str]], right: Collection[int] = (), indent: int = 2) -> str:
+    """Columns lined up below a heading, as plain text.
+
+    Parameters
+    ----------
+    rows
+        The first row is the heading.
+    right
+        Columns that are set flush right.
+    indent
+        Spaces before each line.
+
+    Notes
+    -----
+    A table that is too wide breaks the words of its last column, or of the first where the last is
+    flush right.
+    """
+    # Imported here: it takes a tenth of a second that `stribeck --help` need not wait for.
+    from rich.box import Box
+    from rich.console import Console
+    from rich.table import Table
+
+    last = len(rows[0]) - 1
+    wrapped = 0 if last in right else last
+    made = Table(box=Box(_RULED), show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
+    for k, name in enumerate(rows[0]):
+        made.add_column(
+            name,
+            justify="right" if k in right else "left",
+            no_wrap=k != wrapped,
+            overflow="fold",
+        )
+    for row in rows[1:]:
+        made.add_row(*row)
+    out = io.StringIO()
+    console = Console(
+        file=out,
+        width=WIDTH - indent,
+        color_system=None,
+        force_terminal=False,
+        force_jupyter=False,
+        legacy_windows=False,
+        markup=False,
+        emoji=False,
+        highlight=False,
+    )
+    console.print(made)
+    return "\n".join((" " * indent + line).rstrip() for line in out.getvalue().splitlines())
+
+
+def width_of(text: str) -> int:
+    """The length of the longest line."""
+    return max(map(len, text.splitlines()), default=0)
+
+
+def bar(value: float, largest: float, floor: float | None) -> str:
+    """A bar of `value`: the part of the noise floor shaded, the rest solid."""
+    if not (math.isfinite(value) and largest > 0):
+        return ""
+    length = BAR * value / largest
+    shaded = 0 if floor is None else round(BAR * min(floor, value) / largest)
+    whole = int(length)
+    rest = EIGHTHS[int(8 * (length - whole))].strip() if whole >= shaded else ""
+    return "▒" * shaded + "█" * max(whole - shaded, 0) + rest
+
+
+def bars_legend(floor: float, unit: str) -> str:
+    """What the two shades of a bar mean."""
+    return f"▒ noise floor, {plain(floor)} {unit}   █ error above it"
+
+
+def bars(
+    labels: Sequence[str], values: Sequence[float | None], floor: float | None, unit: str
+) -> str:
+    """One bar a step with its error, and by how much the error fell."""
+    known = [v for v in values if v is not None]
+    largest = max([*known, floor or 0.0], default=0.0)
+    wide = max(len(label) for label in labels)
+    lines, before = [], None
+    for label, value in zip(labels, values, strict=True):
+        if value is None:
+            lines.append(f"  {label:<{wide}}  (no held-out error)")
+            continue
+        change = f"  {change_text(before, value)}" if before else ""
+        shape = bar(value, largest, floor)
+        lines.append(f"  {label:<{wide}}  {shape:<{BAR}}  {plain(value)} {unit}{change}")
+        before = value
+    if floor is not None:
+        lines.append(f"  {'':<{wide}}  {bars_legend(floor, unit)}")
+    return "\n".join(lines)
