@@ -6,7 +6,7 @@ from curves import Curve
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter
-from stribeck.report.figures import COLOURS, new_figure, style, title
+from stribeck.report.style import COLOURS, new_figure, style, title
 
 MARKERS = "osD^vP"
 

@@ -177,11 +177,12 @@ def untestable_rows(rows: Iterable[Untestable]) -> list[tuple[str, str, str]]:
     return [(listed(names), why, do) for (why, do), names in grouped.items()]
 
 
-def untestable_text(rows: Iterable[Untestable]) -> str:
+def untestable_text(rows: Iterable[Untestable], indent: int = 0) -> str:
     """Effects that the data cannot test, why, and what would."""
     return bullets(
         "Cannot be tested with this data:",
         [f"{names}: {why}. To test: {do}." for names, why, do in untestable_rows(rows)],
+        indent,
     )
 
 

@@ -30,10 +30,10 @@ def paragraph(text: str, indent: int = 2, hang: int = 0) -> str:
     )
 
 
-def bullets(heading: str, items: Iterable[str]) -> str:
+def bullets(heading: str, items: Iterable[str], indent: int = 0) -> str:
     """A heading and one bullet an item; nothing where there is no item."""
-    lines = [paragraph(f"• {item}", 2, 2) for item in items]
-    return "\n".join([heading, *lines]) if lines else ""
+    lines = [paragraph(f"• {item}", indent + 2, 2) for item in items]
+    return "\n".join([" " * indent + heading, *lines]) if lines else ""
 
 
 def joined(*parts: str) -> str:
