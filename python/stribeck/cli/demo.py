@@ -37,7 +37,7 @@ BASE = "coulomb"
 @seed_option
 @json_option
 def demo(output: str, seed: int, as_json: bool) -> None:
-    """Run the whole loop on a shipped recording: find what is missing, add it, see the error fall."""
+    """Run the whole loop on a shipped recording: find what is missing, and add it."""
     began = time.perf_counter()
     folder = Path(output)
     _make_folder(folder)
@@ -62,8 +62,9 @@ def demo(output: str, seed: int, as_json: bool) -> None:
     click.echo(tell(improvement, comparison, truth))
     click.echo(
         f"\nWritten in {seconds:.0f} s:\n  {files['page']}   the results as a page\n"
-        f"  {files['picture']}    the figure of the page\n  {files['model']}    the improved model\n\n"
-        f"On your own data: stribeck inspect DATA, then stribeck improve DATA"
+        f"  {files['picture']}    the figure of the page\n"
+        f"  {files['model']}    the improved model\n"
+        f"\nOn your own data: stribeck inspect DATA, then stribeck improve DATA"
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 import textwrap
 from collections.abc import Collection, Iterable, Sequence
 
@@ -17,17 +18,22 @@ EIGHTHS = " ▏▎▍▌▋▊▉█"
 _RULED = "    \n    \n ── \n    \n    \n    \n    \n    \n"
 
 
+#: Spaces at which no line breaks: between a number and its unit, and within N m.
+_TOGETHER = re.compile(r"(?<=\d) (?=(?:N|rad|m|s|Hz|K|J|degC|%)(?:\W|$))|(?<=\bN) (?=m\b)")
+
+
 def paragraph(text: str, indent: int = 2, hang: int = 0) -> str:
     """`text` wrapped to the width, each line indented."""
     first = " " * indent
-    return textwrap.fill(
-        text,
+    filled = textwrap.fill(
+        _TOGETHER.sub("\N{NO-BREAK SPACE}", text),
         WIDTH,
         initial_indent=first,
         subsequent_indent=first + " " * hang,
         break_long_words=False,
         break_on_hyphens=False,
     )
+    return filled.replace("\N{NO-BREAK SPACE}", " ")
 
 
 def bullets(heading: str, items: Iterable[str], indent: int = 0) -> str:
