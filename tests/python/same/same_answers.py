@@ -45,9 +45,11 @@ EXPECTED = HERE / "expected"
 Json: TypeAlias = "bool | int | float | str | list[Json] | dict[str, Json] | None"
 
 #: Keys and columns that say when, how long or on which version.
-TIMES = {"version", "modified", "sidecar_sha256"}
+TIMES = {"version", "program", "modified", "rows_per_second", "sidecar_sha256"}
 #: `seconds` beside one of these is the time a computation took, elsewhere that of a motion.
 COMPUTED = {"evaluations", "rows_scored", "verdict", "truth"}
+#: The order of a long sum, and so its last digit, depends on how many threads share it.
+ONE_THREAD = {f"{library}_NUM_THREADS": "1" for library in ("OMP", "OPENBLAS", "MKL")}
 #: Texts of these keys are never words.
 KEPT = {"unit", "units", "formula", "symbol", "torque_unit", "position_unit"}
 #: Relative tolerance of numbers on another machine than that of the references.
@@ -141,10 +143,16 @@ def tell(story: Story, folder: Path) -> list[dict[str, Json]]:
     for command in story.commands:
         words = [sys.executable, "-m", "stribeck", *shlex.split(command), "--json"]
         done = subprocess.run(
-            words, cwd=folder, capture_output=True, text=True, check=False, timeout=800
+            words,
+            cwd=folder,
+            env={**os.environ, **ONE_THREAD},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=800,
         )
         now = _stamps(folder)
-        changed = sorted(path for path, stamp in now.items() if before.get(path) != stamp)
+        changed = sorted({whole(p) for p, stamp in now.items() if before.get(p) != stamp})
         said: Json = None
         if done.stdout:
             said = Canonical(folder).of(json.loads(done.stdout))
@@ -171,10 +179,21 @@ def _stamps(folder: Path) -> dict[str, tuple[int, int]]:
     }
 
 
+def whole(path: str) -> str:
+    """The table that a part belongs to: how many parts there are depends on the time it took."""
+    return re.sub(r"part-\d+", "part-*", path)
+
+
 def read(folder: Path, name: str) -> Json:
     """A written file in the form that is compared; None where only its name is."""
     path, form = folder / name, Canonical(folder)
     kind = path.suffix
+    if "*" in name:
+        rows = pl.concat(pl.read_parquet(part) for part in sorted(folder.glob(name))).rows(
+            named=True
+        )
+        rows.sort(key=lambda row: json.dumps([row["file"], row["joint"]]))
+        return form.table({name: [row[name] for row in rows] for name in rows[0]})
     if kind == ".json":
         return form.of(json.loads(path.read_text()))
     if kind == ".toml":
