@@ -1,6 +1,6 @@
-"""A folder that holds one run of a command, which goes on where it stopped.
+"""A folder that holds one run of a command, which can be stopped and continued.
 
-``manifest.json`` says what the run is of; the same arguments find it again, others are refused.
+``manifest.json`` describes the run; the same arguments continue it, others are refused.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from stribeck.base.errors import StribeckError
+from stribeck.base.errors import StribeckError, option
 from stribeck.base.files import write_whole
 
 MANIFEST = "manifest.json"
@@ -19,19 +19,19 @@ MANIFEST = "manifest.json"
 def claim(
     folder: Path, manifest: Mapping[str, Any], identity: Mapping[str, str], what: str
 ) -> None:
-    """Take a folder for a run: a new or empty one, or one that holds the same run.
+    """Use a folder for a run: a new or empty one, or one that holds the same run.
 
     Parameters
     ----------
     folder
-        Made where it does not exist.
+        Created if it does not exist.
     manifest
-        What the run is of, as JSON.
+        The description of the run, as JSON.
     identity
-        Keys of `manifest` that must be the same, and how to say that one is not: ``{"seed": "with
-        another seed"}``.
+        Keys of `manifest` that must be the same, and the words of the error if one is not:
+        ``{"seed": "with another seed"}``.
     what
-        The command, as in "holds no study".
+        What the folder holds, as in "holds no study".
 
     Raises
     ------
@@ -43,7 +43,9 @@ def claim(
         if (folder / MANIFEST).exists():
             _check(folder, manifest, identity, what)
         elif any(folder.iterdir()):
-            raise StribeckError(f"{folder} is not empty and holds no {what}: give another --output")
+            raise StribeckError(
+                f"{folder} is not empty and holds no {what}: give another {option('output')}"
+            )
         else:
             write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
     except OSError as error:
@@ -51,10 +53,10 @@ def claim(
 
 
 def unwritable(folder: Path, error: OSError) -> StribeckError:
-    """The error of a folder that cannot be written to."""
+    """Return the error of a folder that cannot be written to."""
     return StribeckError(
-        f"cannot write {folder}: {error.strerror or error}; give --output a folder that may be "
-        f"written to"
+        f"cannot write {folder}: {error.strerror or error}; give {option('output')} a "
+        f"folder that can be written to"
     )
 
 
@@ -66,18 +68,18 @@ def _check(
         found = json.loads(path.read_text(encoding="utf-8"))
     except ValueError:
         raise StribeckError(
-            f"{path} is damaged: remove the folder, or give another --output"
+            f"{path} is damaged: remove the folder, or give another {option('output')}"
         ) from None
     for key, difference in identity.items():
         if not isinstance(found, dict) or found.get(key) != manifest[key]:
             raise StribeckError(
                 f"{folder} holds a {what} {difference}{_differs(found, manifest, key)}: give "
-                f"another --output, or the same arguments to go on with it"
+                f"another {option('output')}, or the same arguments to continue it"
             )
 
 
 def _differs(found: Any, manifest: Mapping[str, Any], key: str) -> str:
-    """``(3 there, 5 here)`` for numbers and versions; other things are too long to say."""
+    """Return ``(3 there, 5 here)`` for numbers and texts; other values are too long to show."""
     theirs = found.get(key) if isinstance(found, dict) else None
     ours = manifest[key]
     return f" ({theirs} there, {ours} here)" if isinstance(ours, int | str) else ""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Step:
+class NamedEffect:
     """One effect that was added."""
 
     effect: str
@@ -28,7 +28,7 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Answer:
+class CaseAnswer:
     """Truth and answer of one case.
 
     Attributes
@@ -52,7 +52,7 @@ class Answer:
     implied: tuple[str, ...] = ()
     cannot_show: tuple[str, ...] = ()
     sizes: tuple[float, ...] = ()
-    steps: tuple[Step, ...] = ()
+    steps: tuple[NamedEffect, ...] = ()
     verdict: str = ""
     untestable: tuple[str, ...] = ()
     rmse_held_out: float | None = None
@@ -70,12 +70,12 @@ class Answer:
             return None
         return self.rmse_held_out / self.oracle_rmse
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON, and as `from_dict` reads it back."""
         return {"name": self.case.name, **asdict(self)}
 
     @classmethod
-    def from_dict(cls, stored: dict[str, Any]) -> Answer:
+    def from_dict(cls, stored: dict[str, Any]) -> CaseAnswer:
         """Read back what `to_dict` gave.
 
         Raises
@@ -89,27 +89,29 @@ class Answer:
         case = fields["case"]
         fields["case"] = Case(**{**case, "effects": tuple(case["effects"])})
         fields["steps"] = tuple(
-            Step(s["effect"], s["confidence"], tuple(s["indistinguishable_from"]))
+            NamedEffect(s["effect"], s["confidence"], tuple(s["indistinguishable_from"]))
             for s in fields["steps"]
         )
         fields["intervals"] = tuple(Interval(**i) for i in fields["intervals"])
         return cls(**fields)
 
 
-def answer(case: Case) -> Answer:
+def answer(case: Case) -> CaseAnswer:
     """Make the recording of a case and ask the product; a failure is an answer too."""
     began = time.perf_counter()
     try:
         if case.group == "coverage":
-            made = Answer(case, intervals=intervals(case.effects[0], case.seed, case.correlation))
+            made = CaseAnswer(
+                case, intervals=intervals(case.effects[0], case.seed, case.correlation)
+            )
         else:
             made = _diagnosed(case)
     except Exception as error:  # one broken case must not end a run of hours
-        made = Answer(case, failure=f"{type(error).__name__}: {error}")
-    return Answer(**{**vars(made), "seconds": time.perf_counter() - began})
+        made = CaseAnswer(case, failure=f"{type(error).__name__}: {error}")
+    return CaseAnswer(**{**vars(made), "seconds": time.perf_counter() - began})
 
 
-def _diagnosed(case: Case) -> Answer:
+def _diagnosed(case: Case) -> CaseAnswer:
     from stribeck.diagnosis.improve import improve
     from stribeck.recording.load import read
 
@@ -121,16 +123,18 @@ def _diagnosed(case: Case) -> Answer:
     return _compared(case, sample, recording, improve("coulomb", recording))
 
 
-def _compared(case: Case, sample: Sample, recording: Recording, improvement: Improvement) -> Answer:
+def _compared(
+    case: Case, sample: Sample, recording: Recording, improvement: Improvement
+) -> CaseAnswer:
     truth = sample.truth
-    return Answer(
+    return CaseAnswer(
         case,
         hidden=tuple(e for e in truth["hidden"] if e != "none"),
         implied=tuple(truth["implied"]),
         cannot_show=tuple(truth["cannot_show"]),
         sizes=tuple(truth["sizes"].values()),
         steps=tuple(
-            Step(s.finding.effect, s.finding.confidence, s.finding.indistinguishable_from)
+            NamedEffect(s.finding.effect, s.finding.confidence, s.finding.indistinguishable_from)
             for s in improvement.steps
         ),
         verdict=improvement.last.verdict,

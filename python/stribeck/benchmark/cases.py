@@ -201,6 +201,10 @@ def _coverage(seeds: int, first: int) -> Iterator[Case]:
         for k in range(COVERAGE_PER_SEED * seeds):
             law = ("coulomb", "stribeck")[k % 2]
             yield Case(
-                "coverage", AUTOREGRESSIVE, (law,), first + k, correlation=correlation,
+                "coverage",
+                AUTOREGRESSIVE,
+                (law,),
+                first + k,
+                correlation=correlation,
                 quick=k < 10,
-            )  # fmt: skip
+            )

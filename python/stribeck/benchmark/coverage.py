@@ -13,7 +13,7 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.benchmark.draws import log_uniform
-from stribeck.benchmark.open_loop.joint import Joint, draw_joint
+from stribeck.benchmark.open_loop.joint import SimulatedJoint, draw_joint
 from stribeck.benchmark.open_loop.schedule import schedule
 
 Array = NDArray[np.float64]
@@ -108,7 +108,7 @@ def autoregressive_recording(
 
 
 def _friction(
-    rng: np.random.Generator, law: str, joint: Joint, v: Array
+    rng: np.random.Generator, law: str, joint: SimulatedJoint, v: Array
 ) -> tuple[Array, dict[str, float]]:
     dry = np.full_like(v, joint.coulomb)
     truth = {"coulomb_friction": joint.coulomb, "viscous_friction": joint.viscous}

@@ -30,16 +30,23 @@ def confusion_figure(confusion: Confusion) -> Figure:
     axes.imshow(shares, cmap=SHADES, vmin=0.0, vmax=1.0, aspect="auto")
     for i, j in np.argwhere(confusion.counts > 0):
         colour = "white" if shares[i, j] > DARK else "black"
-        axes.text(j, i, str(confusion.counts[i, j]), ha="center", va="center", color=colour,
-                  fontsize=8)  # fmt: skip
+        axes.text(
+            j, i, str(confusion.counts[i, j]), ha="center", va="center", color=colour, fontsize=8
+        )
     for i, hidden in enumerate(confusion.rows):
         right = confusion.right_column(hidden)
         if right in confusion.columns:
             j = confusion.columns.index(right)
             frame = Rectangle((j - 0.5, i - 0.5), 1, 1, fill=False, edgecolor=BEFORE, linewidth=1.3)
             axes.add_patch(frame)
-    axes.set_xticks(range(columns), _words(confusion.columns), rotation=55, ha="right",
-                    rotation_mode="anchor", fontsize=8.5)  # fmt: skip
+    axes.set_xticks(
+        range(columns),
+        _words(confusion.columns),
+        rotation=55,
+        ha="right",
+        rotation_mode="anchor",
+        fontsize=8.5,
+    )
     labels = [f"{name} ({n})" for name, n in zip(_words(confusion.rows), total[:, 0], strict=True)]
     axes.set_yticks(range(rows), labels, fontsize=8.5)
     axes.set_xticks(np.arange(columns + 1) - 0.5, minor=True)
@@ -63,13 +70,27 @@ def calibration_figure(bins: Sequence[Reliability]) -> Figure:
     shares = np.array([r.share.value for r in bins])
     spans = np.array([r.share.interval for r in bins]).T
     bars = np.abs(spans - shares)
-    axes.errorbar(means, shares, yerr=bars, color=AFTER, marker="o", markersize=5, capsize=3,
-                  linewidth=1.3, linestyle="none", label="findings, 95 % interval")  # fmt: skip
+    axes.errorbar(
+        means,
+        shares,
+        yerr=bars,
+        color=AFTER,
+        marker="o",
+        markersize=5,
+        capsize=3,
+        linewidth=1.3,
+        linestyle="none",
+        label="findings, 95 % interval",
+    )
     beside = {"xytext": (-6, 4), "textcoords": "offset points", "ha": "right"}
     for mean, share, r in zip(means, shares, bins, strict=True):
         axes.annotate(str(r.share.total), (mean, share), fontsize=8, color=MEASURED, **beside)
-    axes.set(xlim=(-0.02, 1.02), ylim=(-0.02, 1.04), xlabel="stated confidence",
-             ylabel="share of findings that are right")  # fmt: skip
+    axes.set(
+        xlim=(-0.02, 1.02),
+        ylim=(-0.02, 1.04),
+        xlabel="stated confidence",
+        ylabel="share of findings that are right",
+    )
     axes.grid(True, color="#e6e6e6", linewidth=0.6)
     axes.set_axisbelow(True)
     for side in ("top", "right"):

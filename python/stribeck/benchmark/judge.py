@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from stribeck.benchmark.answer import Answer, Step
+from stribeck.benchmark.answer import CaseAnswer, NamedEffect
 from stribeck.models.catalog import effect_ids
 
 #: Names in the confusion matrix where no effect was named.
@@ -34,7 +34,7 @@ class Judgement:
     problem: str
 
 
-def judge(answer: Answer) -> Judgement:
+def judge(answer: CaseAnswer) -> Judgement:
     """Judge an answer of any group but "coverage".
 
     one
@@ -57,22 +57,22 @@ def judge(answer: Answer) -> Judgement:
     return Judgement(not problems, not missed and not wrong, named, "; ".join(problems))
 
 
-def is_right(step: Step, answer: Answer) -> bool:
+def is_right(step: NamedEffect, answer: CaseAnswer) -> bool:
     """Whether the effect of one step is hidden in the recording, or part of one that is."""
     return step.effect in visible(answer) or step.effect in answer.implied
 
 
-def visible(answer: Answer) -> list[str]:
+def visible(answer: CaseAnswer) -> list[str]:
     """Hidden effects of the library that the motion can show."""
     outside = answer.hidden if answer.case.group == "outside" else ()
     return [e for e in answer.hidden if e not in answer.cannot_show and e not in outside]
 
 
-def _names(step: Step) -> set[str]:
+def _names(step: NamedEffect) -> set[str]:
     return {step.effect, *step.indistinguishable_from}
 
 
-def _compare(answer: Answer) -> tuple[list[str], list[str]]:
+def _compare(answer: CaseAnswer) -> tuple[list[str], list[str]]:
     """Hidden effects that were not named, and named ones that are not hidden."""
     missed, wrong = visible(answer), []
     spare = [e for e in answer.implied if e not in missed]
@@ -88,7 +88,7 @@ def _compare(answer: Answer) -> tuple[list[str], list[str]]:
     return missed, wrong
 
 
-def _top(answer: Answer) -> str:
+def _top(answer: CaseAnswer) -> str:
     """The answer to "what is missing", as the confusion matrix counts it."""
     if not answer.steps:
         return UNEXPLAINED if answer.verdict == "unexplained" else NONE
@@ -101,21 +101,21 @@ def _top(answer: Answer) -> str:
     return answer.steps[0].effect
 
 
-def _one(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+def _one(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str) -> list[str]:
     hidden = visible(answer)
     return [] if named in hidden else [f"named {named}, hidden {' and '.join(hidden)}"]
 
 
-def _several(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+def _several(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str) -> list[str]:
     problems = [f"missed {effect}" for effect in missed]
     return problems + [f"{effect} is not hidden" for effect in wrong]
 
 
-def _none(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+def _none(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str) -> list[str]:
     return [] if named == NONE else [f"named {named}, nothing is hidden"]
 
 
-def _limited(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+def _limited(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str) -> list[str]:
     claimed = [s.effect for s in answer.steps if s.effect in answer.cannot_show]
     known = [e for e in answer.cannot_show if e in effect_ids()]
     silent = [e for e in known if e not in answer.untestable]
@@ -123,7 +123,7 @@ def _limited(answer: Answer, missed: list[str], wrong: list[str], named: str) ->
     return problems + [f"{effect} is not listed as untestable" for effect in silent]
 
 
-def _outside(answer: Answer, missed: list[str], wrong: list[str], named: str) -> list[str]:
+def _outside(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str) -> list[str]:
     return [] if named == UNEXPLAINED else [f"named {named}, hidden is outside the library"]
 
 

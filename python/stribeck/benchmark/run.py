@@ -7,11 +7,11 @@ from pathlib import Path
 
 from stribeck.base.files import png_bytes, write_bytes_whole, write_whole
 from stribeck.base.pool import ProcessPool, run_each, worker_count
-from stribeck.benchmark.answer import Answer, answer
+from stribeck.benchmark.answer import CaseAnswer, answer
 from stribeck.benchmark.cases import Case
 from stribeck.benchmark.figures import calibration_figure, confusion_figure
 from stribeck.benchmark.score import Score, score
-from stribeck.benchmark.store import Store, frame
+from stribeck.benchmark.store import AnswerStore, frame
 from stribeck.benchmark.text import score_text
 
 
@@ -21,7 +21,7 @@ def run(
     *,
     workers: int | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
-) -> tuple[list[Answer], Score]:
+) -> tuple[list[CaseAnswer], Score]:
     """Answer every case and score the answers.
 
     Parameters
@@ -41,17 +41,17 @@ def run(
     StribeckError
         The folder cannot be used.
     """
-    store = None if folder is None else Store(folder)
+    store = None if folder is None else AnswerStore(folder)
     answers = {} if store is None else dict(store.answers)
     todo = [case for case in cases if case.name not in answers]
 
-    def finished(made: Answer) -> None:
+    def finished(made: CaseAnswer) -> None:
         answers[made.case.name] = made
         if store is not None:
             store.add(made)
         progress(len(cases) - len(todo) + sum(c.name in answers for c in todo), len(cases))
 
-    def asked() -> list[Answer]:
+    def asked() -> list[CaseAnswer]:
         return [answers[case.name] for case in cases if case.name in answers]
 
     try:
@@ -64,7 +64,7 @@ def run(
     return made, score(made)
 
 
-def _answer_all(todo: Sequence[Case], finished: Callable[[Answer], None], workers: int) -> None:
+def _answer_all(todo: Sequence[Case], finished: Callable[[CaseAnswer], None], workers: int) -> None:
     if workers == 1:
         run_each(answer, todo, finished, None)
         return
@@ -72,7 +72,7 @@ def _answer_all(todo: Sequence[Case], finished: Callable[[Answer], None], worker
         run_each(answer, todo, finished, pool, what="the benchmark")
 
 
-def write_results(folder: Path, answers: Sequence[Answer]) -> None:
+def write_results(folder: Path, answers: Sequence[CaseAnswer]) -> None:
     """``answers.parquet``, ``confusion.csv`` and ``.png``, ``calibration.png``, ``score.txt``."""
     made = score(answers)
     table = frame(answers)

@@ -11,7 +11,7 @@ import numpy as np
 import polars as pl
 import scipy
 
-from stribeck.benchmark.answer import Answer
+from stribeck.benchmark.answer import CaseAnswer
 from stribeck.benchmark.cases import CORRELATIONS, SIZES
 from stribeck.benchmark.judge import FAILED, NONE, UNEXPLAINED, Judgement, is_right, judge
 from stribeck.models.catalog import effect_ids
@@ -58,16 +58,18 @@ class Share:
         ci = scipy.stats.binomtest(self.count, self.total).proportion_ci(method="wilson")
         return (float(ci.low), float(ci.high))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         return {
-            "right": self.count, "of": self.total, "share": self.value,
+            "right": self.count,
+            "of": self.total,
+            "share": self.value,
             "interval95": list(self.interval),
-        }  # fmt: skip
+        }
 
 
 @dataclass(frozen=True)
-class Group:
+class ScoreGroup:
     """One line of the scoreboard."""
 
     title: str
@@ -141,12 +143,12 @@ class Confusion:
 class Score:
     """All figures of a run."""
 
-    groups: tuple[Group, ...]
+    groups: tuple[ScoreGroup, ...]
     confusion: Confusion
     reliability: tuple[Reliability, ...]
     ratios: tuple[Ratio, ...]
     coverage: tuple[Coverage, ...]
-    failures: tuple[tuple[Answer, Judgement], ...]
+    failures: tuple[tuple[CaseAnswer, Judgement], ...]
 
     @property
     def passed(self) -> bool:
@@ -155,7 +157,7 @@ class Score:
         groups = all(group.passed for group in self.groups)
         return ratio and groups and all(line.passed for line in self.coverage)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         return {
             "passed": self.passed,
@@ -173,29 +175,41 @@ class Score:
                 for r in self.reliability
             ],
             "held_out_over_oracle": [
-                {"of": r.title, "answers": r.count, "mean": r.mean, "median": r.median,
-                 "p90": r.p90, "within_bar": r.within.value, "bar": RATIO_BAR}
+                {
+                    "of": r.title,
+                    "answers": r.count,
+                    "mean": r.mean,
+                    "median": r.median,
+                    "p90": r.p90,
+                    "within_bar": r.within.value,
+                    "bar": RATIO_BAR,
+                }
                 for r in self.ratios
             ],
             "coverage": [
-                {"correlation": c.correlation, "recordings": c.recordings,
-                 "share": c.share.value, "interval95": list(c.share.interval),
-                 "ordinary_least_squares": c.ordinary.value, "bar": list(COVERAGE_BAR),
-                 "passed": c.passed}
+                {
+                    "correlation": c.correlation,
+                    "recordings": c.recordings,
+                    "share": c.share.value,
+                    "interval95": list(c.share.interval),
+                    "ordinary_least_squares": c.ordinary.value,
+                    "bar": list(COVERAGE_BAR),
+                    "passed": c.passed,
+                }
                 for c in self.coverage
             ],
             "wrong": [
                 {"case": a.case.name, "named": j.named, "problem": j.problem}
                 for a, j in self.failures
             ],
-        }  # fmt: skip
+        }
 
 
 #: Title of the ratio that is reported and has no bar.
 OVER_NOISE_5 = "one effect at 5 x the noise"
 
 
-def score(answers: Iterable[Answer]) -> Score:
+def score(answers: Iterable[CaseAnswer]) -> Score:
     """Judge answers and count."""
     every = list(answers)
     judged = [(a, judge(a)) for a in every if a.case.group != "coverage"]
@@ -206,23 +220,27 @@ def score(answers: Iterable[Answer]) -> Score:
         if a.case.group == "coverage" and a.failure
     ]
     return Score(
-        tuple(_groups(judged)), _confusion(judged), tuple(_reliability(judged)),
-        tuple(_ratios(judged)), tuple(_coverages(every)), tuple(wrong),
-    )  # fmt: skip
+        tuple(_groups(judged)),
+        _confusion(judged),
+        tuple(_reliability(judged)),
+        tuple(_ratios(judged)),
+        tuple(_coverages(every)),
+        tuple(wrong),
+    )
 
 
-Judged = Sequence[tuple[Answer, Judgement]]
+Judged = Sequence[tuple[CaseAnswer, Judgement]]
 
 
-def _groups(judged: Judged) -> Iterable[Group]:
+def _groups(judged: Judged) -> Iterable[ScoreGroup]:
     for size, bar in BARS_BY_SIZE.items():
         of = [j for a, j in judged if a.case.group == "one" and a.case.size == size]
         if of:
-            yield Group(f"one hidden effect, {size:g} x the noise", _right(of), bar)
+            yield ScoreGroup(f"one hidden effect, {size:g} x the noise", _right(of), bar)
     for group, bar in BARS.items():
         of = [j for a, j in judged if a.case.group == group]
         if of:
-            yield Group(TITLES[group], _right(of), bar)
+            yield ScoreGroup(TITLES[group], _right(of), bar)
 
 
 def _right(judgements: Sequence[Judgement]) -> Share:
@@ -264,21 +282,27 @@ def _reliability(judged: Judged) -> Iterable[Reliability]:
 def _ratios(judged: Judged) -> Iterable[Ratio]:
     single = [a for a, _ in judged if a.case.group == "one" and a.ratio is not None]
     selections = [
-        (f"one effect at {' and '.join(f'{s:g}' for s in sorted(RATIO_SIZES))} x the noise",
-         [a for a in single if a.case.size in RATIO_SIZES]),
+        (
+            f"one effect at {' and '.join(f'{s:g}' for s in sorted(RATIO_SIZES))} x the noise",
+            [a for a in single if a.case.size in RATIO_SIZES],
+        ),
         (OVER_NOISE_5, [a for a in single if a.case.size == SIZES[0]]),
-    ]  # fmt: skip
+    ]
     for title, of in selections:
         if of:
             values = np.array([a.ratio for a in of])
             within = Share(int(np.sum(values <= RATIO_BAR)), len(of))
             yield Ratio(
-                title, len(of), float(values.mean()), float(np.median(values)),
-                float(np.quantile(values, 0.9)), within,
-            )  # fmt: skip
+                title,
+                len(of),
+                float(values.mean()),
+                float(np.median(values)),
+                float(np.quantile(values, 0.9)),
+                within,
+            )
 
 
-def _coverages(answers: Sequence[Answer]) -> Iterable[Coverage]:
+def _coverages(answers: Sequence[CaseAnswer]) -> Iterable[Coverage]:
     for correlation in CORRELATIONS:
         of = [a for a in answers if a.case.correlation == correlation and not a.failure]
         if not of:

@@ -15,17 +15,17 @@ from typing import Any
 
 import polars as pl
 
-from stribeck.base.errors import StribeckError
+from stribeck.base.errors import StribeckError, option
 from stribeck.base.files import write_whole
 from stribeck.base.version import __version__
-from stribeck.benchmark.answer import Answer
+from stribeck.benchmark.answer import CaseAnswer
 from stribeck.benchmark.judge import judge
 
 KIND = "diagnosis benchmark"
 MANIFEST, ANSWERS = "manifest.json", "answers.jsonl"
 
 
-class Store:
+class AnswerStore:
     """Answers of one version of the program, on disk.
 
     Parameters
@@ -42,7 +42,7 @@ class Store:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        self.answers: dict[str, Answer] = {}
+        self.answers: dict[str, CaseAnswer] = {}
         manifest = {"kind": KIND, "version": __version__, "program": program_hash()}
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -51,7 +51,7 @@ class Store:
                 self.answers = {a.case.name: a for a in _read(folder / ANSWERS)}
             elif any(folder.iterdir()):
                 raise StribeckError(
-                    f"{folder} is not empty and holds no benchmark: give another --output"
+                    f"{folder} is not empty and holds no benchmark: give another {option('output')}"
                 )
             else:
                 write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
@@ -59,8 +59,8 @@ class Store:
             self._log = (folder / ANSWERS).open("a", encoding="utf-8")
         except OSError as error:
             raise StribeckError(
-                f"cannot write {folder}: {error.strerror or error}; give --output a folder that "
-                f"may be written to"
+                f"cannot write {folder}: {error.strerror or error}; give {option('output')} a "
+                f"folder that can be written to"
             ) from None
 
     def _check(self, manifest: dict[str, str]) -> None:
@@ -70,14 +70,14 @@ class Store:
         except ValueError:
             found = None
         if not isinstance(found, dict) or found.get("kind") != KIND:
-            raise StribeckError(f"{path} is not one of a benchmark: give another --output")
+            raise StribeckError(f"{path} is not of a benchmark: give another {option('output')}")
         if found != manifest:
             raise StribeckError(
                 f"{self.folder} holds answers of another version of stribeck: give another "
-                f"--output, so that answers of two programs are not put together"
+                f"{option('output')}, so that answers of two versions are not mixed"
             )
 
-    def add(self, answer: Answer) -> None:
+    def add(self, answer: CaseAnswer) -> None:
         """Keep an answer; it is on disk when this returns."""
         self.answers[answer.case.name] = answer
         self._log.write(_line(answer))
@@ -98,7 +98,7 @@ def program_hash() -> str:
     return digest.hexdigest()
 
 
-def frame(answers: Iterable[Answer]) -> pl.DataFrame:
+def frame(answers: Iterable[CaseAnswer]) -> pl.DataFrame:
     """Every answer and what it is worth, one row each."""
     rows = []
     for a in answers:
@@ -106,9 +106,15 @@ def frame(answers: Iterable[Answer]) -> pl.DataFrame:
         judgement = judge(a) if scored else None
         rows.append(
             {
-                "case": a.case.name, "group": a.case.group, "generator": a.case.generator,
-                "effects": list(a.case.effects), "size": a.case.size, "limit": a.case.limit,
-                "sizes": list(a.sizes), "seed": a.case.seed, "correlation": a.case.correlation,
+                "case": a.case.name,
+                "group": a.case.group,
+                "generator": a.case.generator,
+                "effects": list(a.case.effects),
+                "size": a.case.size,
+                "limit": a.case.limit,
+                "sizes": list(a.sizes),
+                "seed": a.case.seed,
+                "correlation": a.case.correlation,
                 "right": judgement.right if judgement else None,
                 "exact": judgement.exact if judgement else None,
                 "named": judgement.named if judgement else None,
@@ -116,31 +122,53 @@ def frame(answers: Iterable[Answer]) -> pl.DataFrame:
                 "found": [s.effect for s in a.steps],
                 "confidence": [s.confidence for s in a.steps],
                 "indistinguishable_from": [list(s.indistinguishable_from) for s in a.steps],
-                "verdict": a.verdict, "untestable": list(a.untestable),
-                "rmse_held_out": a.rmse_held_out, "oracle_rmse": a.oracle_rmse,
-                "noise_rms": a.noise_rms, "noise_floor": a.noise_floor,
+                "verdict": a.verdict,
+                "untestable": list(a.untestable),
+                "rmse_held_out": a.rmse_held_out,
+                "oracle_rmse": a.oracle_rmse,
+                "noise_rms": a.noise_rms,
+                "noise_floor": a.noise_floor,
                 "covered": [i.covers for i in a.intervals],
                 "covered_ordinary": [i.covers_ordinary for i in a.intervals],
                 "parameters": [i.parameter for i in a.intervals],
-                "seconds": a.seconds, "failure": a.failure,
+                "seconds": a.seconds,
+                "failure": a.failure,
             }
-        )  # fmt: skip
+        )
     texts, numbers = pl.List(pl.String), pl.List(pl.Float64)
-    schema: dict[str, Any] = {
-        "case": pl.String, "group": pl.String, "generator": pl.String, "effects": texts,
-        "size": pl.Float64, "sizes": numbers, "limit": pl.String, "seed": pl.Int64,
+    schema: dict[str, pl.DataType | type[pl.DataType]] = {
+        "case": pl.String,
+        "group": pl.String,
+        "generator": pl.String,
+        "effects": texts,
+        "size": pl.Float64,
+        "sizes": numbers,
+        "limit": pl.String,
+        "seed": pl.Int64,
         "correlation": pl.Float64,
-        "right": pl.Boolean, "exact": pl.Boolean, "named": pl.String, "problem": pl.String,
-        "found": texts, "confidence": numbers, "indistinguishable_from": pl.List(texts),
-        "verdict": pl.String, "untestable": texts, "rmse_held_out": pl.Float64,
-        "oracle_rmse": pl.Float64, "noise_rms": pl.Float64, "noise_floor": pl.Float64,
-        "covered": pl.List(pl.Boolean), "covered_ordinary": pl.List(pl.Boolean),
-        "parameters": texts, "seconds": pl.Float64, "failure": pl.String,
-    }  # fmt: skip
+        "right": pl.Boolean,
+        "exact": pl.Boolean,
+        "named": pl.String,
+        "problem": pl.String,
+        "found": texts,
+        "confidence": numbers,
+        "indistinguishable_from": pl.List(texts),
+        "verdict": pl.String,
+        "untestable": texts,
+        "rmse_held_out": pl.Float64,
+        "oracle_rmse": pl.Float64,
+        "noise_rms": pl.Float64,
+        "noise_floor": pl.Float64,
+        "covered": pl.List(pl.Boolean),
+        "covered_ordinary": pl.List(pl.Boolean),
+        "parameters": texts,
+        "seconds": pl.Float64,
+        "failure": pl.String,
+    }
     return pl.DataFrame(rows, schema=schema)
 
 
-def _line(answer: Answer) -> str:
+def _line(answer: CaseAnswer) -> str:
     return json.dumps(_finite(answer.to_dict()), allow_nan=False) + "\n"
 
 
@@ -153,7 +181,7 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _read(path: Path) -> list[Answer]:
+def _read(path: Path) -> list[CaseAnswer]:
     """The answers given before; a line that was cut off in writing is left out."""
     if not path.exists():
         return []
@@ -161,9 +189,9 @@ def _read(path: Path) -> list[Answer]:
     answers = []
     for number, line in enumerate(text[: text.rfind("\n") + 1].splitlines(), start=1):
         try:
-            answers.append(Answer.from_dict(json.loads(line)))
+            answers.append(CaseAnswer.from_dict(json.loads(line)))
         except (KeyError, TypeError, ValueError):
             raise StribeckError(
-                f"{path}, line {number}, is damaged: remove it, or give another --output"
+                f"{path}, line {number}, is damaged: remove it, or give another {option('output')}"
             ) from None
     return answers

@@ -10,10 +10,10 @@ from stribeck.benchmark.score import (
     RATIO_BAR,
     Confusion,
     Coverage,
-    Group,
     Ratio,
     Reliability,
     Score,
+    ScoreGroup,
     Share,
 )
 from stribeck.report.layout import table
@@ -27,13 +27,17 @@ def score_text(score: Score) -> str:
     parts = [
         _part("Share of answers that are right", _groups(score.groups)),
         _part("Hidden effect, and what was named first", _confusion(score.confusion)),
-        _part("Findings by confidence, and how many of them are right",
-              _reliability(score.reliability)),
-        _part("Final held-out RMSE over that of the generator's own formula, refitted",
-              _ratios(score.ratios)),
+        _part(
+            "Findings by confidence, and how many of them are right",
+            _reliability(score.reliability),
+        ),
+        _part(
+            "Final held-out RMSE over that of the generator's own formula, refitted",
+            _ratios(score.ratios),
+        ),
         _part("95 % intervals that cover the truth, under AR(1) noise", _coverage(score.coverage)),
         _part("Wrong answers", _wrong(score)),
-    ]  # fmt: skip
+    ]
     return "\n\n".join(part for part in parts if part)
 
 
@@ -54,15 +58,22 @@ def _mark(passed: bool) -> str:
     return "yes" if passed else "NO"
 
 
-def _groups(groups: Sequence[Group]) -> str:
+def _groups(groups: Sequence[ScoreGroup]) -> str:
     if not groups:
         return ""
     rows = [["group", "right", "of", "share", "95 % interval", "bar", "reached"]]
     rows += [
-        [g.title, str(g.share.count), str(g.share.total), _percent(g.share.value),
-         _interval(g.share), _percent(g.bar), _mark(g.passed)]
+        [
+            g.title,
+            str(g.share.count),
+            str(g.share.total),
+            _percent(g.share.value),
+            _interval(g.share),
+            _percent(g.bar),
+            _mark(g.passed),
+        ]
         for g in groups
-    ]  # fmt: skip
+    ]
     return table(rows, right=(1, 2, 3, 4, 5))
 
 
@@ -86,10 +97,16 @@ def _reliability(bins: Sequence[Reliability]) -> str:
         return ""
     rows = [["confidence", "mean", "findings", "right", "share", "95 % interval"]]
     rows += [
-        [f"{r.low:g} to {r.high:g}", f"{r.mean:.3f}", str(r.share.total), str(r.share.count),
-         _percent(r.share.value), _interval(r.share)]
+        [
+            f"{r.low:g} to {r.high:g}",
+            f"{r.mean:.3f}",
+            str(r.share.total),
+            str(r.share.count),
+            _percent(r.share.value),
+            _interval(r.share),
+        ]
         for r in bins
-    ]  # fmt: skip
+    ]
     return table(rows, right=(1, 2, 3, 4, 5))
 
 
@@ -98,10 +115,16 @@ def _ratios(ratios: Sequence[Ratio]) -> str:
         return ""
     rows = [["recordings", "number", "mean", "median", "90 % below", f"within {RATIO_BAR:g}"]]
     rows += [
-        [r.title, str(r.count), f"{r.mean:.4f}", f"{r.median:.4f}", f"{r.p90:.4f}",
-         _percent(r.within.value)]
+        [
+            r.title,
+            str(r.count),
+            f"{r.mean:.4f}",
+            f"{r.median:.4f}",
+            f"{r.p90:.4f}",
+            _percent(r.within.value),
+        ]
         for r in ratios
-    ]  # fmt: skip
+    ]
     return table(rows, right=(1, 2, 3, 4, 5))
 
 
@@ -109,13 +132,27 @@ def _coverage(lines: Sequence[Coverage]) -> str:
     if not lines:
         return ""
     low, high = COVERAGE_BAR
-    rows = [["correlation", "recordings", "covered", "95 % interval", "ordinary least squares",
-             f"between {_percent(low)} and {_percent(high)}"]]  # fmt: skip
+    rows = [
+        [
+            "correlation",
+            "recordings",
+            "covered",
+            "95 % interval",
+            "ordinary least squares",
+            f"between {_percent(low)} and {_percent(high)}",
+        ]
+    ]
     rows += [
-        [f"{c.correlation:g}", str(c.recordings), _percent(c.share.value), _interval(c.share),
-         _percent(c.ordinary.value) if c.ordinary.total else "-", _mark(c.passed)]
+        [
+            f"{c.correlation:g}",
+            str(c.recordings),
+            _percent(c.share.value),
+            _interval(c.share),
+            _percent(c.ordinary.value) if c.ordinary.total else "-",
+            _mark(c.passed),
+        ]
         for c in lines
-    ]  # fmt: skip
+    ]
     return table(rows, right=(0, 1, 2, 3, 4))
 
 

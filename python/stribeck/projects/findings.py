@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 from stribeck.diagnosis.result import Diagnosis, Finding
 
@@ -37,11 +36,15 @@ class Found:
     def of(cls, finding: Finding) -> Found:
         """Remember a finding."""
         return cls(
-            finding.effect, finding.confidence, finding.fit.rmse_held_out,
-            finding.share_of_unexplained, finding.where, finding.indistinguishable_from,
-        )  # fmt: skip
+            finding.effect,
+            finding.confidence,
+            finding.fit.rmse_held_out,
+            finding.share_of_unexplained,
+            finding.where,
+            finding.indistinguishable_from,
+        )
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """For JSON, with the names that a diagnosis uses."""
         return {
             "effect": self.effect,
@@ -92,7 +95,7 @@ class Remembered:
         """What was found of one effect."""
         return next((found for found in self.findings if found.effect == effect), None)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """For JSON."""
         return {
             "verdict": self.verdict,

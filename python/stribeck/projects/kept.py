@@ -69,6 +69,15 @@ def _estimate(file: ModelFile, name: str, symbol: str, unit: str) -> Estimate:
     near = AT_BOUND * (upper - lower) if np.isfinite(upper - lower) else 0.0
     at_bound = error is None and not held and not lower + near < value < upper - near
     return Estimate(
-        name, symbol, value, unit, error, None, at_bound,
-        error is not None or held or at_bound, lower, upper, held,
-    )  # fmt: skip
+        name,
+        symbol,
+        value,
+        unit,
+        error,
+        None,
+        at_bound,
+        error is not None or held or at_bound,
+        lower,
+        upper,
+        held,
+    )

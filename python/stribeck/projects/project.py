@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import polars as pl
 
@@ -165,9 +165,12 @@ class Project(Plotted):
         Parameters are those of `stribeck.diagnose`; rejected effects are not tried.
         """
         found = diagnose_fit(
-            self.fit_of(self.node, seed), least_fall=least_fall, candidates=candidates, seed=seed,
+            self.fit_of(self.node, seed),
+            least_fall=least_fall,
+            candidates=candidates,
+            seed=seed,
             rejected=self.tree.rejected(self.current),
-        )  # fmt: skip
+        )
         return self._remembering(self.current, found)
 
     def add(self, effect: str, *, starts: int = 20, seed: int = 0) -> Project:
@@ -226,9 +229,12 @@ class Project(Plotted):
             return replace(self, current=known.number)
         before = self.fit_of(self.node, seed)
         after = fit(
-            model.without_effect(effect), self.recording, starts=starts, seed=seed,
+            model.without_effect(effect),
+            self.recording,
+            starts=starts,
+            seed=seed,
             transient=before.transient,
-        )  # fmt: skip
+        )
         found = Found(effect, None, after.rmse_held_out, None, where(effect, after, before))
         return self._with_node("drop", found, after)
 
@@ -319,10 +325,14 @@ class Project(Plotted):
         start = self.current
         project = self
         for way in walk(
-            self.fit_of(self.node, seed), least_fall=least_fall, most_steps=most_steps,
-            rejected=self.tree.rejected(start), candidates=candidates, seed=seed,
+            self.fit_of(self.node, seed),
+            least_fall=least_fall,
+            most_steps=most_steps,
+            rejected=self.tree.rejected(start),
+            candidates=candidates,
+            seed=seed,
             progress=progress,
-        ):  # fmt: skip
+        ):
             project = project._along(start, way)
             each(project)
         return project
@@ -375,7 +385,7 @@ class Project(Plotted):
         tree = self.tree.with_changed(known.number, found=found, kept=kept)
         return replace(self, tree=tree, current=known.number)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """What the commands print as JSON."""
         return project_dict(self)
 

@@ -123,11 +123,15 @@ class _Reader:
             raise self.stop(f"the model of node {number} has no rmse", header)
         found = self._found(table["found"], f"[nodes.{number}.found]") if "found" in table else None
         node = Node(
-            number, table.get("parent"), change, found, kept,
+            number,
+            table.get("parent"),
+            change,
+            found,
+            kept,
             name=self._text(table, "name", header) if "name" in table else "",
             rejected=self._rejected(table, number),
             diagnosis=self._diagnosis(table, number),
-        )  # fmt: skip
+        )
         self._check_place(node, before, header)
         return node
 

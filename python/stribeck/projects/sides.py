@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import polars as pl
 
@@ -43,7 +42,7 @@ class Sides(Plotted):
             nodes, compare(fits, recording), better, difference(fits[1 - better], fits[better])
         )
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """The JSON of `stribeck compare`, with the nodes and their difference."""
         return {
             **self.comparison.to_dict(),

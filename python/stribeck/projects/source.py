@@ -88,7 +88,7 @@ class Source:
         named = {} if self.sidecar is None else {"sidecar": self.sidecar}
         return read(self.file, **{**self.reading, **named})
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """For JSON."""
         return {
             "path": self.path,

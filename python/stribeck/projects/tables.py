@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import polars as pl
 
@@ -26,7 +26,7 @@ COLUMNS = {
 }
 
 
-def project_dict(project: Project) -> dict[str, Any]:
+def project_dict(project: Project) -> dict[str, object]:
     """The JSON of a project: its data, its nodes, and which is current."""
     model = project.node.kept.model
     return {
@@ -42,15 +42,16 @@ def project_dict(project: Project) -> dict[str, Any]:
 
 def project_frame(project: Project) -> pl.DataFrame:
     """One row a node."""
-    rows = [{**_node(n, project.tree), "current": n.number == project.current}
-            for n in project.tree]  # fmt: skip
+    rows = [
+        {**_node(n, project.tree), "current": n.number == project.current} for n in project.tree
+    ]
     return pl.DataFrame(
         {column: [row[key] for row in rows] for column, (key, _) in COLUMNS.items()},
         schema={column: kind for column, (_, kind) in COLUMNS.items()},
     )
 
 
-def _node(node: Node, tree: Tree) -> dict[str, Any]:
+def _node(node: Node, tree: Tree) -> dict[str, object]:
     before = None if node.parent is None else tree.node(node.parent).kept
     found = node.found
     return {
@@ -72,9 +73,13 @@ def _node(node: Node, tree: Tree) -> dict[str, Any]:
         "diagnosis": None if node.diagnosis is None else node.diagnosis.to_dict(),
         "parameters": {
             name: {
-                "symbol": e.symbol, "value": e.value, "unit": e.unit, "stderr": e.stderr,
-                "at_bound": e.at_bound, "identifiable": e.identifiable,
+                "symbol": e.symbol,
+                "value": e.value,
+                "unit": e.unit,
+                "stderr": e.stderr,
+                "at_bound": e.at_bound,
+                "identifiable": e.identifiable,
             }
             for name, e in node.kept.estimates.items()
         },
-    }  # fmt: skip
+    }

@@ -53,7 +53,7 @@ def project_toml(project: Project) -> str:
     return tomlkit.dumps(document)
 
 
-def _table(values: Mapping[str, Any]) -> Any:
+def _table(values: Mapping[str, object]) -> Any:
     """A table of what is known."""
     table = tomlkit.table()
     for key, value in values.items():
@@ -82,18 +82,25 @@ def _node_table(node: Node) -> Any:
 def _found_table(found: Found) -> Any:
     return _table(
         {
-            "effect": found.effect, "confidence": found.confidence,
-            "rmse_held_out": found.rmse_held_out, "share": found.share, "where": found.where,
+            "effect": found.effect,
+            "confidence": found.confidence,
+            "rmse_held_out": found.rmse_held_out,
+            "share": found.share,
+            "where": found.where,
             "ties": list(found.ties),
         }
-    )  # fmt: skip
+    )
 
 
 def _diagnosis_table(said: Remembered) -> Any:
     table = _table(
-        {"verdict": said.verdict, "noise_floor": said.noise_floor, "left": said.left,
-         "left_where": said.left_where}
-    )  # fmt: skip
+        {
+            "verdict": said.verdict,
+            "noise_floor": said.noise_floor,
+            "left": said.left,
+            "left_where": said.left_where,
+        }
+    )
     if said.findings:
         rows = tomlkit.aot()
         for found in said.findings:

@@ -11,9 +11,9 @@ from click.testing import CliRunner, Result
 from stribeck.base.errors import StribeckError
 from stribeck.base.pool import Stopped
 from stribeck.benchmark import run as running
-from stribeck.benchmark.answer import Answer, answer
+from stribeck.benchmark.answer import CaseAnswer, answer
 from stribeck.benchmark.cases import Case, cases
-from stribeck.benchmark.store import Store
+from stribeck.benchmark.store import AnswerStore
 from stribeck.cli.main import cli
 
 
@@ -67,20 +67,20 @@ def test_a_run_that_is_stopped_goes_on(tmp_path: Path, monkeypatch: pytest.Monke
     chosen = [c for c in cases(1) if c.group == "coverage"][:3]
     asked: list[str] = []
 
-    def counted(case: Case) -> Answer:
+    def counted(case: Case) -> CaseAnswer:
         if len(asked) == 1:
             raise KeyboardInterrupt
         asked.append(case.name)
-        return Answer(case, verdict="none")
+        return CaseAnswer(case, verdict="none")
 
     monkeypatch.setattr(running, "answer", counted)
     with pytest.raises(Stopped):
         running.run(chosen, tmp_path / "board", workers=1)
     assert pl.read_parquet(tmp_path / "board" / "answers.parquet").height == 1
 
-    def rest(case: Case) -> Answer:
+    def rest(case: Case) -> CaseAnswer:
         asked.append(case.name)
-        return Answer(case, verdict="none")
+        return CaseAnswer(case, verdict="none")
 
     monkeypatch.setattr(running, "answer", rest)
     running.run(chosen, tmp_path / "board", workers=1)
@@ -88,24 +88,24 @@ def test_a_run_that_is_stopped_goes_on(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 def test_answers_of_another_program_are_not_added_to(tmp_path: Path) -> None:
-    Store(tmp_path / "board").close()
+    AnswerStore(tmp_path / "board").close()
     manifest = tmp_path / "board" / "manifest.json"
     said = json.loads(manifest.read_text())
     manifest.write_text(json.dumps({**said, "program": "another"}))
     with pytest.raises(StribeckError, match="another version"):
-        Store(tmp_path / "board")
+        AnswerStore(tmp_path / "board")
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "notes.txt").write_text("mine")
     with pytest.raises(StribeckError, match="holds no benchmark"):
-        Store(tmp_path / "other")
+        AnswerStore(tmp_path / "other")
 
 
 def test_an_answer_reads_back_the_same(tmp_path: Path) -> None:
-    store = Store(tmp_path)
+    store = AnswerStore(tmp_path)
     made = answer(Case("coverage", "autoregressive", ("coulomb",), 4, correlation=0.9))
     store.add(made)
     store.close()
-    assert Store(tmp_path).answers == {made.case.name: made}
+    assert AnswerStore(tmp_path).answers == {made.case.name: made}
 
 
 def test_a_broken_case_is_an_answer() -> None:

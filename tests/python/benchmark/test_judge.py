@@ -5,18 +5,18 @@ from __future__ import annotations
 import dataclasses
 
 import pytest
-from stribeck.benchmark.answer import Answer, Step
+from stribeck.benchmark.answer import CaseAnswer, NamedEffect
 from stribeck.benchmark.cases import Case
 from stribeck.benchmark.judge import judge
 
 
-def answered(group: str, hidden: tuple[str, ...], *steps: Step, **rest: object) -> Answer:
+def answered(group: str, hidden: tuple[str, ...], *steps: NamedEffect, **rest: object) -> CaseAnswer:
     case = Case(group, "open_loop", hidden or ("none",), 1, 1.0)
-    return dataclasses.replace(Answer(case, hidden=hidden, steps=steps, verdict="none"), **rest)
+    return dataclasses.replace(CaseAnswer(case, hidden=hidden, steps=steps, verdict="none"), **rest)
 
 
-LOAD, STRIBECK = Step("load", 0.9), Step("stribeck", 0.99)
-TIE = Step("gain", 0.6, ("load",))
+LOAD, STRIBECK = NamedEffect("load", 0.9), NamedEffect("stribeck", 0.99)
+TIE = NamedEffect("gain", 0.6, ("load",))
 
 
 @pytest.mark.parametrize(
@@ -30,7 +30,7 @@ TIE = Step("gain", 0.6, ("load",))
     ],
 )
 def test_one_effect_is_right_when_it_comes_first(
-    steps: tuple[Step, ...], right: bool, exact: bool, named: str
+    steps: tuple[NamedEffect, ...], right: bool, exact: bool, named: str
 ) -> None:
     judgement = judge(answered("one", ("load",), *steps))
     assert (judgement.right, judgement.exact, judgement.named) == (right, exact, named)
@@ -38,7 +38,7 @@ def test_one_effect_is_right_when_it_comes_first(
 
 
 def test_an_effect_may_come_after_the_simpler_one_that_it_contains() -> None:
-    quadrant = Step("quadrant", 0.9)
+    quadrant = NamedEffect("quadrant", 0.9)
     both = answered("one", ("quadrant",), LOAD, quadrant, implied=("load",))
     assert judge(both).right
     assert judge(both).exact
@@ -52,12 +52,12 @@ def test_several_effects_must_all_be_found_and_nothing_else(group: str) -> None:
     hidden = ("load", "stribeck")
     assert judge(answered(group, hidden, STRIBECK, TIE)).right
     assert judge(answered(group, hidden, STRIBECK)).problem == "missed load"
-    further = judge(answered(group, hidden, STRIBECK, LOAD, Step("drift", 0.9)))
+    further = judge(answered(group, hidden, STRIBECK, LOAD, NamedEffect("drift", 0.9)))
     assert further.problem == "drift is not hidden"
 
 
 def test_one_tie_stands_for_one_effect() -> None:
-    tie = Step("load", 0.5, ("gain",))
+    tie = NamedEffect("load", 0.5, ("gain",))
     assert judge(answered("two", ("load", "gain"), tie)).problem == "missed gain"
 
 
@@ -75,14 +75,14 @@ def test_what_a_motion_cannot_show_is_listed_and_not_claimed() -> None:
     assert judge(answered("limited", ("temperature_dry",), **listed)).right
     silent = judge(answered("limited", (), **cannot))
     assert "temperature_dry is not listed as untestable" in silent.problem
-    claimed = judge(answered("limited", (), Step("temperature_dry", 0.9), **listed))
+    claimed = judge(answered("limited", (), NamedEffect("temperature_dry", 0.9), **listed))
     assert "claimed temperature_dry" in claimed.problem
 
 
 def test_what_is_outside_the_library_is_unexplained() -> None:
     assert judge(answered("outside", ("humidity",), verdict="unexplained")).right
     assert not judge(answered("outside", ("humidity",))).right
-    named = judge(answered("outside", ("humidity",), Step("drift", 0.9), verdict="unexplained"))
+    named = judge(answered("outside", ("humidity",), NamedEffect("drift", 0.9), verdict="unexplained"))
     assert not named.right
     assert named.named == "drift"
 

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from stribeck.benchmark.answer import Answer, Step
+from stribeck.benchmark.answer import CaseAnswer, NamedEffect
 from stribeck.benchmark.cases import Case
 from stribeck.benchmark.coverage import Interval
 from stribeck.benchmark.figures import calibration_figure, confusion_figure
@@ -14,18 +14,18 @@ from stribeck.benchmark.score import OUTSIDE, Share, score
 from stribeck.benchmark.text import score_text
 
 
-def one(effect: str, named: str, confidence: float = 0.95, seed: int = 0, **rest: object) -> Answer:
+def one(effect: str, named: str, confidence: float = 0.95, seed: int = 0, **rest: object) -> CaseAnswer:
     case = Case("one", "open_loop", (effect,), seed, 1.0)
-    made = Answer(
-        case, hidden=(effect,), steps=(Step(named, confidence),), verdict="none",
+    made = CaseAnswer(
+        case, hidden=(effect,), steps=(NamedEffect(named, confidence),), verdict="none",
         rmse_held_out=1.01, oracle_rmse=1.0,
     )  # fmt: skip
     return dataclasses.replace(made, **rest)
 
 
-def covered(correlation: float, share: float, recordings: int = 100) -> list[Answer]:
+def covered(correlation: float, share: float, recordings: int = 100) -> list[CaseAnswer]:
     return [
-        Answer(
+        CaseAnswer(
             Case("coverage", "autoregressive", ("coulomb",), k, correlation=correlation),
             intervals=(Interval("coulomb_friction", k < share * recordings, k < 20, 0.1, 0.01),),
         )
@@ -44,8 +44,8 @@ def test_groups_are_counted_against_their_bars() -> None:
 
 
 def test_the_confusion_matrix_holds_every_single_effect() -> None:
-    none = Answer(Case("none", "open_loop", ("none",), 1), verdict="none")
-    outside = Answer(
+    none = CaseAnswer(Case("none", "open_loop", ("none",), 1), verdict="none")
+    outside = CaseAnswer(
         Case("outside", "open_loop", ("humidity",), 2, 3.0), hidden=("humidity",),
         verdict="unexplained",
     )  # fmt: skip
@@ -85,7 +85,7 @@ def test_confidence_is_compared_with_the_share_that_is_right() -> None:
 
 def test_a_tie_is_no_credit_for_the_confidence_of_the_name() -> None:
     tied = one("load", "gain", 0.6)
-    tied = dataclasses.replace(tied, steps=(Step("gain", 0.6, ("load",)),))
+    tied = dataclasses.replace(tied, steps=(NamedEffect("gain", 0.6, ("load",)),))
     made = score([tied])
     assert made.groups[0].share.count == 1
     assert made.reliability[0].share.count == 0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import polars as pl
@@ -131,10 +130,16 @@ class _Session:
         r = self.reference
         still = 0 * r.velocity
         seen = Channels(
-            seen=r.position, position=r.position, velocity=r.velocity, exact=r.velocity,
-            acceleration=r.acceleration, torque=still, direction=np.sign(r.velocity),
-            carried=still, velocity_noise=1e-3 * self.machine.vmax,
-        )  # fmt: skip
+            seen=r.position,
+            position=r.position,
+            velocity=r.velocity,
+            exact=r.velocity,
+            acceleration=r.acceleration,
+            torque=still,
+            direction=np.sign(r.velocity),
+            carried=still,
+            velocity_noise=1e-3 * self.machine.vmax,
+        )
         x = {e: AMPLITUDES[e][0] for e in self.wanted}
         for effect, over_noise in self.wanted.items():
             if effect in SIMULATED or effect in self.cannot:
@@ -148,13 +153,21 @@ class _Session:
         joined = None
         if "backlash" in x or "elasticity" in x:
             joined = Transmission(
-                self.machine, x.get("elasticity", 0.0), x.get("backlash", 0.0),
+                self.machine,
+                x.get("elasticity", 0.0),
+                x.get("backlash", 0.0),
                 float(self.reference.position[0]),
-            )  # fmt: skip
+            )
         course = simulate(
-            self.machine, self.friction, self._actuator(x), joined, self.reference, self.payload,
-            self.temperature, x,
-        )  # fmt: skip
+            self.machine,
+            self.friction,
+            self._actuator(x),
+            joined,
+            self.reference,
+            self.payload,
+            self.temperature,
+            x,
+        )
         return channels(self.machine, course, self.speed_noise)
 
     def _actuator(self, x: Amplitudes) -> Actuator:
@@ -191,10 +204,15 @@ class _Session:
             t = self.reference.time
             speed = np.interp(t - late, t, speed)
         return State(
-            self.reference.time, seen.position, seen.velocity, seen.acceleration, load,
-            self.temperature, direction,
+            self.reference.time,
+            seen.position,
+            seen.velocity,
+            seen.acceleration,
+            load,
+            self.temperature,
+            direction,
             self.friction.shapes.falls(speed),
-        )  # fmt: skip
+        )
 
     def _at_rows(self, values: Array, x: Amplitudes) -> Array:
         """The torque channel at the rows, late or early where a delay is hidden."""
@@ -270,7 +288,7 @@ class _Session:
         )
         return Sample(frame, self._truth(seen, x), self._oracle(seen, x, known))
 
-    def _truth(self, seen: Channels, x: dict[str, float]) -> dict[str, Any]:
+    def _truth(self, seen: Channels, x: dict[str, float]) -> dict[str, object]:
         level, sizes = self._noise_and_sizes(seen, x)
         on = self._moving(seen)
         quiet = (self._at_rows(seen.torque, x) - self._predict(seen, x))[on]

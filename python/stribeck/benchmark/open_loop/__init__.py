@@ -59,5 +59,13 @@ from stribeck.benchmark.open_loop.outside import OUTSIDE
 from stribeck.benchmark.open_loop.record import Recording, make, record, sample
 
 __all__ = [
-    "CAPS", "EFFECTS", "IMPLIED", "LIMITS", "OUTSIDE", "Recording", "make", "record", "sample",
-]  # fmt: skip
+    "CAPS",
+    "EFFECTS",
+    "IMPLIED",
+    "LIMITS",
+    "OUTSIDE",
+    "Recording",
+    "make",
+    "record",
+    "sample",
+]

@@ -12,7 +12,7 @@ from stribeck.benchmark.draws import log_uniform
 
 
 @dataclass
-class Joint:
+class SimulatedJoint:
     """The base joint: what is known before anything is hidden."""
 
     kind: str
@@ -28,7 +28,9 @@ class Joint:
     spring: float
 
 
-def draw_joint(rng: np.random.Generator, effects: Sequence[str], limit: str | None) -> Joint:
+def draw_joint(
+    rng: np.random.Generator, effects: Sequence[str], limit: str | None
+) -> SimulatedJoint:
     """A joint with magnitudes over decades; gravity and one-way rotation need a revolute one."""
     kind = "prismatic" if rng.random() < 0.15 else "revolute"
     if "gravity" in effects or limit in ("one_direction", "short_range"):
@@ -56,7 +58,7 @@ def draw_joint(rng: np.random.Generator, effects: Sequence[str], limit: str | No
         rate_share = max(rate_share, 0.7)
     if "nonlinear_viscous" in effects:
         rate_share = rng.uniform(1.3, 2.5)
-    return Joint(
+    return SimulatedJoint(
         kind=kind,
         coulomb=coulomb,
         viscous=coulomb * rate_share / vmax,

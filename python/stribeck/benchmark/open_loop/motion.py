@@ -10,7 +10,7 @@ from stribeck.benchmark.open_loop.moves import Array, Move
 
 
 @dataclass
-class Motion:
+class MoveChain:
     """A chain of moves, each analytic in its own time; at rest before and after them."""
 
     starts: list[float] = field(default_factory=list)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from stribeck.benchmark.draws import log_uniform
-from stribeck.benchmark.open_loop.joint import Joint
+from stribeck.benchmark.open_loop.joint import SimulatedJoint
 from stribeck.benchmark.open_loop.moves import Array
 
 #: Relative change of the dry friction at time, position, speed and acceleration.
@@ -25,7 +25,7 @@ OUTSIDE = (
 
 
 def draw_outside(
-    rng: np.random.Generator, joint: Joint, duration: float, swaps: Array
+    rng: np.random.Generator, joint: SimulatedJoint, duration: float, swaps: Array
 ) -> dict[str, Change]:
     """One form of each.
 

@@ -8,19 +8,19 @@ from collections.abc import Callable
 import numpy as np
 
 from stribeck.benchmark.draws import log_uniform
-from stribeck.benchmark.open_loop.joint import Joint
-from stribeck.benchmark.open_loop.motion import Motion
+from stribeck.benchmark.open_loop.joint import SimulatedJoint
+from stribeck.benchmark.open_loop.motion import MoveChain
 from stribeck.benchmark.open_loop.moves import Array, multisine, quintic, stroke, trapezoid
 
 
 def schedule(
     rng: np.random.Generator,
-    joint: Joint,
+    joint: SimulatedJoint,
     duration: float,
     limit: str | None,
     brisk: bool = False,
     smooth: bool = False,
-) -> tuple[Motion, Array]:
+) -> tuple[MoveChain, Array]:
     """The motion, and the times at which the payload may change (the middle of dwells).
 
     A `brisk` motion has few slow reversals: few rows are inside the presliding distance. In a
@@ -33,9 +33,11 @@ def schedule(
 class _Scheduler:
     """Appends stretches of one kind of motion each."""
 
-    def __init__(self, rng: np.random.Generator, joint: Joint, brisk: bool, smooth: bool) -> None:
+    def __init__(
+        self, rng: np.random.Generator, joint: SimulatedJoint, brisk: bool, smooth: bool
+    ) -> None:
         self.rng, self.joint, self.brisk, self.smooth = rng, joint, brisk, smooth
-        self.motion = Motion(q=joint.centre)
+        self.motion = MoveChain(q=joint.centre)
         self.motion.rest(0.5)
 
     def kinds(self, limit: str | None) -> list[Callable[[float], None]]:
@@ -47,11 +49,19 @@ class _Scheduler:
         if self.smooth:
             return [self.sines, self.moves, self.slow, self.sines]
         return [
-            self.sines, self.moves, self.slow, self.strokes,
-            self.moves, self.sines, self.strokes, self.slow,
-        ]  # fmt: skip
+            self.sines,
+            self.moves,
+            self.slow,
+            self.strokes,
+            self.moves,
+            self.sines,
+            self.strokes,
+            self.slow,
+        ]
 
-    def fill(self, duration: float, kinds: list[Callable[[float], None]]) -> tuple[Motion, Array]:
+    def fill(
+        self, duration: float, kinds: list[Callable[[float], None]]
+    ) -> tuple[MoveChain, Array]:
         """Stretches of all kinds in random order, with a dwell after each."""
         rng, motion = self.rng, self.motion
         swaps: list[float] = []

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from stribeck.benchmark.draws import log_uniform
-from stribeck.benchmark.open_loop.joint import Joint
+from stribeck.benchmark.open_loop.joint import SimulatedJoint
 from stribeck.benchmark.open_loop.moves import Array
 
 Shape = Callable[[Array], Array]
@@ -19,7 +19,7 @@ VOGEL, KELVIN = 95.0, 273.15
 
 
 def draw_shapes(
-    rng: np.random.Generator, joint: Joint, loads: Array, temperatures: Array
+    rng: np.random.Generator, joint: SimulatedJoint, loads: Array, temperatures: Array
 ) -> dict[str, Any]:
     """Forms of friction against speed, load, temperature and position, and of what is not known."""
     vs = joint.vmax * log_uniform(rng, 0.02, 0.06)
@@ -93,7 +93,7 @@ def _thins_with_temperature(middle: float) -> list[Callable[[Array, float], Arra
     ]
 
 
-def _rate(joint: Joint, curve: int, v: Array, alpha: float) -> Array:
+def _rate(joint: SimulatedJoint, curve: int, v: Array, alpha: float) -> Array:
     """Friction of the lubricant: two that flatten with speed, and one that steepens."""
     if alpha == 0:
         return joint.viscous * v
@@ -108,7 +108,7 @@ def _rate(joint: Joint, curve: int, v: Array, alpha: float) -> Array:
 
 
 def draw_additive_shapes(
-    rng: np.random.Generator, joint: Joint, loads: Array, end: float
+    rng: np.random.Generator, joint: SimulatedJoint, loads: Array, end: float
 ) -> dict[str, Any]:
     """Forms of what is no part of the friction's dependence on speed, load and temperature."""
     neutral, stiff = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.8, 1.6))
@@ -150,7 +150,9 @@ def _ageing(end: float, slow: float) -> list[Shape]:
     ]
 
 
-def draw_quadrant_shape(rng: np.random.Generator, joint: Joint, loads: Array) -> dict[str, Any]:
+def draw_quadrant_shape(
+    rng: np.random.Generator, joint: SimulatedJoint, loads: Array
+) -> dict[str, Any]:
     """Tooth friction per load, for a joint that drives its load and one that is driven by it.
 
     A driven gear train carries its load over more of the sliding, so it loses more; with speed the

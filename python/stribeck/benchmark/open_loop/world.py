@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from stribeck.benchmark.open_loop.joint import Joint
+from stribeck.benchmark.open_loop.joint import SimulatedJoint
 from stribeck.benchmark.open_loop.maxwell_slip import maxwell_slip
-from stribeck.benchmark.open_loop.motion import Motion
+from stribeck.benchmark.open_loop.motion import MoveChain
 from stribeck.benchmark.open_loop.moves import Array
 from stribeck.benchmark.open_loop.outside import OUTSIDE
 
@@ -24,8 +24,8 @@ class World:
     Amplitudes are by effect; ``coulomb`` and ``viscous`` are factors of the joint's own friction.
     """
 
-    joint: Joint
-    motion: Motion
+    joint: SimulatedJoint
+    motion: MoveChain
     swaps: Array
     payload: Array
     temperature: Callable[[Array], Array]

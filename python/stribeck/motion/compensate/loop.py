@@ -58,7 +58,7 @@ class Compensator:
 
 
 @dataclass(frozen=True)
-class Motion:
+class ClosedLoopMotion:
     """A motion in the loop; instants are the ends of the steps.
 
     Attributes
@@ -159,7 +159,7 @@ class Bench:
         *,
         bandwidth: float | None = None,
         guided: bool = False,
-    ) -> Motion:
+    ) -> ClosedLoopMotion:
         """One motion.
 
         Parameters
@@ -173,27 +173,42 @@ class Bench:
         position, velocity, acceleration = self.desired
         joint, friction = self.acting.joint, self.acting.friction
         given = {
-            "position": position, "velocity": velocity, "acceleration": acceleration,
+            "position": position,
+            "velocity": velocity,
+            "acceleration": acceleration,
             "temperature": self.temperature,
-        }  # fmt: skip
+        }
         sizes = {
-            "inertia": joint.inertia, "gravity": joint.gravity, "gravity_cos": joint.gravity_cos,
-            "gravity_sin": joint.gravity_sin, "stiffness": 0.0, "damping": 0.0,
-        }  # fmt: skip
+            "inertia": joint.inertia,
+            "gravity": joint.gravity,
+            "gravity_cos": joint.gravity_cos,
+            "gravity_sin": joint.gravity_sin,
+            "stiffness": 0.0,
+            "damping": 0.0,
+        }
         gains = {
-            "proportional": controller.proportional, "integral": controller.integral,
-            "derivative": controller.derivative, "velocity_weight": controller.velocity_weight,
+            "proportional": controller.proportional,
+            "integral": controller.integral,
+            "derivative": controller.derivative,
+            "velocity_weight": controller.velocity_weight,
             "limit": controller.limit,
-        }  # fmt: skip
+        }
         try:
             answer = _core.compensate(
-                friction.core, friction.values, sizes, given, self.step, gains,
-                None if compensator is None else self._cancels(compensator), bandwidth, guided,
+                friction.core,
+                friction.values,
+                sizes,
+                given,
+                self.step,
+                gains,
+                None if compensator is None else self._cancels(compensator),
+                bandwidth,
+                guided,
                 self.encoder,
-            )  # fmt: skip
+            )
         except _core.ModelError as error:
             raise SpecError(f"{friction.spec} cannot be moved: {error}") from None
-        return Motion(
+        return ClosedLoopMotion(
             compensator=compensator,
             position=answer["position"],
             velocity=answer["velocity"],
@@ -214,9 +229,11 @@ class Bench:
                 f"{self.acting.friction.spec}, which is in {self.acting.friction.torque_unit}"
             )
         return {
-            "model": model.core, "values": model.values, "factor": compensator.factor,
+            "model": model.core,
+            "values": model.values,
+            "factor": compensator.factor,
             "feedback": compensator.feedback,
-        }  # fmt: skip
+        }
 
 
 def default_temperature(friction: Model, temperature: ArrayLike | None) -> ArrayLike:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +14,7 @@ from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
-from stribeck.motion.compensate.loop import Array, Bench, Compensator, Motion
+from stribeck.motion.compensate.loop import Array, Bench, ClosedLoopMotion, Compensator
 from stribeck.motion.simulate.drive import Controller
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Trajectory
@@ -63,14 +62,14 @@ class Teaching(Shown):
     friction: Model
     joint: Joint
     step: float
-    motions: tuple[Motion, ...]
+    motions: tuple[ClosedLoopMotion, ...]
 
-    def interaction(self, motion: Motion) -> tuple[float, float]:
+    def interaction(self, motion: ClosedLoopMotion) -> tuple[float, float]:
         """RMS and largest size of the hand's torque, N m or N."""
         hand: Array = motion.controller_torque
         return float(np.sqrt(np.mean(hand**2))), float(np.abs(hand).max())
 
-    def overcompensated(self, motion: Motion) -> float:
+    def overcompensated(self, motion: ClosedLoopMotion) -> float:
         """Share of the time in motion in which compensation pushes harder than friction holds.
 
         It pushes along the motion; a bristle that springs back pushes by itself and holds nothing.
@@ -82,7 +81,7 @@ class Teaching(Shown):
         pushed, held = motion.compensation * np.sign(way), motion.friction_torque * np.sign(way)
         return float(np.mean((pushed > np.maximum(held, 0.0))[moving]))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         rows = []
         for motion in self.motions:
@@ -143,9 +142,14 @@ def teach(
                 f"use feedback"
             )
     bench = Bench.of(
-        friction, joint, guidance.trajectory, seconds=seconds, step=step, temperature=temperature,
+        friction,
+        joint,
+        guidance.trajectory,
+        seconds=seconds,
+        step=step,
+        temperature=temperature,
         encoder=encoder,
-    )  # fmt: skip
+    )
     hand = Controller(guidance.stiffness, guidance.damping)
     return Teaching(
         friction=bench.acting.friction,

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import polars as pl
 from numpy.typing import ArrayLike
@@ -16,7 +15,7 @@ from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.motion.compensate.controller import HInfinity
-from stribeck.motion.compensate.loop import Array, Bench, Compensator, Motion
+from stribeck.motion.compensate.loop import Array, Bench, ClosedLoopMotion, Compensator
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Trajectory
 
@@ -43,18 +42,32 @@ class Tracking(Plotted):
     joint: Joint
     controller: HInfinity
     step: float
-    motions: tuple[Motion, ...]
+    motions: tuple[ClosedLoopMotion, ...]
     desired_position: Array
     observer: float | None
 
-    def reduction(self, motion: Motion) -> float:
+    def reduction(self, motion: ClosedLoopMotion) -> float:
         """By which share the RMSE is below that without compensation."""
         without = self.motions[0].rmse
         return 1.0 - motion.rmse / without if without > 0.0 else 0.0
 
-    def to_dict(self) -> dict[str, Any]:
-        """As JSON."""
-        rows = [
+    def to_dict(self) -> dict[str, object]:
+        """Return the comparison as JSON."""
+        return {
+            "friction": self.friction.spec,
+            "inertia": self.joint.inertia,
+            "seconds": self.desired_position.size * self.step,
+            "step": self.step,
+            "observer_hz": self.observer,
+            "motions": self._rows(),
+        }
+
+    def to_frame(self) -> pl.DataFrame:
+        """Return a table with one row for each motion."""
+        return pl.DataFrame(self._rows())
+
+    def _rows(self) -> list[dict[str, object]]:
+        return [
             {
                 "compensation": motion.name,
                 "factor": 0.0 if motion.compensator is None else motion.compensator.factor,
@@ -65,18 +78,6 @@ class Tracking(Plotted):
             }
             for motion in self.motions
         ]
-        return {
-            "friction": self.friction.spec,
-            "inertia": self.joint.inertia,
-            "seconds": self.desired_position.size * self.step,
-            "step": self.step,
-            "observer_hz": self.observer,
-            "motions": rows,
-        }
-
-    def to_frame(self) -> pl.DataFrame:
-        """One row a motion."""
-        return pl.DataFrame(self.to_dict()["motions"])
 
 
 def compensate(
@@ -133,9 +134,14 @@ def compensate(
     True
     """
     bench = Bench.of(
-        friction, joint, trajectory, seconds=seconds, step=step, temperature=temperature,
+        friction,
+        joint,
+        trajectory,
+        seconds=seconds,
+        step=step,
+        temperature=temperature,
         encoder=encoder,
-    )  # fmt: skip
+    )
     inertia = bench.acting.joint.inertia
     gains = HInfinity.with_bandwidth(inertia) if controller is None else controller
     if observer is not None and not (math.isfinite(observer) and observer > 0.0):

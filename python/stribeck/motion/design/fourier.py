@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.motion.design.motion import INSIDE, Limits, Motion, sample_times
+from stribeck.motion.design.motion import INSIDE, Limits, SampledMotion, sample_times
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,7 @@ class FourierMotions:
         design[:3] = (1.0, 0.2, 0.7)
         return design
 
-    def motion(self, design: Array, rate: float) -> Motion:
+    def motion(self, design: Array, rate: float) -> SampledMotion:
         """The motion of a vector [variables], sampled at `rate` in Hz."""
         sine, cosine = _from_rest(2.0 * design[:HARMONICS] - 1.0, _second(design))
         frequency = 2.0 * math.pi * self._periods(design[-2]) / self.duration
@@ -60,7 +60,7 @@ class FourierMotions:
         time = sample_times(self.duration, rate)
         within = np.minimum(time, self.duration)
         q, v, a = series(scale * sine, scale * cosine, frequency, within)
-        return Motion(time, place + q, v, a)
+        return SampledMotion(time, place + q, v, a)
 
     def _periods(self, share: float) -> int:
         """Number of periods: from one to as many as the limits let a large motion have."""

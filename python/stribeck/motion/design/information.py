@@ -17,7 +17,7 @@ from stribeck.diagnosis.tangent import Beside, Widened, orthonormal, rest, sine
 from stribeck.diagnosis.visibility import Shown, show
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
-from stribeck.motion.design.motion import Motion
+from stribeck.motion.design.motion import SampledMotion
 from stribeck.motion.design.setting import Setting
 
 Array = NDArray[np.float64]
@@ -73,7 +73,9 @@ def columns_of(one: Widened) -> Array:
     return typical_torque(one)[:, None] if one.is_curved else one.spaces(1)[0]
 
 
-def least_information(wanted: Wanted, setting: Setting, motion: Motion, rate: float) -> float:
+def least_information(
+    wanted: Wanted, setting: Setting, motion: SampledMotion, rate: float
+) -> float:
     """Logarithm of the least signal of a wanted effect, squared and summed over time, in T2 s.
 
     The same effects weigh the same on every motion; -inf where one of them does not show at all.

@@ -46,7 +46,7 @@ class Limits:
         """Length of the range."""
         return self.high - self.low
 
-    def hold(self, motion: Motion) -> bool:
+    def hold(self, motion: SampledMotion) -> bool:
         """Whether every sample of `motion` is within the limits."""
         return bool(
             np.all(motion.position >= self.low)
@@ -57,7 +57,7 @@ class Limits:
 
 
 @dataclass(frozen=True)
-class Motion:
+class SampledMotion:
     """Samples of a motion: arrays [n] in s, rad or m."""
 
     time: Array
@@ -81,7 +81,7 @@ class Family(Protocol):
     def start(self) -> Array:
         """A vector that makes a sound motion."""
 
-    def motion(self, design: Array, rate: float) -> Motion:
+    def motion(self, design: Array, rate: float) -> SampledMotion:
         """The motion of a vector, sampled at `rate` in Hz from rest to rest."""
 
 

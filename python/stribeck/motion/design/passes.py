@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.motion.design.motion import INSIDE, Limits, Motion, sample_times
+from stribeck.motion.design.motion import INSIDE, Limits, SampledMotion, sample_times
 from stribeck.motion.generate.trajectory import quintic
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ class PassMotions:
         share = np.resize([0.5, 0.2, 0.8], self.moves)
         return np.concatenate([way, share, [0.5]])
 
-    def motion(self, design: Array, rate: float) -> Motion:
+    def motion(self, design: Array, rate: float) -> SampledMotion:
         """The motion of a vector [variables], sampled at `rate` in Hz."""
         rest = min(REST, REST_SHARE * self.duration / (2.0 * self.moves))
         seconds = self._seconds(design[self.moves : -1], 0.5 * self.duration - self.moves * rest)
@@ -66,7 +66,9 @@ class PassMotions:
         way, speed, bend = quintic(np.clip((time - starts[move]) / seconds[move], 0.0, 1.0))
         span = np.diff(points)[move]
         q = np.clip(points[move] + span * way, self.limits.low, self.limits.high)
-        return Motion(time, q, span * speed / seconds[move], span * bend / seconds[move] ** 2)
+        return SampledMotion(
+            time, q, span * speed / seconds[move], span * bend / seconds[move] ** 2
+        )
 
     def _seconds(self, shares: Array, available: float) -> Array:
         """How long each move lasts, array [moves]."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import SpecError, option
 from stribeck.diagnosis.power import Demand, Noise
 from stribeck.diagnosis.run import LEAST_FALL
 from stribeck.diagnosis.testable import untestable
@@ -85,8 +85,9 @@ def plan(
     samples = _rate(rate, fitted)
     _check_size(duration, samples)
     families: tuple[Family, ...] = (
-        FourierMotions(limits, duration, samples), PassMotions(limits, duration),
-    )  # fmt: skip
+        FourierMotions(limits, duration, samples),
+        PassMotions(limits, duration),
+    )
     at_hand = problem_of(fitted) if fitted is not None else None
     reference = at_hand or setting.problem(
         setting.recording(families[1].motion(families[1].start, samples), samples)
@@ -101,15 +102,20 @@ def plan(
     if fitted is not None and at_hand is not None:
         before = sight(wanted, at_hand, Noise.of(fitted.residual[fitted.rows]), demand)
     return Plan(
-        model=of.model, motion=motion, rate=samples, kind=kind, limits=limits,
+        model=of.model,
+        motion=motion,
+        rate=samples,
+        kind=kind,
+        limits=limits,
         prospects=tuple(_prospect(e, wanted, before, after) for e in effects),
         cosines={
             pair: (None if before is None else before.cosines[pair], cosine)
             for pair, cosine in after.cosines.items()
         },
-        source=None if fitted is None else fitted.recording.path, seed=seed,
+        source=None if fitted is None else fitted.recording.path,
+        seed=seed,
         notes=(*setting.notes, *_still_hidden(effects, setting, planned)),
-    )  # fmt: skip
+    )
 
 
 def _still_hidden(effects: Sequence[str], setting: Setting, planned: Recording) -> tuple[str, ...]:
@@ -126,11 +132,11 @@ def _checked(model: Model, separate: Sequence[str], show: Sequence[str]) -> tupl
     """The wanted effects, each of which the model must lack."""
     effects = tuple(dict.fromkeys((*separate, *show)))
     if not effects:
-        raise SpecError("no effect is given: say which to tell apart (--separate) or --show")
+        raise SpecError(f"no effect is given: give {option('separate')} or {option('show')}")
     if len(set(separate)) == 1:
         raise SpecError(
-            f"{separate[0]} alone cannot be told apart: give two effects or more to --separate, "
-            f"or --show {separate[0]}"
+            f"{separate[0]} alone cannot be separated: give {option('separate')} two effects or "
+            f"more, or {option('show', separate[0])}"
         )
     for effect in effects:
         check_effect(effect)
@@ -180,7 +186,11 @@ def _check_size(duration: float, rate: float) -> None:
 def _prospect(effect: str, wanted: Wanted, before: Sight | None, after: Sight) -> Prospect:
     one = wanted.widened[effect]
     return Prospect(
-        effect, one.size.name, one.size.unit, one.is_inverse,
+        effect,
+        one.size.name,
+        one.size.unit,
+        one.is_inverse,
         None if before is None else Size.of(before.smallest[effect]),
-        Size.of(after.smallest[effect]), of_catalog(effect).design_note,
-    )  # fmt: skip
+        Size.of(after.smallest[effect]),
+        of_catalog(effect).design_note,
+    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import polars as pl
@@ -12,7 +11,7 @@ import polars as pl
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.visibility import Shown
 from stribeck.models.model import Model
-from stribeck.motion.design.motion import Limits, Motion
+from stribeck.motion.design.motion import Limits, SampledMotion
 
 
 @dataclass(frozen=True)
@@ -65,7 +64,7 @@ class Prospect:
             return None
         return self.after.value / before if self.inverse else before / self.after.value
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """As JSON."""
         return {
             "effect": self.effect,
@@ -94,7 +93,7 @@ class Plan(Plotted):
     """
 
     model: Model
-    motion: Motion
+    motion: SampledMotion
     rate: float
     kind: str
     limits: Limits
@@ -109,7 +108,7 @@ class Plan(Plotted):
         """Seconds."""
         return float(self.motion.time[-1])
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """The JSON of `stribeck plan`."""
         m, limits = self.motion, self.limits
         return {

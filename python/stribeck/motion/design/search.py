@@ -9,7 +9,7 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.motion.design.information import Wanted, least_information
-from stribeck.motion.design.motion import Family, Motion
+from stribeck.motion.design.motion import Family, SampledMotion
 from stribeck.motion.design.setting import Setting
 
 Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ def search(
     duration: float,
     rate: float,
     seed: int,
-) -> tuple[str, Motion]:
+) -> tuple[str, SampledMotion]:
     """The best motion of all families, and the name of its own."""
     plain = all(one.problem.model.memoryless for one in wanted.widened.values())
     coarse = min(rate, (FEW_SAMPLES if plain else MORE_SAMPLES) / duration)
@@ -44,9 +44,14 @@ def search(
             return -value if np.isfinite(value) else SHOWS_NOTHING
 
         best = scipy.optimize.differential_evolution(
-            cost, [(0.0, 1.0)] * family.variables, maxiter=GENERATIONS, init=first, seed=rng,
-            polish=False, tol=1e-4,
-        )  # fmt: skip
+            cost,
+            [(0.0, 1.0)] * family.variables,
+            maxiter=GENERATIONS,
+            init=first,
+            seed=rng,
+            polish=False,
+            tol=1e-4,
+        )
         found.append((best.fun, family, best.x))
     _, family, design = min(found, key=lambda row: row[0])
     return family.name, family.motion(design, rate)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.errors import FitError, SpecError
+from stribeck.base.errors import FitError, SpecError, option
 from stribeck.diagnosis.power import ExpectedNoise
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
@@ -19,7 +19,7 @@ from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
-from stribeck.motion.design.motion import Limits, Motion
+from stribeck.motion.design.motion import Limits, SampledMotion
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.rows import held_out_blocks
 
@@ -60,7 +60,7 @@ class Setting:
     joint_kind: str
     notes: tuple[str, ...] = ()
 
-    def recording(self, motion: Motion, rate: float) -> Recording:
+    def recording(self, motion: SampledMotion, rate: float) -> Recording:
         """The recording that `motion` would make, one run a temperature; its torque is friction
         by the model and the load.
         """
@@ -80,17 +80,41 @@ class Setting:
         block, blocks = held_out_blocks(dt, run, run, 1.0 / rate)
         unit, position_unit = self.model.torque_unit, self.model.position_unit
         made = Recording(
-            path="planned motion", sha256="", joint=None, joint_kind=self.joint_kind,
-            torque_unit=unit, position_unit=position_unit, time=time, segment=run, run=run,
-            run_names=tuple(f"{t:g} degC" for t in self.temperatures), dt=dt,
-            position=q, velocity=v, acceleration=a, torque=np.zeros_like(q), load_torque=load,
+            path="planned motion",
+            sha256="",
+            joint=None,
+            joint_kind=self.joint_kind,
+            torque_unit=unit,
+            position_unit=position_unit,
+            time=time,
+            segment=run,
+            run=run,
+            run_names=tuple(f"{t:g} degC" for t in self.temperatures),
+            dt=dt,
+            position=q,
+            velocity=v,
+            acceleration=a,
+            torque=np.zeros_like(q),
+            load_torque=load,
             temperature=np.repeat(self.temperatures, n),
-            position_smooth=q, velocity_smooth=v, acceleration_smooth=a, load_torque_smooth=load,
-            columns={"position": Column("position", "plan", position_unit, False)}, notes=(),
-            velocity_noise=self.slowest / 5.0, velocity_threshold=self.slowest,
-            moving=np.abs(v) > self.slowest, block=block, block_count=blocks, rate_hz=rate, gaps=0,
-            rows_dropped=0, averaged=False, cutoff_hz=None, external_torque=external,
-        )  # fmt: skip
+            position_smooth=q,
+            velocity_smooth=v,
+            acceleration_smooth=a,
+            load_torque_smooth=load,
+            columns={"position": Column("position", "plan", position_unit, False)},
+            notes=(),
+            velocity_noise=self.slowest / 5.0,
+            velocity_threshold=self.slowest,
+            moving=np.abs(v) > self.slowest,
+            block=block,
+            block_count=blocks,
+            rate_hz=rate,
+            gaps=0,
+            rows_dropped=0,
+            averaged=False,
+            cutoff_hz=None,
+            external_torque=external,
+        )
         if not made.moving.any():
             return made
         # The sign of the motor torque, which some laws read, follows from friction without it.
@@ -123,9 +147,15 @@ def setting_of_fit(fitted: Fit) -> Setting:
     load, notes = _load_of(r)
     temperature = ROOM if r.temperature is None else float(np.mean(r.temperature[r.moving]))
     return Setting(
-        fitted.model, rms(residual), correlation_length(residual) / r.rate_hz, load,
-        (temperature,), r.velocity_threshold, r.joint_kind, notes,
-    )  # fmt: skip
+        fitted.model,
+        rms(residual),
+        correlation_length(residual) / r.rate_hz,
+        load,
+        (temperature,),
+        r.velocity_threshold,
+        r.joint_kind,
+        notes,
+    )
 
 
 def setting_of_file(stored: ModelFile, limits: Limits, noise: float | None) -> Setting:
@@ -141,7 +171,7 @@ def setting_of_file(stored: ModelFile, limits: Limits, noise: float | None) -> S
     level = noise if noise is not None else source.get("rmse")
     if level is None or not level > 0:
         raise SpecError(
-            "nothing says how large the torque noise is: give it (--noise), or a recording"
+            f"the size of the torque noise is unknown: give {option('noise')}, or a recording"
         )
     memory = 0.0
     if "time_span" in source and source.get("rows"):
@@ -157,7 +187,7 @@ def _refuse_drive(model: Model) -> None:
     if model.drive is not None:
         raise SpecError(
             f"{model.spec} predicts the {model.drive} on a motor, which a motion alone does not "
-            f"set: plan with a model of the torque (without --drive)"
+            f"set: plan with a model of the torque"
         )
 
 

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Joint:
+class GeneratedJoint:
     """Sizes of a joint, in SI units; forces for a prismatic one."""
 
     kind: str
@@ -32,8 +32,8 @@ class Joint:
 
 
 JOINTS = {
-    "revolute": Joint("revolute", 1.2, 2.0, 8.0, 5.0, 1.2, 22.0),
-    "prismatic": Joint("prismatic", 0.35, 0.5, 60.0, 150.0, 18.0, 150.0),
+    "revolute": GeneratedJoint("revolute", 1.2, 2.0, 8.0, 5.0, 1.2, 22.0),
+    "prismatic": GeneratedJoint("prismatic", 0.35, 0.5, 60.0, 150.0, 18.0, 150.0),
 }
 
 
@@ -113,7 +113,7 @@ def _dwell(t: Array) -> tuple[Array, Array, Array]:
     return zero, zero, zero
 
 
-def plan_motion(rng: np.random.Generator, joint: Joint, seconds: float) -> Motion:
+def plan_motion(rng: np.random.Generator, joint: GeneratedJoint, seconds: float) -> Motion:
     """Draw a motion of at least `seconds` with slow and fast passes, swings and dwells."""
     starts: list[float] = []
     origins: list[float] = []

@@ -9,10 +9,12 @@ import numpy as np
 from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import catalog
 from stribeck.models.model import Model
-from stribeck.motion.generate.motion import Joint
+from stribeck.motion.generate.motion import GeneratedJoint
 
 
-def plausible_values(model: Model, joint: Joint, rng: np.random.Generator) -> dict[str, float]:
+def plausible_values(
+    model: Model, joint: GeneratedJoint, rng: np.random.Generator
+) -> dict[str, float]:
     """A value for every parameter, from the joint's sizes and the catalog's starts."""
     c, b = joint.coulomb, joint.viscous
     scales = {

@@ -45,7 +45,7 @@ def take_apart(model: Model, joint: Joint | None) -> Acting:
     plain = model.friction
     friction, left_out = friction_of(model)
     if joint is not None and joint.kind == "revolute" and plain.position_unit == "m":
-        raise SpecError(f"{plain.spec} is about forces and metres: give a prismatic joint (--mass)")
+        raise SpecError(f"{plain.spec} is in N and m: give the mass of a prismatic joint")
     known = dict(zip(plain.names, plain.values, strict=True))
     return Acting(friction, _joint(plain, joint, known), left_out)
 
@@ -88,7 +88,7 @@ def _joint(model: Model, joint: Joint | None, known: dict[str, float]) -> Joint:
     if joint is None:
         if "inertia" not in terms:
             raise SpecError(
-                f"{model.spec} has no inertia to move: give the joint's (--inertia or --mass)"
+                f"{model.spec} has no inertia to move: give that of the joint, or its mass"
             )
         kind = "revolute" if model.position_unit == "rad" else "prismatic"
         return Joint(inertia, gravity_cos=cos, gravity_sin=sin, kind=kind)

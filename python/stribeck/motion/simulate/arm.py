@@ -169,10 +169,14 @@ def simulate_arm(
     place = acting["desired_position"][0] if position is None else np.asarray(position)
     try:
         answer = _core.simulate_arm(
-            (models[0].core, models[1].core), (models[0].values, models[1].values),
-            _sizes(arm), acting, step, (place.tolist(), list(velocity)),
+            (models[0].core, models[1].core),
+            (models[0].values, models[1].values),
+            _sizes(arm),
+            acting,
+            step,
+            (place.tolist(), list(velocity)),
             (_gains(drives[0]), _gains(drives[1])),
-        )  # fmt: skip
+        )
     except _core.ModelError as error:
         raise SpecError(f"the arm cannot be simulated: {error}") from None
     return ArmMotion(

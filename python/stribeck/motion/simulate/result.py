@@ -150,9 +150,11 @@ class Simulation(Plotted):
             "largest_speed": float(np.abs(self.instant_velocity).max()),
             "share_at_rest": float(np.mean(self.velocity == 0.0)),
             "largest_torque": float(np.abs(self.torque).max()),
-            "tracking_error": None if error is None else {
+            "tracking_error": None
+            if error is None
+            else {
                 "rms": float(np.sqrt(np.mean(error**2))),
                 "largest": float(np.abs(error).max()),
             },
             "energy_J": self.energy,
-        }  # fmt: skip
+        }

@@ -95,9 +95,15 @@ def simulate(
     columns["external"] = column("external torque", external_torque, count)
     try:
         answer = _core.simulate(
-            acting.friction.core, acting.friction.values, _sizes(acting.joint, drive), columns,
-            start, deflection, _gains(drive), _apart(acting.joint),
-        )  # fmt: skip
+            acting.friction.core,
+            acting.friction.values,
+            _sizes(acting.joint, drive),
+            columns,
+            start,
+            deflection,
+            _gains(drive),
+            _apart(acting.joint),
+        )
     except _core.ModelError as error:
         raise SpecError(f"{asked.spec} cannot be simulated: {error}") from None
     return Simulation(
@@ -160,9 +166,7 @@ def _start(drive: Drive, position: float | None, velocity: float | None) -> tupl
     if isinstance(drive, Follow):
         at, speed, _ = drive.trajectory(np.zeros(1))
         begin = (float(at[0]), float(speed[0]))
-    start = (
-        begin[0] if position is None else position, begin[1] if velocity is None else velocity
-    )  # fmt: skip
+    start = (begin[0] if position is None else position, begin[1] if velocity is None else velocity)
     if not all(map(math.isfinite, start)):
         raise SpecError("position and velocity at the start must be numbers")
     return start

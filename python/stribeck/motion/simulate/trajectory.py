@@ -132,9 +132,14 @@ class Fourier:
 
     @classmethod
     def from_rest(
-        cls, amplitude: float, period: float, *, harmonics: int = 5, seed: int = 0,
+        cls,
+        amplitude: float,
+        period: float,
+        *,
+        harmonics: int = 5,
+        seed: int = 0,
         centre: float = 0.0,
-    ) -> Fourier:  # fmt: skip
+    ) -> Fourier:
         """A random series that begins and ends at the centre, at rest and without acceleration.
 
         Parameters

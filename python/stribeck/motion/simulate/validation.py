@@ -202,9 +202,13 @@ def validate_closed_loop(
         )
     step = _even_step(recording, rows)
     moved = simulate(
-        bench.model, bench.joint_given, Follow(Sampled(desired[rows], step), controller),
-        seconds=(rows.size - 1) * step, step=step, **bench.begin(rows),
-    )  # fmt: skip
+        bench.model,
+        bench.joint_given,
+        Follow(Sampled(desired[rows], step), controller),
+        seconds=(rows.size - 1) * step,
+        step=step,
+        **bench.begin(rows),
+    )
     return Validation(
         model=bench.model,
         joint=bench.joint,
@@ -260,9 +264,12 @@ class _Bench:
     def run(self, rows: NDArray[np.intp]) -> Array:
         """Position at each of the rows, driven by the measured torque held over each step."""
         moved = simulate(
-            self.model, self.joint_given, Torque(self.recording.torque[rows[:-1]]),
-            step=np.diff(self.recording.time[rows]), **self.begin(rows),
-        )  # fmt: skip
+            self.model,
+            self.joint_given,
+            Torque(self.recording.torque[rows[:-1]]),
+            step=np.diff(self.recording.time[rows]),
+            **self.begin(rows),
+        )
         return moved.instant_position
 
     def growth(self, horizons: Sequence[float]) -> Iterator[Growth]:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor
 from typing import Protocol
 
-from stribeck.base.errors import StribeckError, option
+from stribeck.base.errors import SpecError, StribeckError, option
 from stribeck.base.pool import ProcessPool, worker_count
 
 #: Seconds between two questions to a scheduler about its number of workers.
@@ -186,6 +186,26 @@ class DaskCluster:
     def close(self) -> None:
         self._executor.shutdown(wait=False)
         self._client.close(timeout=2)
+
+
+def backend_of(
+    executor: Executor | None,
+    workers: int | None,
+    scheduler: str | None,
+    note: Callable[[str], None],
+) -> Backend:
+    """Return the backend that the arguments of `fleet` ask for.
+
+    Raises
+    ------
+    StribeckError
+        Both an executor and a scheduler are given, or the backend cannot be started.
+    """
+    if executor is not None and scheduler is not None:
+        raise SpecError("an executor and a scheduler are given: leave one out")
+    if scheduler is not None:
+        return DaskCluster(scheduler, note)
+    return Processes(workers) if executor is None else GivenExecutor(executor, workers)
 
 
 def _check_address(address: str, seconds: float) -> None:

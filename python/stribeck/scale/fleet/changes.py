@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, timedelta
-from typing import Any
 
 import polars as pl
 
+from stribeck.base.errors import option
 from stribeck.scale.fleet.moderated import (
     Difference,
     Scatter,
@@ -77,13 +77,17 @@ class Change:
     relative: float
     p_value: float
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
-            "quantity": self.quantity, "unit": self.unit, "before": self.before,
-            "after": self.after, "stderr": self.stderr, "relative": self.relative,
+            "quantity": self.quantity,
+            "unit": self.unit,
+            "before": self.before,
+            "after": self.after,
+            "stderr": self.stderr,
+            "relative": self.relative,
             "p_value": self.p_value,
-        }  # fmt: skip
+        }
 
 
 @dataclass(frozen=True)
@@ -120,15 +124,18 @@ class JointChange:
         """The change of the mean friction over the common speeds; None where there are none."""
         return next((c for c in self.changes if c.quantity == MEAN_FRICTION), None)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
-            "robot": self.robot, "joint": self.joint, "changed": self.changed,
-            "q_value": self.q_value, "days_before": self.days_before,
+            "robot": self.robot,
+            "joint": self.joint,
+            "changed": self.changed,
+            "q_value": self.q_value,
+            "days_before": self.days_before,
             "days_after": self.days_after,
             "quantities": [change.to_dict() for change in self.changes],
             "effects": [shift.to_dict() for shift in self.effects],
-        }  # fmt: skip
+        }
 
 
 @dataclass(frozen=True)
@@ -157,7 +164,7 @@ class Changes:
         """The joints that have changed."""
         return tuple(joint for joint in self.joints if joint.changed)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
             "since": None if self.since is None else self.since.isoformat(),
@@ -185,7 +192,10 @@ def find_changes(rows: pl.DataFrame, question: Question) -> Changes:
     every = rows.filter(pl.col("status") == DONE).select("robot", "joint").n_unique()
     newest = dated["day"].max() if dated.height else None
     if not isinstance(newest, date):
-        undated = "no file has a date: name it by --name with {day}, or by --day COLUMN"
+        undated = (
+            f"no file has a date: give {option('name')} a pattern with {{day}}, or {option('day')} "
+            f"a column"
+        )
         return Changes(question, None, None, (), every, undated)
     since = question.since or newest - timedelta(days=question.window - 1)
     first = since - timedelta(days=question.history)
@@ -237,7 +247,11 @@ def _change(each: Compared, common: Scatter) -> Change:
     found = each.found
     stderr, freedom = moderated(found, common)
     return Change(
-        each.quantity, each.unit, found.before, found.after, stderr,
+        each.quantity,
+        each.unit,
+        found.before,
+        found.after,
+        stderr,
         found.change / each.size if each.size else math.inf,
         two_sided(found.change, stderr, freedom),
-    )  # fmt: skip
+    )

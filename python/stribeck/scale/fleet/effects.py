@@ -5,16 +5,20 @@ from __future__ import annotations
 import statistics
 from collections import Counter
 from dataclasses import dataclass
-from typing import Any
 
 import polars as pl
 
+from stribeck.base.errors import option
+from stribeck.scale.fleet.identified import IMPROVE
 from stribeck.scale.fleet.store import DONE, as_name
 
 #: An effect is a joint's own when no more than this share of its peers have it.
 FEW = 0.25
 #: Joints of the same name that make a comparison; with fewer the whole fleet is it.
 FEWEST_PEERS = 3
+
+#: Why a fleet that was fitted with one model has nothing to say about effects.
+NOT_ASKED = f"one model was fitted everywhere: {option('model', IMPROVE)} looks for missing effects"
 
 
 @dataclass(frozen=True)
@@ -49,14 +53,20 @@ class JointEffect:
         """Whether the others lack it."""
         return self.peers > 0 and self.peers_with <= FEW * self.peers
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
-            "robot": self.robot, "joint": self.joint, "effect": self.effect, "odd": self.is_odd,
-            "days_found": self.days_found, "days": self.days, "confidence": self.confidence,
-            "indistinguishable_from": list(self.tied), "peers": self.peers,
+            "robot": self.robot,
+            "joint": self.joint,
+            "effect": self.effect,
+            "odd": self.is_odd,
+            "days_found": self.days_found,
+            "days": self.days,
+            "confidence": self.confidence,
+            "indistinguishable_from": list(self.tied),
+            "peers": self.peers,
             "peers_with": self.peers_with,
-        }  # fmt: skip
+        }
 
 
 @dataclass(frozen=True)
@@ -68,12 +78,14 @@ class Share:
     having: int
     joints: int
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
-            "joint": self.joint, "effect": self.effect, "having": self.having,
+            "joint": self.joint,
+            "effect": self.effect,
+            "having": self.having,
             "joints": self.joints,
-        }  # fmt: skip
+        }
 
 
 @dataclass(frozen=True)
@@ -97,14 +109,14 @@ class Effects:
     @classmethod
     def not_asked(cls) -> Effects:
         """Where one model was fitted everywhere."""
-        return cls((), (), "one model was fitted everywhere: --model improve looks for effects")
+        return cls((), (), NOT_ASKED)
 
     @property
     def odd(self) -> tuple[JointEffect, ...]:
         """What single joints have and the others lack."""
         return tuple(each for each in self.joints if each.is_odd)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
             "why": self.why,
@@ -173,9 +185,16 @@ def _against_peers(one: _Joint, effect: str, joints: list[_Joint]) -> JointEffec
         peers = [other for other in joints if other is not one]
     confidences = one.found[effect]
     return JointEffect(
-        one.robot, one.joint, effect, len(confidences), one.days, statistics.median(confidences),
-        tuple(sorted(one.tied[effect])), len(peers), sum(peer.may_have(effect) for peer in peers),
-    )  # fmt: skip
+        one.robot,
+        one.joint,
+        effect,
+        len(confidences),
+        one.days,
+        statistics.median(confidences),
+        tuple(sorted(one.tied[effect])),
+        len(peers),
+        sum(peer.may_have(effect) for peer in peers),
+    )
 
 
 def _rarest_first(each: JointEffect) -> tuple[float, float, str, str, str]:

@@ -1,26 +1,25 @@
-"""Which robot a file is of, and of which day: from its path."""
+"""The robot, day and joint of a file, read from its path."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import date
-from functools import cached_property
 from pathlib import Path
 
-from stribeck.base.errors import RecordingError, SpecError, nearest
+from stribeck.base.errors import RecordingError, SpecError, nearest, option
 
-#: What a pattern can name.
+#: Fields of a pattern.
 FIELDS = ("robot", "day", "joint")
 _DATE = re.compile(r"(?<!\d)(\d{4})[-_.]?(\d{2})[-_.]?(\d{2})(?!\d)")
-#: Fields that are written in one way only.
+#: Fields that must have a certain form.
 _WRITTEN = {"day": r"\d{4}[-_.]?\d{2}[-_.]?\d{2}"}
 _PIECE = re.compile(r"\{(\w*)\}|(\*)|([^{}*]+)|(.)", re.DOTALL)
 
 
 @dataclass(frozen=True)
 class Name:
-    """What a path says. Each is None where it says nothing of it."""
+    """What a path states; None for what it does not state."""
 
     robot: str | None
     day: date | None
@@ -29,19 +28,19 @@ class Name:
 
 @dataclass(frozen=True)
 class Naming:
-    """How the paths of a fleet are written.
+    """Pattern of the paths of a fleet.
 
     Parameters
     ----------
     pattern
         The end of a path, ``"{robot}/{day}.parquet"``: ``{robot}``, ``{day}`` and ``{joint}``
-        stand for what they name, ``*`` for anything, none of them across a ``/``. None: the robot
-        is the file's folder, the day the last date in its path.
+        match what they name and ``*`` matches anything; none of them matches a ``/``. None: the
+        robot is the file's folder, the day is the last date in its path.
 
     Raises
     ------
     SpecError
-        The pattern names something else, or one of them twice.
+        The pattern has an unknown field, or a field twice.
 
     Examples
     --------
@@ -50,37 +49,37 @@ class Naming:
     """
 
     pattern: str | None = None
+    _expression: re.Pattern[str] | None = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        self._expression  # noqa: B018  a wrong pattern is refused where it is given
+        object.__setattr__(self, "_expression", self._compiled())
 
-    @cached_property
-    def _expression(self) -> re.Pattern[str] | None:
+    def _compiled(self) -> re.Pattern[str] | None:
         if self.pattern is None:
             return None
         written, named = "", set()
-        for field, star, plain, stray in _PIECE.findall(self.pattern):
-            if stray or (field not in FIELDS and not (star or plain)):
+        for name, star, plain, stray in _PIECE.findall(self.pattern):
+            if stray or (name not in FIELDS and not (star or plain)):
                 raise SpecError(
-                    f"--name {self.pattern}: {stray or '{' + field + '}'} stands for nothing"
-                    f"{nearest(field, FIELDS)}; write {{robot}}, {{day}}, {{joint}} and *"
+                    f"{option('name', self.pattern)}: {stray or '{' + name + '}'} is unknown"
+                    f"{nearest(name, FIELDS)}; write {{robot}}, {{day}}, {{joint}} and *"
                 )
-            if field in named:
-                raise SpecError(f"--name {self.pattern}: {{{field}}} is there twice")
-            if field:
-                named.add(field)
-                written += f"(?P<{field}>{_WRITTEN.get(field, '[^/]+?')})"
+            if name in named:
+                raise SpecError(f"{option('name', self.pattern)}: {{{name}}} is given twice")
+            if name:
+                named.add(name)
+                written += f"(?P<{name}>{_WRITTEN.get(name, '[^/]+?')})"
             else:
                 written += "[^/]*?" if star else re.escape(plain)
         return re.compile(rf"(?:^|/){written}$")
 
     def name(self, path: str) -> Name:
-        """Robot, day and joint of the file at an absolute `path`.
+        """Return robot, day and joint of the file at an absolute `path`.
 
         Raises
         ------
         RecordingError
-            The path is not as the pattern says, or its day is no date.
+            The path does not match the pattern, or its day is not a date.
         """
         expression = self._expression
         plain = Path(path).as_posix()
@@ -88,16 +87,16 @@ class Naming:
             return Name(Path(path).parent.name or None, _last_date(plain))
         found = expression.search(plain)
         if found is None:
-            raise RecordingError(f"{path} does not end as --name {self.pattern} says")
+            raise RecordingError(f"{path} does not match {option('name', self.pattern or '')}")
         said = found.groupdict()
         day = None if said.get("day") is None else as_date(said["day"])
         if said.get("day") is not None and day is None:
-            raise RecordingError(f"{path}: its day {said['day']} is none of the calendar")
+            raise RecordingError(f"{path}: its day {said['day']} is not in the calendar")
         return Name(said.get("robot"), day, said.get("joint"))
 
 
 def as_date(text: str) -> date | None:
-    """The date at the beginning of a text; None where there is none.
+    """Return the date at the beginning of a text, or None.
 
     Examples
     --------
@@ -109,7 +108,7 @@ def as_date(text: str) -> date | None:
 
 
 def _last_date(path: str) -> date | None:
-    """The last date in a path, so that a file's own date wins over that of its folder."""
+    """Return the last date in a path: the date of a file has priority over that of its folder."""
     dates = [day for found in _DATE.finditer(path) if (day := _date(found)) is not None]
     return dates[-1] if dates else None
 

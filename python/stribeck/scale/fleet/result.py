@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import polars as pl
 
@@ -24,7 +23,7 @@ class Failure:
     joint: str | None
     reason: str
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {"file": self.file, "joint": self.joint, "reason": self.reason}
 
@@ -81,7 +80,7 @@ class Fleet(Plotted):
         notes = done["notes"].explode().drop_nulls().value_counts(sort=True)
         return tuple(text for text, count in notes.iter_rows() if 2 * count > done.height)
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON of `stribeck fleet`."""
         return {
             "model": self.work.label,

@@ -13,15 +13,14 @@ import time
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 import polars as pl
 
-from stribeck.base.errors import StribeckError
+from stribeck.base.errors import StribeckError, option
 from stribeck.base.files import write_bytes_whole
 from stribeck.base.run_folder import MANIFEST, claim, unwritable
 from stribeck.recording.sidecar import sidecar_hash
-from stribeck.scale.fleet.task import Answer, File, Task, Work
+from stribeck.scale.fleet.task import File, Task, TaskResult, Work
 
 RESULTS = "results"
 #: Seconds after which what has come is written; what a power cut costs at most.
@@ -37,33 +36,51 @@ IDENTITY = {
     "reading": "of recordings read with other options",
     "version": "made by another version of stribeck",
 }
-SCHEMA: dict[str, Any] = {
-    "file": pl.String, "robot": pl.String, "joint": pl.String, "day": pl.Date,
-    "status": pl.String, "reason": pl.String, "model": pl.String,
+SCHEMA: dict[str, pl.DataType | type[pl.DataType]] = {
+    "file": pl.String,
+    "robot": pl.String,
+    "joint": pl.String,
+    "day": pl.Date,
+    "status": pl.String,
+    "reason": pl.String,
+    "model": pl.String,
     "found": pl.List(
         pl.Struct({"effect": pl.String, "confidence": pl.Float64, "tied": pl.List(pl.String)})
     ),
-    "rows": pl.Int64, "rows_scored": pl.Int64, "unit": pl.String, "rmse": pl.Float64,
-    "rmse_held_out": pl.Float64, "noise_floor": pl.Float64, "converged": pl.Boolean,
+    "rows": pl.Int64,
+    "rows_scored": pl.Int64,
+    "unit": pl.String,
+    "rmse": pl.Float64,
+    "rmse_held_out": pl.Float64,
+    "noise_floor": pl.Float64,
+    "converged": pl.Boolean,
     "parameters": pl.List(
         pl.Struct(
             {
-                "name": pl.String, "symbol": pl.String, "unit": pl.String, "value": pl.Float64,
+                "name": pl.String,
+                "symbol": pl.String,
+                "unit": pl.String,
+                "value": pl.Float64,
                 "stderr": pl.Float64,
             }
         )
     ),
-    "covariance": pl.List(pl.Float64), "model_file": pl.String, "notes": pl.List(pl.String),
+    "covariance": pl.List(pl.Float64),
+    "model_file": pl.String,
+    "notes": pl.List(pl.String),
     "seconds": pl.Float64,
-    "size": pl.Int64, "modified": pl.Int64, "sha256": pl.String, "sidecar_sha256": pl.String,
+    "size": pl.Int64,
+    "modified": pl.Int64,
+    "sha256": pl.String,
+    "sidecar_sha256": pl.String,
     "joints_in_file": pl.Int64,
-}  # fmt: skip
+}
 #: A row answers for a joint of a file, and for these bytes.
 KEY, BYTES = ("file", "joint"), ("sha256", "sidecar_sha256")
 DONE, FAILED = "done", "failed"
 
 
-class Store:
+class FleetStore:
     """The folder of a fleet.
 
     Parameters
@@ -96,7 +113,7 @@ class Store:
             raise unwritable(folder, error) from None
         self._sidecar = work.reading.sidecar
         self._parts = sorted(self._results.glob("part-*.parquet"))
-        self._new: list[dict[str, Any]] = []
+        self._new: list[dict[str, object]] = []
         self._added: list[pl.DataFrame] = []
         self._written = time.monotonic()
         self.frame = _latest(_read(path) for path in self._parts)
@@ -117,7 +134,7 @@ class Store:
         """Whether these bytes of a joint have been answered for."""
         return (task.file, task.joint, task.sha256, task.sidecar_sha256) in self._answered
 
-    def add(self, row: dict[str, Any]) -> None:
+    def add(self, row: dict[str, object]) -> None:
         """Keep a row; it is on disk some seconds later, and when the store is closed."""
         self._new.append(row)
         if time.monotonic() - self._written > BETWEEN_PARTS:
@@ -179,7 +196,7 @@ def file_state(path: str) -> tuple[int | None, int | None]:
     return stat.st_size, stat.st_mtime_ns
 
 
-def row_of(answer: Answer) -> dict[str, Any]:
+def row_of(answer: TaskResult) -> dict[str, object]:
     """A joint that was identified, or could not be."""
     failed = answer.failure is not None
     return {
@@ -192,19 +209,26 @@ def row_of(answer: Answer) -> dict[str, Any]:
     }
 
 
-def row_of_loss(task: Task, reason: str) -> dict[str, Any]:
+def row_of_loss(task: Task, reason: str) -> dict[str, object]:
     """A joint that was given up."""
     return {**dict.fromkeys(SCHEMA), **_of_task(task), "status": FAILED, "reason": reason}
 
 
-def row_of_file(file: File, reason: str) -> dict[str, Any]:
+def row_of_file(file: File, reason: str) -> dict[str, object]:
     """A file of which no joint could be told."""
     size, modified = file_state(file.path)
     return {
-        **dict.fromkeys(SCHEMA), "file": file.path, "robot": file.robot, "joint": file.joint,
-        "day": file.day, "status": FAILED, "reason": reason, "size": size, "modified": modified,
+        **dict.fromkeys(SCHEMA),
+        "file": file.path,
+        "robot": file.robot,
+        "joint": file.joint,
+        "day": file.day,
+        "status": FAILED,
+        "reason": reason,
+        "size": size,
+        "modified": modified,
         "joints_in_file": 1,
-    }  # fmt: skip
+    }
 
 
 def as_name(cell: object) -> str | None:
@@ -212,7 +236,7 @@ def as_name(cell: object) -> str | None:
     return None if cell is None else str(cell)
 
 
-def _of_task(task: Task) -> dict[str, Any]:
+def _of_task(task: Task) -> dict[str, object]:
     return {name: value for name, value in asdict(task).items() if name in SCHEMA}
 
 
@@ -230,7 +254,9 @@ def _read(path: Path) -> pl.DataFrame:
     try:
         part = pl.read_parquet(path)
         if dict(part.schema) != SCHEMA:
-            raise StribeckError(f"{path} has other columns: remove it, or give another --output")
+            raise StribeckError(
+                f"{path} has other columns: remove it, or give another {option('output')}"
+            )
     except (pl.exceptions.PolarsError, OSError):
         raise StribeckError(
             f"{path} is damaged: remove it, its joints are then done again"
@@ -238,7 +264,7 @@ def _read(path: Path) -> pl.DataFrame:
     return part
 
 
-def _manifest(work: Work) -> dict[str, Any]:
+def _manifest(work: Work) -> dict[str, object]:
     said = asdict(work)
     said["reading"] = {k: v for k, v in work.reading.given().items() if v != ""}
     # As it reads back: tuples are lists in JSON.

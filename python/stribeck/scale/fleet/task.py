@@ -1,7 +1,7 @@
-"""The pieces of work of a fleet: to look into a file, and to identify one joint of it.
+"""The pieces of work of a fleet: to find the joints of a file, and to identify one of them.
 
 Both run in whichever process or machine an executor chooses. They get and give plain data only,
-and what is wrong with a file is part of the answer.
+and what is wrong with a file is part of the result.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from stribeck.base.errors import RecordingError, StribeckError, nearest
+from stribeck.base.errors import RecordingError, StribeckError, nearest, option
 from stribeck.base.version import __version__
 from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadOptions
@@ -44,7 +44,7 @@ class Work:
     day_column
         Column of the files that holds the date; None: the path has it.
     version
-        Of the package that asks; another one does not answer.
+        Of the package that asks; another version refuses the work.
     """
 
     model: str
@@ -110,7 +110,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Look:
+class FileJoints:
     """What is in a file: its joints as tasks, or why there are none."""
 
     file: File
@@ -119,7 +119,7 @@ class Look:
 
 
 @dataclass(frozen=True)
-class Answer:
+class TaskResult:
     """What came of a task: what was identified, or why nothing was."""
 
     task: Task
@@ -128,16 +128,16 @@ class Answer:
     seconds: float = field(compare=False)
 
 
-def look(file: File, work: Work) -> Look:
+def find_joints(file: File, work: Work) -> FileJoints:
     """Find the joints of a file."""
     _check_version(work)
     try:
-        return Look(file, _tasks(file, work), None)
+        return FileJoints(file, _tasks(file, work), None)
     except Exception as error:
-        return Look(file, (), _sentence(error))
+        return FileJoints(file, (), _sentence(error))
 
 
-def answer(task: Task, work: Work) -> Answer:
+def identify_joint(task: Task, work: Work) -> TaskResult:
     """Identify one joint of one file.
 
     The same wherever it runs: with one thread, and the seed of `work`.
@@ -154,7 +154,7 @@ def answer(task: Task, work: Work) -> Answer:
             identified = identify(recording, work.model, work.base, work.starts, work.seed)
     except Exception as error:
         failure = _sentence(error)
-    return Answer(task, identified, failure, time.perf_counter() - began)
+    return TaskResult(task, identified, failure, time.perf_counter() - began)
 
 
 def _tasks(file: File, work: Work) -> tuple[Task, ...]:
@@ -167,11 +167,19 @@ def _tasks(file: File, work: Work) -> tuple[Task, ...]:
     sidecar = sidecar_hash(file.path, work.reading.sidecar)
     return tuple(
         Task(
-            file.path, name, file.robot, day, select, stat.st_size, stat.st_mtime_ns,
-            table.sha256, sidecar, len(wanted),
+            file.path,
+            name,
+            file.robot,
+            day,
+            select,
+            stat.st_size,
+            stat.st_mtime_ns,
+            table.sha256,
+            sidecar,
+            len(wanted),
         )
         for name, select in wanted
-    )  # fmt: skip
+    )
 
 
 def _wanted(
@@ -194,7 +202,8 @@ def _day(path: str, column: str) -> date:
     table = read_table(path).table
     if column not in table.columns:
         raise RecordingError(
-            f"{path} has no column {column!r}{nearest(column, table.columns)} for --day"
+            f"{path} has no column {column!r}{nearest(column, table.columns)}, which "
+            f"{option('day')} names"
         )
     first = table[column].drop_nulls().first()
     found = as_date(first) if isinstance(first, str) else first
@@ -202,7 +211,9 @@ def _day(path: str, column: str) -> date:
         return found.date()
     if isinstance(found, date):
         return found
-    raise RecordingError(f"{path}: column {column!r} holds {first!r}, --day needs dates")
+    raise RecordingError(
+        f"{path}: column {column!r} holds {first!r}, and {option('day')} needs dates"
+    )
 
 
 def _check_version(work: Work) -> None:
@@ -214,7 +225,7 @@ def _check_version(work: Work) -> None:
 
 
 def _sentence(error: Exception) -> str:
-    """Why a file or joint gives no answer; one defect must not end the others of a fleet."""
+    """Why a file or joint gives no result; one defect must not end the others of a fleet."""
     if isinstance(error, StribeckError):
         text = str(error)
     elif isinstance(error, OSError):

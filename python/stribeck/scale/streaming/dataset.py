@@ -65,9 +65,7 @@ class DataSet:
         for file in files:
             own = _schema(file)
             if own != schema:
-                differing = sorted(
-                    {n for n, _ in set(own.items()) ^ set(schema.items())}
-                )  # fmt: skip
+                differing = sorted({n for n, _ in set(own.items()) ^ set(schema.items())})
                 raise RecordingError(
                     f"{file}: its columns are not those of {files[0]} (they differ in "
                     f"{', '.join(differing) or 'order'}): write all files with the same columns"
@@ -145,8 +143,8 @@ def _found(path: str | Path) -> list[str]:
     for file in files:
         if Path(file).suffix.lower() not in SUFFIXES:
             raise RecordingError(
-                f"{file}: only Parquet files are read in stretches: write it as Parquet, or leave "
-                "--stream out"
+                f"{file}: only Parquet files can be streamed: write it as Parquet, or read "
+                "it whole, without streaming"
             )
     return sorted(files)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from stribeck.base.shown import Shown
 from stribeck.diagnosis.result import Diagnosis
@@ -29,7 +28,7 @@ class StreamedDiagnosis(Shown):
     fit: StreamedFit
     with_finding: tuple[StreamedFit, ...]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """The contract's JSON of `stribeck diagnose`; errors are of all rows."""
         made = self.found.to_dict()
         floor = self.found.noise_floor

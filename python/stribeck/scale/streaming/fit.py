@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import needs_own_load
 from stribeck.identify.covariance import correlation_length
@@ -157,8 +157,8 @@ def _solved(problem: StreamedProblem, values: Array, bounds: Array) -> Search:
 
 def _not_finite(problem: StreamedProblem) -> FitError:
     return FitError(
-        f"{problem.model.spec} predicts no finite torque on some row of "
-        f"{problem.windows.data.path}: take rows for which it means something (--where)"
+        f"{problem.model.spec} predicts no finite torque for some samples of "
+        f"{problem.windows.data.path}: leave them out with {option('where')}"
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from stribeck.base.shown import Shown
 from stribeck.diagnosis.floor import NoiseFloor
@@ -34,16 +33,17 @@ class StreamedImprovement(Shown):
         """The last model, identified on all rows."""
         return self.fits[-1]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """The contract's JSON of `stribeck improve`; errors and parameters are of all rows."""
         made = self.found.to_dict()
         floor = self.found.noise_floor
         for step, before, after in zip(made["steps"], self.fits, self.fits[1:], strict=False):
             step.update(before_and_after(before, after, floor))
             step.update(
-                rmse_before=before.rmse, rmse_after=after.rmse,
+                rmse_before=before.rmse,
+                rmse_after=after.rmse,
                 parameters=after.to_dict()["parameters"],
-            )  # fmt: skip
+            )
         last = self.final.to_dict()
         same = ("model", "rmse", "rmse_held_out", "relative_residual", "parameters")
         made["final"] = {key: last[key] for key in same}

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 from stribeck.recording.channels import Channels
 from stribeck.recording.derive import Smoother
 
-__all__ = ["Motion"]
+__all__ = ["MotionChannels"]
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Motion:
+class MotionChannels:
     """The channels of a recording's motion, arrays [n]; see `stribeck.recording.Recording`."""
 
     position: Array | None
@@ -27,7 +27,7 @@ class Motion:
     acceleration_smooth: Array
 
     @classmethod
-    def recorded(cls, data: Channels) -> Motion:
+    def recorded(cls, data: Channels) -> MotionChannels:
         """As recorded, where nothing reads what is smooth or derived.
 
         An acceleration that the files do not have is no number: nothing can read it by mistake.
@@ -38,7 +38,7 @@ class Motion:
         return cls(position, position, velocity, velocity, acceleration, acceleration)
 
     @classmethod
-    def filtered(cls, data: Channels, smoother: Smoother, band: float | None) -> Motion:
+    def filtered(cls, data: Channels, smoother: Smoother, band: float | None) -> MotionChannels:
         """As recorded, or derived as in a recording in memory; smooth beside it.
 
         Parameters

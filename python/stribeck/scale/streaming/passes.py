@@ -112,10 +112,17 @@ class _Sums:
         """The groups of which there is something."""
         full = np.flatnonzero(self.rows)
         return Groups(
-            self.values, self.wanted, [self.parts[k] for k in full], full, self.rows[full],
-            self.ranges, self.torque_square, (self.times[0], self.times[-1]), self.count,
+            self.values,
+            self.wanted,
+            [self.parts[k] for k in full],
+            full,
+            self.rows[full],
+            self.ranges,
+            self.torque_square,
+            (self.times[0], self.times[-1]),
+            self.count,
             self.dropped,
-        )  # fmt: skip
+        )
 
 
 @dataclass

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import polars as pl
 
@@ -72,7 +71,7 @@ class StreamedFit(Shown):
             # A box over which the law has no limit, or a bristle without dry friction.
             return None
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """The contract's JSON of `stribeck fit`, and what was read of the data.
 
         The relative residual, which needs a filter over all rows, is of the stretches in memory.
@@ -112,9 +111,17 @@ class StreamedFit(Shown):
     def to_frame(self) -> pl.DataFrame:
         """The parameters as a table."""
         return pl.DataFrame(
-            [{"parameter": n, "symbol": e.symbol, "value": e.value, "stderr": e.stderr,
-              "unit": e.unit} for n, e in self.estimates.items()]
-        )  # fmt: skip
+            [
+                {
+                    "parameter": n,
+                    "symbol": e.symbol,
+                    "value": e.value,
+                    "stderr": e.stderr,
+                    "unit": e.unit,
+                }
+                for n, e in self.estimates.items()
+            ]
+        )
 
     def model_file(self) -> ModelFile:
         """The model with its standard errors and provenance; hashes the files."""

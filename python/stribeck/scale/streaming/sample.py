@@ -93,11 +93,11 @@ def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
 def _refuse(data: DataSet, settings: Settings) -> None:
     """Refuse what needs more than one stretch at a time."""
     for name in ("average", "drive", "hold_out"):
-        said: str | None = getattr(settings, name)
-        if said is not None:
+        value: str | None = getattr(settings, name)
+        if value is not None:
             raise RecordingError(
-                f"{data.path}: {option(name, said)} needs all samples in memory: leave it out, or "
-                f"read one file without {option('stream')}"
+                f"{data.path}: {option(name, value)} needs all samples in memory: leave it out, or "
+                "read one file whole, without streaming"
             )
 
 
@@ -122,6 +122,8 @@ def _with_runs(prepared: Prepared, row: Ints, starts: Ints) -> Prepared:
     choices = {**prepared.choices, "run": Choice("run", CLOCK_RUN, None, "name")}
     note = f"the clock starts again in {starts.size - 1} files: each of them begins a run"
     return replace(
-        prepared, table=prepared.table.with_columns(number), choices=choices,
+        prepared,
+        table=prepared.table.with_columns(number),
+        choices=choices,
         notes=(*prepared.notes, note),
-    )  # fmt: skip
+    )

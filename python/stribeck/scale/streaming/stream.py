@@ -73,9 +73,14 @@ class Stream:
             Told after each window: rows done, rows in all, number of the pass.
         """
         first = fit_in_memory(
-            spec, self.sample.recording, starts=starts, seed=seed, start=start, bounds=bounds,
+            spec,
+            self.sample.recording,
+            starts=starts,
+            seed=seed,
+            start=start,
+            bounds=bounds,
             fix=fix,
-        )  # fmt: skip
+        )
         return streamed_fit(self.data, self.sample, first, told=told, window_rows=self.window_rows)
 
     def diagnose(
@@ -95,9 +100,13 @@ class Stream:
         sample = self.sample.recording
         first = fit_in_memory(spec, sample, starts=starts, seed=seed)
         found = diagnose_in_memory(
-            first, sample, least_fall=least_fall, candidates=candidates, seed=seed,
+            first,
+            sample,
+            least_fall=least_fall,
+            candidates=candidates,
+            seed=seed,
             sample_rows=sample.rows,
-        )  # fmt: skip
+        )
         return StreamedDiagnosis(
             found,
             self._on_all_rows(first, told),
@@ -134,9 +143,13 @@ class Stream:
 
     def _on_all_rows(self, start: Fit, told: Told, tolerance: float | None = None) -> StreamedFit:
         return streamed_fit(
-            self.data, self.sample, start, told=told, window_rows=self.window_rows,
+            self.data,
+            self.sample,
+            start,
+            told=told,
+            window_rows=self.window_rows,
             tolerance=tolerance,
-        )  # fmt: skip
+        )
 
     def __repr__(self) -> str:
         files = len(self.data.files)

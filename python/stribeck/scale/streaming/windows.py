@@ -10,7 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from stribeck.base.errors import RecordingError
+from stribeck.base.errors import RecordingError, option
 from stribeck.models.model import Model
 from stribeck.recording.cells import labels
 from stribeck.recording.channels import Channels, wanted_channels
@@ -25,7 +25,7 @@ from stribeck.recording.rows import segment_rows
 from stribeck.recording.table import Prepared
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.margin import Margin, acceleration_band, smoothed
-from stribeck.scale.streaming.motion import Motion
+from stribeck.scale.streaming.motion import MotionChannels
 from stribeck.scale.streaming.runs import numbered
 from stribeck.scale.streaming.sample import CLOCK_RUN, Sample
 
@@ -205,9 +205,11 @@ class Windows:
         if self._smoothed:
             segment, dt, _ = segment_rows(time, run, row)
         if self._smoothed:
-            motion = Motion.filtered(data, Smoother(time, segment, sample.cutoff_hz), self._band)
+            motion = MotionChannels.filtered(
+                data, Smoother(time, segment, sample.cutoff_hz), self._band
+            )
         else:
-            motion = Motion.recorded(data)
+            motion = MotionChannels.recorded(data)
         torque, load = measured_torque(data)
         load_smooth = load
         if load is None:
@@ -219,12 +221,21 @@ class Windows:
         every = data.prepared.settings.rows == "all"
         moving = np.abs(motion.velocity) > sample.velocity_threshold
         made = replace(
-            sample, time=time, segment=segment, run=run, dt=dt, torque=torque, load_torque=load,
-            load_torque_smooth=load_smooth, temperature=data.values.get("temperature"),
+            sample,
+            time=time,
+            segment=segment,
+            run=run,
+            dt=dt,
+            torque=torque,
+            load_torque=load,
+            load_torque_smooth=load_smooth,
+            temperature=data.values.get("temperature"),
             moving=np.ones_like(moving) if every else moving,
             block=numbered(row, self.sample.edges[:-1]),
-            block_count=self.sample.edges.size - 1, elapsed_before=0.0, **vars(motion),
-        )  # fmt: skip
+            block_count=self.sample.edges.size - 1,
+            elapsed_before=0.0,
+            **vars(motion),
+        )
         made = replace(made, elapsed_before=anchor.elapsed_before(made, row))
         return with_drive(made, data.prepared, data.values)
 
@@ -234,6 +245,6 @@ class Windows:
             at = int(wrong[0]) + 1
             raise RecordingError(
                 f"{self.data.path}: {self.data.place(int(row[at]))}: time goes from "
-                f"{time[at - 1]:.9g} to {time[at]:.9g} s: put the rows in order of time, or name "
-                "the column that tells the runs apart with --map run=COLUMN"
+                f"{time[at - 1]:.9g} to {time[at]:.9g} s: sort the rows by time, or name "
+                f"the column of runs with {option('map', 'run=COLUMN')}"
             )

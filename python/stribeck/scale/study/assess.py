@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +13,7 @@ from stribeck.fitting.evaluate import evaluate
 from stribeck.identify.scaling import model_for
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.desk import Desk
-from stribeck.scale.study.plan import LOW_SPEED, Group, group_of
+from stribeck.scale.study.plan import LOW_SPEED, LawGroup, group_of
 from stribeck.scale.study.trial import Trial
 
 Array = NDArray[np.float64]
@@ -47,21 +46,28 @@ class Spread:
         reach = 1.5 * (high - low)
         inside = error[(error >= low - reach) & (error <= high + reach)]
         return cls(
-            error.size, float(error.mean()), float(error.std()), (low, middle, high),
+            error.size,
+            float(error.mean()),
+            float(error.std()),
+            (low, middle, high),
             (float(inside.min()), float(inside.max())),
-        )  # fmt: skip
+        )
 
     @property
     def rms(self) -> float:
         """Root mean square."""
         return float(np.hypot(self.mean, self.std))
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
-            "rows": self.rows, "mean": self.mean, "std": self.std, "rmse": self.rms,
-            "quartiles": list(self.quartiles), "whiskers": list(self.whiskers),
-        }  # fmt: skip
+            "rows": self.rows,
+            "mean": self.mean,
+            "std": self.std,
+            "rmse": self.rms,
+            "quartiles": list(self.quartiles),
+            "whiskers": list(self.whiskers),
+        }
 
 
 @dataclass(frozen=True)
@@ -97,7 +103,7 @@ class Entry:
     energy: Energy | None
     cloud: Cloud
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON."""
         return {
             **self.whole.to_dict(),
@@ -145,7 +151,7 @@ class Assessed:
 
     joint: str | None
     data: JointData
-    groups: Mapping[str, Group]
+    groups: Mapping[str, LawGroup]
     entries: Mapping[str, Entry]
 
 
@@ -154,9 +160,12 @@ def assess_joint(desk: Desk, of: JointTrials) -> Assessed:
     recording = desk.recording(of.joint)
     low_speed = LOW_SPEED[recording.joint_kind] if of.low_speed is None else of.low_speed
     data = JointData(
-        recording.rows, recording.scored(), recording.torque_unit,
-        f"{recording.position_unit}/s", low_speed,
-    )  # fmt: skip
+        recording.rows,
+        recording.scored(),
+        recording.torque_unit,
+        f"{recording.position_unit}/s",
+        low_speed,
+    )
     groups = {law: group_of(model_for(law, recording)) for law in of.trials}
     found = {law: assess(trials, recording, low_speed) for law, trials in of.trials.items()}
     entries = {law: entry for law, entry in found.items() if entry is not None}

@@ -20,11 +20,32 @@ from stribeck.recording.sidecar import sidecar_hash
 
 #: The 25 laws that the review compares, in the order of its tables 1, 2 and 3.
 REVIEW = (
-    "bittencourt_a", "clochiatti", "coulomb", "dong", "gaz_a", "gaz_b", "grotjahn_a", "grotjahn_b",
-    "hao_a", "indri_a", "makkar", "shao", "wolf", "zhou",
-    "bittencourt_b", "hao_b", "iskandar", "li", "madsen", "nevmerzhitskiy", "simoni",
-    "dahl", "indri_b", "lugre", "tadese_t",
-)  # fmt: skip
+    "bittencourt_a",
+    "clochiatti",
+    "coulomb",
+    "dong",
+    "gaz_a",
+    "gaz_b",
+    "grotjahn_a",
+    "grotjahn_b",
+    "hao_a",
+    "indri_a",
+    "makkar",
+    "shao",
+    "wolf",
+    "zhou",
+    "bittencourt_b",
+    "hao_b",
+    "iskandar",
+    "li",
+    "madsen",
+    "nevmerzhitskiy",
+    "simoni",
+    "dahl",
+    "indri_b",
+    "lugre",
+    "tadese_t",
+)
 #: Starts of each law on each joint (review, section 4).
 STARTS = 20
 #: What the tables call low speed: rad/s as in the review, and m/s for a joint that slides.
@@ -32,20 +53,20 @@ LOW_SPEED = {"revolute": 0.1, "prismatic": 0.01}
 
 
 @dataclass(frozen=True)
-class Group:
+class LawGroup:
     """Laws that stand in one table."""
 
     id: str
     title: str
 
 
-STATIC = Group("static", "Static laws without temperature and load (as table 4 of the review)")
-THERMAL = Group("thermal", "Static laws with temperature or load (as table 5)")
-DYNAMIC = Group("dynamic", "Dynamic laws (as table 6)")
+STATIC = LawGroup("static", "Static laws without temperature and load (as table 4 of the review)")
+THERMAL = LawGroup("thermal", "Static laws with temperature or load (as table 5)")
+DYNAMIC = LawGroup("dynamic", "Dynamic laws (as table 6)")
 GROUPS = (STATIC, THERMAL, DYNAMIC)
 
 
-def group_of(model: Model) -> Group:
+def group_of(model: Model) -> LawGroup:
     """The table in which a model stands, by what its friction depends on."""
     if model.has_state:
         return DYNAMIC
@@ -140,7 +161,7 @@ def make_plan(
         No law can be fitted to it.
     """
     if not laws:
-        raise SpecError("a study needs at least one law: name one with --law")
+        raise SpecError("a study needs at least one law: name one")
     if starts < 1:
         raise SpecError(f"{starts} starts are none: give 1 or more")
     if seed < 0:

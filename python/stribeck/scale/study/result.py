@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import polars as pl
@@ -13,7 +13,7 @@ import polars as pl
 from stribeck.base.shown import Plotted, draw
 from stribeck.fitting.energy import Energy, total_energy
 from stribeck.scale.study.assess import Entry, JointData
-from stribeck.scale.study.plan import GROUPS, Group, Skipped, StudyPlan
+from stribeck.scale.study.plan import GROUPS, LawGroup, Skipped, StudyPlan
 from stribeck.scale.study.trial import Trial
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class Row:
 class Table:
     """Laws of one group, the smallest error first."""
 
-    group: Group
+    group: LawGroup
     rows: tuple[Row, ...]
 
 
@@ -72,7 +72,7 @@ class Study(Plotted):
                 for joint, entry in row.entries.items():
                     yield table, row, joint, entry
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """JSON of `stribeck study`."""
         return {
             "data": {
@@ -80,7 +80,9 @@ class Study(Plotted):
                 "sha256": self.plan.data["sha256"],
                 "joints": [
                     {
-                        "joint": joint, "rows": data.rows, "scored": dict(data.scored),
+                        "joint": joint,
+                        "rows": data.rows,
+                        "scored": dict(data.scored),
                         "unit": data.torque_unit,
                         "low_speed": {"below": data.low_speed, "unit": data.velocity_unit},
                     }
@@ -117,28 +119,35 @@ class Study(Plotted):
                 for t in self.failed
             ],
             "output": str(self.folder),
-        }  # fmt: skip
+        }
 
     def to_frame(self) -> pl.DataFrame:
         """One row a law and joint: the figures of the tables."""
         return pl.DataFrame(
             [
                 {
-                    "table": table.group.id, "law": row.law, "joint": joint,
+                    "table": table.group.id,
+                    "law": row.law,
+                    "joint": joint,
                     "unit": self.joints[joint].torque_unit,
-                    "mean": entry.whole.mean, "std": entry.whole.std, "rmse": entry.whole.rms,
+                    "mean": entry.whole.mean,
+                    "std": entry.whole.std,
+                    "rmse": entry.whole.rms,
                     "rmse_held_out": entry.best.rmse_held_out,
-                    "low_speed_mean": entry.low_speed.mean, "low_speed_std": entry.low_speed.std,
-                    "low_speed_rmse": entry.low_speed.rms, "low_speed_rows": entry.low_speed.rows,
+                    "low_speed_mean": entry.low_speed.mean,
+                    "low_speed_std": entry.low_speed.std,
+                    "low_speed_rmse": entry.low_speed.rms,
+                    "low_speed_rows": entry.low_speed.rows,
                     "measured_J": entry.energy.measured if entry.energy else None,
                     "model_J": entry.energy.modelled if entry.energy else None,
                     "error_J": entry.energy.error if entry.energy else None,
-                    "best_start": entry.best.job.start, "starts": entry.trials,
+                    "best_start": entry.best.job.start,
+                    "starts": entry.trials,
                     "starts_agreeing": entry.agreeing,
                 }
                 for table, row, joint, entry in self.entries()
             ]
-        )  # fmt: skip
+        )
 
     def plot(self, joint: str | None = None) -> Figure:
         """Box plots of the torque error of one joint (default: the first)."""
@@ -146,7 +155,7 @@ class Study(Plotted):
 
 
 def make_tables(
-    groups: Mapping[str, Group], entries: Mapping[str, Mapping[str | None, Entry]]
+    groups: Mapping[str, LawGroup], entries: Mapping[str, Mapping[str | None, Entry]]
 ) -> tuple[Table, ...]:
     """Sort laws into their tables.
 

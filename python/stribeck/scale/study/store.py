@@ -13,11 +13,10 @@ import json
 import math
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import polars as pl
 
-from stribeck.base.errors import StribeckError
+from stribeck.base.errors import StribeckError, option
 from stribeck.base.files import write_bytes_whole, write_whole
 from stribeck.base.run_folder import claim, unwritable
 from stribeck.base.version import __version__
@@ -26,9 +25,20 @@ from stribeck.scale.study.trial import Trial
 
 FITS = "fits.csv"
 FIELDS = (
-    "joint", "law", "start", "rmse", "rmse_held_out", "converged", "outcome", "evaluations",
-    "seconds", "parameters", "constants", "rigid_body", "failure",
-)  # fmt: skip
+    "joint",
+    "law",
+    "start",
+    "rmse",
+    "rmse_held_out",
+    "converged",
+    "outcome",
+    "evaluations",
+    "seconds",
+    "parameters",
+    "constants",
+    "rigid_body",
+    "failure",
+)
 #: What must be the same for a study to go on, and how to say that it is not.
 IDENTITY = {
     "data": "of another recording or sidecar",
@@ -41,7 +51,7 @@ IDENTITY = {
 }
 
 
-class Store:
+class StudyStore:
     """The folder of one study.
 
     Parameters
@@ -95,25 +105,38 @@ class Store:
         """Every fit, one row each; parameters as a list of name and value."""
         rows = [
             {
-                "joint": t.job.joint, "law": t.job.law, "start": t.job.start, "rmse": t.rmse,
-                "rmse_held_out": t.rmse_held_out, "converged": t.converged, "outcome": t.outcome,
-                "evaluations": t.evaluations, "seconds": t.seconds,
+                "joint": t.job.joint,
+                "law": t.job.law,
+                "start": t.job.start,
+                "rmse": t.rmse,
+                "rmse_held_out": t.rmse_held_out,
+                "converged": t.converged,
+                "outcome": t.outcome,
+                "evaluations": t.evaluations,
+                "seconds": t.seconds,
                 "parameters": [{"name": n, "value": v} for n, v in t.parameters.items()],
                 "failure": t.failure,
             }
             for t in self.ordered()
-        ]  # fmt: skip
+        ]
         pairs = pl.List(pl.Struct({"name": pl.String, "value": pl.Float64}))
-        schema: dict[str, Any] = {
-            "joint": pl.String, "law": pl.String, "start": pl.Int64, "rmse": pl.Float64,
-            "rmse_held_out": pl.Float64, "converged": pl.Boolean, "outcome": pl.String,
-            "evaluations": pl.Int64, "seconds": pl.Float64, "parameters": pairs,
+        schema: dict[str, pl.DataType | type[pl.DataType]] = {
+            "joint": pl.String,
+            "law": pl.String,
+            "start": pl.Int64,
+            "rmse": pl.Float64,
+            "rmse_held_out": pl.Float64,
+            "converged": pl.Boolean,
+            "outcome": pl.String,
+            "evaluations": pl.Int64,
+            "seconds": pl.Float64,
+            "parameters": pairs,
             "failure": pl.String,
-        }  # fmt: skip
+        }
         return pl.DataFrame(rows, schema=schema)
 
 
-def _manifest(plan: StudyPlan) -> dict[str, Any]:
+def _manifest(plan: StudyPlan) -> dict[str, object]:
     made = {
         "kind": "study",
         "path": str(plan.path),
@@ -138,12 +161,21 @@ def _lines(trials: Iterable[Trial]) -> str:
     for t in trials:
         writer.writerow(
             [
-                t.job.joint or "", t.job.law, t.job.start, _number(t.rmse),
-                _number(t.rmse_held_out), str(t.converged).lower(), t.outcome, t.evaluations,
-                repr(t.seconds), json.dumps(dict(t.parameters)), json.dumps(dict(t.constants)),
-                json.dumps(list(t.rigid_body)), t.failure,
+                t.job.joint or "",
+                t.job.law,
+                t.job.start,
+                _number(t.rmse),
+                _number(t.rmse_held_out),
+                str(t.converged).lower(),
+                t.outcome,
+                t.evaluations,
+                repr(t.seconds),
+                json.dumps(dict(t.parameters)),
+                json.dumps(dict(t.constants)),
+                json.dumps(list(t.rigid_body)),
+                t.failure,
             ]
-        )  # fmt: skip
+        )
     return stream.getvalue()
 
 
@@ -164,7 +196,7 @@ def _read_fits(path: Path, wanted: set[Job]) -> dict[Job, Trial]:
         except (KeyError, TypeError, ValueError):
             raise StribeckError(
                 f"{path} is damaged (after {len(trials)} fits): remove the folder, or give another "
-                f"--output"
+                f"{option('output')}"
             ) from None
         if trial.job in wanted:
             trials[trial.job] = trial

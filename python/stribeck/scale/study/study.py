@@ -20,7 +20,7 @@ from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
 from stribeck.scale.study.desk import Desk, StudyWorkers, study_workers
 from stribeck.scale.study.plan import REVIEW, STARTS, Job, StudyPlan, make_plan
 from stribeck.scale.study.result import Study, Table, make_tables
-from stribeck.scale.study.store import Store
+from stribeck.scale.study.store import StudyStore
 from stribeck.scale.study.trial import Trial, fit_trials
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def study(
     if note is not None:
         for sentence in plan.notes:
             note(sentence)
-    store = Store(Path(output), plan)
+    store = StudyStore(Path(output), plan)
     with study_workers(plan, worker_count(workers)) as processes:
         _fit(plan, store, processes, progress)
         result = _result(plan, store, low_speed, processes)
@@ -89,7 +89,9 @@ def study(
     return result
 
 
-def _fit(plan: StudyPlan, store: Store, processes: StudyWorkers, progress: Progress | None) -> None:
+def _fit(
+    plan: StudyPlan, store: StudyStore, processes: StudyWorkers, progress: Progress | None
+) -> None:
     """Make the fits that are not in the store.
 
     The starts of a law on a joint are fitted together, and again if one of them is missing: so the
@@ -111,7 +113,7 @@ def _fit(plan: StudyPlan, store: Store, processes: StudyWorkers, progress: Progr
 
 
 def _result(
-    plan: StudyPlan, store: Store, low_speed: float | None, processes: StudyWorkers
+    plan: StudyPlan, store: StudyStore, low_speed: float | None, processes: StudyWorkers
 ) -> Study:
     """Figures of the best starts, joint by joint."""
     trials = store.ordered()
@@ -142,9 +144,10 @@ def _write(result: Study, processes: StudyWorkers) -> None:
     write_whole(folder / "tables.csv", result.to_frame().write_csv())
     write_whole(folder / "tables.txt", repr(result) + "\n")
     drawn = [
-        (result, joint) for joint in result.joints
+        (result, joint)
+        for joint in result.joints
         if any(joint in row.entries for table in result.tables for row in table.rows)
-    ]  # fmt: skip
+    ]
     processes.each(_draw, drawn, lambda _: None)
 
 

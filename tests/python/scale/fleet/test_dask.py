@@ -17,7 +17,7 @@ import stribeck as sb
 from fleet_logs import answers, command
 from fleet_pieces import square_unless_three
 from stribeck.scale.fleet.backend import DaskCluster
-from stribeck.scale.fleet.schedule import run
+from stribeck.scale.fleet.schedule import run_tasks
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.slow
@@ -93,7 +93,7 @@ def test_a_piece_that_ends_its_workers_is_given_up_alone(tmp_path: Path) -> None
     given_up: list[int] = []
     crew = DaskCluster(cluster.address, note=lambda sentence: None)
     try:
-        run(square_unless_three, range(8), crew, done.append, given_up.append)
+        run_tasks(square_unless_three, range(8), crew, done.append, given_up.append)
     finally:
         crew.close()
         cluster.close()
@@ -114,7 +114,7 @@ def test_a_cluster_that_has_lost_all_workers_is_waited_for(cluster: Cluster) -> 
         worker.wait(timeout=10)
     crew = DaskCluster(cluster.address, note)
     try:
-        run(square_unless_three, range(3), crew, done.append, lambda piece: None)
+        run_tasks(square_unless_three, range(3), crew, done.append, lambda piece: None)
     finally:
         crew.close()
     assert sorted(done) == [0, 1, 4]

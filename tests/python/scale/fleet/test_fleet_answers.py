@@ -13,7 +13,7 @@ import pytest
 import stribeck as sb
 from fleet_logs import JOINTS, WEAR, WORN
 from stribeck.models.catalog import effect_ids, law_ids
-from stribeck.motion.generate.motion import Joint
+from stribeck.motion.generate.motion import GeneratedJoint
 from stribeck.motion.generate.plausible import plausible_values
 from stribeck.scale.fleet.changes import Question, find_changes
 from stribeck.scale.fleet.effects import find_effects
@@ -107,7 +107,7 @@ BOX = {
     "temperature": (25.0, 40.0), "load_torque": (-9.0, 9.0), "motor_torque": (-15.0, 15.0),
     "external_torque": (-9.0, 9.0),
 }  # fmt: skip
-JOINT = Joint("revolute", 1.0, 2.0, 3.0, 1.0, 0.3, 6.0)
+JOINT = GeneratedJoint("revolute", 1.0, 2.0, 3.0, 1.0, 0.3, 6.0)
 
 
 @pytest.mark.parametrize("spec", [*law_ids(), *(f"coulomb+stribeck+{e}" for e in effect_ids()[1:])])

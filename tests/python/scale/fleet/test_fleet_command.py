@@ -68,7 +68,7 @@ def test_the_days_of_a_column_and_the_joint_of_a_path(logs: list[Path], tmp_path
         (("--model", "gone.toml"), "cannot read the model file gone.toml"),
         (("--starts", "0"), "starts"),
         (("--map", "velocity=vel", "--model", "coulomb"), "nothing could be identified"),
-        (("--scheduler", "nowhere"), "an address is like tcp://10.0.0.7:8786"),
+        (("--scheduler", "nowhere"), "an address looks like tcp://10.0.0.7:8786"),
         (("--scheduler", "tcp://127.0.0.1:1"), "no Dask scheduler answers at tcp://127.0.0.1:1"),
     ],
 )
@@ -86,7 +86,7 @@ def test_wrong_arguments_are_one_line(
 
 def test_a_pattern_without_a_file_is_refused(tmp_path: Path) -> None:
     done = command(tmp_path / "*.parquet", "improve", "-o", tmp_path / "fleet")
-    assert done.returncode == 2 and "no file is like" in done.stderr
+    assert done.returncode == 2 and "no file matches" in done.stderr
 
 
 def test_dask_is_not_imported_unless_it_is_asked_for() -> None:
@@ -137,7 +137,7 @@ def test_a_process_that_is_killed_costs_only_its_task(logs: list[Path], tmp_path
     os.kill(workers_of(process.pid)[0], signal.SIGKILL)
     out, error = process.communicate(timeout=300)
     assert process.returncode == 0, error
-    assert "a worker was ended" in error and "Traceback" not in error
+    assert "a worker was killed" in error and "Traceback" not in error
     said = json.loads(out)
     assert (said["done"], said["failed"]) == (48, 0)
     assert workers_of(process.pid) == []

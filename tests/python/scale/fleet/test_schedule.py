@@ -12,7 +12,7 @@ import pytest
 from fleet_pieces import square_unless_three
 from stribeck.base.errors import StribeckError
 from stribeck.scale.fleet.backend import GivenExecutor, Processes
-from stribeck.scale.fleet.schedule import run
+from stribeck.scale.fleet.schedule import run_tasks
 
 
 def square(number: int) -> int:
@@ -43,20 +43,20 @@ def test_a_piece_that_ends_its_workers_is_given_up_alone(two_processes: Processe
     done: list[int] = []
     given_up: list[int] = []
     notes: list[str] = []
-    run(
+    run_tasks(
         square_unless_three, range(8), two_processes, done.append, given_up.append,
         note=notes.append,
     )  # fmt: skip
     assert sorted(done) == [n * n for n in range(8) if n != 3]
     assert given_up == [3]
-    assert notes and "worker was ended" in notes[0]
+    assert notes and "worker was killed" in notes[0]
 
 
 def test_a_worker_that_is_lost_costs_no_answer(two_processes: Processes, tmp_path: Path) -> None:
     done: list[int] = []
     given_up: list[tuple[int, str]] = []
     pieces = [(n, str(tmp_path / "marker")) for n in range(8)]
-    run(die_once, pieces, two_processes, done.append, given_up.append)
+    run_tasks(die_once, pieces, two_processes, done.append, given_up.append)
     assert sorted(done) == [n * n for n in range(8)] and given_up == []
 
 
@@ -74,7 +74,7 @@ def test_a_straggler_is_handed_out_again_and_the_first_answer_counts() -> None:
     notes: list[str] = []
     with ThreadPoolExecutor(2) as threads:
         try:
-            run(
+            run_tasks(
                 dawdle, range(10), GivenExecutor(threads), done.append, pytest.fail, straggler=3.0,
                 note=notes.append,
             )  # fmt: skip
@@ -82,7 +82,7 @@ def test_a_straggler_is_handed_out_again_and_the_first_answer_counts() -> None:
             stuck.set()
     assert sorted(done) == [n * n for n in range(10)]
     assert calls.count(4) == 2 and len(calls) == 11
-    assert len(notes) == 1 and "handed out once more" in notes[0]
+    assert len(notes) == 1 and "run a second time" in notes[0]
 
 
 class Breaking(Executor):
@@ -106,10 +106,10 @@ class Breaking(Executor):
 def test_a_broken_executor_of_the_caller_ends_in_one_sentence_with_what_was_done() -> None:
     done: list[int] = []
     with pytest.raises(StribeckError, match=r"executor is broken.*continues from there"):
-        run(square, range(6), GivenExecutor(Breaking()), done.append, pytest.fail)
+        run_tasks(square, range(6), GivenExecutor(Breaking()), done.append, pytest.fail)
     assert done == [0, 1]
 
 
 def test_a_worker_that_cannot_do_the_work_is_said() -> None:
     with ThreadPoolExecutor(1) as threads, pytest.raises(StribeckError, match="no module for 0"):
-        run(raise_import_error, range(3), GivenExecutor(threads), pytest.fail, pytest.fail)
+        run_tasks(raise_import_error, range(3), GivenExecutor(threads), pytest.fail, pytest.fail)

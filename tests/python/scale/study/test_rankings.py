@@ -17,7 +17,7 @@ import pytest
 from stribeck.motion.generate.files import write_robot
 from stribeck.motion.generate.ur5e import RobotRecording
 from stribeck.scale.study.assess import Entry
-from stribeck.scale.study.plan import DYNAMIC, REVIEW, STATIC, THERMAL, Group
+from stribeck.scale.study.plan import DYNAMIC, REVIEW, STATIC, THERMAL, LawGroup
 from stribeck.scale.study.result import Study
 from stribeck.scale.study.study import study
 
@@ -33,7 +33,7 @@ def warm_arm(folder: Path, **sizes: float) -> Path:
     return path
 
 
-def of_group(made: Study, group: Group, joint: str | None) -> dict[str, Entry]:
+def of_group(made: Study, group: LawGroup, joint: str | None) -> dict[str, Entry]:
     """A table's laws on one joint."""
     (table,) = (t for t in made.tables if t.group == group)
     return {row.law: row.entries[joint] for row in table.rows}
