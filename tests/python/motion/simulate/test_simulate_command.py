@@ -121,7 +121,7 @@ def test_a_fourier_series_starts_and_ends_at_rest():
 
 def test_a_model_of_forces_is_not_put_on_a_revolute_joint():
     model = replace(sb.model("coulomb", a1=0.5, a2=2.0), torque_unit="N", position_unit="m")
-    with pytest.raises(SpecError, match="give a prismatic joint"):
+    with pytest.raises(SpecError, match="give the mass of a prismatic joint"):
         sb.simulate(model, Joint.revolute(1.0), Torque(1.0), seconds=1.0)
 
 
