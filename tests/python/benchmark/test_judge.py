@@ -10,7 +10,9 @@ from stribeck.benchmark.cases import Case
 from stribeck.benchmark.judge import judge
 
 
-def answered(group: str, hidden: tuple[str, ...], *steps: NamedEffect, **rest: object) -> CaseAnswer:
+def answered(
+    group: str, hidden: tuple[str, ...], *steps: NamedEffect, **rest: object
+) -> CaseAnswer:
     case = Case(group, "open_loop", hidden or ("none",), 1, 1.0)
     return dataclasses.replace(CaseAnswer(case, hidden=hidden, steps=steps, verdict="none"), **rest)
 
@@ -82,7 +84,9 @@ def test_what_a_motion_cannot_show_is_listed_and_not_claimed() -> None:
 def test_what_is_outside_the_library_is_unexplained() -> None:
     assert judge(answered("outside", ("humidity",), verdict="unexplained")).right
     assert not judge(answered("outside", ("humidity",))).right
-    named = judge(answered("outside", ("humidity",), NamedEffect("drift", 0.9), verdict="unexplained"))
+    named = judge(
+        answered("outside", ("humidity",), NamedEffect("drift", 0.9), verdict="unexplained")
+    )
     assert not named.right
     assert named.named == "drift"
 

@@ -14,7 +14,9 @@ from stribeck.benchmark.score import OUTSIDE, Share, score
 from stribeck.benchmark.text import score_text
 
 
-def one(effect: str, named: str, confidence: float = 0.95, seed: int = 0, **rest: object) -> CaseAnswer:
+def one(
+    effect: str, named: str, confidence: float = 0.95, seed: int = 0, **rest: object
+) -> CaseAnswer:
     case = Case("one", "open_loop", (effect,), seed, 1.0)
     made = CaseAnswer(
         case, hidden=(effect,), steps=(NamedEffect(named, confidence),), verdict="none",

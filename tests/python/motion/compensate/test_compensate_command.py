@@ -84,7 +84,7 @@ def test_a_hand_needs_less_with_compensation(files: tuple[Path, Path]) -> None:
     # To break loose it has to pull as before: a law without a memory gives nothing at rest.
     assert much["interaction_rms"] < 0.5 * without["interaction_rms"]
     assert much["interaction_largest"] > 0.85 * 2.0
-    assert "exceeds friction" in run(*words)
+    assert "overcompensated" in run(*words)
 
 
 @pytest.mark.parametrize(
