@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from stribeck.base.errors import StribeckError, option
 from stribeck.base.files import write_whole
@@ -17,7 +16,7 @@ MANIFEST = "manifest.json"
 
 
 def claim(
-    folder: Path, manifest: Mapping[str, Any], identity: Mapping[str, str], what: str
+    folder: Path, manifest: Mapping[str, object], identity: Mapping[str, str], what: str
 ) -> None:
     """Use a folder for a run: a new or empty one, or one that holds the same run.
 
@@ -61,7 +60,7 @@ def unwritable(folder: Path, error: OSError) -> StribeckError:
 
 
 def _check(
-    folder: Path, manifest: Mapping[str, Any], identity: Mapping[str, str], what: str
+    folder: Path, manifest: Mapping[str, object], identity: Mapping[str, str], what: str
 ) -> None:
     path = folder / MANIFEST
     try:
@@ -78,7 +77,7 @@ def _check(
             )
 
 
-def _differs(found: Any, manifest: Mapping[str, Any], key: str) -> str:
+def _differs(found: object, manifest: Mapping[str, object], key: str) -> str:
     """Return ``(3 there, 5 here)`` for numbers and texts; other values are too long to show."""
     theirs = found.get(key) if isinstance(found, dict) else None
     ours = manifest[key]

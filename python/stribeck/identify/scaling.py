@@ -1,7 +1,7 @@
-"""Fit a model's bounds, starts and constants to the scales of a recording.
+"""Bounds, starts and constants of a model, scaled to a recording.
 
-The catalog states bounds as multiples of what the recording shows (its largest speed, its
-torque ...), so that nothing depends on the size of the machine or on units.
+The catalog states bounds as multiples of scales of the recording (its largest speed, its torque
+...), so that they do not depend on the size of the machine or on units.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.dimensions import CHANNELS, natural_size
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
 from stribeck.effect.constants import effect_constants
 from stribeck.effect.registry import of_catalog
 from stribeck.identify.drive_scaling import drive_scales, known_constants
@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 
 
 def scale_values(recording: Recording) -> dict[str, float]:
-    """The size of one unit of each of the catalog's scales, on this recording."""
+    """The size of each scale of the catalog on this recording, in SI units."""
     s = recording.scales()
     torque = s["torque"] or 1.0
     speed = s["speed"] or 1.0
@@ -60,8 +60,8 @@ def scale_values(recording: Recording) -> dict[str, float]:
 def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ...]:
     """The model's parameters with bounds and starts in their own units.
 
-    Bounds that were said win (`Model.limits`). A parameter that the catalog holds has its known
-    value, or its start, for both bounds.
+    Bounds that a user gave (`Model.limits`) replace those of the catalog. A parameter that the
+    catalog holds has its known value, or else its start, as both bounds.
     """
     scales = scale_values(recording)
     made = []
@@ -79,9 +79,9 @@ def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ..
 
 
 def _formula_start(parameter: Parameter, recording: Recording) -> float:
-    """A start for a formula's parameter of which none is said: the size that its unit has here.
+    """The start of a formula's parameter without one: the scale of its unit on this recording.
 
-    A speed starts a tenth below the largest one, where a Stribeck curve or a smoothed sign bends.
+    A speed starts at a tenth of the largest one, where a Stribeck curve or a smoothed sign bends.
     """
     if parameter.dimension is None:
         return 1.0
@@ -90,7 +90,7 @@ def _formula_start(parameter: Parameter, recording: Recording) -> float:
 
 
 def bounds(model: Model, recording: Recording) -> tuple[Array, Array, Array]:
-    """Lower bounds, upper bounds and starts, arrays [p]; all three are equal where one is held."""
+    """Lower bounds, upper bounds and starts, arrays [p]; all three are equal if one is held."""
     rows = scaled_parameters(model, recording)
     lower = np.array([p.lower for p in rows], dtype=np.float64)
     upper = np.array([p.upper for p in rows], dtype=np.float64)
@@ -98,19 +98,20 @@ def bounds(model: Model, recording: Recording) -> tuple[Array, Array, Array]:
     return lower, upper, start
 
 
-#: How far below the coldest sample a law that has no limit at its base temperature puts it (K).
+#: Distance (K) of the base temperature below the coldest sample, for laws with no limit there.
 COLD_MARGIN = 20.0
-#: Largest share of the speed over which a law smooths the sign of the velocity.
+#: Speed up to which a law smooths the sign of the velocity, as a share of the largest one.
 SMOOTHING = 0.01
 
 
 def law_constants(law: str, recording: Recording) -> dict[str, float]:
     """The constants that a law needs, taken from the recording.
 
-    The base temperature is the mean, about which a factor of temperature is least tied to the
-    friction it multiplies; for a law that has no limit there it lies well below the data. The sign
-    is smoothed where noise leaves it in doubt, so that tanh is 1 on all rows that move. An exponent
-    that a law does not identify stays what its paper says. A law by formula has none.
+    The base temperature is the mean temperature, where a temperature factor is least correlated
+    with the friction that it multiplies; for a law that has no limit there it is well below the
+    data. The sign is smoothed at speeds where noise makes it uncertain, so that tanh is 1 on all
+    moving samples. An exponent that a law does not identify keeps the value of its paper. A law by
+    formula has no constants.
     """
     row = law_row(law)
     if row is None:
@@ -131,7 +132,7 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
 
 
 def rigid_body_terms(recording: Recording, effects: tuple[str, ...]) -> tuple[str, ...]:
-    """Which rigid-body terms must be identified with the friction on this recording."""
+    """Rigid-body terms that must be identified together with friction on this recording."""
     if recording.load_torque is not None or recording.averaged:
         return ()
     terms = []
@@ -158,7 +159,7 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
         spec = formula_law(spec) if is_formula(spec) else model(spec)
     constants = dict(spec.constants)
     if not np.any(np.isfinite(spec.values)):
-        # Values that are known already mean something only with the constants they came with.
+        # Known values are valid only with the constants that they came with.
         constants = {**law_constants(spec.law, recording), **constants}
     for effect in spec.effects:
         needed = effect_constants(effect, recording)
@@ -181,12 +182,21 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
 
 
 def check_channels(model: Model, recording: Recording) -> None:
-    """Refuse a model that needs a channel which the recording does not have or cannot use."""
+    """Refuse a model that reads a channel that the recording lacks or cannot provide.
+
+    Raises
+    ------
+    FitError
+    """
     if model.drive != recording.drive:
         raise FitError(
             f"the model {model.spec} predicts {_effort(model.drive)}, but {recording.path} is read "
             f"as {_effort(recording.drive)}: "
-            + ("leave --drive out" if model.drive is None else f"give --drive {model.drive}")
+            + (
+                f"leave out {option('drive')}"
+                if model.drive is None
+                else f"give {option('drive', model.drive)}"
+            )
         )
     for effect in model.effects:
         refusal = of_catalog(effect).refusal(model, recording)
@@ -200,23 +210,23 @@ def check_channels(model: Model, recording: Recording) -> None:
         if channel == "external_torque" and "gravity" in model.rigid_body:
             continue
         if channel == "motor_torque":
-            # It is what a fit predicts: it follows from the balance of all torques.
+            # A fit predicts it: it follows from the torque balance.
             if model.has_state:
                 raise FitError(
                     f"friction of {model.spec} depends on the motor torque, which cannot be solved "
-                    "for in a model with a memory: leave out the effects that have one"
+                    "for in a model with memory: leave out the effects that have one"
                 )
             continue
         if channel == "external_torque" and recording.external_torque is None:
             raise FitError(
                 f"{model.spec} needs the torque of the environment, which {recording.path} does "
                 "not have: give inertia and gravity_cos, gravity_sin in the sidecar, or map a "
-                "column with --map external_torque=COLUMN"
+                f"column with {option('map', 'external_torque=COLUMN')}"
             )
         if getattr(recording, channel, None) is None:
             raise FitError(
                 f"{model.spec} needs the column {channel}, which {recording.path} does not have: "
-                f"map one with --map {channel}=COLUMN, or leave the effect out"
+                f"map one with {option('map', f'{channel}=COLUMN')}, or leave the effect out"
             )
     _check_pole(model, recording)
 
@@ -232,8 +242,8 @@ def _check_pole(model: Model, recording: Recording) -> None:
     if coldest <= pole <= warmest:
         raise FitError(
             f"{model.spec} has no limit at {pole:g} degC, and the temperatures of {recording.path} "
-            f"run from {coldest:.4g} to {warmest:.4g} degC: take rows on one side of it (--where), "
-            f"or another law"
+            f"run from {coldest:.4g} to {warmest:.4g} degC: select samples on one side of it "
+            f"({option('where')}), or use another law"
         )
 
 

@@ -6,14 +6,14 @@ voltage on the motor is
     u = (R / kt) tm + kt v
 
 (resistive drop and back-EMF; kt is torque per current and voltage per speed at the joint, gear
-included). While the drive is off no current flows: tm = 0, whatever voltage stands at the motor.
-Such a row is predicted without its back-EMF, as the resistive drop (R / kt) tm that the model
-wrongly gives it, against a target of zero: the same quantity, R times the error in the current,
-that a row with the drive on contributes.
+included). While the drive is off no current flows: tm = 0, whatever the voltage on the motor. The
+prediction of such a sample is the resistive drop (R / kt) tm of the modelled torque, without
+back-EMF, and its target is zero. So its residual is R times the error of the current, as it is for
+samples with the drive on.
 
-Kv and the back-EMF act alike while the drive is on, so those rows give kt, R and Kv only together
-(exactly so where friction does not depend on the motor torque); rows with the drive off show Kv
-alone.
+Viscous friction Kv and the back-EMF have the same effect while the drive is on: kt, R and Kv are
+then identifiable only in combination (exactly so where friction does not depend on the motor
+torque). Samples with the drive off determine Kv alone.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ if TYPE_CHECKING:
     from stribeck.models.rows import ParameterRow
 
 Array = NDArray[np.float64]
-#: A column of the recording, or what stands for one.
+#: A channel of the recording, or a flag of the core.
 Columns = Any
 
 ARMATURE = "armature_inertia"
 TORQUE_CONSTANT = "torque_constant"
 RESISTANCE = "resistance"
-#: Constants of a model behind a drive that need not be identified.
+#: Constants of the motor that may be known before a fit.
 KNOWN = (TORQUE_CONSTANT, RESISTANCE)
 
 _ROWS: tuple[ParameterRow, ...] = (
@@ -68,14 +68,14 @@ _ROWS: tuple[ParameterRow, ...] = (
 
 
 class VoltageDrive:
-    """A friction model seen through the voltage on its motor, in the shape of the core's `Model`.
+    """The voltage on the motor of a joint with friction, with the interface of the core's `Model`.
 
     Parameters
     ----------
     friction
-        Friction and rigid body of the joint, the effect ``inertia`` among them: the armature's.
+        Friction and rigid body of the joint with the effect ``inertia``, which is the armature's.
     known
-        `KNOWN` constants that are given and therefore no parameters.
+        Constants of the motor that are known, and therefore not parameters.
 
     Examples
     --------
@@ -88,7 +88,7 @@ class VoltageDrive:
         self.friction = friction
         self._known = {name: known[name] for name in KNOWN if name in known}
         self._delayed = "delay" in friction.effects
-        # The back-EMF is that of the speed which the model's delay shifts: a viscous friction of 1.
+        # The back-EMF follows the delayed speed: the torque of a viscous friction of 1.
         self._speed = _core.Model("coulomb", ["delay"] if self._delayed else [])
 
     @property
@@ -98,38 +98,43 @@ class VoltageDrive:
 
     @property
     def has_state(self) -> bool:
-        """Whether friction depends on what went before."""
+        """Whether friction depends on the past motion."""
         return self.friction.has_state
 
     @property
     def needs(self) -> list[str]:
-        """Columns it reads."""
+        """Channels that it reads."""
         return self.friction.needs
 
     @property
     def constants(self) -> dict[str, float]:
-        """Constants of the friction model, and what is known of the motor."""
+        """Constants of the friction model, and known constants of the motor."""
         return {**self.friction.constants, **self._known}
 
     def parameters(self) -> list[ParameterRow]:
-        """Those of the friction model, then those of the motor that are not known."""
+        """Parameters of the friction model, then unknown constants of the motor."""
         rows = [_armature(row) for row in self.friction.parameters()]
         return rows + [row.copy() for row in _ROWS if row["name"] not in self._known]
 
     def torque(
         self, values: Array, *, enabled: Array | None = None, state: float = 0.0, **columns: Columns
     ) -> Array:
-        """Voltage of every row [V], array [n]; where not `enabled`, without the back-EMF."""
+        """Voltage of each sample in V, array [n]; without back-EMF where not `enabled`."""
         inner, constant, resistance = self._apart(values)
         motor = _with_load(self.friction.torque(inner, **_all(columns), state=state), columns)
         back_emf = self._speed.torque(self._speed_values(inner), **_motion(columns))
         return resistance / constant * motor + constant * _where(enabled, back_emf)
 
     def gradient(
-        self, values: Array, *, wanted: Sequence[int] | None = None, enabled: Array | None = None,
-        state: float = 0.0, **columns: Columns,
-    ) -> tuple[Array, Array]:  # fmt: skip
-        """Voltage of every row, and its derivatives by the `wanted` parameters, [n, k]."""
+        self,
+        values: Array,
+        *,
+        wanted: Sequence[int] | None = None,
+        enabled: Array | None = None,
+        state: float = 0.0,
+        **columns: Columns,
+    ) -> tuple[Array, Array]:
+        """Voltage of each sample, array [n], and derivatives by `wanted` parameters, [n, k]."""
         inner, constant, resistance = self._apart(values)
         names = [row["name"] for row in self.parameters()]
         chosen = list(range(len(names))) if wanted is None else list(wanted)
@@ -170,7 +175,7 @@ class VoltageDrive:
 
 
 def _armature(row: ParameterRow) -> ParameterRow:
-    """The inertia is that of the armature; other rows stay as they are."""
+    """The row of the inertia as that of the armature; other rows unchanged."""
     if row["name"] != "inertia":
         return row
     return {
@@ -183,7 +188,7 @@ def _armature(row: ParameterRow) -> ParameterRow:
 
 
 def _all(columns: Mapping[str, Columns]) -> dict[str, Columns]:
-    """The columns of the friction model; a delay shifts the load too, which the voltage holds."""
+    """The channels of the friction model; a delay also shifts the load, part of the voltage."""
     return {**columns, "shift_load": True}
 
 
@@ -193,7 +198,7 @@ def _with_load(torque: Array, columns: Mapping[str, Columns]) -> Array:
 
 
 def _motion(columns: Mapping[str, Columns]) -> dict[str, Columns]:
-    """The columns of which a speed is made."""
+    """The channels of the speed."""
     motion = {name: columns[name] for name in ("dt", "velocity")}
     if "smooth" in columns:
         motion["smooth"] = {"velocity": columns["smooth"]["velocity"]}

@@ -1,21 +1,21 @@
 """Laws and effects that a user writes as a formula: ``c1*v + c2*tanh(v/c3)*abs(load)``.
 
-The text is parsed by the core into a program that only computes: nothing of it is executed as code.
+The core parses the text into a program that only computes: the text is never executed as code.
 Channels are v, q, a, T, tl, tm and te, or velocity, position, acceleration, temperature, load,
 motor_torque and external_torque; functions are sgn, abs, exp, expm1, log, log10, sqrt, cbrt, sin,
 cos, tan, atan, tanh, pow, min and max; ``pi`` is a constant; powers are written ``^`` or ``**``.
 Every other name is a parameter.
 
-The terms of the formula's sum are told apart, so that effects act on them as on any law:
+The terms of the formula's sum are classified, so that effects act on them as on any law:
 
-* dry: with the factor ``sgn(v)``; what else is in the product is the magnitude,
+* dry: with the factor ``sgn(v)``; the rest of the product is the magnitude,
 * dry with a smoothed sign: with the factor ``tanh`` or ``atan`` of a multiple of v; a bristle
-  (effect ``presliding``) takes the amplitude and drops the smoothing,
-* rate: what is zero at v = 0, ``c1*v`` or ``c1*abs(v)^c2*sgn(v)``,
-* additive: the rest.
+  (effect ``presliding``) uses the amplitude without the smoothing,
+* rate: zero at v = 0, such as ``c1*v`` or ``c1*abs(v)^c2*sgn(v)``,
+* additive: all others.
 
-A factor counts in products, not inside a bracketed sum: write a dry and a rate-dependent part as
-two terms. Parameters in which the torque is linear are found by the formula's structure.
+A factor is recognised in products, not inside a sum in brackets: write a dry and a rate-dependent
+part as two terms. The structure of the formula shows in which parameters the torque is linear.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ from functools import cached_property
 
 from stribeck import _core
 from stribeck.base.dimensions import Powers, derive, unit_text
-from stribeck.base.errors import SpecError, nearest
+from stribeck.base.errors import SpecError, nearest, option
 from stribeck.models.catalog import effect_ids, law_ids
 
-#: What a law by formula is called where it is given no name.
+#: Name of a law by formula without a name of its own.
 LAW = "formula"
-#: The unit of a parameter that neither the formula nor the user states.
+#: Unit of a parameter that neither the formula nor the user states.
 UNSTATED = "unstated"
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _RANGE = re.compile(r"(?P<lower>[^.\s].*?)?\s*\.\.\s*(?P<upper>\S.*)?")
@@ -41,7 +41,7 @@ _RANGE = re.compile(r"(?P<lower>[^.\s].*?)?\s*\.\.\s*(?P<upper>\S.*)?")
 
 @dataclass(frozen=True)
 class Declaration:
-    """What a user says about one parameter of a formula; None where nothing is said."""
+    """What a user states about one parameter of a formula; None where nothing is stated."""
 
     unit: str | None = None
     lower: float = -math.inf
@@ -56,20 +56,19 @@ class FormulaTerms:
     Parameters
     ----------
     name : str
-        What the law or effect is called in specs, files and answers.
+        Name of the law or effect in specs, files and results.
     text : str
         The formula.
     effect : bool
-        Whether it is an effect: its parameters are then called ``NAME`` where there is one, else
+        Whether it is an effect. Its parameters are then called ``NAME`` if there is only one, else
         ``NAME_PARAMETER``.
     declared : tuple of (symbol, Declaration)
-        What is said about single parameters.
+        Statements about single parameters.
 
     Raises
     ------
     SpecError
-        The text is no formula (with the position), or something is said about a parameter that it
-        does not have.
+        The text is not a formula (with the position), or a declared parameter is not in it.
 
     Examples
     --------
@@ -110,12 +109,12 @@ class FormulaTerms:
 
     @cached_property
     def symbols(self) -> tuple[str, ...]:
-        """The parameters as the formula writes them."""
+        """The parameters, as written in the formula."""
         return tuple(self.core.names)
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The parameters as models call them."""
+        """The parameters, as named in models."""
         if not self.effect:
             return self.symbols
         if len(self.symbols) == 1:
@@ -129,17 +128,17 @@ class FormulaTerms:
 
     @cached_property
     def dimensions(self) -> tuple[Powers | None, ...]:
-        """What the formula says about the unit of each parameter."""
+        """The dimension of each parameter that follows from the formula; None where none does."""
         return derive(self.core.operations, len(self.symbols))
 
     @cached_property
     def declarations(self) -> tuple[Declaration, ...]:
-        """What is said about each parameter."""
+        """The declaration of each parameter."""
         said = dict(self.declared)
         return tuple(said.get(symbol, Declaration()) for symbol in self.symbols)
 
     def units(self, torque_unit: str, position_unit: str) -> tuple[str, ...]:
-        """The unit of each parameter: as said, else as the formula implies."""
+        """The unit of each parameter: as declared, else as it follows from the formula."""
         implied = (
             UNSTATED if powers is None else unit_text(powers, torque_unit, position_unit)
             for powers in self.dimensions
@@ -156,7 +155,7 @@ def law_terms(text: str, parameters: Iterable[str] = ()) -> FormulaTerms:
     Parameters
     ----------
     parameters
-        ``"c3: rad/s, 0.001..10, start 0.1"``: unit, bounds and start of a parameter, each of which
+        ``"c3: rad/s, 0.001..10, start 0.1"``: unit, bounds and start of a parameter; each part
         may be left out.
     """
     name, mark, formula = text.partition("=")
@@ -180,17 +179,17 @@ def effect_terms(text: str, parameters: Iterable[str] = ()) -> FormulaTerms:
 
 
 def effect_name(effect: str) -> str:
-    """What an effect is called: its id, or the name in ``"NAME = FORMULA"``."""
+    """The name of an effect: its id, or the name in ``"NAME = FORMULA"``."""
     return effect.partition("=")[0].strip()
 
 
 def is_formula(text: str) -> bool:
-    """Whether a text is meant as a formula rather than as a name: it computes something."""
+    """Whether a text is a formula, not a name: it contains an operator, a bracket or ``=``."""
     return any(mark in text for mark in "*^(=")
 
 
 def declarations(texts: Iterable[str]) -> tuple[tuple[str, Declaration], ...]:
-    """Parse ``"c3: rad/s, 0.001..10, start 0.1"`` texts into symbols and what is said of them."""
+    """Parse ``"c3: rad/s, 0.001..10, start 0.1"`` texts into symbols and declarations."""
     said = [_declaration(text) for text in texts]
     symbols = [symbol for symbol, _ in said]
     for symbol in symbols:
@@ -227,7 +226,7 @@ def _bounds(lower: str | None, upper: str | None, symbol: str) -> tuple[float, f
 
 
 def number(text: str, what: str, *, infinite: bool = False) -> float:
-    """A number that a user wrote."""
+    """The number in a text of a user; `what` names it in errors."""
     try:
         value = float(text)
     except ValueError:
@@ -242,20 +241,19 @@ def check_names(names: Sequence[str], spec: str) -> None:
     for name in names:
         if names.count(name) > 1:
             raise SpecError(
-                f"two parameters of {spec} are called {name!r}: give that of the formula another "
-                f"name"
+                f"two parameters of {spec} are called {name!r}: rename that of the formula"
             )
 
 
 def check_terms(terms: FormulaTerms) -> None:
-    """Refuse names that mean something else in the catalog."""
+    """Refuse names that the catalog uses for laws and effects."""
     taken = (*law_ids(), *effect_ids())
     if terms.name in taken:
-        raise SpecError(f"{terms.name!r} is in the catalog already: give the formula another name")
+        raise SpecError(f"{terms.name!r} is already in the catalog: give the formula another name")
     for symbol in terms.symbols:
         if symbol in taken:
             raise SpecError(
                 f"{symbol!r} in {terms.text!r} is a law or an effect of the catalog, and a formula "
-                f"holds neither: add effects beside it (--effect {symbol}), or give the parameter "
-                f"another name"
+                f"cannot contain one: add an effect with {option('effect', symbol)}, or rename the "
+                f"parameter"
             )

@@ -1,16 +1,16 @@
 """A friction model: a law, the effects added to it, and the values of its parameters.
 
-The mathematics lives in the compiled core; this module gives it names, units and values.
+The mathematics is in the compiled core; this module adds names, units and values.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from os import PathLike
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,13 +19,11 @@ from stribeck import _core
 from stribeck.base.errors import SpecError
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
 from stribeck.models.channels import columns, split_columns
+from stribeck.models.compiled import compiled
 from stribeck.models.drive import ARMATURE, KNOWN, VoltageDrive
 from stribeck.models.formula_law import FormulaTerms, check_names, effect_terms, is_formula
-from stribeck.models.parameter import Parameter
+from stribeck.models.parameter import Parameter, declared
 from stribeck.models.writer import write_model
-
-if TYPE_CHECKING:
-    import os
 
 Array = NDArray[np.float64]
 
@@ -48,17 +46,22 @@ class Model:
         Rigid-body terms (``"inertia"``, ``"gravity"``) that were identified together with the
         friction; their parameters are part of `values`.
     values
-        One value a parameter, NaN where none is known yet.
+        Values of the parameters, array [p]; NaN where one is not known yet.
+    torque_unit, position_unit
+        Units of the predicted effort and of the position.
+    bounds
+        Bounds of the last fit, by parameter.
+    box
+        Operating box: (low, high) by channel, SI units and degC.
     drive
-        ``"voltage"``: a fit predicts the voltage on the joint's motor, whose constants are
-        parameters too; what is known of them stands in `constants`. `core`, `torque`, `gradient`
-        and `split` speak of the friction alone, and so does `friction`, the model without a drive.
+        ``"voltage"``: a fit predicts the voltage on the motor of the joint. The motor's constants
+        are then parameters too; known ones are in `constants`. `core`, `torque`, `gradient` and
+        `split` are those of the friction alone; `friction` is the model without the drive.
     own
-        Terms by formula. Where the first has the name of `law`, it is the law; the others are
-        effects.
+        Terms by formula. The first is the law if it has the name of `law`; the others are effects.
     limits
-        Bounds that were said, by parameter; they win over those of the catalog, and equal ones
-        hold a parameter. `bounds` are those of the last fit.
+        Bounds that a user gave, by parameter. They replace those of the catalog; equal ones hold a
+        parameter.
 
     Examples
     --------
@@ -93,32 +96,26 @@ class Model:
         for term in self.rigid_body:
             if term in self.effects:
                 raise SpecError(
-                    f"{term} is identified with the friction already (the recording has no "
+                    f"{term} is already identified with the friction (the recording has no "
                     f"load_torque), so effect {term!r} cannot be added"
                 )
         return self._compiled(self.effects + self.rigid_body)
 
     @cached_property
     def predictor(self) -> _core.Model | VoltageDrive:
-        """What predicts the measured effort: the compiled model, or the drive around it."""
+        """The predictor of the measured effort: the compiled model, or a drive with it inside."""
         if self.drive is None:
             return self.core
         if "inertia" in self.effects:
             raise SpecError(
-                f"the drive has an {ARMATURE} already, so effect 'inertia' cannot be added"
+                f"the drive already has an {ARMATURE}, so effect 'inertia' cannot be added"
             )
         return VoltageDrive(
             self._compiled((*self.effects, *self.rigid_body, "inertia")), self.constants
         )
 
     def _compiled(self, effects: tuple[str, ...]) -> _core.Model:
-        constants = {name: x for name, x in self.constants.items() if name not in KNOWN}
-        try:
-            law = None if self.by_formula else self.law
-            own = [(terms.text, terms.names) for terms in self.own]
-            return _core.Model(law, list(effects), constants, own)
-        except _core.ModelError as error:
-            raise SpecError(str(error)) from None
+        return compiled(None if self.by_formula else self.law, effects, self.constants, self.own)
 
     @property
     def friction(self) -> Model:
@@ -127,13 +124,16 @@ class Model:
             return self
         constants = {name: x for name, x in self.constants.items() if name not in KNOWN}
         return replace(
-            self, constants=constants, drive=None, torque_unit=self.load_unit,
+            self,
+            constants=constants,
+            drive=None,
+            torque_unit=self.load_unit,
             values=self._friction_values,
-        )  # fmt: skip
+        )
 
     @property
     def load_unit(self) -> str:
-        """Unit of loads and friction: the effort's, unless a drive stands between."""
+        """Unit of loads and friction: that of the effort, unless the model has a drive."""
         if self.drive is None:
             return self.torque_unit
         return "N m" if self.position_unit == "rad" else "N"
@@ -144,11 +144,11 @@ class Model:
         return bool(self.own) and self.own[0].name == self.law
 
     def formula(self, name: str) -> FormulaTerms | None:
-        """The terms by formula of this name, if there are any."""
+        """The terms by formula with this name; None where there are none."""
         return next((terms for terms in self.own if terms.name == name), None)
 
     def written(self, effect: str) -> str:
-        """What adds this effect to another model: its id, or ``"NAME = FORMULA"``."""
+        """The text that adds this effect to a model: its id, or ``"NAME = FORMULA"``."""
         own = self.formula(effect)
         return effect if own is None else f"{own.name} = {own.text}"
 
@@ -159,7 +159,7 @@ class Model:
 
     @property
     def spec(self) -> str:
-        """``law+effect+...``, as commands take it; formulas go by their names."""
+        """``law+effect+...``, with formulas by their names."""
         return "+".join((self.law, *self.own_effects, *self.effects))
 
     @cached_property
@@ -171,20 +171,7 @@ class Model:
             for row in self.predictor.parameters()
         )
         return tuple(
-            self._with_statements(p, formulas[p.name]) if p.name in formulas else p for p in made
-        )
-
-    def _with_statements(self, parameter: Parameter, terms: FormulaTerms) -> Parameter:
-        """A formula's parameter with what the formula and its user state about it."""
-        k = terms.names.index(parameter.name)
-        stated = terms.declarations[k]
-        return replace(
-            parameter,
-            unit=terms.units(self.load_unit, self.position_unit)[k],
-            lower=stated.lower,
-            upper=stated.upper,
-            start=math.nan if stated.start is None else stated.start,
-            dimension=terms.dimensions[k],
+            declared(p, formulas.get(p.name), self.load_unit, self.position_unit) for p in made
         )
 
     @property
@@ -212,26 +199,33 @@ class Model:
         return float(self.values[self.names.index(name)])
 
     def with_values(self, values: ArrayLike) -> Model:
-        """The same model with other values."""
-        # A copy keeps what has been compiled for the model.
+        """The same model with other values, array [p]."""
+        # A copy shares the compiled model.
         made = copy(self)
         object.__setattr__(made, "values", np.asarray(values, dtype=np.float64).copy())
         made.__post_init__()
         return made
 
     def with_effect(self, effect: str, constants: Mapping[str, float]) -> Model:
-        """The model with one more effect; values known before are kept, new ones are NaN.
+        """The model with one more effect; known values are kept, new ones are NaN.
 
         Parameters
         ----------
         effect
             An id of the catalog, or an effect by formula: ``"creep = c*abs(load)*sgn(v)"``.
+        constants
+            Constants that the effect needs, in SI units and degC.
+
+        Raises
+        ------
+        SpecError
+            The effect does not exist, or the model has it.
         """
         if is_formula(effect):
             return self.with_terms(effect_terms(effect))
         check_effect(effect)
         if effect in self.effects:
-            raise SpecError(f"effect {effect!r} is in {self.spec} already")
+            raise SpecError(f"effect {effect!r} is already in {self.spec}")
         effects = tuple(sorted((*self.effects, effect), key=effect_ids().index))
         return self._keeping_values(
             replace(
@@ -240,23 +234,23 @@ class Model:
         )
 
     def with_terms(self, terms: FormulaTerms) -> Model:
-        """The model with an effect by formula; values known before are kept, new ones are NaN."""
+        """The model with an effect by formula; known values are kept, new ones are NaN."""
         if terms.name in (*law_ids(), *effect_ids()):
             raise SpecError(
-                f"{terms.name!r} is in the catalog already: give the effect another name"
+                f"{terms.name!r} is already in the catalog: give the effect another name"
             )
         if terms.name in (self.law, *self.own_effects):
-            raise SpecError(f"effect {terms.name!r} is in {self.spec} already")
+            raise SpecError(f"effect {terms.name!r} is already in {self.spec}")
         return self._keeping_values(replace(self, own=(*self.own, terms), values=np.empty(0)))
 
     def without_effect(self, effect: str) -> Model:
-        """The model with one effect fewer."""
+        """The model without one of its effects."""
         effects = tuple(e for e in self.effects if e != effect)
         own = tuple(terms for terms in self.own if not (terms.effect and terms.name == effect))
         return self._keeping_values(replace(self, effects=effects, own=own, values=np.empty(0)))
 
     def _keeping_values(self, other: Model) -> Model:
-        """`other` with the values of the parameters that it shares."""
+        """`other` with this model's values of the parameters that both have."""
         known = dict(zip(self.names, self.values, strict=True))
         return other.with_values([known.get(name, np.nan) for name in other.names])
 
@@ -281,20 +275,19 @@ class Model:
         Parameters
         ----------
         velocity : array [n]
-            rad/s or m/s. The other channels likewise, SI units and degC; an effect that needs
-            one of them raises when it is missing.
+            rad/s or m/s. The other channels are in SI units and degC.
         dt : float or array [n]
-            Step to the previous sample in s, for models with a state: sample i is the torque at
+            Time since the previous sample in s, for models with a state: sample i is the torque at
             the end of a step with velocity[i] held.
         state : float or array [state_size]
-            State at the start: the deflection of a bristle in rad or m; of gms and leuven the
-            force of each element, of bliman_sorine the fast and the slow force, in N m or N. The
-            default is a joint without tension.
+            State at the start: the deflection of a bristle in rad or m; for gms and leuven the
+            force of each element, for bliman_sorine the fast and the slow force, in N m or N. The
+            default is zero deflection.
         external_torque : array [n]
-            What the environment exerts on the joint, for the servo laws; default: minus the load
-            torque, which is right where nothing accelerates.
+            Torque of the environment on the joint, for the servo laws; default: minus the load
+            torque, which is correct without acceleration.
         time : array [n]
-            Since the start of the recording, s, for `drift`.
+            Time since the start of the recording in s, for `drift`.
         load_torque_curvature : array [n]
             Second derivative of the load torque by time, N m/s2 or N/s2, for `elasticity`.
         precision
@@ -303,6 +296,14 @@ class Model:
         Returns
         -------
         array [n]
+            N m or N.
+
+        Raises
+        ------
+        SpecError
+            A parameter has no value.
+        ValueError
+            A channel that the model reads is missing.
         """
         given = {
             "position": position,
@@ -336,7 +337,7 @@ class Model:
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
     ) -> Array:
-        """Derivative of `torque` with respect to the parameters, array [n, p]."""
+        """Derivatives of `torque` with respect to the parameters, array [n, p]."""
         given = {
             "position": position,
             "acceleration": acceleration,
@@ -353,7 +354,7 @@ class Model:
         return jacobian
 
     def split(self, velocity: ArrayLike, **channels: ArrayLike | None) -> dict[str, Array]:
-        """The parts of the steady friction torque: ``dry`` (D), ``rate``, ``additive``.
+        """The parts of the steady friction torque: ``dry`` (D), ``rate``, ``additive``, arrays [n].
 
         Parameters
         ----------
@@ -361,8 +362,8 @@ class Model:
             rad/s or m/s.
         **channels : arrays [n]
             ``position``, ``acceleration``, ``temperature``, ``load_torque``, ``motor_torque``,
-            ``external_torque``, ``time``, ``load_torque_curvature``. One that is left out stands
-            at the middle of the operating box, time at that of the recording, the last one at 0.
+            ``external_torque``, ``time``, ``load_torque_curvature``. Default: the middle of the
+            operating box; for the time the middle of the recording, for the last one 0.
         """
         found = split_columns(self.core, velocity, channels, self.box)
         return dict(self.core.split(self.known_values(), **found))
@@ -375,9 +376,9 @@ class Model:
         SpecError
             A parameter has no value yet.
         """
-        known = np.isfinite(self.values)
-        if not known.all():
-            unknown = [name for name, given in zip(self.names, known, strict=True) if not given]
+        if not np.isfinite(self.values).all():
+            pairs = zip(self.names, self.values, strict=True)
+            unknown = [name for name, value in pairs if not np.isfinite(value)]
             raise SpecError(f"{self.spec} has no value for {', '.join(unknown)}: fit it or give it")
         return self._friction_values
 
@@ -388,7 +389,7 @@ class Model:
         own = {row["name"] for row in self.core.parameters()}
         return self.values[[name in own for name in self.names]]
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | PathLike[str]) -> None:
         """Write the model file (TOML).
 
         Raises

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from stribeck.base.dimensions import Powers
+from stribeck.models.formula_law import FormulaTerms
 
 if TYPE_CHECKING:
     from stribeck.models.rows import ParameterRow
@@ -48,6 +50,27 @@ class Parameter:
             role=row["role"],
             description=row["description"],
         )
+
+
+def declared(
+    parameter: Parameter, terms: FormulaTerms | None, load_unit: str, position_unit: str
+) -> Parameter:
+    """A formula's parameter with what the formula and its user state about it.
+
+    A parameter of the catalog, without `terms`, is unchanged.
+    """
+    if terms is None:
+        return parameter
+    k = terms.names.index(parameter.name)
+    stated = terms.declarations[k]
+    return replace(
+        parameter,
+        unit=terms.units(load_unit, position_unit)[k],
+        lower=stated.lower,
+        upper=stated.upper,
+        start=math.nan if stated.start is None else stated.start,
+        dimension=terms.dimensions[k],
+    )
 
 
 def joint_unit(unit: str, load_unit: str, position_unit: str) -> str:

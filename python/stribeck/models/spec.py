@@ -1,4 +1,4 @@
-"""Read a model's specification, ``law+effect+...``."""
+"""The spec of a model, ``law+effect+...``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from stribeck.base.errors import SpecError, nearest
 from stribeck.models.catalog import catalog, check_effect, effect_ids, law_ids
 
-#: Most elements of a law that has several.
+#: Most elements of a law with elements.
 MOST_ELEMENTS = 16
 
 
@@ -31,7 +31,7 @@ def parse_spec(spec: str) -> tuple[str, tuple[str, ...]]:
 
 
 def parse_effects(effects: Sequence[str]) -> tuple[str, ...]:
-    """Check the ids of effects and bring them into catalog order."""
+    """Check the ids of effects and sort them in catalog order."""
     for effect in effects:
         check_effect(effect)
         if effects.count(effect) > 1:
@@ -42,7 +42,7 @@ def parse_effects(effects: Sequence[str]) -> tuple[str, ...]:
 def _check_elements(law: str, name: str, elements: str) -> None:
     """Refuse a number of elements that the law cannot have."""
     if "elements" not in catalog()["laws"][name]["constants"]:
-        raise SpecError(f"law {name!r} has no elements to count: write {name}, not {law}")
+        raise SpecError(f"law {name!r} has no elements: write {name}, not {law}")
     if not elements.isdecimal() or not 1 <= int(elements) <= MOST_ELEMENTS:
         raise SpecError(
             f"law {law!r} asks for {elements!r} elements: give a number from 1 to {MOST_ELEMENTS}, "

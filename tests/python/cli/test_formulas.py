@@ -71,7 +71,7 @@ def test_improve_from_a_formula(plain_file: Path) -> None:
         (["fit", "{data}", "--law", "c1*v", "--fix", "c2=3"], "no parameter 'c2'"),
         (["fit", "{data}", "--law", "c1*v", "--fix", "c1=inf"], "give a finite number"),
         (["fit", "{data}", "--law", "c1*v", "--parameter", "c2: s"], "no formula has this"),
-        (["fit", "{data}", "--model", "coulomb", "--effect", "load=c*v"], "in the catalog already"),
+        (["fit", "{data}", "--model", "coulomb", "--effect", "load=c*v"], "already in the catalog"),
         (["compare", "{data}"], "no model is given"),
         (["add", "coulomb", "creep = c*laod*v", "{data}"], "did you mean 'load'?"),
         (["diagnose", "{data}", "coulomb", "--candidate", "c*v"], "is written NAME = FORMULA"),

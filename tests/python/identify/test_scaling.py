@@ -76,7 +76,7 @@ def test_rigid_body_is_identified_only_where_it_is_not_given(
 
 def test_missing_channels_are_named(tmp_path: Path) -> None:
     cold = record(tmp_path, joint(rows=400).drop("temperature"))
-    with pytest.raises(sb.FitError, match="--map temperature"):
+    with pytest.raises(sb.FitError, match='map="temperature='):
         model_for("coulomb+temperature_viscous", cold)
 
 

@@ -104,7 +104,7 @@ def test_parameters_may_be_declared() -> None:
         ("v*2", "has no parameter to identify"),
         ("", "the formula is empty"),
         ("c1*v + stribeck", "'stribeck' in 'c1*v + stribeck' is a law or an effect"),
-        ("lugre = c1*v", "'lugre' is in the catalog already"),
+        ("lugre = c1*v", "'lugre' is already in the catalog"),
         ("my law = c1*v", "cannot be the name of a law"),
         ("+".join(f"c{i}*v" for i in range(40)), "at most 16 parameters"),
         ("(" * 500 + "c1" + ")" * 500, "nested brackets"),
@@ -258,8 +258,8 @@ def test_an_effect_by_formula_joins_any_law(recording: sb.Recording) -> None:
     narrower = wider.model.without_effect("fall")
     assert narrower.spec == "coulomb" and narrower.values.shape == (2,)
     for text, sentence in (
-        ("fall = c*v", "effect 'fall' is in coulomb\\+fall already"),
-        ("stribeck = c*v", "'stribeck' is in the catalog already"),
+        ("fall = c*v", "effect 'fall' is already in coulomb\\+fall"),
+        ("stribeck = c*v", "'stribeck' is already in the catalog"),
         ("viscous_friction = c*v", "two parameters of .* are called 'viscous_friction'"),
     ):
         with pytest.raises(sb.SpecError, match=sentence):

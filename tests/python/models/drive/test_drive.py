@@ -133,7 +133,7 @@ def test_what_cannot_be_driven_is_refused(tmp_path: Path, frame: pl.DataFrame) -
 
 
 def test_models_that_do_not_fit_the_drive_are_refused(whole: sb.Recording) -> None:
-    with pytest.raises(SpecError, match="has an armature_inertia already"):
+    with pytest.raises(SpecError, match="already has an armature_inertia"):
         sb.fit("coulomb+inertia", whole)
     with pytest.raises(FitError, match="depends on the motor torque"):
         sb.fit("bam_m3+presliding", whole)
@@ -153,4 +153,4 @@ def test_the_command_drives_and_holds_out(tmp_path: Path, frame: pl.DataFrame) -
     assert said["drive"] == "voltage" and said["unit"] == "V"
     assert said["parameters"]["resistance"]["unit"] == "ohm"
     assert said["rmse_held_out"] > 0
-    assert "held out: the rows with gain 1, predicted from all others" in said["notes"]
+    assert "held out: the samples with gain 1, predicted from all others" in said["notes"]
