@@ -94,8 +94,7 @@ def export(
     libm
         In C, use the platform's ``math.h``: smaller, but the bits are the platform's.
     box : dict of (low, high)
-        Operating box in SI units and degC, for the certificate and the test vectors. Sides that are
-        left out are taken from the model's own box.
+        Operating box in SI units and degC, for certificate and test vectors. Default: the model's.
     seed
         Seed of the test vectors.
 
@@ -119,25 +118,37 @@ def export(
     ...     [path.name for path in written.files], written.passive
     (['coulomb.h', 'coulomb.c', 'coulomb_vectors.h', 'coulomb_test.c'], True)
     """
+    asked = model if isinstance(model, Model) else model.model
+    asked.known_values()
+    about = About.of(asked.friction, _provenance(model), box or {})
+    return _export(about, to, precision, Path(folder), name, libm, box or {}, seed)
+
+
+def _export(
+    about: About,
+    to: str,
+    precision: str,
+    folder: Path,
+    name: str | None,
+    libm: bool,
+    box: Mapping[str, tuple[float, float]],
+    seed: int,
+) -> Export:
     language: Language = _choice("to", to, get_args(Language))
     form: Precision | FixedPrecision = _choice("precision", precision, (*FLOATING, *FIXED))
     if libm and (language != "c" or form in FIXED):
         raise SpecError(
             f"libm is for C in floating point: leave it out, or give {option('to', 'c')}"
         )
-    asked = model if isinstance(model, Model) else model.model
-    asked.known_values()
-    friction = asked.friction
-    about = About.of(friction, _provenance(model), box or {})
-    called = identifier(name or friction.spec)
-    texts = _texts(about, language, form, called, libm, box or {}, seed)
+    called = identifier(name or about.model.spec)
+    texts = _texts(about, language, form, called, libm, box, seed)
     certificate = about.certificate
     return Export(
-        model=friction,
+        model=about.model,
         language=language,
         precision=form,
         passive=None if certificate is None else certificate.passive,
-        files=_write(texts, Path(folder)),
+        files=_write(texts, folder),
     )
 
 

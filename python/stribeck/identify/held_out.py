@@ -73,17 +73,15 @@ def held_out_prediction(
 ) -> tuple[Array, Array]:
     """Predict each block by a model fitted without it.
 
-    A refit takes Gauss-Newton steps from the solution on all samples, with the factors of
-    the other blocks. They are exact for linear parameters, and converge in one or two steps for the
-    others, which change little when a tenth of the samples is left out. Parameters with equal
-    bounds are held.
+    A refit takes Gauss-Newton steps from the solution on all samples, with the factors of the other
+    blocks: exact for linear parameters, and converged in one or two steps for the others, which
+    change little when a tenth of the samples is left out. Equal bounds hold a parameter.
 
     Parameters
     ----------
     exact : bool
         Evaluate the model at each refit. Otherwise its linearisation is used, which is enough to
-        rank candidates and does not run a model with a state many times; samples at rest then keep
-        the prediction of the fit to all samples.
+        rank candidates; samples at rest then keep the prediction of the fit to all samples.
     by : Refit
         How a refit is done; default: within the bounds.
 

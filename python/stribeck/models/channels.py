@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
@@ -47,7 +47,7 @@ def columns(
     core: _core.Model,
     velocity: ArrayLike,
     dt: float | ArrayLike | None,
-    given: Mapping[str, ArrayLike | None],
+    beside: Sequence[ArrayLike | None],
 ) -> Columns:
     """The channels of a call, each of the velocity's length.
 
@@ -60,9 +60,10 @@ def columns(
         rad/s or m/s.
     dt : float or array [n]
         Step to the previous sample, s.
-    given
-        Channels by name, arrays [n] or numbers.
+    beside
+        The other channels in the order of `BESIDE_VELOCITY`, arrays [n] or numbers.
     """
+    given = dict(zip(BESIDE_VELOCITY, beside, strict=True))
     speed = column(np.atleast_1d(velocity))
 
     def filled(name: str) -> Array | None:

@@ -295,8 +295,7 @@ class Model:
 
         Returns
         -------
-        array [n]
-            N m or N.
+        array [n], N m or N
 
         Raises
         ------
@@ -305,16 +304,9 @@ class Model:
         ValueError
             A channel that the model reads is missing.
         """
-        given = {
-            "position": position,
-            "acceleration": acceleration,
-            "temperature": temperature,
-            "load_torque": load_torque,
-            "motor_torque": motor_torque,
-            "external_torque": external_torque,
-            "time": time,
-            "load_torque_curvature": load_torque_curvature,
-        }
+        # In the order of `BESIDE_VELOCITY`.
+        given = [position, acceleration, temperature, load_torque, motor_torque]
+        given += [external_torque, time, load_torque_curvature]
         return self.core.torque(
             self.known_values(),
             **columns(self.core, velocity, dt, given),
@@ -338,16 +330,9 @@ class Model:
         load_torque_curvature: ArrayLike | None = None,
     ) -> Array:
         """Derivatives of `torque` with respect to the parameters, array [n, p]."""
-        given = {
-            "position": position,
-            "acceleration": acceleration,
-            "temperature": temperature,
-            "load_torque": load_torque,
-            "motor_torque": motor_torque,
-            "external_torque": external_torque,
-            "time": time,
-            "load_torque_curvature": load_torque_curvature,
-        }
+        # In the order of `BESIDE_VELOCITY`.
+        given = [position, acceleration, temperature, load_torque, motor_torque]
+        given += [external_torque, time, load_torque_curvature]
         _, jacobian = self.core.gradient(
             self.known_values(), **columns(self.core, velocity, dt, given), state=state
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -79,13 +80,22 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     asked.known_values()
     friction, left_out = friction_part(asked)
     sides = operating_box(friction, box or {})
-    answer = _answer(_Question.of(friction, sides))
+    return _certificate(asked, friction, left_out, sides)
+
+
+def _certificate(
+    asked: Model,
+    friction: Model,
+    left_out: tuple[str, ...],
+    box: Mapping[str, tuple[float, float]],
+) -> Certificate:
+    answer = _answer(_Question.of(friction, box))
     example = answer["counterexample"]
     return Certificate(
         model=asked,
         friction=friction,
         left_out=left_out,
-        box=sides,
+        box=box,
         passive=answer["passive"],
         condition=answer["condition"],
         margins=tuple(_margin(row) for row in answer["margins"]),

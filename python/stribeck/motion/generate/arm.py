@@ -18,9 +18,9 @@ AXIS = np.array([0.0, 0.0, 1.0])
 class Arm:
     """A serial arm of revolute joints in standard Denavit-Hartenberg form, arrays [joints].
 
-    Links are point masses at their centres of mass, and each motor's rotor adds a constant inertia
-    to its own joint: gravity, the coupling of the joints, centrifugal and Coriolis torques are
-    there; the links' inertia about their own centres is not.
+    Links are point masses at their centres of mass, and the rotor of each motor adds a constant
+    inertia to its joint. Gravity, coupling of the joints, centrifugal and Coriolis torques are
+    included; the inertia of the links about their centres is not.
 
     Attributes
     ----------
@@ -31,7 +31,7 @@ class Arm:
     centre
         Centre of mass in the link's own frame, m, array [joints, 3].
     rotor_inertia
-        Of motor and reducer, seen at the joint, kg m2.
+        Inertia of motor and reducer at the joint, kg m2.
 
     Examples
     --------
@@ -53,7 +53,7 @@ class Arm:
         Parameters
         ----------
         position, velocity, acceleration : array [n, joints]
-            rad, rad/s, rad/s2. The arm stands on the floor, the first axis upright.
+            rad, rad/s, rad/s2. The first axis is vertical.
 
         Returns
         -------
@@ -73,7 +73,7 @@ class Arm:
         return np.moveaxis(np.array(rows), 2, 0)
 
     def _reach(self, k: int) -> Array:
-        """From the frame before link k to link k's, in the latter, m."""
+        """Vector from the frame before link k to that of link k, in the latter, m."""
         across, along = (
             self.offset[k] * np.sin(self.twist[k]),
             self.offset[k] * np.cos(self.twist[k]),
@@ -84,19 +84,19 @@ class Arm:
         """Mass times acceleration of each link in its own frame, gravity included, [n, 3] each."""
         spin = np.zeros((len(v), 3))
         spin_rate = np.zeros((len(v), 3))
-        # Standing still under gravity is like being pushed upwards without it.
+        # Gravity acts like an upward acceleration of the base.
         push = np.tile(GRAVITY * AXIS, (len(v), 1))
         forces = []
         for k, rotation in enumerate(rotations):
             turn, turn_rate = v[:, k, None] * AXIS, a[:, k, None] * AXIS
             spin_rate = _into(rotation, spin_rate + turn_rate + np.cross(spin, turn))
             spin = _into(rotation, spin + turn)
-            push = _into(rotation, push) + _swung(spin, spin_rate, self._reach(k))
-            forces.append(self.mass[k] * (push + _swung(spin, spin_rate, self.centre[k])))
+            push = _into(rotation, push) + _centripetal(spin, spin_rate, self._reach(k))
+            forces.append(self.mass[k] * (push + _centripetal(spin, spin_rate, self.centre[k])))
         return forces
 
     def _joint_torques(self, rotations: list[Array], forces: list[Array]) -> Array:
-        """What each joint must bear of the forces beyond it, about its own axis, [n, joints]."""
+        """Torque of each joint about its axis that balances the forces beyond it, [n, joints]."""
         force = np.zeros_like(forces[0])
         moment = np.zeros_like(forces[0])
         torques = np.empty((len(force), len(rotations)))
@@ -111,15 +111,15 @@ class Arm:
 
 
 def _into(rotation: Array, vector: Array) -> Array:
-    """Vectors [n, 3] of the outer frame, in the inner one."""
+    """Vectors [n, 3] of the outer frame in the inner frame."""
     return np.einsum("nij,ni->nj", rotation, vector)
 
 
 def _out_of(rotation: Array, vector: Array) -> Array:
-    """Vectors [n, 3] of the inner frame, in the outer one."""
+    """Vectors [n, 3] of the inner frame in the outer frame."""
     return np.einsum("nij,nj->ni", rotation, vector)
 
 
-def _swung(spin: Array, spin_rate: Array, arm: Array) -> Array:
-    """Acceleration of a point at `arm` of a body that turns, m/s2, array [n, 3]."""
+def _centripetal(spin: Array, spin_rate: Array, arm: Array) -> Array:
+    """Acceleration of a point at `arm` of a rotating body, m/s2, array [n, 3]."""
     return np.cross(spin_rate, arm) + np.cross(spin, np.cross(spin, arm))

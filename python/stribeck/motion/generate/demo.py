@@ -4,15 +4,25 @@ from __future__ import annotations
 
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 import polars as pl
 
-from stribeck.motion.generate.hidden import generate
+from stribeck.motion.generate.hidden import Truth, generate
+
+
+class _Made(TypedDict):
+    effects: tuple[str, ...]
+    seed: int
+    seconds: float
+    rate: float
+    noise: float
+    warming: float
+
 
 #: How the shipped recording of `stribeck demo` was made. The joint hardly warms up, as in any
-#: recording this short, so that the demo also meets effects that its data cannot show.
-DEMO: dict[str, Any] = {
+#: recording this short, so that the demo has effects that cannot be tested with its data.
+DEMO: _Made = {
     "effects": ("load", "stribeck"),
     "seed": 1,
     "seconds": 80.0,
@@ -22,10 +32,9 @@ DEMO: dict[str, Any] = {
 }
 
 
-def demo_recording() -> tuple[pl.DataFrame, dict[str, Any]]:
-    """Make the shipped recording again, with what is hidden in it."""
-    made = dict(DEMO)
-    return generate(made.pop("effects"), **made)
+def demo_recording() -> tuple[pl.DataFrame, Truth]:
+    """Make the shipped recording again, and what is hidden in it."""
+    return generate(**DEMO)
 
 
 def demo_path() -> Path:

@@ -6,10 +6,10 @@ import io
 import os
 import tempfile
 from pathlib import Path
-from typing import Any
 
 import polars as pl
 
+from stribeck.motion.generate.hidden import Truth
 from stribeck.motion.generate.ur5e import JOINTS, RobotRecording
 
 
@@ -22,16 +22,16 @@ def file_bytes(frame: pl.DataFrame, suffix: str) -> bytes:
     return stream.getvalue()
 
 
-def sidecar_text(truth: dict[str, Any]) -> str:
-    """The sidecar of a generated recording: what its columns cannot say."""
+def sidecar_text(truth: Truth) -> str:
+    """The sidecar of a generated recording: what its columns do not contain."""
     return f'kind = "recording"\njoint_kind = "{truth["joint_kind"]}"\n'
 
 
 def write_robot(recording: RobotRecording, target: Path) -> None:
     """Write a robot's recording as Parquet or CSV, whole or not at all.
 
-    The full Test 2 has 16 million rows. One joint at a time is in memory: each goes to a file of
-    its own first, and polars joins them as a stream.
+    The full Test 2 has 16 million rows. Each joint is written to a file of its own first, so that
+    one joint at a time is in memory; polars then joins the files as a stream.
     """
     with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as folder:
         parts = []

@@ -1,15 +1,16 @@
 """Recordings of one joint with chosen hidden effects, made from the package's own models.
 
-The motion is analytic (slow and fast passes, dwells, swings with sharp reversals), the load
-changes sign and size independently of speed, the joint warms up and cools down. Everything
-random comes from one seed.
+The motion is analytic: slow and fast passes, dwells, oscillations with sharp reversals. The load
+changes in sign and size independently of speed. The joint warms up and cools down. All random
+numbers come from one seed.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 import numpy as np
 import polars as pl
@@ -21,24 +22,28 @@ from stribeck.effect.base import GeneratedRecording
 from stribeck.effect.registry import of_catalog
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
-from stribeck.motion.generate.motion import JOINTS, plan_motion
+from stribeck.motion.generate.motion import JOINTS, GeneratedJoint, Motion, plan_motion
+from stribeck.motion.generate.payload import Payloads
 from stribeck.motion.generate.plausible import plausible_values
 
 Array = NDArray[np.float64]
+#: What is hidden in a recording, as JSON.
+Truth: TypeAlias = dict[str, Any]
 
-#: Correlation of the torque noise from one sample to the next: drives filter their current.
+#: Correlation of the torque noise between samples: drives filter their current.
 NOISE_MEMORY = 0.5
 #: Noise of the recorded velocity, as a share of the top speed.
 VELOCITY_NOISE = 4e-4
 #: Temperature at the start, degC.
 COLD = 24.0
-#: Steps a sample of laws with a state, whose bristle moves faster than a recording samples.
+#: Steps per sample of laws with a state, whose bristle is faster than the sampling.
 FINE_STEPS = 8
+#: Shortest recording, s.
 FEWEST_SECONDS = 20.0
 
 
 def _temperature(t: Array, seconds: float, warming: float) -> Array:
-    """Warm up for the first 60 % of the time, then cool down, degC."""
+    """Temperature in degC: rising for 60 % of the time, then falling, array [n]."""
     turn, slow = 0.6 * seconds, 0.25 * seconds
     full = -math.expm1(-turn / slow)
     rise = -np.expm1(-np.minimum(t, turn) / slow) / full
@@ -55,20 +60,20 @@ def generate(
     noise: float = 0.02,
     joint_kind: str = "revolute",
     warming: float = 20.0,
-) -> tuple[pl.DataFrame, dict[str, Any]]:
+) -> tuple[pl.DataFrame, Truth]:
     """Make a recording whose friction is `law` with `effects`.
 
     Parameters
     ----------
     effects : sequence of str
-        Ids of the catalog: what a base model of `law` alone lacks.
+        Ids of the catalog: the effects that a model of `law` alone lacks.
     seconds, rate : float
-        Duration in s and samples a second in Hz.
+        Duration in s and sample rate in Hz.
     noise : float
         RMS of the torque noise as a share of Coulomb friction; correlated in time.
     joint_kind : {"revolute", "prismatic"}
     warming : float
-        How far the joint warms up before it cools down again, K.
+        Rise of the temperature before the joint cools down, K.
 
     Returns
     -------
@@ -81,7 +86,7 @@ def generate(
     Raises
     ------
     SpecError
-        An unknown law or effect, or sizes that make no recording.
+        An unknown law or effect, or a size out of range.
 
     Examples
     --------
@@ -93,97 +98,132 @@ def generate(
         raise SpecError(f"joint kind {joint_kind!r} is unknown: revolute or prismatic")
     _check_sizes(seconds, rate, noise, warming)
     law, hidden = parse_spec("+".join([law, *effects]))
-    joint = JOINTS[joint_kind]
     rng = np.random.default_rng([seed, 20])
-    torque_unit, position_unit = joint.units
+    made = _Hidden.drawn(law, hidden, JOINTS[joint_kind], seconds, rate, warming, rng)
+    truth = made.truth(noise)
+    return made.frame(noise, rng), {**truth, "seed": seed}
 
-    constants = {
-        "largest_velocity": joint.speed,
-        "largest_acceleration": joint.speed**2 / joint.stroke,
-    }
-    made = GeneratedRecording(joint, seconds, COLD + 0.5 * warming)
-    for effect in hidden:
-        constants.update(of_catalog(effect).generated_constants(made))
-    # A delay is made by sampling the joint at another time, so that nothing is interpolated.
-    inner = tuple(e for e in hidden if e != "delay")
-    model = Model(law, inner, constants, torque_unit=torque_unit, position_unit=position_unit)
-    values = plausible_values(model, joint, rng)
-    model = model.with_values([values[name] for name in model.names])
-    delay = 1.6 / rate if "delay" in hidden else 0.0
 
-    motion = plan_motion(rng, joint, seconds + 1.0)
-    # Four payloads against three speeds: every speed meets every payload in turn.
-    payload = np.resize(rng.permutation([0.3, 1.0, 1.7, 0.6]), len(motion.swaps) + 1)
-    n = round(seconds * rate)
-    time = np.arange(n) / rate
-    fine = FINE_STEPS if model.has_state else 1
+@dataclass(frozen=True)
+class _Hidden:
+    """A joint with chosen friction, its motion and its payloads."""
 
-    def load_at(t: Array, q: Array, a: Array, held_since: Array | None = None) -> Array:
-        held = payload[np.searchsorted(motion.swaps, t if held_since is None else held_since)]
-        weight = np.cos(q - 0.75 * joint.stroke) if joint.kind == "revolute" else np.ones_like(q)
-        return joint.gravity * held * weight + joint.inertia * a
+    effects: tuple[str, ...]
+    joint: GeneratedJoint
+    seconds: float
+    rate: float
+    warming: float
+    model: Model
+    delay: float
+    motion: Motion
+    payloads: Payloads
 
-    def load_curvature_at(t: Array) -> Array:
-        """Second derivative of the load torque by time, as samples of the same rate resolve it."""
-        before, now, after = (
-            load_at(t + k / rate, *motion(t + k / rate)[::2], held_since=t) for k in (-1, 0, 1)
-        )
-        return np.asarray((before - 2.0 * now + after) * rate**2)
-
-    q, v, a = motion(time)
-    load = load_at(time, q, a)
-    for effect in hidden:
-        why = of_catalog(effect).cannot_hide(load)
-        if why is not None:
-            raise SpecError(why)
-    inside = np.arange(n * fine) / (rate * fine) - (fine - 1) / (rate * fine) - delay
-    fq, fv, fa = motion(inside)
-    fload = load_at(inside, fq, fa)
-    step = np.full(n * fine, 1.0 / (rate * fine))
-    friction = model.torque(
-        fv, fq, fa, _temperature(inside, seconds, warming), fload, dt=step,
-        external_torque=-load_at(inside, fq, np.zeros_like(fa)), time=inside,
-        load_torque_curvature=load_curvature_at(inside),
-    )  # fmt: skip
-    torque = (fload + friction)[fine - 1 :: fine]
-
-    level = noise * joint.coulomb
-    drive = math.sqrt(1.0 - NOISE_MEMORY**2)
-    torque_noise = level * drive * rng.standard_normal(n + 200)
-    torque_noise = scipy.signal.lfilter([1.0], [1.0, -NOISE_MEMORY], torque_noise)[200:]
-    sigma = VELOCITY_NOISE * joint.speed
-    frame = pl.DataFrame(
-        {
-            "time": time,
-            "position": q + 1e-5 * joint.stroke * rng.standard_normal(n),
-            "velocity": v + sigma * rng.standard_normal(n),
-            "acceleration": a,
-            "torque": torque + torque_noise,
-            "load_torque": load,
-            "temperature": _temperature(time, seconds, warming) + 0.05 * rng.standard_normal(n),
+    @classmethod
+    def drawn(
+        cls,
+        law: str,
+        effects: tuple[str, ...],
+        joint: GeneratedJoint,
+        seconds: float,
+        rate: float,
+        warming: float,
+        rng: np.random.Generator,
+    ) -> _Hidden:
+        constants = {
+            "largest_velocity": joint.speed,
+            "largest_acceleration": joint.speed**2 / joint.stroke,
         }
-    )
-    if "external_torque" in model.core.needs:
-        external = -load_at(time, q, np.zeros_like(a))
-        frame = frame.with_columns(external_torque=external)
-    truth: dict[str, Any] = {
-        "spec": "+".join((law, *hidden)),
-        "law": law,
-        "hidden": list(hidden),
-        "parameters": {p.name: {"value": values[p.name], "unit": p.unit} for p in model.parameters},
-        "constants": dict(model.core.constants),
-        "noise_rms": level,
-        "velocity_noise": sigma,
-        "torque_unit": torque_unit,
-        "position_unit": position_unit,
-        "joint_kind": joint_kind,
-        "seconds": float(seconds),
-        "rate_hz": float(rate),
-        "seed": seed,
-    }
-    if delay:
-        truth["parameters"]["delay"] = {"value": delay, "unit": "s"}
-    return frame, truth
+        described = GeneratedRecording(joint, seconds, COLD + 0.5 * warming)
+        for effect in effects:
+            constants.update(of_catalog(effect).generated_constants(described))
+        # A delay is made by evaluating the joint at another time, so that nothing is interpolated.
+        inner = tuple(effect for effect in effects if effect != "delay")
+        torque_unit, position_unit = joint.units
+        model = Model(law, inner, constants, torque_unit=torque_unit, position_unit=position_unit)
+        values = plausible_values(model, joint, rng)
+        model = model.with_values([values[name] for name in model.names])
+        motion = plan_motion(rng, joint, seconds + 1.0)
+        # Four payloads and three speeds: every speed is combined with every payload in turn.
+        masses = np.resize(rng.permutation([0.3, 1.0, 1.7, 0.6]), len(motion.swaps) + 1)
+        delay = 1.6 / rate if "delay" in effects else 0.0
+        payloads = Payloads(joint, motion, masses, rate)
+        return cls(effects, joint, seconds, rate, warming, model, delay, motion, payloads)
+
+    @property
+    def samples(self) -> int:
+        return round(self.seconds * self.rate)
+
+    def friction_and_load(self) -> Array:
+        """Motor torque [n] without noise, N m or N."""
+        fine = FINE_STEPS if self.model.has_state else 1
+        n, rate = self.samples * fine, self.rate * fine
+        t = np.arange(n) / rate - (fine - 1) / rate - self.delay
+        q, v, a = self.motion(t)
+        load = self.payloads.torque(t, q, a)
+        friction = self.model.torque(
+            v,
+            q,
+            a,
+            _temperature(t, self.seconds, self.warming),
+            load,
+            dt=np.full(n, 1.0 / rate),
+            external_torque=self.payloads.external_torque(t, q),
+            time=t,
+            load_torque_curvature=self.payloads.curvature(t),
+        )
+        return (load + friction)[fine - 1 :: fine]
+
+    def frame(self, noise: float, rng: np.random.Generator) -> pl.DataFrame:
+        """The recording, with noise."""
+        n, joint = self.samples, self.joint
+        time = np.arange(n) / self.rate
+        q, v, a = self.motion(time)
+        load = self.payloads.torque(time, q, a)
+        for effect in self.effects:
+            why = of_catalog(effect).cannot_hide(load)
+            if why is not None:
+                raise SpecError(why)
+        torque = self.friction_and_load()
+        white = noise * joint.coulomb * math.sqrt(1.0 - NOISE_MEMORY**2)
+        torque_noise = white * rng.standard_normal(n + 200)
+        torque_noise = scipy.signal.lfilter([1.0], [1.0, -NOISE_MEMORY], torque_noise)[200:]
+        temperature = _temperature(time, self.seconds, self.warming)
+        frame = pl.DataFrame(
+            {
+                "time": time,
+                "position": q + 1e-5 * joint.stroke * rng.standard_normal(n),
+                "velocity": v + VELOCITY_NOISE * joint.speed * rng.standard_normal(n),
+                "acceleration": a,
+                "torque": torque + torque_noise,
+                "load_torque": load,
+                "temperature": temperature + 0.05 * rng.standard_normal(n),
+            }
+        )
+        if "external_torque" not in self.model.core.needs:
+            return frame
+        return frame.with_columns(external_torque=self.payloads.external_torque(time, q))
+
+    def truth(self, noise: float) -> Truth:
+        """What is hidden, and how the recording is made."""
+        model = self.model
+        pairs = zip(model.parameters, model.values, strict=True)
+        parameters = {p.name: {"value": float(x), "unit": p.unit} for p, x in pairs}
+        if self.delay:
+            parameters["delay"] = {"value": self.delay, "unit": "s"}
+        return {
+            "spec": "+".join((model.law, *self.effects)),
+            "law": model.law,
+            "hidden": list(self.effects),
+            "parameters": parameters,
+            "constants": dict(model.core.constants),
+            "noise_rms": noise * self.joint.coulomb,
+            "velocity_noise": VELOCITY_NOISE * self.joint.speed,
+            "torque_unit": model.torque_unit,
+            "position_unit": model.position_unit,
+            "joint_kind": self.joint.kind,
+            "seconds": float(self.seconds),
+            "rate_hz": float(self.rate),
+        }
 
 
 def _check_sizes(seconds: float, rate: float, noise: float, warming: float) -> None:

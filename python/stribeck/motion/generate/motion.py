@@ -1,16 +1,18 @@
-"""A joint's sizes and a motion that shows what a recording can show."""
+"""Sizes of a joint, and a motion rich enough to identify friction."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+#: Position, velocity and acceleration of a move at the times since its start.
+Move: TypeAlias = Callable[[Array], tuple[Array, Array, Array]]
 
 
 @dataclass(frozen=True)
@@ -39,11 +41,11 @@ JOINTS = {
 
 @dataclass(frozen=True)
 class Motion:
-    """Rest-to-rest moves one after another, each analytic in its own time."""
+    """Moves from rest to rest, one after another, each an analytic function of time."""
 
     starts: tuple[float, ...]
     origins: tuple[float, ...]
-    moves: tuple[Callable[[Array], tuple[Array, Array, Array]], ...]
+    moves: tuple[Move, ...]
     swaps: tuple[float, ...]
 
     def __call__(self, t: Array) -> tuple[Array, Array, Array]:
@@ -57,9 +59,9 @@ class Motion:
         return q, v, a
 
 
-def _pass(distance: float, speed: float, ramp: float) -> tuple[float, Any]:
-    """Duration and law of a move with a cruise at `speed` and cosine-shaped ramps of speed."""
-    # Too short to reach the speed: the same ramps, a slower cruise.
+def _pass(distance: float, speed: float, ramp: float) -> tuple[float, Move]:
+    """Duration and move with a cruise at `speed` and cosine-shaped ramps of the speed."""
+    # Where the distance is too short to reach the speed: the same ramps to a lower speed.
     cruise = abs(distance) / speed - ramp
     if cruise < 0.0:
         speed, cruise = abs(distance) / ramp, 0.0
@@ -87,8 +89,8 @@ def _pass(distance: float, speed: float, ramp: float) -> tuple[float, Any]:
     return end, move
 
 
-def _swing(duration: float, reach: float, frequency: float) -> Any:
-    """Swing about the present position, growing from rest and dying down to it."""
+def _oscillation(duration: float, reach: float, frequency: float) -> Move:
+    """Oscillation about the current position that grows from rest and decays to rest."""
     w, e = 2.0 * math.pi * frequency, math.pi / duration
 
     def move(t: Array) -> tuple[Array, Array, Array]:
@@ -114,14 +116,14 @@ def _dwell(t: Array) -> tuple[Array, Array, Array]:
 
 
 def plan_motion(rng: np.random.Generator, joint: GeneratedJoint, seconds: float) -> Motion:
-    """Draw a motion of at least `seconds` with slow and fast passes, swings and dwells."""
+    """Draw a motion of at least `seconds` with slow and fast passes, oscillations and dwells."""
     starts: list[float] = []
     origins: list[float] = []
-    moves: list[Any] = []
+    moves: list[Move] = []
     swaps: list[float] = []
     now, at, turn = 0.0, 0.0, 0
 
-    def add(duration: float, move: Any, advance: float) -> None:
+    def add(duration: float, move: Move, advance: float) -> None:
         nonlocal now, at
         starts.append(now)
         origins.append(at)
@@ -131,7 +133,7 @@ def plan_motion(rng: np.random.Generator, joint: GeneratedJoint, seconds: float)
     add(0.5, _dwell, 0.0)
     while now < seconds:
         slow, middle = rng.uniform(0.008, 0.06), rng.uniform(0.12, 0.45)
-        # Every speed is used there and back, so that direction and speed are independent.
+        # Every speed is used in both directions, so that direction and speed are independent.
         for share in (rng.uniform(0.75, 1.0), middle, slow):
             speed = share * joint.speed
             ramp = rng.uniform(0.25, 0.5)
@@ -149,7 +151,7 @@ def plan_motion(rng: np.random.Generator, joint: GeneratedJoint, seconds: float)
         if turn % 2 == 0:
             frequency = rng.uniform(0.3, 1.1)
             reach = min(0.9 * joint.speed / (2.0 * math.pi * frequency), 0.4 * joint.stroke)
-            add(3.0, _swing(3.0, reach, frequency), 0.0)
+            add(3.0, _oscillation(3.0, reach, frequency), 0.0)
             swaps.append(now + 0.15)
             add(0.3, _dwell, 0.0)
         turn += 1

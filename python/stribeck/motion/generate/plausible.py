@@ -15,7 +15,7 @@ from stribeck.motion.generate.motion import GeneratedJoint
 def plausible_values(
     model: Model, joint: GeneratedJoint, rng: np.random.Generator
 ) -> dict[str, float]:
-    """A value for every parameter, from the joint's sizes and the catalog's starts."""
+    """A value of every parameter in its unit, from the joint's sizes and the catalog's starts."""
     c, b = joint.coulomb, joint.viscous
     scales = {
         "none": 1.0,
@@ -61,7 +61,7 @@ def plausible_values(
 
 
 def effect_of(parameter: str) -> str | None:
-    """The effect that has a parameter of this name; laws with the same term name it alike."""
+    """The effect that has a parameter of this name; laws name the same term alike."""
     for effect, row in catalog()["effects"].items():
         if any(p["name"] == parameter for p in row["parameters"]):
             return effect

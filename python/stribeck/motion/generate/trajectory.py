@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-#: Share of the way, its speed and its acceleration, of the share of the time.
+#: Share of the distance with its first two derivatives, by the share of the time.
 Profile = Callable[[Array], tuple[Array, Array, Array]]
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What every joint keeps to: rad/s and rad/s2."""
+    """Limits of every joint: rad/s and rad/s2."""
 
     speed: float
     acceleration: float
@@ -31,11 +31,11 @@ class Trajectory:
     points
         Way points, rad, array [moves + 1, joints].
     durations
-        Of each move, s, array [moves].
+        Durations of the moves, s, array [moves].
     dwell
         Rest after each move, s.
     profiles
-        How each move goes along its way.
+        Profile of each move.
     """
 
     points: Array
@@ -45,7 +45,7 @@ class Trajectory:
 
     @property
     def seconds(self) -> float:
-        """How long it lasts, rests included."""
+        """Duration in s, rests included."""
         return float(self.durations.sum() + self.dwell * self.durations.size)
 
     def __call__(self, time: Array) -> tuple[Array, Array, Array]:
@@ -67,7 +67,7 @@ class Trajectory:
 
 
 def trapezoid(ramp: float) -> Profile:
-    """Constant acceleration, cruise, constant deceleration; each ramp takes a share of the time."""
+    """Constant acceleration, cruise, constant deceleration; `ramp` is the share of each ramp."""
 
     def profile(share: Array) -> tuple[Array, Array, Array]:
         top = 1.0 / (1.0 - ramp)
@@ -96,7 +96,7 @@ def quintic(share: Array) -> tuple[Array, Array, Array]:
 def way_points(
     rng: np.random.Generator, lower: Array, upper: Array, count: int, least: float
 ) -> Array:
-    """Draw points of which each lies at least `least` rad in some joint from the one before."""
+    """Draw points, each at least `least` rad from the previous one in some joint."""
     points = [rng.uniform(lower, upper)]
     while len(points) < count:
         drawn = rng.uniform(lower, upper)
@@ -106,7 +106,7 @@ def way_points(
 
 
 def trapezoidal_trajectory(points: Array, limits: Limits, dwell: float) -> Trajectory:
-    """Between `points` as fast as the limits allow: some joint reaches its limit in each move."""
+    """Moves between `points` as fast as the limits allow, with some joint at its limit."""
     ways = np.abs(np.diff(points, axis=0)).max(axis=1)
     ramps = np.minimum(limits.speed / limits.acceleration, np.sqrt(ways / limits.acceleration))
     durations = ramps + ways / (limits.acceleration * ramps)
@@ -119,7 +119,7 @@ def trapezoidal_trajectory(points: Array, limits: Limits, dwell: float) -> Traje
 def quintic_trajectory(
     rng: np.random.Generator, points: Array, limits: Limits, dwell: float, seconds: float
 ) -> Trajectory:
-    """Between `points` in `seconds`, some moves close to the limits and some much slower."""
+    """Moves between `points` in `seconds`, some close to the limits and some much slower."""
     ways = np.abs(np.diff(points, axis=0)).max(axis=1)
     peak_speed, peak_acceleration = 1.875, 10.0 / math.sqrt(3.0)
     fastest = np.maximum(

@@ -1,14 +1,14 @@
-"""Friction of a strain-wave joint as it may truly be: none of the laws that are fitted to it.
+"""Realistic friction of a strain-wave joint, different from every law of the catalog.
 
-Each part follows a physical picture that the catalog's laws only approximate:
+Each part follows a physical model that the catalog's laws only approximate:
 
 - hysteresis before sliding: a Prandtl-Ishlinskii operator, several elastic elements that slip one
-  after the other, so that a reversal within a reversal is remembered (Krasnosel'skii and
+  after the other, with the memory of nested reversals (Krasnosel'skii and
   Pokrovskii 1989);
 - dry friction that falls with the Hersey number, viscosity times speed, by a rational function;
 - viscous friction of a lubricant that thins under shear: Eyring's inverse hyperbolic sine (1936);
 - viscosity that falls with temperature by Vogel's equation (1921);
-- dry friction that grows with the load torque, at first with its square and then in proportion;
+- dry friction that grows with the load torque, quadratically at first and then in proportion;
 - dry and viscous friction that differ between the two directions.
 """
 
@@ -36,9 +36,9 @@ class TrueFriction:
     coulomb
         Dry friction in full sliding, N m.
     stribeck_rise
-        Rise of dry friction towards rest, as a share of it.
+        Increase of dry friction towards rest, as a share of it.
     stribeck_velocity
-        Speed at which half of the rise is left, rad/s.
+        Speed at which half of the increase remains, rad/s.
     shear
         Torque scale of shear thinning, N m.
     shear_velocity
@@ -46,11 +46,11 @@ class TrueFriction:
     thinning
         Vogel's activation temperature, K.
     dry_cooling
-        Relative fall of dry friction with temperature, 1/K.
+        Relative decrease of dry friction with temperature, 1/K.
     load_share
-        Rise of dry friction per `load_scale` of load torque, as a share of it.
+        Increase of dry friction per `load_scale` of load torque, as a share of it.
     load_scale
-        Load torque at which the rise turns from quadratic to proportional, N m.
+        Load torque at which the increase changes from quadratic to proportional, N m.
     asymmetry
         Relative difference between forward and the mean of both directions.
     slips
@@ -106,14 +106,14 @@ class TrueFriction:
         position, velocity, temperature, load : array [n]
             rad, rad/s, degC, N m.
         deflections
-            Of the elements before the first sample, rad.
+            Deflections of the elements before the first sample, rad.
 
         Returns
         -------
         torque : array [n]
             N m, opposing the motion with the sign of `velocity`.
         deflections : tuple
-            Of the elements after the last sample.
+            Deflections of the elements after the last sample, rad.
         """
         bent = [
             stop_operator(position, slip, start)
@@ -131,8 +131,8 @@ class TrueFriction:
 def stop_operator(position: Array, slip: float, start: float) -> Array:
     """Deflection of an elastic element that slips at `slip`, along `position`, array [n].
 
-    Between reversals it follows the motion until it slips, so each stretch of one direction is
-    solved at once and exactly.
+    Between reversals the element follows the motion until it slips, so each interval of one
+    direction has an exact solution.
 
     Examples
     --------

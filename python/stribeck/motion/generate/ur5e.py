@@ -1,16 +1,16 @@
-"""Recordings of a six-joint arm like the UR5e of the review, with friction that no law fits.
+"""Recordings of a six-joint arm like the UR5e of the review, with friction outside the catalog.
 
 The review of 25 friction models (2024/25, section 4) moves a UR5e through trapezoidal speed
 profiles between six way points (Test 1), and through fifth-degree polynomials between twenty way
 points in sixty seconds, ninety times over while the joints warm up (Test 2), recorded at 500 Hz.
-This module makes recordings of that shape:
+This module makes recordings of this kind:
 
 - load torques from gravity, inertia and the coupling of the joints (`arm`), with the kinematics
-  and masses that the maker publishes; links are point masses, so they are about right, not exact;
+  and masses that the manufacturer publishes; links are point masses, so loads are approximate;
 - friction from `true_friction`, which is none of the catalog's laws, sized like the friction
   torques of the review's figures 6 and 10;
-- joint temperatures from one heat capacity and one path to the room a joint, heated by friction
-  and by the motor's copper;
+- joint temperatures from one heat capacity and one thermal resistance per joint, heated by
+  friction and by the copper losses of the motor;
 - currents with correlated noise in steps of the converter, positions in steps of the motor's
   encoder, velocities as their differences.
 
@@ -24,7 +24,6 @@ import math
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import polars as pl
@@ -54,7 +53,7 @@ CYCLE_SECONDS = 60.0
 DWELL = 0.25
 LIMITS = Limits(speed=math.pi, acceleration=4.0)
 ROOM_TEMPERATURE = 24.0
-#: Steps a turn of the motor's encoder.
+#: Encoder steps per motor turn.
 ENCODER_STEPS = 8192
 #: Steps of the current converter, A, and of the temperature sensor, K.
 CURRENT_STEP = 0.002
@@ -88,18 +87,18 @@ HIGHEST = np.array([2.4, -0.5, 2.2, 2.4, 2.4, 2.4])
 
 @dataclass(frozen=True)
 class Drive:
-    """A joint's motor, gear, friction and way to lose heat.
+    """Motor, gear, friction and thermal constants of a joint.
 
     Attributes
     ----------
     motor
         Constants of the review's eqs 1 and 7.
     friction
-        What is hidden in the recording.
+        Friction that is hidden in the recording.
     current_noise
-        RMS, A.
+        RMS of the current noise, A.
     heating
-        Rise of the joint's temperature per lost power in the long run, K/W.
+        Steady-state rise of the joint's temperature per power loss, K/W.
     warm_up
         Time constant of that rise, s.
     """
@@ -114,25 +113,47 @@ class Drive:
 _LARGE = Drive(
     motor=Motor(km=0.11, kb=0.12, kt=0.12, gear_ratio=101.0),
     friction=TrueFriction(
-        coulomb=9.0, stribeck_rise=0.3, stribeck_velocity=0.12, shear=15.0, shear_velocity=1.1,
-        thinning=700.0, dry_cooling=0.004, load_share=0.2, load_scale=30.0, asymmetry=0.06,
-        slips=(0.15e-3, 0.5e-3, 1.5e-3, 4e-3), shares=(0.35, 0.3, 0.2, 0.15),
+        coulomb=9.0,
+        stribeck_rise=0.3,
+        stribeck_velocity=0.12,
+        shear=15.0,
+        shear_velocity=1.1,
+        thinning=700.0,
+        dry_cooling=0.004,
+        load_share=0.2,
+        load_scale=30.0,
+        asymmetry=0.06,
+        slips=(0.15e-3, 0.5e-3, 1.5e-3, 4e-3),
+        shares=(0.35, 0.3, 0.2, 0.15),
     ),
-    current_noise=0.05, heating=2.0, warm_up=1500.0,
-)  # fmt: skip
+    current_noise=0.05,
+    heating=2.0,
+    warm_up=1500.0,
+)
 _SMALL = Drive(
     motor=Motor(km=0.05, kb=0.1, kt=0.1, gear_ratio=101.0),
     friction=TrueFriction(
-        coulomb=1.9, stribeck_rise=0.35, stribeck_velocity=0.1, shear=3.2, shear_velocity=0.9,
-        thinning=750.0, dry_cooling=0.004, load_share=0.25, load_scale=5.0, asymmetry=0.05,
-        slips=(0.2e-3, 0.7e-3, 2e-3, 5e-3), shares=(0.35, 0.3, 0.2, 0.15),
+        coulomb=1.9,
+        stribeck_rise=0.35,
+        stribeck_velocity=0.1,
+        shear=3.2,
+        shear_velocity=0.9,
+        thinning=750.0,
+        dry_cooling=0.004,
+        load_share=0.25,
+        load_scale=5.0,
+        asymmetry=0.05,
+        slips=(0.2e-3, 0.7e-3, 2e-3, 5e-3),
+        shares=(0.35, 0.3, 0.2, 0.15),
     ),
-    current_noise=0.02, heating=5.5, warm_up=1200.0,
-)  # fmt: skip
+    current_noise=0.02,
+    heating=5.5,
+    warm_up=1200.0,
+)
 
 
 def _drives(rng: np.random.Generator) -> tuple[Drive, ...]:
-    """Three large and three small joints; no two of a size have the same friction."""
+    """Three large and three small joints, each with different friction."""
     drives = []
     for kind in (_LARGE, _LARGE, _LARGE, _SMALL, _SMALL, _SMALL):
         f = kind.friction
@@ -156,25 +177,25 @@ def _drives(rng: np.random.Generator) -> tuple[Drive, ...]:
 
 @dataclass(frozen=True)
 class RobotRecording:
-    """What an arm like a UR5e would record; rows are made when they are asked for.
+    """The recording of an arm like a UR5e; rows are generated on demand.
 
     Parameters
     ----------
     test
         1: trapezoidal speed profiles, once. 2: fifth-degree polynomials, sixty seconds a cycle.
     seed
-        Of way points, friction and noise.
+        Seed of way points, friction and noise.
     repeats
-        Cycles that the arm makes; Test 2 makes 90 of them in the review.
+        Number of cycles; 90 for Test 2 in the review.
     every
-        Record the first of so many cycles; the arm makes the others too and warms up.
+        Record one of so many cycles; the arm also warms up in the others.
     rate
-        Samples recorded a second, Hz: 500, or 500 divided by a whole number.
+        Sample rate, Hz: 500, or 500 divided by a whole number.
 
     Raises
     ------
     SpecError
-        Sizes that make no recording.
+        A size out of range.
 
     Examples
     --------
@@ -217,7 +238,7 @@ class RobotRecording:
         """One cycle of the motion, from the seed."""
         rng = np.random.default_rng([self.seed, 2])
         if self.test == 1:
-            # Long enough ways to reach the largest speed.
+            # Far enough apart to reach the largest speed.
             points = way_points(
                 rng, LOWEST, HIGHEST, 6, 1.1 * LIMITS.speed**2 / LIMITS.acceleration
             )
@@ -289,7 +310,7 @@ class RobotRecording:
     def _measured(
         self, k: int, cycle: int, torque: Array, temperature: Array, rng: np.random.Generator
     ) -> pl.DataFrame:
-        """What the sensors make of a cycle."""
+        """One cycle as the sensors measure it."""
         drive, motor = self.drives[k], self.drives[k].motor
         clock = np.arange(self._samples) / RATE
         position = _stepped(
@@ -311,8 +332,8 @@ class RobotRecording:
             pl.lit(JOINTS[k]).alias("joint"), pl.lit(cycle + 1).alias("run"), pl.all()
         )
 
-    def truth(self) -> dict[str, Any]:
-        """What is hidden in the recording, and how it was made."""
+    def truth(self) -> dict[str, object]:
+        """What is hidden in the recording, and how it is made, as JSON."""
         return {
             "robot": "ur5e",
             "test": self.test,
@@ -343,15 +364,13 @@ class RobotRecording:
         lines = ['kind = "recording"', 'joint_kind = "revolute"']
         for joint, drive in zip(JOINTS, self.drives, strict=True):
             m = drive.motor
-            lines += [
-                "", f"[joints.{joint}]", f"gear_ratio = {m.gear_ratio}",
-                f"torque_constant = {m.kt}", f"km = {m.km}", f"kb = {m.kb}", f"kt = {m.kt}",
-            ]  # fmt: skip
+            lines += ["", f"[joints.{joint}]", f"gear_ratio = {m.gear_ratio}"]
+            lines += [f"torque_constant = {m.kt}", f"km = {m.km}", f"kb = {m.kb}", f"kt = {m.kt}"]
         return "\n".join(lines) + "\n"
 
 
 def _heated(drive: Drive, temperature: float, load: Array, velocity: Array) -> float:
-    """Where the temperature would settle if every cycle lost as much power as this one."""
+    """Steady-state temperature in degC if every cycle had the power loss of this one."""
     still = np.full_like(velocity, temperature)
     friction = np.sign(velocity) * drive.friction.dry(velocity, still, load)
     friction = friction + drive.friction.viscous(velocity, still)
@@ -367,7 +386,7 @@ def _stepped(values: Array, step: float) -> Array:
 
 
 def _current_noise(rng: np.random.Generator, level: float, count: int) -> Array:
-    """Noise of RMS `level`, correlated over a few samples."""
+    """Noise [n] of RMS `level`, correlated over a few samples."""
     drive = level * math.sqrt(1.0 - NOISE_MEMORY**2)
     white = drive * rng.standard_normal(count + 50)
     return np.asarray(scipy.signal.lfilter([1.0], [1.0, -NOISE_MEMORY], white)[50:])
