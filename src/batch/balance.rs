@@ -2,8 +2,8 @@
 //!
 //! A fit predicts the motor torque, so friction that depends on it must not use the measured one.
 //! It follows from the balance `tm = tl + tf(te, tm, v)` at each sample, with the load torque `tl`
-//! and the model's own inertia and gravity. Where friction grows less than the motor torque, `d
-//! tf/d tm < 1`, there is exactly one solution. There are two other cases:
+//! and the model's own inertia and gravity. Where friction grows less than the motor torque,
+//! `d tf/d tm < 1`, there is exactly one solution. There are two other cases:
 //!
 //! - Friction jumps with the motor torque (`bam_m6` where both ends of the gearbox carry the same)
 //!   and the balance lies within the jump: the motor torque stays at the jump, and friction

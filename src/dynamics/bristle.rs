@@ -1,13 +1,13 @@
 //! A bristle for any split law, stepped exactly for a velocity that is constant over the step.
 //!
 //! `dz/dt = v - s0 |v|/D z`, `tf = s0 z + s1 dz/dt + V + additive` (Canudas de Wit et al. 1995, eqs
-//! 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the deflection covers the share `1 -
-//! e^-x` of the distance to its target `sgn(v) D/s0`: stable and without overshoot for every
+//! 4-6, with any dry magnitude `D`). With `x = s0 |v| dt/D` the deflection covers the share
+//! `1 - e^-x` of the distance to its target `sgn(v) D/s0`: stable and without overshoot for every
 //! stiffness and step. Share and target do not depend on `z`, so they are computed for many samples
 //! in parallel.
 //!
-//! With a smoothed sign `S(v)`, `dz/dt = S^2 v - s0 S v/D z` (Indri et al. 2020): the share uses `x
-//! |S|`, and the target is `S D/s0`.
+//! With a smoothed sign `S(v)`, `dz/dt = S^2 v - s0 S v/D z` (Indri et al. 2020): the share uses
+//! `x |S|`, and the target is `S D/s0`.
 
 use super::{Approach, Deflection, Interval, SATURATED, Step, following};
 #[cfg(test)]
@@ -87,8 +87,8 @@ impl<S: Real> Bristle<S> {
 
     /// The effect of a constant velocity on the deflection over `dt` (s); none with `dt <= 0`.
     ///
-    /// At rest the deflection does not change. For a dry magnitude `D <= 0` the limit `z = sgn(v)
-    /// D/s0` is used, so that a fit that passes through it gets a finite slope.
+    /// At rest the deflection does not change. For a dry magnitude `D <= 0` the limit
+    /// `z = sgn(v) D/s0` is used, so that a fit that passes through it gets a finite slope.
     #[inline(always)]
     pub(crate) fn course(&self, dry: S, velocity: S::Plain, dt: S::Plain) -> Course<S> {
         let lasts = dt.is_positive();

@@ -2,9 +2,9 @@
 //!
 //! `dz/dt = v sgn(u) |u|^n` with `u = 1 - sgn(v) s0 z/D`, and `tf = s0 z + V + additive` (Dahl
 //! 1968). Over a travel `|v| dt`, with `k = s0 |v| dt/D`, `u` becomes `u e^-w` and its mean over
-//! the step is `u ln(1 + c)/c phi_1((n - 2) w)`, where `c = (n - 1) k |u|^(n-1)` and `w = ln(1 +
-//! c)/(n - 1)`: smooth in `n`, also at `n = 1` (`w = k`) and `n = 2`. For `n < 1` sliding begins
-//! within the step where `c <= -1`.
+//! the step is `u ln(1 + c)/c phi_1((n - 2) w)`, where `c = (n - 1) k |u|^(n-1)` and
+//! `w = ln(1 + c)/(n - 1)`: smooth in `n`, also at `n = 1` (`w = k`) and `n = 2`. For `n < 1`
+//! sliding begins within the step where `c <= -1`.
 
 use super::{BristleState, Interval, Step, following, logarithm_ratio};
 use crate::sample::Split;

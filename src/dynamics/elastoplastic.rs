@@ -1,12 +1,12 @@
 //! The elastoplastic model, stepped for a velocity that is constant over the step.
 //!
 //! `dz/dt = v (1 - a s0 z sgn v/D)`, `tf = s0 z + s1 dz/dt + V + additive` (Dupont et al. 2002, eqs
-//! 8-14). In units of the deflection in full sliding, `x = s0 z sgn v/D`, a bristle is elastic (`a
-//! = 0`) up to `b`, slides (`a = 1`) from 1 on, and between them `a = cos^2(pi p/2)` with `1 - x =
-//! (1 - b) p`. The elastic and the sliding part are exact. In the transition `ln p` falls at a rate
-//! between 1 and `1 + 1.14/(1 - b)` along the travel `s0 |v| t/D`; sixteen Runge-Kutta steps of
-//! fourth order in that variable are stable for every travel and have an error below `6e-6 D/s0`
-//! for `b <= 0.99`.
+//! 8-14). In units of the deflection in full sliding, `x = s0 z sgn v/D`, a bristle is elastic
+//! (`a = 0`) up to `b`, slides (`a = 1`) from 1 on, and between them `a = cos^2(pi p/2)` with
+//! `1 - x = (1 - b) p`. The elastic and the sliding part are exact. In the transition `ln p` falls
+//! at a rate between 1 and `1 + 1.14/(1 - b)` along the travel `s0 |v| t/D`; sixteen Runge-Kutta
+//! steps of fourth order in that variable are stable for every travel and have an error below
+//! `6e-6 D/s0` for `b <= 0.99`.
 
 use super::{BristleState, Interval, Step, following};
 use crate::sample::Split;

@@ -3,8 +3,8 @@
 //!
 //! `w` is the travel since the change of sign, `dw = |v|^n vr^(1 - n) dt`. `g = exp(-(w/b)^2)` is
 //! the share of the load torque that is not carried. The momentum `P` that the load has lost
-//! meanwhile is restored as the flanks meet: where `g` falls by the factor `e^-h` in a step, `P (1
-//! - e^-h)/dt` on average over the step.
+//! meanwhile is restored as the flanks meet: where `g` falls by the factor `e^-h` in a step,
+//! `P (1 - e^-h)/dt` on average over the step.
 
 use super::Interval;
 use crate::scalar::{Mask, Real};

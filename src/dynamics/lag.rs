@@ -1,8 +1,9 @@
 //! A quantity that follows its steady value with a first-order lag, stepped exactly.
 //!
 //! `tau de/dt = E - e`. Over a step with constant `E`, `e` becomes `E + (e - E) exp(-dt/tau)`;
-//! where `E` changes linearly from `E0` to `E1` it becomes `E1 + (e - E0) exp(-dt/tau) - (E1 - E0)
-//! phi_1(-dt/tau)`. Both lie between the values before, so a lag never makes friction negative.
+//! where `E` changes linearly from `E0` to `E1` it becomes
+//! `E1 + (e - E0) exp(-dt/tau) - (E1 - E0) phi_1(-dt/tau)`. Both lie between the values before, so
+//! a lag never makes friction negative.
 
 use super::{Interval, SATURATED};
 use crate::scalar::{Mask, Real};

@@ -24,8 +24,9 @@ pub const MAX_TERMS: usize = 24;
 /// | rate | neither of these, and zero at `v = 0` |
 /// | additive | none of these |
 ///
-/// Factors are searched in products, numerators and behind signs, not inside a bracketed sum: `(c1
-/// + c2*abs(v))*sgn(v)` is one dry term, and `c1*sgn(v) + c2*abs(v)*sgn(v)` a dry and a rate term.
+/// Factors are searched in products, numerators and behind signs, not inside a bracketed sum:
+/// `(c1 + c2*abs(v))*sgn(v)` is one dry term, and `c1*sgn(v) + c2*abs(v)*sgn(v)` a dry and a rate
+/// term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TermKind {
     /// Dry friction along `sgn(v)`.

@@ -1,9 +1,10 @@
 //! A motor that drives its load through a spring with backlash.
 //!
 //! Friction acts at the motor. The twist is `d = theta - q`, and `e` is the part of it beyond the
-//! backlash on either side: `U(e) = k e^2/2`. Over a step the mean torque is `(U(e+) - U(e))/(d+ -
-//! d)`, and the damper's `c (e+ - e)/h (e+ - e)/(d+ - d)`: the first conserves energy exactly, the
-//! second only dissipates. The load follows from a scalar equation inside that of the motor.
+//! backlash on either side: `U(e) = k e^2/2`. Over a step the mean torque is
+//! `(U(e+) - U(e))/(d+ - d)`, and the damper's `c (e+ - e)/h (e+ - e)/(d+ - d)`: the first
+//! conserves energy exactly, the second only dissipates. The load follows from a scalar equation
+//! inside that of the motor.
 
 use super::body::{Body, Push};
 use super::rigid::{Joint, Moving, Posture};

@@ -78,8 +78,8 @@ impl<S: Real> FrictionLaw<S> for GazB<S> {
         captures: &["coulomb", "direction"],
     };
 
-    /// With `s` the sigmoid, `x = a2 |v|` and `w = a2 a3 sgn v`, the difference is `s(x + w) - s(w)
-    /// = s(-w) s(x + w) (1 - exp(-x))`: a product without cancellation.
+    /// With `s` the sigmoid, `x = a2 |v|` and `w = a2 a3 sgn v`, the difference is
+    /// `s(x + w) - s(w) = s(-w) s(x + w) (1 - exp(-x))`: a product without cancellation.
     #[inline]
     fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
         let v = sample.velocity;

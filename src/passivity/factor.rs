@@ -5,9 +5,9 @@
 //! such `c` is the minimum of `f/g` over the points with `g > 0`; where `g` brakes, any `c` is
 //! admissible as long as `f` dissipates. Branch and bound gives bounds of the minimum.
 //!
-//! Where `g` is `f` with other parameters, the mean value theorem gives a second bound, `f/g >= 1 +
-//! (sum_p df/dp (p - p0))/g`, with the derivatives enclosed over all possible parameters. It
-//! converges faster, because numerator and denominator no longer vary independently.
+//! Where `g` is `f` with other parameters, the mean value theorem gives a second bound,
+//! `f/g >= 1 + (sum_p df/dp (p - p0))/g`, with the derivatives enclosed over all possible
+//! parameters. It converges faster, because numerator and denominator no longer vary independently.
 
 use std::vec::Vec;
 

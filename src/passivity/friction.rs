@@ -9,8 +9,8 @@ use crate::scalar::{Real, Scalar};
 /// Error bound of the slope of an approach: a few rounded operations at a point.
 const SLOPE_SLACK: f64 = 1e-14;
 
-/// A model with one deflection, along the direction of motion: the power it dissipates is `|v| (g +
-/// drag slope + resistance)` and `df/dt = s0 |v| slope`, with `g` the bristle force.
+/// A model with one deflection, along the direction of motion: the power it dissipates is
+/// `|v| (g + drag slope + resistance)` and `df/dt = s0 |v| slope`, with `g` the bristle force.
 #[derive(Clone, Copy, Debug)]
 pub struct Bristled<S> {
     /// Dry magnitude `D` (T).
