@@ -18,7 +18,7 @@
 
 pub use crate::joint::{
     self, BallScrew, Body, Compensator, Controller, Effort, ElasticJoint, ElasticPosture, Gravity,
-    Joint, Observer, PlanarArm, Posture, Push, Taken, Trajectory, Transmission,
+    Joint, JointStep, Observer, PlanarArm, Posture, Push, Trajectory, Transmission,
 };
 pub use crate::law::{self, FrictionLaw};
 pub use crate::{

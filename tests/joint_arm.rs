@@ -1,6 +1,6 @@
 //! A planar arm of two joints, friction in both.
 
-use stribeck::joint::{ArmPosture, ArmPush, PlanarArm, Taken};
+use stribeck::joint::{ArmPosture, ArmPush, JointStep, PlanarArm};
 use stribeck::{Composed, Spec, State};
 
 const DT: f64 = 1e-3;
@@ -18,14 +18,14 @@ fn moved(
     start: ArmPosture<f64>,
     steps: u32,
     torque: impl Fn(f64) -> [f64; 2],
-) -> Vec<(ArmPosture<f64>, [Taken<f64>; 2])> {
+) -> Vec<(ArmPosture<f64>, [JointStep<f64>; 2])> {
     let (mut posture, mut states) = (start, [State::default(); 2]);
     (0..steps)
         .map(|k| {
             let time = f64::from(k) * DT;
             let push = ArmPush { motor: torque(time), temperature: [30.0; 2], time };
-            let taken = ARM.step(friction, &mut states, &mut posture, &push, DT);
-            (posture, taken)
+            let result = ARM.step(friction, &mut states, &mut posture, &push, DT);
+            (posture, result)
         })
         .collect()
 }
@@ -64,10 +64,10 @@ fn what_motors_give_is_kept_or_taken_by_friction() {
         let mut before = SWINGING;
         #[allow(clippy::disallowed_methods)]
         let torque = |t: f64| [9.0 * (2.0 * t).sin(), 2.5 * (5.0 * t).cos()];
-        for (after, taken) in moved([first, second], SWINGING, 10_000, torque) {
+        for (after, result) in moved([first, second], SWINGING, 10_000, torque) {
             let (was, is) = (ARM.energy(&before), ARM.energy(&after));
-            let given: f64 = taken.iter().map(|t| t.motor_work).sum();
-            let lost: f64 = taken.iter().map(|t| t.friction_work).sum();
+            let given: f64 = result.iter().map(|t| t.motor_work).sum();
+            let lost: f64 = result.iter().map(|t| t.friction_work).sum();
             let size = was.max(is).max(given.abs()).max(lost.abs());
             let imbalance = (given - lost - (is - was)).abs() / size;
             assert!(imbalance < 1e-11, "imbalance {imbalance:e}");
@@ -89,7 +89,9 @@ fn both_joints_stop_and_stay() {
     assert_eq!(end.velocity, [0.0; 2]);
     assert_eq!(end, steps[10_000].0);
     // Friction never gave anything.
-    assert!(steps.iter().flat_map(|(_, taken)| taken).all(|taken| taken.friction_work >= -1e-15));
+    assert!(
+        steps.iter().flat_map(|(_, result)| result).all(|result| result.friction_work >= -1e-15)
+    );
 }
 
 /// A push that overcomes the first joint alone turns it, and the second one holds.
@@ -98,9 +100,9 @@ fn friction_holds_a_joint_that_the_other_one_swings() {
     let friction = [model("coulomb", &[0.8, 1.0]), model("coulomb", &[0.2, 4.0])];
     let start = ArmPosture { position: [0.0; 2], velocity: [0.0; 2] };
     let steps = moved([&friction[0], &friction[1]], start, 1_000, |_| [3.0, 0.0]);
-    let (end, taken) = steps[999];
+    let (end, result) = steps[999];
     assert!(end.velocity[0] > 0.2);
     assert_eq!(end.position[1], 0.0);
     // It holds what the first one's acceleration asks of it.
-    assert!(taken[1].friction < -0.1, "{}", taken[1].friction);
+    assert!(result[1].friction < -0.1, "{}", result[1].friction);
 }

@@ -1,7 +1,7 @@
 //! A motor that moves its load through a spring with play.
 
 use stribeck::joint::{
-    self, ElasticJoint, ElasticPosture, Joint, Posture, Push, Taken, Transmission,
+    self, ElasticJoint, ElasticPosture, Joint, JointStep, Posture, Push, Transmission,
 };
 use stribeck::{Composed, Spec, State};
 
@@ -26,16 +26,16 @@ fn pushed(
     start: ElasticPosture<f64>,
     steps: u32,
     torque: impl Fn(f64) -> f64,
-) -> Vec<(ElasticPosture<f64>, Taken<f64>)> {
+) -> Vec<(ElasticPosture<f64>, JointStep<f64>)> {
     let (mut posture, mut state) = (start, State::default());
     (0..steps)
         .map(|k| {
             let time = f64::from(k) * DT;
             let push = Push { time, ..Push::by_motor(torque(time)) };
             let mut body = joint.moving(posture, &push);
-            let taken = joint::step(friction, &mut state, &mut body, DT);
+            let result = joint::step(friction, &mut state, &mut body, DT);
             posture = body.posture();
-            (posture, taken)
+            (posture, result)
         })
         .collect()
 }
@@ -44,7 +44,7 @@ fn pushed(
 #[test]
 fn it_swings_at_its_own_frequency() {
     let joint = joint(4e3, 0.0, 0.0);
-    let start = ElasticPosture { twist: 0.01, ..ElasticPosture::together(AT_REST) };
+    let start = ElasticPosture { twist: 0.01, ..ElasticPosture::aligned(AT_REST) };
     let steps = pushed(&coulomb(0.0, 0.0), &joint, start, 20_000, |_| 0.0);
     let crossings = steps.windows(2).filter(|p| p[0].0.twist <= 0.0 && p[1].0.twist > 0.0).count();
     #[allow(clippy::disallowed_methods)]
@@ -54,20 +54,20 @@ fn it_swings_at_its_own_frequency() {
     assert!((largest - 0.01).abs() < 1e-5, "the swing has come to {largest}");
 }
 
-/// Through gaps, contacts, gravity and stops: what the motor gives is kept or taken by friction.
+/// Through gaps, contacts, gravity and stops: what the motor gives is kept or result by friction.
 #[test]
 fn energy_balances_through_gaps_and_stops() {
     let mut joint = joint(2e4, 0.0, 0.02);
     joint.load = Joint::revolute(0.8, 2.0, -1.0);
     let friction = coulomb(0.3, 1.5);
-    let start = ElasticPosture::together(Posture { position: 0.3, velocity: 0.5 });
+    let start = ElasticPosture::aligned(Posture { position: 0.3, velocity: 0.5 });
     #[allow(clippy::disallowed_methods)]
     let steps = pushed(&friction, &joint, start, 20_000, |t| 6.0 * (2.1 * t).sin());
     let mut before = start;
-    for (after, taken) in steps {
+    for (after, result) in steps {
         let (was, is) = (joint.energy(&before, 0.0), joint.energy(&after, 0.0));
-        let imbalance = taken.motor_work - taken.friction_work - (is - was);
-        let size = was.abs().max(is.abs()).max(taken.motor_work.abs());
+        let imbalance = result.motor_work - result.friction_work - (is - was);
+        let size = was.abs().max(is.abs()).max(result.motor_work.abs());
         assert!(imbalance.abs() < 1e-12 * size, "{imbalance:e} of {size:e}");
         let twist = after.motor.position - after.load.position;
         assert!((after.twist - twist).abs() < 1e-12);
@@ -79,7 +79,7 @@ fn energy_balances_through_gaps_and_stops() {
 #[test]
 fn damping_brings_the_swing_to_rest() {
     let joint = joint(4e3, 3.0, 0.01);
-    let start = ElasticPosture { twist: 0.03, ..ElasticPosture::together(AT_REST) };
+    let start = ElasticPosture { twist: 0.03, ..ElasticPosture::aligned(AT_REST) };
     let steps = pushed(&coulomb(0.0, 0.0), &joint, start, 20_000, |_| 0.0);
     let energies: Vec<f64> = steps.iter().map(|(p, _)| joint.energy(p, 0.0)).collect();
     assert!(energies.windows(2).all(|pair| pair[1] <= pair[0] * (1.0 + 1e-12)));
@@ -90,7 +90,7 @@ fn damping_brings_the_swing_to_rest() {
 #[test]
 fn the_motor_crosses_the_gap_first() {
     let joint = joint(1e5, 5.0, 0.05);
-    let steps = pushed(&coulomb(0.1, 0.5), &joint, ElasticPosture::together(AT_REST), 400, |_| 1.0);
+    let steps = pushed(&coulomb(0.1, 0.5), &joint, ElasticPosture::aligned(AT_REST), 400, |_| 1.0);
     let touch = steps.iter().position(|(p, _)| p.load.velocity != 0.0).unwrap();
     // Half the play at (1 - 0.5)/0.2 rad/s2.
     #[allow(clippy::disallowed_methods)]
@@ -105,7 +105,7 @@ fn friction_of_the_motor_holds_the_load() {
     let mut joint = joint(1e4, 20.0, 0.0);
     joint.load.gravity.constant = 3.0;
     let steps =
-        pushed(&coulomb(0.1, 4.0), &joint, ElasticPosture::together(AT_REST), 60_000, |_| 0.0);
+        pushed(&coulomb(0.1, 4.0), &joint, ElasticPosture::aligned(AT_REST), 60_000, |_| 0.0);
     // The load drops into the spring and swings; then nothing.
     let (settled, end) = (steps[9_999].0, steps[59_999].0);
     assert_eq!(end.motor, Posture { velocity: 0.0, ..settled.motor });
@@ -119,7 +119,7 @@ fn a_stiff_transmission_is_rigid() {
     let friction = coulomb(0.4, 1.0);
     let torque = |t: f64| if t < 1.0 { 3.0 } else { -2.0 };
     let elastic = joint(1e8, 1e5, 0.0);
-    let steps = pushed(&friction, &elastic, ElasticPosture::together(AT_REST), 2_000, torque);
+    let steps = pushed(&friction, &elastic, ElasticPosture::aligned(AT_REST), 2_000, torque);
     let rigid = Joint::free(1.0);
     let (mut posture, mut state) = (AT_REST, State::default());
     for (k, (apart, _)) in steps.iter().enumerate() {

@@ -24,12 +24,12 @@ fn largest_imbalance<P: Scalar<Plain = P> + PartialOrd>(spec: &Spec, dt: f64, st
             ..Push::by_motor(P::from_f64(torque))
         };
         let mut body = joint.moving(posture, &push);
-        let taken = joint::step(&friction, &mut state, &mut body, P::from_f64(dt));
+        let result = joint::step(&friction, &mut state, &mut body, P::from_f64(dt));
         let support = P::zero();
         let (before, after) =
             (joint.energy(&posture, support), joint.energy(&body.posture, support));
-        let imbalance = taken.motor_work - taken.friction_work - (after - before);
-        let size = [before, after, taken.motor_work, taken.friction_work]
+        let imbalance = result.motor_work - result.friction_work - (after - before);
+        let size = [before, after, result.motor_work, result.friction_work]
             .into_iter()
             .fold(0.0, |most: f64, x| most.max(x.value().abs()));
         largest = largest.max(imbalance.value().abs() / size);
@@ -70,13 +70,13 @@ fn friction_is_that_of_the_model() {
             #[allow(clippy::disallowed_methods)]
             let push = Push::by_motor(9.0 * (f64::from(k) * 0.01).sin());
             let (mut own, mut body) = (state, joint.moving(posture, &push));
-            let taken = joint::step(&friction, &mut state, &mut body, 2e-3);
+            let result = joint::step(&friction, &mut state, &mut body, 2e-3);
             let velocity = (body.posture.position - posture.position) / 2e-3;
             let acceleration = (body.posture.velocity - posture.velocity) / 2e-3;
             let sample = Sample { acceleration, ..Sample::at(velocity) };
             let mean = friction.step(&mut own, &sample, 2e-3).mean_torque;
-            let size = taken.friction.abs().max(push.motor.abs());
-            assert!((mean - taken.friction).abs() <= 1e-10 * size, "{spec} at step {k}");
+            let size = result.friction.abs().max(push.motor.abs());
+            assert!((mean - result.friction).abs() <= 1e-10 * size, "{spec} at step {k}");
             posture = body.posture;
         }
     }

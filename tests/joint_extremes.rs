@@ -51,8 +51,8 @@ fn stays_finite<P: Scalar<Plain = P> + PartialOrd>(spec: &Spec, random: &mut Ran
             ..Push::by_motor(number(random.spread(-20, 12)))
         };
         let mut body = joint.moving(posture, &push);
-        let taken = joint::step(&friction, &mut state, &mut body, dt);
-        let numbers = [body.posture.position, body.posture.velocity, taken.friction, taken.load];
+        let result = joint::step(&friction, &mut state, &mut body, dt);
+        let numbers = [body.posture.position, body.posture.velocity, result.friction, result.load];
         assert!(numbers.iter().all(|x| x.value().is_finite()), "{spec} at step {k}: {numbers:?}");
         posture = body.posture;
         // Far away nothing new happens, and single precision has few digits left.
@@ -78,7 +78,7 @@ fn a_transmission_stays_finite_under_anything() {
         let spec = Spec::new(law, []).unwrap();
         let friction = spec.with(&common::values(&spec)).unwrap();
         let mut state = State::default();
-        let mut posture = ElasticPosture::together(Posture { position: 0.0, velocity: 0.0 });
+        let mut posture = ElasticPosture::aligned(Posture { position: 0.0, velocity: 0.0 });
         for k in 0..1000 {
             let joint = ElasticJoint {
                 motor_inertia: random.spread(-10, 6).abs() + 1e-4,
@@ -91,14 +91,14 @@ fn a_transmission_stays_finite_under_anything() {
             };
             let push = Push::by_motor(random.spread(-20, 10));
             let mut body = joint.moving(posture, &push);
-            let taken =
+            let result =
                 joint::step(&friction, &mut state, &mut body, random.spread(-18, 0).abs() + 1e-6);
             posture = body.posture();
             let at = [posture.motor, posture.load];
             let finite = at.iter().all(|at| at.position.is_finite() && at.velocity.is_finite());
-            assert!(finite && taken.friction.is_finite(), "{law} at step {k}: {posture:?}");
+            assert!(finite && result.friction.is_finite(), "{law} at step {k}: {posture:?}");
             if at.iter().any(|at| at.position.abs() > 1e3 || at.velocity.abs() > 1e3) {
-                posture = ElasticPosture::together(Posture { position: 0.0, velocity: 1.0 });
+                posture = ElasticPosture::aligned(Posture { position: 0.0, velocity: 1.0 });
             }
         }
     }

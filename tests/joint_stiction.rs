@@ -3,7 +3,7 @@
 mod common;
 
 use stribeck::catalog::LawId;
-use stribeck::joint::{self, Joint, Posture, Push, Taken};
+use stribeck::joint::{self, Joint, JointStep, Posture, Push};
 use stribeck::{Composed, Memory, Sample, Spec, State};
 
 const DT: f64 = 1e-3;
@@ -19,16 +19,16 @@ fn pushed(
     start: Posture<f64>,
     steps: u32,
     torque: impl Fn(f64) -> f64,
-) -> Vec<(Posture<f64>, Taken<f64>)> {
+) -> Vec<(Posture<f64>, JointStep<f64>)> {
     let (mut posture, mut state) = (start, State::default());
     (0..steps)
         .map(|k| {
             let time = f64::from(k) * DT;
             let push = Push { temperature: 30.0, time, ..Push::by_motor(torque(time)) };
             let mut body = joint.moving(posture, &push);
-            let taken = joint::step(friction, &mut state, &mut body, DT);
+            let result = joint::step(friction, &mut state, &mut body, DT);
             posture = body.posture;
-            (posture, taken)
+            (posture, result)
         })
         .collect()
 }
@@ -57,9 +57,9 @@ fn sixty_seconds_of_load_move_nothing() {
         let level = friction.static_torque(&Sample { temperature: 30.0, ..Sample::at(1e-12) });
         for share in [0.9, -0.9] {
             let steps = pushed(&friction, &Joint::free(0.3), AT_REST, 60_000, |_| share * level);
-            let (posture, taken) = steps.last().unwrap();
+            let (posture, result) = steps.last().unwrap();
             assert_eq!(*posture, AT_REST, "{spec}");
-            assert_eq!(taken.friction, share * level, "{spec}");
+            assert_eq!(result.friction, share * level, "{spec}");
         }
     }
 }

@@ -88,7 +88,7 @@ impl Balance {
         channels: &Channels<'_>,
     ) -> Result<Option<Self>, BatchError> {
         let solve = Self::solves(spec, channels);
-        let own_gravity = is_lacking(spec, channels, Channel::ExternalTorque);
+        let own_gravity = is_missing(spec, channels, Channel::ExternalTorque);
         if !solve && !own_gravity {
             return Ok(None);
         }
@@ -109,7 +109,7 @@ impl Balance {
             }
             sample.external_torque = Dual::variable(sample.external_torque.value, 1);
             let load = load.and_then(|load| load.get(i)).copied().unwrap_or(0.0);
-            let row = OneRow { model: &model, sample, load };
+            let row = SampleBalance { model: &model, sample, load };
             let (motor, settled) = if solve {
                 row.solve()
             } else {
@@ -125,7 +125,7 @@ impl Balance {
 
     /// Whether the motor torque must be solved for.
     pub(super) fn solves(spec: &Spec, channels: &Channels<'_>) -> bool {
-        is_lacking(spec, channels, Channel::MotorTorque)
+        is_missing(spec, channels, Channel::MotorTorque)
     }
 
     /// Whether a channel that the model reads can be computed if it is missing.
@@ -202,7 +202,7 @@ impl Balance {
 }
 
 /// Whether the model reads a channel that is missing.
-fn is_lacking(spec: &Spec, channels: &Channels<'_>, channel: Channel) -> bool {
+fn is_missing(spec: &Spec, channels: &Channels<'_>, channel: Channel) -> bool {
     channels.get(channel).is_none() && spec.channels().any(|read| read == channel)
 }
 
@@ -216,7 +216,7 @@ fn own_gravity_at(model: &Model, position: Slopes) -> Slopes {
 }
 
 /// The balance equation of one sample.
-struct OneRow<'m> {
+struct SampleBalance<'m> {
     model: &'m Model,
     sample: Sample<Slopes>,
     load: f64,
@@ -250,7 +250,7 @@ impl Imbalance {
     }
 }
 
-impl OneRow<'_> {
+impl SampleBalance<'_> {
     fn at(&self, motor: f64) -> Imbalance {
         let sample = Sample { motor_torque: Dual::variable(motor, 0), ..self.sample };
         let torque = self.model.static_torque(&sample).value;

@@ -190,18 +190,18 @@ impl<'a> Columns<'a> {
                 && self.shift_load
                 && (delayed || Balance::solves(spec, &self.channels));
             match self.channels.get(channel) {
-                Some(column) if read || added => whole(channel.name(), column, rows)?,
+                Some(column) if read || added => check_column(channel.name(), column, rows)?,
                 None if read && !Balance::provides(spec, channel, self) => {
                     return Err(BatchError::Missing(channel));
                 }
                 _ => {}
             }
             if let (true, Some(column)) = (delayed, self.smooth.get(channel)) {
-                whole(channel.name(), column, rows)?;
+                check_column(channel.name(), column, rows)?;
             }
         }
         if let (true, Some(column)) = (spec.has_state(), self.mean_velocity) {
-            whole("mean_velocity", column, rows)?;
+            check_column("mean_velocity", column, rows)?;
         }
         if let (Some(pole), Some(temperature)) = (spec.pole(), self.channels.temperature) {
             let below = temperature.iter().any(|&t| t <= pole);
@@ -249,7 +249,7 @@ impl<'a> Columns<'a> {
     }
 }
 
-fn whole(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchError> {
+fn check_column(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchError> {
     if values.len() != rows {
         return Err(BatchError::Length { column, length: values.len(), rows });
     }

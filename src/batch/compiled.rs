@@ -69,7 +69,7 @@ impl Compiled {
                     if recent.len() == KEPT {
                         recent.remove(0);
                     }
-                    let compiled = Rc::new(Self::anew(&purpose));
+                    let compiled = Rc::new(Self::compile(&purpose));
                     recent.push((purpose, compiled));
                 }
                 recent.last().map(|(_, compiled)| Rc::clone(compiled))
@@ -77,7 +77,7 @@ impl Compiled {
             .unwrap_or_else(|| Rc::new(Self { schedule: Schedule::of(&[], &[]), width: 0 }))
     }
 
-    fn anew(purpose: &Purpose) -> Self {
+    fn compile(purpose: &Purpose) -> Self {
         let recorder = Recorder::default();
         let (torque, dry) = torque(purpose, &recorder);
         let torque = recorder.id(torque);
@@ -100,16 +100,16 @@ impl Compiled {
         let width = self.width;
         let mut torque = Vec::with_capacity(rows.count());
         let mut slopes = Vec::with_capacity(rows.count() * width);
-        let mut turned = vec![];
+        let mut transposed = vec![];
         self.each_block(values, rows, channels, columns, |block, outputs| {
             outputs[0].append_to(&mut torque, block.len());
             // Block by block, while they are in the first-level cache.
-            turned.resize(block.len() * width, 0.0);
+            transposed.resize(block.len() * width, 0.0);
             for (k, slope) in outputs[1..].iter().enumerate() {
                 // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
-                slope.add_to_each(0.0, turned[k..].iter_mut().step_by(width));
+                slope.add_to_each(0.0, transposed[k..].iter_mut().step_by(width));
             }
-            slopes.extend_from_slice(&turned);
+            slopes.extend_from_slice(&transposed);
         });
         (torque, slopes)
     }
@@ -123,25 +123,25 @@ impl Compiled {
         columns: &Columns<'_>,
         sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
     ) {
-        let mut given: Vec<&[f64]> =
+        let mut inputs: Vec<&[f64]> =
             Channel::ALL.iter().map(|&channel| channels.get(channel).unwrap_or_default()).collect();
-        given.push(columns.mean_velocity.unwrap_or_default());
+        inputs.push(columns.mean_velocity.unwrap_or_default());
         let steps: Cow<'_, [f64]>;
         let mut parameters = values.to_vec();
         if let Some(dt) = rows.uniform_step() {
             parameters.push(dt);
         } else {
             steps = rows.steps();
-            given.push(&steps);
+            inputs.push(&steps);
         }
-        let given = Inputs {
+        let inputs = Inputs {
             parameters: &parameters,
-            columns: &given,
+            columns: &inputs,
             rows: rows.count(),
             start: columns.state.first().copied().unwrap_or(0.0),
             starts: rows.starts(),
         };
-        graph::run(&self.schedule, &given, sink);
+        graph::run(&self.schedule, &inputs, sink);
     }
 }
 

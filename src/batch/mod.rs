@@ -25,9 +25,9 @@ use columns::Rows;
 use compiled::Compiled;
 
 /// Number of derivatives per pass over the samples.
-const MAX_AT_ONCE: usize = 16;
+const MAX_DIRECTIONS: usize = 16;
 /// Samples per block passed to a sink.
-const AT_ONCE: usize = 256;
+const BLOCK_LENGTH: usize = 256;
 
 /// The friction torque of every sample (T); for a model with memory at the end of the sample's
 /// step.
@@ -38,7 +38,7 @@ pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<
     let (torque, _) = if spec.with(values)?.runs_side_by_side() {
         side_by_side(spec, values, columns, &[], Locked::Refused)?
     } else {
-        one_by_one::<f64>(spec, values, columns, &[], Locked::Refused)?
+        sample_by_sample::<f64>(spec, values, columns, &[], Locked::Refused)?
     };
     Ok(torque)
 }
@@ -53,7 +53,7 @@ pub fn torque_single(
     values: &[f64],
     columns: &Columns<'_>,
 ) -> Result<Vec<f64>, BatchError> {
-    one_by_one::<f32>(spec, values, columns, &[], Locked::Refused).map(|(torque, _)| torque)
+    sample_by_sample::<f32>(spec, values, columns, &[], Locked::Refused).map(|(torque, _)| torque)
 }
 
 /// The friction torque of every sample, and its derivatives with respect to the `wanted` parameters
@@ -79,17 +79,17 @@ pub fn gradient(
     if spec.with(values)?.runs_side_by_side() {
         return side_by_side(spec, values, columns, wanted, Locked::Amplified);
     }
-    if wanted.len() <= MAX_AT_ONCE {
-        return gradient_at_once(spec, values, columns, wanted);
+    if wanted.len() <= MAX_DIRECTIONS {
+        return gradient_in_one_pass(spec, values, columns, wanted);
     }
     let mut torque = Vec::new();
     let mut jacobian = vec![0.0; columns.channels.velocity.len() * wanted.len()];
-    for (pass, some) in wanted.chunks(MAX_AT_ONCE).enumerate() {
-        let (same, part) = gradient_at_once(spec, values, columns, some)?;
+    for (pass, some) in wanted.chunks(MAX_DIRECTIONS).enumerate() {
+        let (same, part) = gradient_in_one_pass(spec, values, columns, some)?;
         torque = same;
         let rows = jacobian.chunks_exact_mut(wanted.len());
         for (row, part) in rows.zip(part.chunks_exact(some.len())) {
-            row[pass * MAX_AT_ONCE..][..some.len()].copy_from_slice(part);
+            row[pass * MAX_DIRECTIONS..][..some.len()].copy_from_slice(part);
         }
     }
     Ok((torque, jacobian))
@@ -118,9 +118,9 @@ pub(crate) fn blocks(
     }
     let (torque, slopes) = gradient(spec, values, columns, Some(wanted))?;
     let width = wanted.len();
-    let mut turned = vec![vec![0.0; AT_ONCE]; width];
-    for (block, torque) in torque.chunks(AT_ONCE).enumerate() {
-        let rows = block * AT_ONCE..block * AT_ONCE + torque.len();
+    let mut turned = vec![vec![0.0; BLOCK_LENGTH]; width];
+    for (block, torque) in torque.chunks(BLOCK_LENGTH).enumerate() {
+        let rows = block * BLOCK_LENGTH..block * BLOCK_LENGTH + torque.len();
         for (k, column) in turned.iter_mut().enumerate() {
             let slopes = slopes[rows.start * width..].iter().skip(k).step_by(width);
             column.iter_mut().zip(slopes).for_each(|(x, &slope)| *x = slope);
@@ -144,7 +144,7 @@ fn check_wanted(values: &[f64], wanted: &[usize]) -> Result<(), BatchError> {
     Ok(())
 }
 
-fn gradient_at_once(
+fn gradient_in_one_pass(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,
@@ -152,10 +152,10 @@ fn gradient_at_once(
 ) -> Result<(Vec<f64>, Vec<f64>), BatchError> {
     let locked = Locked::Amplified;
     match wanted.len() {
-        0 => one_by_one::<f64>(spec, values, columns, wanted, locked),
-        1..=4 => one_by_one::<Dual<f64, 4>>(spec, values, columns, wanted, locked),
-        5..=8 => one_by_one::<Dual<f64, 8>>(spec, values, columns, wanted, locked),
-        _ => one_by_one::<Dual<f64, MAX_AT_ONCE>>(spec, values, columns, wanted, locked),
+        0 => sample_by_sample::<f64>(spec, values, columns, wanted, locked),
+        1..=4 => sample_by_sample::<Dual<f64, 4>>(spec, values, columns, wanted, locked),
+        5..=8 => sample_by_sample::<Dual<f64, 8>>(spec, values, columns, wanted, locked),
+        _ => sample_by_sample::<Dual<f64, MAX_DIRECTIONS>>(spec, values, columns, wanted, locked),
     }
 }
 
@@ -253,7 +253,7 @@ impl<const N: usize> Single for Dual<f64, N> {
 }
 
 /// Evaluates sample by sample; every segment starts from the initial state.
-fn one_by_one<S: Single>(
+fn sample_by_sample<S: Single>(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,

@@ -50,21 +50,21 @@ pub(super) fn parse(text: &str) -> Result<(Program, FormulaNames<'_>), FormulaEr
     };
     parser.advance()?;
     if parser.token.kind == Kind::End {
-        return Err(parser.wrong(0, Reason::Empty));
+        return Err(parser.error_at(0, Reason::Empty));
     }
     parser.sum(0)?;
     match parser.token.kind {
         Kind::End => {}
         Kind::Close | Kind::Comma => {
-            return Err(parser.here(Reason::Unopened(parser.word())));
+            return Err(parser.error_here(Reason::Unopened(parser.word())));
         }
-        _ => return Err(parser.here(Reason::NoOperator(parser.word()))),
+        _ => return Err(parser.error_here(Reason::NoOperator(parser.word()))),
     }
     if parser.names.count == 0 {
-        return Err(parser.wrong(0, Reason::NoParameter));
+        return Err(parser.error_at(0, Reason::NoParameter));
     }
     if parser.program.depth() > MAX_DEPTH {
-        return Err(parser.here(Reason::TooLarge("values at a time", MAX_DEPTH)));
+        return Err(parser.error_here(Reason::TooLarge("values at a time", MAX_DEPTH)));
     }
     parser.program.parameter_count = parser.names.count;
     Ok((parser.program, parser.names))
@@ -128,7 +128,7 @@ impl<'a> Parser<'a> {
     fn unary(&mut self, depth: usize) -> Result<(), FormulaError<'a>> {
         let sign = self.token;
         if depth > MAX_DEPTH {
-            return Err(self.here(Reason::TooLarge("nested brackets", MAX_DEPTH)));
+            return Err(self.error_here(Reason::TooLarge("nested brackets", MAX_DEPTH)));
         }
         match sign.kind {
             Kind::Minus => {
@@ -167,8 +167,8 @@ impl<'a> Parser<'a> {
                 self.name(token, depth)
             }
             Kind::Open => self.bracket(depth).map(|_| ()),
-            Kind::End => Err(self.here(Reason::Unfinished)),
-            _ => Err(self.here(Reason::NoValue(self.word()))),
+            Kind::End => Err(self.error_here(Reason::Unfinished)),
+            _ => Err(self.error_here(Reason::NoValue(self.word()))),
         }
     }
 
@@ -179,17 +179,19 @@ impl<'a> Parser<'a> {
             Word::Function(function) if called => {
                 let given = self.bracket(depth)?;
                 if given != function.arity() {
-                    return Err(self.wrong(token.start, Reason::Arity(function, given)));
+                    return Err(self.error_at(token.start, Reason::Arity(function, given)));
                 }
                 self.emit(Operation::Call(function), token)
             }
-            Word::Function(function) => Err(self.wrong(token.start, Reason::NotCalled(function))),
+            Word::Function(function) => {
+                Err(self.error_at(token.start, Reason::NotCalled(function)))
+            }
             Word::Other if called => {
                 let near = vocabulary::nearest_function(name);
-                Err(self.wrong(token.start, Reason::UnknownFunction(name, near)))
+                Err(self.error_at(token.start, Reason::UnknownFunction(name, near)))
             }
             Word::Channel(_) | Word::Pi if called => {
-                Err(self.wrong(token.start, Reason::UnknownFunction(name, None)))
+                Err(self.error_at(token.start, Reason::UnknownFunction(name, None)))
             }
             Word::Channel(channel) => self.emit(Operation::Channel(channel), token),
             Word::Pi => self.number(core::f64::consts::PI, token),
@@ -204,11 +206,11 @@ impl<'a> Parser<'a> {
             _ => vocabulary::probably_meant(name).map(|near| Reason::Mistyped(name, near)),
         };
         if let Some(reason) = refusal {
-            return Err(self.wrong(token.start, reason));
+            return Err(self.error_at(token.start, reason));
         }
         match self.names.index(name) {
             Some(index) => self.emit(Operation::Parameter(index), token),
-            None => Err(self.wrong(token.start, Reason::TooLarge("parameters", MAX_PARAMETERS))),
+            None => Err(self.error_at(token.start, Reason::TooLarge("parameters", MAX_PARAMETERS))),
         }
     }
 
@@ -224,11 +226,11 @@ impl<'a> Parser<'a> {
             match self.token.kind {
                 Kind::Comma => self.advance()?,
                 Kind::Close if self.word() == closing => break,
-                Kind::Close => return Err(self.here(Reason::Unopened(self.word()))),
+                Kind::Close => return Err(self.error_here(Reason::Unopened(self.word()))),
                 Kind::End => {
-                    return Err(self.wrong(open.start, Reason::Unclosed(self.slice(open))));
+                    return Err(self.error_at(open.start, Reason::Unclosed(self.slice(open))));
                 }
-                _ => return Err(self.here(Reason::NoOperator(self.word()))),
+                _ => return Err(self.error_here(Reason::NoOperator(self.word()))),
             }
         }
         self.advance()?;
@@ -237,12 +239,12 @@ impl<'a> Parser<'a> {
 
     fn number(&mut self, number: f64, token: Token) -> Result<(), FormulaError<'a>> {
         if !number.is_finite() {
-            return Err(self.wrong(token.start, Reason::NotFinite));
+            return Err(self.error_at(token.start, Reason::NotFinite));
         }
         if self.program.push_constant(number) {
             return Ok(());
         }
-        Err(self.wrong(token.start, Reason::TooLarge("numbers", MAX_CONSTANTS)))
+        Err(self.error_at(token.start, Reason::TooLarge("numbers", MAX_CONSTANTS)))
     }
 
     /// Emits an operation. Constant expressions are computed at once, and integer powers become
@@ -260,7 +262,7 @@ impl<'a> Parser<'a> {
             }
             return self.number(number, token);
         } else if operation == Operation::Call(Function::Power)
-            && let Some(n) = self.whole_exponent()
+            && let Some(n) = self.integer_exponent()
         {
             self.program.pop_constant();
             self.program.push(Operation::IntegerPower(n))
@@ -270,7 +272,7 @@ impl<'a> Parser<'a> {
         if room {
             return Ok(());
         }
-        Err(self.wrong(token.start, Reason::TooLarge("operations", MAX_OPERATIONS)))
+        Err(self.error_at(token.start, Reason::TooLarge("operations", MAX_OPERATIONS)))
     }
 
     fn all_numbers(&self, count: usize) -> bool {
@@ -280,7 +282,7 @@ impl<'a> Parser<'a> {
 
     /// The constant exponent at the end of the program, if it is an integer of moderate size.
     #[allow(clippy::cast_possible_truncation)]
-    fn whole_exponent(&self) -> Option<i8> {
+    fn integer_exponent(&self) -> Option<i8> {
         let mut program = self.program;
         let exponent = program.pop_constant()?;
         let whole = exponent as i8;
@@ -295,11 +297,11 @@ impl<'a> Parser<'a> {
         self.text.get(token.start..token.end).unwrap_or_default()
     }
 
-    fn here(&self, reason: Reason<'a>) -> FormulaError<'a> {
-        self.wrong(self.token.start, reason)
+    fn error_here(&self, reason: Reason<'a>) -> FormulaError<'a> {
+        self.error_at(self.token.start, reason)
     }
 
-    fn wrong(&self, byte: usize, reason: Reason<'a>) -> FormulaError<'a> {
+    fn error_at(&self, byte: usize, reason: Reason<'a>) -> FormulaError<'a> {
         let before = self.text.get(..byte).unwrap_or_default();
         FormulaError { position: before.chars().count() + 1, reason }
     }
@@ -329,14 +331,14 @@ impl<'a> Parser<'a> {
                 let digits = rest.get(..length).unwrap_or_default();
                 match digits.parse() {
                     Ok(number) => (Kind::Number(number), length),
-                    Err(_) => return Err(self.wrong(start, Reason::Number(digits))),
+                    Err(_) => return Err(self.error_at(start, Reason::Number(digits))),
                 }
             }
             'a'..='z' | 'A'..='Z' | '_' => {
                 let inside = |c: char| c.is_ascii_alphanumeric() || c == '_';
                 (Kind::Name, rest.find(|c| !inside(c)).unwrap_or(rest.len()))
             }
-            other => return Err(self.wrong(start, Reason::Character(other))),
+            other => return Err(self.error_at(start, Reason::Character(other))),
         };
         self.token = Token { kind, start, end: start + length };
         self.at = start + length;

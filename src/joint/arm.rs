@@ -6,7 +6,7 @@
 //! `v+' N v dh/(2 dq2)` with `dM = N dh`: then kinetic energy changes exactly by the work of motors
 //! and friction.
 
-use super::coupling::{Taken, carry, friction_from, required};
+use super::coupling::{JointStep, advance_state, mean_friction, required};
 use super::gravity::{Gravity, GravityAbout};
 use super::root::Equation;
 use crate::composed::Composed;
@@ -126,9 +126,9 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
         posture: &mut ArmPosture<P>,
         push: &ArmPush<P>,
         dt: P,
-    ) -> [Taken<P>; 2] {
+    ) -> [JointStep<P>; 2] {
         let elapsed = P::zero();
-        let mut course = ArmCourse {
+        let mut step = ArmStep {
             arm: self,
             friction,
             states,
@@ -137,32 +137,32 @@ impl<P: Scalar<Plain = P> + PartialOrd> PlanarArm<P> {
             push,
             elapsed,
         };
-        let mut taken = [Taken::nothing(); 2];
+        let mut result = [JointStep::zero(); 2];
         for piece in 1..=MAX_PIECES {
-            let left = dt - course.elapsed;
+            let left = dt - step.elapsed;
             if left <= P::zero() {
                 break;
             }
-            let (mean, h, stopped) = course.piece(left, piece < MAX_PIECES);
-            course.go(&mut taken, mean, h, dt);
+            let (mean, h, stopped) = step.piece(left, piece < MAX_PIECES);
+            step.advance(&mut result, mean, h, dt);
             for (joint, stopped) in stopped.into_iter().enumerate() {
                 if stopped {
-                    course.posture.velocity[joint] = P::zero();
+                    step.posture.velocity[joint] = P::zero();
                 }
             }
             if h == left {
                 break;
             }
-            course.beginning = self.beginning(&course.posture);
+            step.beginning = self.beginning(&step.posture);
         }
-        *posture = course.posture;
-        taken
+        *posture = step.posture;
+        result
     }
 }
 
 /// The motion of a joint in a piece of a step.
 #[derive(Clone, Copy)]
-enum Way<P> {
+enum Mode<P> {
     /// Friction has a state: one torque for each velocity.
     Any,
     /// Dry friction acts against this direction, continued beyond rest.
@@ -172,7 +172,7 @@ enum Way<P> {
 }
 
 /// An arm within a step.
-struct ArmCourse<'a, P: Scalar + PartialOrd> {
+struct ArmStep<'a, P: Scalar + PartialOrd> {
     arm: &'a PlanarArm<P>,
     friction: [&'a Composed<P>; 2],
     states: &'a mut [State<P>; 2],
@@ -182,15 +182,15 @@ struct ArmCourse<'a, P: Scalar + PartialOrd> {
     elapsed: P,
 }
 
-impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
-    fn way(&self, joint: usize) -> Way<P> {
+impl<P: Scalar<Plain = P> + PartialOrd> ArmStep<'_, P> {
+    fn mode(&self, joint: usize) -> Mode<P> {
         let velocity = self.posture.velocity[joint];
         if !matches!(self.friction[joint].memory(), Memory::None) {
-            Way::Any
+            Mode::Any
         } else if velocity.abs() <= P::from_f64(EDGE) {
-            Way::Resting
+            Mode::Resting
         } else {
-            Way::Along(velocity.sign())
+            Mode::Along(velocity.sign())
         }
     }
 
@@ -219,7 +219,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
             _ => sample.velocity,
         };
         let acting = Sample { velocity, ..sample };
-        friction_from(self.friction[joint], &self.states[joint], &acting, h) - required(&sample)
+        mean_friction(self.friction[joint], &self.states[joint], &acting, h) - required(&sample)
     }
 
     /// The mean velocity of a joint at which the friction is the required one; `mean` gives both
@@ -232,10 +232,10 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
             let excess = |velocity| self.excess(joint, mean(velocity), h, direction);
             Equation { start, value: excess(start), slope, size }.solve(excess)
         };
-        match self.way(joint) {
-            Way::Any => root(before, None),
-            Way::Along(direction) => root(before, Some(direction)),
-            Way::Resting => {
+        match self.mode(joint) {
+            Mode::Any => root(before, None),
+            Mode::Along(direction) => root(before, Some(direction)),
+            Mode::Resting => {
                 let at_rest = mean(zero);
                 let one = P::one();
                 if self.excess(joint, at_rest, h, Some(one)) < zero {
@@ -264,7 +264,7 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
     fn overshoot(&self, mean: [P; 2]) -> P {
         let mut most = -P::one();
         for (joint, mean) in mean.into_iter().enumerate() {
-            if let Way::Along(direction) = self.way(joint) {
+            if let Mode::Along(direction) = self.mode(joint) {
                 let beyond = (self.posture.velocity[joint] - mean - mean) * direction;
                 let beyond = beyond / self.posture.velocity[joint].abs();
                 if beyond > most {
@@ -292,8 +292,8 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
         let h = left * if share < one { share } else { one };
         let mean = self.velocities(h);
         let near = P::from_f64(STOPPED);
-        let stopped = [0, 1].map(|joint| match self.way(joint) {
-            Way::Along(direction) => {
+        let stopped = [0, 1].map(|joint| match self.mode(joint) {
+            Mode::Along(direction) => {
                 let before = self.posture.velocity[joint];
                 (mean[joint] + mean[joint] - before) * direction <= near * before.abs()
             }
@@ -303,11 +303,11 @@ impl<P: Scalar<Plain = P> + PartialOrd> ArmCourse<'_, P> {
     }
 
     /// Advances the arm by a piece.
-    fn go(&mut self, taken: &mut [Taken<P>; 2], mean: [P; 2], h: P, dt: P) {
+    fn advance(&mut self, result: &mut [JointStep<P>; 2], mean: [P; 2], h: P, dt: P) {
         let samples = [0, 1].map(|joint| self.sample(joint, mean, h));
         for (joint, sample) in samples.iter().enumerate() {
-            carry(self.friction[joint], &mut self.states[joint], sample, h);
-            taken[joint].add(sample, required(sample), h, dt);
+            advance_state(self.friction[joint], &mut self.states[joint], sample, h);
+            result[joint].add(sample, required(sample), h, dt);
             self.posture.position[joint] += mean[joint] * h;
             let before = self.posture.velocity[joint];
             self.posture.velocity[joint] = mean[joint] + mean[joint] - before;

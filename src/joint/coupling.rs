@@ -23,7 +23,7 @@ const JAMMED: f64 = 1e-9;
 
 /// The result of a step: means over it (T), and work (J).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Taken<P> {
+pub struct JointStep<P> {
     /// Mean friction torque.
     pub friction: P,
     /// Mean load torque; its sum with friction is the mean motor torque.
@@ -36,8 +36,8 @@ pub struct Taken<P> {
     pub friction_work: P,
 }
 
-impl<P: Scalar + PartialOrd> Taken<P> {
-    pub(super) fn nothing() -> Self {
+impl<P: Scalar + PartialOrd> JointStep<P> {
+    pub(super) fn zero() -> Self {
         let zero = P::zero();
         Self {
             friction: zero,
@@ -66,26 +66,26 @@ pub fn step<P: Scalar<Plain = P> + PartialOrd>(
     state: &mut State<P>,
     body: &mut impl Body<P>,
     dt: P,
-) -> Taken<P> {
-    let mut course = Course { model, state, body, dt, taken: Taken::nothing() };
+) -> JointStep<P> {
+    let mut step = StepInProgress { model, state, body, dt, result: JointStep::zero() };
     if dt <= P::zero() {
-        return course.taken;
+        return step.result;
     }
     if matches!(model.memory(), Memory::None) {
-        course.in_pieces();
+        step.in_pieces();
     } else {
-        course.at_once();
+        step.in_one_piece();
     }
-    course.taken
+    step.result
 }
 
 /// A step in progress.
-struct Course<'a, P: Scalar + PartialOrd, B> {
+struct StepInProgress<'a, P: Scalar + PartialOrd, B> {
     model: &'a Composed<P>,
     state: &'a mut State<P>,
     body: &'a mut B,
     dt: P,
-    taken: Taken<P>,
+    result: JointStep<P>,
 }
 
 /// What happens in a piece of a step.
@@ -98,10 +98,10 @@ enum Piece<P> {
     Stops(P),
 }
 
-impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
+impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> StepInProgress<'_, P, B> {
     /// Mean friction torque over a piece, from the present state (T).
     fn friction(&self, sample: &Sample<P>, h: P) -> P {
-        friction_from(self.model, self.state, sample, h)
+        mean_friction(self.model, self.state, sample, h)
     }
 
     /// Friction minus the friction that the motion requires (T).
@@ -116,12 +116,12 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
         sample.motor_torque.abs() + sample.external_torque.abs() + momentum
     }
 
-    fn at_once(&mut self) {
+    fn in_one_piece(&mut self) {
         let (h, unbounded) = (self.dt, P::from_f64(f64::NEG_INFINITY));
         let first = self.body.sample(self.body.velocity(), h);
         let value = self.excess(&first, h);
         let means = self.slide(P::one(), &first, value, unbounded, h).unwrap_or(first);
-        self.go(&means, h);
+        self.advance(&means, h);
     }
 
     fn in_pieces(&mut self) {
@@ -131,11 +131,11 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
         }
         for _ in 0..MAX_PIECES {
             match self.piece(left) {
-                Piece::Slides(means) => return self.go(&means, left),
+                Piece::Slides(means) => return self.advance(&means, left),
                 Piece::Held => break,
                 Piece::Stops(after) => {
                     let mean = self.body.velocity() * P::from_f64(0.5);
-                    self.go(&self.body.sample(mean, after), after);
+                    self.advance(&self.body.sample(mean, after), after);
                     self.body.rest();
                     left = left - after;
                     if left <= P::zero() {
@@ -145,7 +145,7 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
             }
         }
         // At rest friction balances the other torques.
-        self.go(&self.body.sample(P::zero(), left), left);
+        self.advance(&self.body.sample(P::zero(), left), left);
     }
 
     /// What happens first in the next `h` (s).
@@ -234,9 +234,9 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> Course<'_, P, B> {
 
     /// Advances by a piece. Friction is what the motion requires: up to rounding that of the model,
     /// or between its limits where friction jumps with the load.
-    fn go(&mut self, means: &Sample<P>, h: P) {
-        carry(self.model, self.state, means, h);
-        self.taken.add(means, required(means), h, self.dt);
+    fn advance(&mut self, means: &Sample<P>, h: P) {
+        advance_state(self.model, self.state, means, h);
+        self.result.add(means, required(means), h, self.dt);
         self.body.advance(means.velocity, h);
     }
 }
@@ -247,7 +247,7 @@ pub(super) fn required<P: Scalar + PartialOrd>(sample: &Sample<P>) -> P {
 }
 
 /// Mean friction torque over `h` (s) at this sample; the state is left unchanged.
-pub(super) fn friction_from<P: Scalar<Plain = P> + PartialOrd>(
+pub(super) fn mean_friction<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &State<P>,
     sample: &Sample<P>,
@@ -262,7 +262,7 @@ pub(super) fn friction_from<P: Scalar<Plain = P> + PartialOrd>(
 }
 
 /// Advances the state by `h` (s) at this sample.
-pub(super) fn carry<P: Scalar<Plain = P> + PartialOrd>(
+pub(super) fn advance_state<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &mut State<P>,
     sample: &Sample<P>,

@@ -86,7 +86,7 @@ pub struct ElasticPosture<P> {
 impl<P: Scalar + PartialOrd> ElasticPosture<P> {
     /// Motor and load with the same position and velocity.
     #[must_use]
-    pub fn together(posture: Posture<P>) -> Self {
+    pub fn aligned(posture: Posture<P>) -> Self {
         Self { motor: posture, load: posture, twist: P::zero() }
     }
 }
@@ -107,15 +107,15 @@ impl<P: Scalar + PartialOrd> ElasticJoint<P> {
         &'a self,
         posture: ElasticPosture<P>,
         push: &'a Push<P>,
-    ) -> MovingApart<'a, P> {
+    ) -> MovingElastic<'a, P> {
         let ElasticPosture { motor, load, twist } = posture;
-        MovingApart { joint: self, push, motor, load: self.load.moving(load, push), twist }
+        MovingElastic { joint: self, push, motor, load: self.load.moving(load, push), twist }
     }
 }
 
 /// Motor and load within a step.
 #[derive(Clone, Copy, Debug)]
-pub struct MovingApart<'a, P> {
+pub struct MovingElastic<'a, P> {
     joint: &'a ElasticJoint<P>,
     push: &'a Push<P>,
     motor: Posture<P>,
@@ -123,7 +123,7 @@ pub struct MovingApart<'a, P> {
     twist: P,
 }
 
-impl<P: Scalar + PartialOrd> MovingApart<'_, P> {
+impl<P: Scalar + PartialOrd> MovingElastic<'_, P> {
     /// Positions and velocities reached so far.
     #[must_use]
     pub fn posture(&self) -> ElasticPosture<P> {
@@ -131,7 +131,7 @@ impl<P: Scalar + PartialOrd> MovingApart<'_, P> {
     }
 
     /// Mean torque of the transmission at these mean velocities (T).
-    fn between(&self, motor: P, load: P, h: P) -> P {
+    fn transmission_torque(&self, motor: P, load: P, h: P) -> P {
         self.joint.transmission.mean(self.twist, (motor - load) * h, h)
     }
 
@@ -139,16 +139,17 @@ impl<P: Scalar + PartialOrd> MovingApart<'_, P> {
     fn load_velocity(&self, motor: P, h: P) -> P {
         let start = self.load.velocity();
         let slope = self.load.inertia() / (h * P::from_f64(0.5));
-        let (pull, sample) = (self.between(motor, start, h), self.load.sample(start, h));
+        let (pull, sample) =
+            (self.transmission_torque(motor, start, h), self.load.sample(start, h));
         let value = sample.load_torque - pull;
         let size = pull.abs() + sample.external_torque.abs() + slope * start.abs();
         Equation { start, value, slope, size }.solve(|velocity| {
-            self.load.sample(velocity, h).load_torque - self.between(motor, velocity, h)
+            self.load.sample(velocity, h).load_torque - self.transmission_torque(motor, velocity, h)
         })
     }
 }
 
-impl<P: Scalar + PartialOrd> Body<P> for MovingApart<'_, P> {
+impl<P: Scalar + PartialOrd> Body<P> for MovingElastic<'_, P> {
     fn velocity(&self) -> P {
         self.motor.velocity
     }
@@ -161,7 +162,7 @@ impl<P: Scalar + PartialOrd> Body<P> for MovingApart<'_, P> {
         let half = P::from_f64(0.5);
         let acceleration = (velocity - self.motor.velocity) / (h * half);
         let load = self.load.sample(self.load_velocity(velocity, h), h);
-        let pull = self.between(velocity, load.velocity, h);
+        let pull = self.transmission_torque(velocity, load.velocity, h);
         Sample {
             velocity,
             position: self.motor.position + velocity * h * half,

@@ -73,7 +73,7 @@ pub struct Moving<'a, P> {
 
 impl<P: Scalar + PartialOrd> Moving<'_, P> {
     /// Mean torque of spring and damper over a piece (T).
-    fn tie(&self, velocity: P, h: P) -> P {
+    fn support_torque(&self, velocity: P, h: P) -> P {
         let middle = self.elapsed + h * P::from_f64(0.5);
         let support = self.push.support + self.push.support_velocity * middle;
         let stretch = support - self.posture.position - velocity * h * P::from_f64(0.5);
@@ -95,7 +95,7 @@ impl<P: Scalar + PartialOrd> Body<P> for Moving<'_, P> {
         let half = P::from_f64(0.5);
         let way = velocity * h;
         let acceleration = (velocity - self.posture.velocity) / (h * half);
-        let external = self.push.external + self.tie(velocity, h);
+        let external = self.push.external + self.support_torque(velocity, h);
         let gravity = self.gravity.mean(self.posture.position, way);
         Sample {
             velocity,

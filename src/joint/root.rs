@@ -49,9 +49,9 @@ impl<P: Scalar + PartialOrd> Equation<P> {
         if f_near.abs() <= settled {
             return Some(near);
         }
-        let mut way = -f_near / self.slope;
+        let mut distance = -f_near / self.slope;
         for _ in 0..MAX_WIDENED {
-            let far = near + way;
+            let far = near + distance;
             let beyond = far <= least;
             let far = if beyond { least } else { far };
             let f_far = function(far);
@@ -67,12 +67,12 @@ impl<P: Scalar + PartialOrd> Equation<P> {
             // Secant steps; twice the distance where the last one has not reduced the function
             // enough.
             let left = f_far / f_near;
-            let brought = left > P::zero() && left < half;
-            way *= if brought { left / (P::one() - left) } else { P::from_f64(2.0) };
+            let reduced = left > P::zero() && left < half;
+            distance *= if reduced { left / (P::one() - left) } else { P::from_f64(2.0) };
             // Next to a jump a secant step is too short: move by at least the rounding error.
             let shortest = rounding::<P>() * far.abs();
-            if way.abs() < shortest {
-                way = way.sign() * shortest;
+            if distance.abs() < shortest {
+                distance = distance.sign() * shortest;
             }
             (near, f_near) = (far, f_far);
         }

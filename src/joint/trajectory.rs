@@ -148,10 +148,10 @@ impl<P: Scalar + PartialOrd> Stroke<P> {
 
     fn at(&self, time: P) -> Reference<P> {
         let duration = self.duration();
-        let count = whole(time / duration);
+        let count = integer_part(time / duration);
         let begun = time - P::from_f64(count) * duration - self.dwell;
         let way = self.to - self.from;
-        let back = whole(P::from_f64(0.5 * count)) * 2.0 < count;
+        let back = integer_part(P::from_f64(0.5 * count)) * 2.0 < count;
         let (start, way) = if back { (self.to, -way) } else { (self.from, way) };
         let direction = way.sign();
         let along = self.profile.along(way.abs(), begun);
@@ -165,7 +165,7 @@ impl<P: Scalar + PartialOrd> Stroke<P> {
 
 /// The integer part of `x >= 0`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss)]
-fn whole<P: Scalar + PartialOrd>(x: P) -> f64 {
+fn integer_part<P: Scalar + PartialOrd>(x: P) -> f64 {
     x.value() as i64 as f64
 }
 

@@ -65,7 +65,7 @@ struct Range {
 }
 
 /// Examines all forces until the budget of evaluations is spent.
-pub fn look(
+pub fn examine(
     model: &Composed<Enclosure>,
     regions: &[Region],
     channels: &[Channel],
@@ -114,7 +114,7 @@ pub fn look(
             continue;
         }
         let inside = reach.inner[0] < middle && middle < reach.inner[1];
-        if inside && let Some((points, sum)) = breaking(model, channels, &range, middle) {
+        if inside && let Some((points, sum)) = violating_points(model, channels, &range, middle) {
             return Outcome::Active { force: middle, points, sum };
         }
         if !(range.force.lower < middle && middle < range.force.upper) {
@@ -148,7 +148,7 @@ fn refine<'a>(up: &mut Search<'a>, down: &mut Search<'a>, share: usize) {
 }
 
 /// Points that violate the condition at one force.
-fn breaking(
+fn violating_points(
     model: &Composed<Enclosure>,
     channels: &[Channel],
     range: &Range,

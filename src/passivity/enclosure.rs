@@ -108,7 +108,7 @@ impl Enclosure {
     }
 
     /// Sine or cosine, with its maxima at `crest` and its minima at `trough`, modulo 2 pi.
-    fn wave(self, crest: f64, trough: f64, function: impl Fn(f64) -> f64) -> Self {
+    fn sin_or_cos(self, crest: f64, trough: f64, function: impl Fn(f64) -> f64) -> Self {
         if !(self.lower.is_finite() && self.upper.is_finite()) {
             return Self { lower: -1.0, upper: 1.0 };
         }
@@ -348,11 +348,11 @@ impl Real for Enclosure {
 
     fn sin(self) -> Self {
         let quarter = core::f64::consts::FRAC_PI_2;
-        self.wave(quarter, -quarter, elementary::sin)
+        self.sin_or_cos(quarter, -quarter, elementary::sin)
     }
 
     fn cos(self) -> Self {
-        self.wave(0.0, core::f64::consts::PI, elementary::cos)
+        self.sin_or_cos(0.0, core::f64::consts::PI, elementary::cos)
     }
 
     fn sin_cos(self) -> (Self, Self) {

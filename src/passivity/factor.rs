@@ -22,10 +22,10 @@ use crate::scalar::Dual;
 use crate::table::Channel;
 
 /// Relative distance of the bounds at which the search ends.
-const CLOSE: f64 = 5e-3;
+const TOLERANCE: f64 = 5e-3;
 
 /// Number of derivatives per evaluation.
-const AT_ONCE: usize = 8;
+const DERIVATIVES_PER_PASS: usize = 8;
 
 /// The largest admissible factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,7 @@ pub fn largest_factor(
     let channels: Vec<_> = sides.iter().map(|side| side.channel).collect();
     let regions = pieces(sides);
     let mut search = Search::over(&regions, &channels, &share);
-    search.run(budget, |s| s.upper() - s.lower() <= CLOSE * s.upper().abs());
+    search.run(budget, |s| s.upper() - s.lower() <= TOLERANCE * s.upper().abs());
     let (at_point, point) = search.best.map_or((f64::INFINITY, None), |(x, at)| (x, Some(at)));
     Ok(Factor { proved: search.lower(), at_point, point })
 }
@@ -100,7 +100,7 @@ impl Pair {
 /// The difference of friction from its nominal value when its parameters vary.
 struct Spread {
     /// The model with derivatives with respect to some parameters, and the deviations of these.
-    parts: Vec<(Composed<Dual<Enclosure, AT_ONCE>>, Vec<Enclosure>)>,
+    parts: Vec<(Composed<Dual<Enclosure, DERIVATIVES_PER_PASS>>, Vec<Enclosure>)>,
 }
 
 impl Spread {
@@ -118,7 +118,7 @@ impl Spread {
             let off = some.iter().map(|&k| bounds[k] - Enclosure::point(values[k])).collect();
             Ok::<_, ModelError<'static>>((spec.with(&variables)?, off))
         };
-        let parts = uncertain.chunks(AT_ONCE).map(part).collect::<Result<_, _>>()?;
+        let parts = uncertain.chunks(DERIVATIVES_PER_PASS).map(part).collect::<Result<_, _>>()?;
         Ok(Self { parts })
     }
 

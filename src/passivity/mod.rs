@@ -46,11 +46,11 @@ use region::{Region, faster_than, pieces};
 use search::Search;
 
 /// Relative accuracy of a reported margin.
-const CLOSE: f64 = 1e-3;
+const TOLERANCE: f64 = 1e-3;
 
 /// Share of the largest speed above which counterexamples are searched first: a real joint can
 /// follow them.
-const BRISK: f64 = 1e-3;
+const REALISTIC_SPEED: f64 = 1e-3;
 
 /// A condition of passivity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -307,13 +307,13 @@ impl<'a> Task<'a> {
         }
         let reach = self.reach();
         let [slowest, fastest] = self.speeds();
-        let brisk = faster_than(&self.regions, BRISK * fastest.max(-slowest));
+        let brisk = faster_than(&self.regions, REALISTIC_SPEED * fastest.max(-slowest));
         let look = |regions: &[Region], budget| {
-            cycles::look(&self.bounded, regions, &self.channels, reach, budget)
+            cycles::examine(&self.bounded, regions, &self.channels, reach, budget)
         };
         verdict.condition = Condition::Cycle;
         verdict.open = None;
-        if self.broken_by(&look(&brisk, self.budget / 4), reach, verdict) {
+        if self.is_violated_by(&look(&brisk, self.budget / 4), reach, verdict) {
             return;
         }
         let found = look(&self.regions, self.budget);
@@ -322,7 +322,7 @@ impl<'a> Task<'a> {
             verdict.margins.push(Margin { condition, lower, upper: None, point: None });
             (verdict.passive, verdict.condition) = (Some(true), condition);
         } else {
-            self.broken_by(&found, reach, verdict);
+            self.is_violated_by(&found, reach, verdict);
         }
         if let Outcome::Undecided { force, points: Some([up, down]) } = found {
             verdict.open = Some(Requirement::Cycle { force, up, down });
@@ -330,7 +330,7 @@ impl<'a> Task<'a> {
     }
 
     /// Whether a cycle was found that generates energy when simulated.
-    fn broken_by(&self, outcome: &Outcome, reach: Reach, verdict: &mut Verdict) -> bool {
+    fn is_violated_by(&self, outcome: &Outcome, reach: Reach, verdict: &mut Verdict) -> bool {
         let Outcome::Active { force, points: [up, down], sum } = outcome else { return false };
         verdict.open = Some(Requirement::Cycle { force: *force, up: *up, down: *down });
         if !self.is_free() {
@@ -376,7 +376,7 @@ impl<'a> Task<'a> {
             let (lower, upper) = (s.lower(), s.upper());
             let decided = lower >= 0.0 || upper < 0.0;
             let size = lower.abs().max(upper.abs());
-            decided && (upper - lower <= CLOSE * size || s.evaluations > share)
+            decided && (upper - lower <= TOLERANCE * size || s.evaluations > share)
         });
         // Without motion there is no friction.
         let lower = if self.regions.is_empty() { 0.0 } else { search.lower() };

@@ -9,7 +9,7 @@ use crate::table::Channel;
 
 /// Smaller values count as zero: far below any motion, far above the range where products
 /// underflow.
-pub const LEAST: f64 = 1e-30;
+pub const SMALLEST: f64 = 1e-30;
 
 /// A box of operating points; a channel that is not read is zero.
 pub type Region = Sample<Enclosure>;
@@ -46,14 +46,14 @@ pub fn pieces(sides: &[Side]) -> Vec<Region> {
 
 fn parts(side: &Side) -> Vec<Enclosure> {
     let mut parts = Vec::new();
-    if side.lower <= -LEAST {
-        parts.push(Enclosure::new(side.lower, side.upper.min(-LEAST)));
+    if side.lower <= -SMALLEST {
+        parts.push(Enclosure::new(side.lower, side.upper.min(-SMALLEST)));
     }
-    if side.upper >= LEAST {
-        parts.push(Enclosure::new(side.lower.max(LEAST), side.upper));
+    if side.upper >= SMALLEST {
+        parts.push(Enclosure::new(side.lower.max(SMALLEST), side.upper));
     }
     // At rest nothing is dissipated or generated.
-    if side.channel != Channel::Velocity && side.lower < LEAST && side.upper > -LEAST {
+    if side.channel != Channel::Velocity && side.lower < SMALLEST && side.upper > -SMALLEST {
         parts.push(Enclosure::point(0.0));
     }
     parts

@@ -32,7 +32,7 @@ pub struct Counterexample {
 const LONG: f64 = 1.0;
 
 /// Share of the largest energy stored in the bristle that suffices as generated energy.
-const ENOUGH: f64 = 0.01;
+const SUFFICIENT_SHARE: f64 = 0.01;
 
 /// Number of cycle sizes that are tried, each half of the one before.
 const SIZES: usize = 40;
@@ -92,7 +92,7 @@ pub fn cycle(
     let mut best = of_any_size(model, force, reached, [up, down])?;
     let strongest = reached[0].abs().max(reached[1].abs());
     let stored = 0.5 * strongest * strongest / model.deflection(up)?.stiffness;
-    let enough = (0.5 * best.work).max(-ENOUGH * stored);
+    let enough = (0.5 * best.work).max(-SUFFICIENT_SHARE * stored);
     let half = |points: [&Point; 2]| {
         of_any_size(model, force, reached, points).filter(|cycle| cycle.work <= enough)
     };

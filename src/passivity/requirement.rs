@@ -12,7 +12,7 @@ use crate::error::ModelError;
 use crate::scalar::{Dual, Real, Scalar};
 
 /// Number of derivatives per evaluation.
-const AT_ONCE: usize = 8;
+const DERIVATIVES_PER_PASS: usize = 8;
 
 /// A condition that holds where its margin is not negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,11 +85,11 @@ impl Requirement {
         values: &[f64],
     ) -> Result<(f64, Vec<f64>), ModelError<'static>> {
         let mut variables: Vec<_> =
-            values.iter().map(|&x| Dual::<f64, AT_ONCE>::constant(x)).collect();
+            values.iter().map(|&x| Dual::<f64, DERIVATIVES_PER_PASS>::constant(x)).collect();
         let mut margin = 0.0;
         let mut slopes = Vec::with_capacity(values.len());
-        for first in (0..values.len()).step_by(AT_ONCE) {
-            let some = first..values.len().min(first + AT_ONCE);
+        for first in (0..values.len()).step_by(DERIVATIVES_PER_PASS) {
+            let some = first..values.len().min(first + DERIVATIVES_PER_PASS);
             for (direction, k) in some.clone().enumerate() {
                 variables[k] = Dual::variable(values[k], direction);
             }

@@ -74,7 +74,7 @@ impl<'a> Search<'a> {
             let halves = halves(region, channel)?;
             let flat = (self.function)(&flattened(region, channel));
             let bound = flat.map_or(f64::INFINITY, |value| value.lower);
-            Some((bound, breadth(region.channel(channel)), halves))
+            Some((bound, relative_width(region.channel(channel)), halves))
         });
         let order =
             |a: &(f64, f64, _), b: &(f64, f64, _)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
 }
 
 /// Relative width: 1 where the ends differ by decades.
-fn breadth(side: Enclosure) -> f64 {
+fn relative_width(side: Enclosure) -> f64 {
     (side.upper - side.lower) / side.upper.abs().max(side.lower.abs()).max(f64::MIN_POSITIVE)
 }
 

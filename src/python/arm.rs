@@ -14,7 +14,7 @@ use super::model::Model;
 use super::{ModelError, refuse};
 use crate::composed::Composed;
 use crate::dynamics::State;
-use crate::joint::{ArmPosture, ArmPush, Controller, Effort, PlanarArm, Reference, Taken};
+use crate::joint::{ArmPosture, ArmPush, Controller, Effort, JointStep, PlanarArm, Reference};
 
 /// Inertial parameters of the arm.
 #[derive(FromPyObject)]
@@ -108,14 +108,14 @@ pub(super) fn simulate_arm<'py>(
     answer.set_item("position", matrix(motion.postures.iter().map(|p| p.position), py)?)?;
     answer.set_item("velocity", matrix(motion.postures.iter().map(|p| p.velocity), py)?)?;
     answer.set_item("torque", matrix(motion.motor.iter().copied(), py)?)?;
-    let column = |name: &str, pick: fn(&Taken<f64>) -> f64| -> PyResult<()> {
-        let rows = motion.taken.iter().map(|taken| [pick(&taken[0]), pick(&taken[1])]);
+    let column = |name: &str, pick: fn(&JointStep<f64>) -> f64| -> PyResult<()> {
+        let rows = motion.result.iter().map(|result| [pick(&result[0]), pick(&result[1])]);
         answer.set_item(name, matrix(rows, py)?)
     };
-    column("load_torque", |taken| taken.load)?;
-    column("friction_torque", |taken| taken.friction)?;
-    column("motor_work", |taken| taken.motor_work)?;
-    column("friction_work", |taken| taken.friction_work)?;
+    column("load_torque", |result| result.load)?;
+    column("friction_torque", |result| result.friction)?;
+    column("motor_work", |result| result.motor_work)?;
+    column("friction_work", |result| result.friction_work)?;
     Ok(answer)
 }
 
@@ -133,7 +133,7 @@ fn matrix<'py>(
 struct Motion {
     postures: Vec<ArmPosture<f64>>,
     motor: Vec<[f64; 2]>,
-    taken: Vec<[Taken<f64>; 2]>,
+    result: Vec<[JointStep<f64>; 2]>,
 }
 
 fn run(
@@ -146,7 +146,7 @@ fn run(
 ) -> PyResult<Motion> {
     let (mut posture, mut states) = (start, [State::default(); 2]);
     let mut efforts = [Effort::default(); 2];
-    let mut motion = Motion { postures: [posture].into(), motor: Vec::new(), taken: Vec::new() };
+    let mut motion = Motion { postures: [posture].into(), motor: Vec::new(), result: Vec::new() };
     for (k, torque) in columns.torque.iter().enumerate() {
         let mut motor = *torque;
         for joint in 0..2 {
@@ -161,14 +161,14 @@ fn run(
         let time = k as f64 * dt;
         let push = ArmPush { motor, temperature: columns.temperature[k], time };
         let [first, second] = friction;
-        let taken = arm.step([first, second], &mut states, &mut posture, &push, dt);
+        let result = arm.step([first, second], &mut states, &mut posture, &push, dt);
         if !posture.position.iter().chain(&posture.velocity).all(|x| x.is_finite()) {
             let message = format!("the motion is not finite after {time} s");
             return Err(ModelError::new_err(message));
         }
         motion.postures.push(posture);
         motion.motor.push(motor);
-        motion.taken.push(taken);
+        motion.result.push(result);
     }
     Ok(motion)
 }

@@ -16,7 +16,7 @@ use super::{ModelError, refuse};
 use crate::composed::Composed;
 use crate::dynamics::State;
 use crate::joint::{
-    self, Compensator, Controller, Effort, Joint, Observer, Posture, Push, Reference, Taken,
+    self, Compensator, Controller, Effort, Joint, JointStep, Observer, Posture, Push, Reference,
 };
 use crate::passivity;
 use crate::sample::Sample;
@@ -24,7 +24,7 @@ use crate::sample::Sample;
 /// Inputs of a control loop, one row per step.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(super) struct Given<'py> {
+pub(super) struct LoopInputs<'py> {
     position: Array<'py>,
     velocity: Array<'py>,
     acceleration: Array<'py>,
@@ -71,9 +71,9 @@ struct Loop<'a> {
 }
 
 /// The simulated signals.
-struct Course {
+struct Signals {
     postures: Vec<Posture<f64>>,
-    taken: Vec<Taken<f64>>,
+    taken: Vec<JointStep<f64>>,
     motor: Vec<f64>,
     controller: Vec<f64>,
     compensation: Vec<f64>,
@@ -94,7 +94,7 @@ pub(super) fn compensate<'py>(
     model: &Model,
     values: Array<'py>,
     joint: Sizes,
-    given: Given<'py>,
+    given: LoopInputs<'py>,
     dt: f64,
     controller: Gains,
     compensator: Option<Cancels<'py>>,
@@ -140,7 +140,7 @@ pub(super) fn compensate<'py>(
     Ok(answer)
 }
 
-fn rows(given: &Given<'_>) -> PyResult<Vec<Reference<f64>>> {
+fn rows(given: &LoopInputs<'_>) -> PyResult<Vec<Reference<f64>>> {
     let [position, velocity, acceleration] =
         [&given.position, &given.velocity, &given.acceleration].map(contiguous);
     let count = contiguous(&given.temperature).len();
@@ -166,8 +166,8 @@ impl Loop<'_> {
         desired: &[Reference<f64>],
         temperature: &[f64],
         dt: f64,
-    ) -> PyResult<Course> {
-        let mut course = Course::of(desired.len());
+    ) -> PyResult<Signals> {
+        let mut course = Signals::of(desired.len());
         let (mut state, mut effort) = (State::default(), Effort::default());
         let mut at = desired.first().map_or(Posture { position: 0.0, velocity: 0.0 }, |first| {
             Posture { position: first.position, velocity: first.velocity }
@@ -250,7 +250,7 @@ impl Loop<'_> {
     }
 }
 
-impl Course {
+impl Signals {
     fn of(count: usize) -> Self {
         Self {
             postures: Vec::with_capacity(count + 1),

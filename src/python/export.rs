@@ -23,7 +23,7 @@ pub(super) fn program<'py>(
     let program = program.map_err(refuse)?;
     let operations = PyList::empty(py);
     for &own in &program.operations {
-        let (name, said) = said(py, own)?;
+        let (name, said) = describe(py, own)?;
         operations.append((name, own.operands(), said))?;
     }
     let states = PyList::empty(py);
@@ -48,7 +48,7 @@ pub(super) fn program<'py>(
 }
 
 /// The name of an operation, and its data apart from the operands.
-fn said(py: Python<'_>, operation: Operation) -> PyResult<(&'static str, Bound<'_, PyAny>)> {
+fn describe(py: Python<'_>, operation: Operation) -> PyResult<(&'static str, Bound<'_, PyAny>)> {
     let none = || py.None().into_bound(py);
     Ok(match operation {
         Operation::Constant(bits) => {

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 
 use super::columns::{Arguments, Array, contiguous};
 use super::model::Model;
-use super::normal::{bad, row_by_row};
+use super::normal::{row_by_row, shape_error};
 use super::{ModelError, refuse};
 use crate::batch::BatchError;
 use crate::identify::{self, Bounds, LeastSquares, Outcome, Problem, Search, Steps, Triangle};
@@ -135,7 +135,8 @@ fn stacked<'py>(
     width: usize,
 ) -> PyResult<Bound<'py, PyArray3<f64>>> {
     let factors = made.iter().flat_map(|triangle| triangle.factor().iter().copied()).collect();
-    let factors = Array3::from_shape_vec((made.len(), width, width), factors).map_err(bad)?;
+    let factors =
+        Array3::from_shape_vec((made.len(), width, width), factors).map_err(shape_error)?;
     Ok(factors.into_pyarray(py))
 }
 

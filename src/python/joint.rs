@@ -15,7 +15,7 @@ use crate::composed::Composed;
 use crate::dynamics::State;
 use crate::joint::{
     self, Controller, Effort, ElasticJoint, ElasticPosture, Fourier, Gravity, HARMONICS, Joint,
-    Posture, Profile, Push, Reference, Stroke, Taken, Trajectory, Transmission,
+    JointStep, Posture, Profile, Push, Reference, Stroke, Trajectory, Transmission,
 };
 
 /// Parameters of a joint.
@@ -41,14 +41,14 @@ impl Sizes {
 /// The transmission between motor and load.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
-pub(super) struct Apart {
+pub(super) struct TransmissionSizes {
     motor_inertia: f64,
     stiffness: f64,
     damping: f64,
     backlash: f64,
 }
 
-impl Apart {
+impl TransmissionSizes {
     fn joint(&self, load: Joint<f64>) -> ElasticJoint<f64> {
         let Self { motor_inertia, stiffness, damping, backlash } = *self;
         ElasticJoint {
@@ -80,19 +80,19 @@ impl Mechanism {
         state: &mut State<f64>,
         push: &Push<f64>,
         dt: f64,
-    ) -> Taken<f64> {
+    ) -> JointStep<f64> {
         match self {
             Self::Rigid(joint, posture) => {
                 let mut body = joint.moving(*posture, push);
-                let taken = joint::step(friction, state, &mut body, dt);
+                let result = joint::step(friction, state, &mut body, dt);
                 *posture = body.posture;
-                taken
+                result
             }
             Self::Elastic(joint, apart) => {
                 let mut body = joint.moving(*apart, push);
-                let taken = joint::step(friction, state, &mut body, dt);
+                let result = joint::step(friction, state, &mut body, dt);
                 *apart = body.posture();
-                taken
+                result
             }
         }
     }
@@ -202,7 +202,7 @@ impl<'a> Columns<'a> {
 struct Motion {
     postures: Vec<[Posture<f64>; 2]>,
     motor: Vec<f64>,
-    taken: Vec<Taken<f64>>,
+    result: Vec<JointStep<f64>>,
 }
 
 /// Simulates a joint with friction step by step: dict of `position`, `velocity`, `load_position`
@@ -221,14 +221,14 @@ pub(super) fn simulate<'py>(
     start: (f64, f64),
     deflection: f64,
     controller: Option<Gains>,
-    transmission: Option<Apart>,
+    transmission: Option<TransmissionSizes>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let friction = model.spec.with(&contiguous(&values)).map_err(refuse)?;
     let (joint, columns) = (joint.joint(), Columns::of(&acting)?);
     let controller = controller.map(|gains| gains.controller());
     let start = Posture { position: start.0, velocity: start.1 };
     let mechanism = match transmission {
-        Some(apart) => Mechanism::Elastic(apart.joint(joint), ElasticPosture::together(start)),
+        Some(apart) => Mechanism::Elastic(apart.joint(joint), ElasticPosture::aligned(start)),
         None => Mechanism::Rigid(joint, start),
     };
     let state = State::deflected(deflection);
@@ -242,14 +242,14 @@ pub(super) fn simulate<'py>(
     answer.set_item("load_position", place(|[_, load]| load.position))?;
     answer.set_item("load_velocity", place(|[_, load]| load.velocity))?;
     answer.set_item("torque", motion.motor.into_pyarray(py))?;
-    let column = |pick: fn(&Taken<f64>) -> f64| {
-        motion.taken.iter().map(pick).collect::<Vec<_>>().into_pyarray(py)
+    let column = |pick: fn(&JointStep<f64>) -> f64| {
+        motion.result.iter().map(pick).collect::<Vec<_>>().into_pyarray(py)
     };
-    answer.set_item("load_torque", column(|taken| taken.load))?;
-    answer.set_item("friction_torque", column(|taken| taken.friction))?;
-    answer.set_item("motor_work", column(|taken| taken.motor_work))?;
-    answer.set_item("environment_work", column(|taken| taken.environment_work))?;
-    answer.set_item("friction_work", column(|taken| taken.friction_work))?;
+    answer.set_item("load_torque", column(|result| result.load))?;
+    answer.set_item("friction_torque", column(|result| result.friction))?;
+    answer.set_item("motor_work", column(|result| result.motor_work))?;
+    answer.set_item("environment_work", column(|result| result.environment_work))?;
+    answer.set_item("friction_work", column(|result| result.friction_work))?;
     Ok(answer)
 }
 
@@ -265,7 +265,7 @@ fn run(
     let mut motion = Motion {
         postures: Vec::with_capacity(count + 1),
         motor: Vec::with_capacity(count),
-        taken: Vec::with_capacity(count),
+        result: Vec::with_capacity(count),
     };
     let mut at = mechanism.postures();
     motion.postures.push(at);
@@ -276,7 +276,7 @@ fn run(
             controller.torque(&mut effort, &columns.desired(k), measured, torque, dt)
         });
         let push = columns.push(k, motor);
-        let taken = mechanism.step(friction, &mut state, &push, dt);
+        let result = mechanism.step(friction, &mut state, &push, dt);
         at = mechanism.postures();
         if !at.iter().all(|at| at.position.is_finite() && at.velocity.is_finite()) {
             let message = format!("the motion is not finite after {} s", columns.time[k]);
@@ -284,7 +284,7 @@ fn run(
         }
         motion.postures.push(at);
         motion.motor.push(motor);
-        motion.taken.push(taken);
+        motion.result.push(result);
     }
     Ok(motion)
 }

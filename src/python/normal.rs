@@ -34,8 +34,8 @@ pub fn normal_equations<'py>(
         .detach(|| batch::normal_equations(&rows, p, &residual, &group, groups))
         .map_err(refuse)?;
     let NormalEquations { matrix, vector, square } = sums;
-    let matrix = Array3::from_shape_vec((groups, p, p), matrix).map_err(bad)?;
-    let vector = Array2::from_shape_vec((groups, p), vector).map_err(bad)?;
+    let matrix = Array3::from_shape_vec((groups, p, p), matrix).map_err(shape_error)?;
+    let vector = Array2::from_shape_vec((groups, p), vector).map_err(shape_error)?;
     Ok((matrix.into_pyarray(py), vector.into_pyarray(py), square.into_pyarray(py)))
 }
 
@@ -46,6 +46,6 @@ pub(super) fn row_by_row<'a>(matrix: &'a ArrayView2<'_, f64>) -> Cow<'a, [f64]> 
     }
 }
 
-pub(super) fn bad(error: numpy::ndarray::ShapeError) -> PyErr {
+pub(super) fn shape_error(error: numpy::ndarray::ShapeError) -> PyErr {
     ModelError::new_err(error.to_string())
 }
