@@ -14,20 +14,20 @@ pub use crate::table::{
 };
 
 macro_rules! laws {
-    ($($law:ident),+; $own:ident) => {
+    ($($law:ident),+; $by_formula:ident) => {
         /// The id of a law.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs)]
         pub enum LawId {
             $($law,)+
-            $own,
+            $by_formula,
         }
 
         /// A law with its parameter values.
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub(crate) enum Law<S> {
             $($law(law::$law<S>),)+
-            $own(law::$own<S>),
+            $by_formula(law::$by_formula<S>),
         }
 
         impl LawId {
@@ -39,7 +39,7 @@ macro_rules! laws {
             pub const fn info(self) -> &'static LawInfo {
                 match self {
                     $(Self::$law => const { &<law::$law<f64> as FrictionLaw<f64>>::INFO },)+
-                    Self::$own => const { &<law::$own<f64> as FrictionLaw<f64>>::INFO },
+                    Self::$by_formula => const { &<law::$by_formula<f64> as FrictionLaw<f64>>::INFO },
                 }
             }
 
@@ -48,7 +48,7 @@ macro_rules! laws {
             pub const fn memory(self) -> Memory {
                 match self {
                     $(Self::$law => <law::$law<f64> as FrictionLaw<f64>>::MEMORY,)+
-                    Self::$own => <law::$own<f64> as FrictionLaw<f64>>::MEMORY,
+                    Self::$by_formula => <law::$by_formula<f64> as FrictionLaw<f64>>::MEMORY,
                 }
             }
 
@@ -57,7 +57,7 @@ macro_rules! laws {
             pub(crate) fn read<S: Real>(self, next: impl FnMut(Presence) -> S) -> Law<S> {
                 match self {
                     $(Self::$law => Law::$law(law::$law::read(next)),)+
-                    Self::$own => Law::$own(law::$own::read(next)),
+                    Self::$by_formula => Law::$by_formula(law::$by_formula::read(next)),
                 }
             }
         }
@@ -72,7 +72,7 @@ macro_rules! laws {
             ) -> Split<S> {
                 match self {
                     $(Self::$law(law) => law.split(sample, constants),)+
-                    Self::$own(law) => law.split(sample, constants),
+                    Self::$by_formula(law) => law.split(sample, constants),
                 }
             }
 
@@ -87,7 +87,7 @@ macro_rules! laws {
             ) -> S {
                 match self {
                     $(Self::$law(law) => law.split(sample, constants).torque(direction),)+
-                    Self::$own(law) => law.split(sample, constants).torque(direction),
+                    Self::$by_formula(law) => law.split(sample, constants).torque(direction),
                 }
             }
 
@@ -100,7 +100,7 @@ macro_rules! laws {
             ) -> Option<Bristle<S>> {
                 match self {
                     $(Self::$law(law) => law.bristle(sample, constants),)+
-                    Self::$own(law) => law.bristle(sample, constants),
+                    Self::$by_formula(law) => law.bristle(sample, constants),
                 }
             }
 
@@ -116,7 +116,7 @@ macro_rules! laws {
             {
                 match self {
                     $(Self::$law(law) => law.deflection(sample, constants),)+
-                    Self::$own(law) => law.deflection(sample, constants),
+                    Self::$by_formula(law) => law.deflection(sample, constants),
                 }
             }
 
@@ -132,7 +132,7 @@ macro_rules! laws {
             ) -> Step<S> {
                 match self {
                     $(Self::$law(law) => law.step(state, dry, split, interval, constants),)+
-                    Self::$own(law) => law.step(state, dry, split, interval, constants),
+                    Self::$by_formula(law) => law.step(state, dry, split, interval, constants),
                 }
             }
         }

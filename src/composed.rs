@@ -6,7 +6,7 @@ use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Deflection, Interval, LONG, Memory, State, Step};
 use crate::error::ModelError;
-use crate::formula::{Formula, OwnTerms};
+use crate::formula::{Formula, FormulaTerms};
 use crate::sample::{Sample, Split};
 use crate::scalar::{Real, Scalar};
 use crate::table::{self, Channel, ParameterInfo, Pole, Presence, Role};
@@ -15,7 +15,7 @@ use crate::table::{self, Channel, ParameterInfo, Pole, Presence, Role};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spec {
     law: LawId,
-    own: Option<Formula>,
+    formula: Option<Formula>,
     effects: EffectSet,
     constants: Constants<f64>,
 }
@@ -30,7 +30,7 @@ impl Spec {
         law: &'a str,
         effects: impl IntoIterator<Item = &'a str>,
     ) -> Result<Self, ModelError<'a>> {
-        let (id, elements) = cut(law, b':');
+        let (id, elements) = split_at_byte(law, b':');
         let unknown = ModelError::UnknownLaw(law);
         let law = catalog::law(id).ok_or(unknown)?;
         let mut constants = Constants::default();
@@ -44,7 +44,7 @@ impl Spec {
             }
         }
         let effects = effects_of(law, effects)?;
-        Ok(Self { law, own: None, effects, constants })
+        Ok(Self { law, formula: None, effects, constants })
     }
 
     /// Parses the form that it displays as, `law+effect+...`.
@@ -52,9 +52,9 @@ impl Spec {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn parse(text: &str) -> Result<Self, ModelError<'_>> {
-        let (law, mut rest) = cut(text, b'+');
+        let (law, mut rest) = split_at_byte(text, b'+');
         let effects = core::iter::from_fn(|| {
-            let (effect, after) = cut(rest?, b'+');
+            let (effect, after) = split_at_byte(rest?, b'+');
             rest = after;
             Some(effect)
         });
@@ -71,7 +71,7 @@ impl Spec {
     ) -> Result<Self, ModelError<'a>> {
         let law = LawId::ByFormula;
         let effects = effects_of(law, effects)?;
-        Ok(Self { law, own: Some(*formula), effects, constants: Constants::default() })
+        Ok(Self { law, formula: Some(*formula), effects, constants: Constants::default() })
     }
 
     /// Adds formula terms to the law, before effects act. Their parameters follow those of the law.
@@ -79,11 +79,11 @@ impl Spec {
     /// # Errors
     /// The formula terms together exceed the largest size of a formula.
     pub fn add_terms(&mut self, formula: &Formula) -> Result<(), ModelError<'static>> {
-        let joined = match &self.own {
-            Some(own) => own.plus(formula).map_err(ModelError::Formula)?,
+        let joined = match &self.formula {
+            Some(present) => present.plus(formula).map_err(ModelError::Formula)?,
             None => *formula,
         };
-        self.own = Some(joined);
+        self.formula = Some(joined);
         Ok(())
     }
 
@@ -107,8 +107,8 @@ impl Spec {
 
     /// The formula terms, if there are any.
     #[must_use]
-    pub const fn own(&self) -> Option<&Formula> {
-        self.own.as_ref()
+    pub const fn formula(&self) -> Option<&Formula> {
+        self.formula.as_ref()
     }
 
     /// The effects.
@@ -157,7 +157,7 @@ impl Spec {
         Channel::ALL.into_iter().filter(|channel| {
             *channel == Channel::Velocity
                 || self.law.info().channels.contains(channel)
-                || self.own.is_some_and(|own| own.reads(*channel))
+                || self.formula.is_some_and(|formula| formula.reads(*channel))
                 || self.effects.iter().any(|effect| effect.info().channels.contains(channel))
         })
     }
@@ -175,9 +175,9 @@ impl Spec {
     /// the order in which they act.
     pub fn parameters(&self) -> impl Iterator<Item = &'static ParameterInfo> + '_ {
         let law = self.law.info().parameters.iter();
-        let own = self.own.iter().flat_map(Formula::parameters);
+        let formula = self.formula.iter().flat_map(Formula::parameters);
         let effects = self.effects.iter().flat_map(|effect| effect.info().parameters);
-        law.chain(own).chain(effects).filter(|parameter| self.includes(parameter.presence))
+        law.chain(formula).chain(effects).filter(|parameter| self.includes(parameter.presence))
     }
 
     /// Number of parameters.
@@ -214,12 +214,15 @@ impl Spec {
             value.unwrap_or_else(S::zero)
         };
         let law = self.law.read(&mut next);
-        let own = self.own.as_ref().map(|own| OwnTerms::read(own, || next(Presence::InFormula)));
+        let formula = self
+            .formula
+            .as_ref()
+            .map(|formula| FormulaTerms::read(formula, || next(Presence::InFormula)));
         let effects = Effects::read(self.effects, &mut next);
         let bristle = effects.bristle();
         let (memory, has_state) = (self.memory(), self.has_state());
         let constants = self.constants.cast();
-        Ok(Composed { law, own, effects, bristle, memory, has_state, constants })
+        Ok(Composed { law, formula, effects, bristle, memory, has_state, constants })
     }
 
     fn includes(&self, presence: Presence) -> bool {
@@ -236,7 +239,7 @@ impl Spec {
 impl fmt::Display for Spec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.law.info().id)?;
-        if self.own.is_some() && self.law != LawId::ByFormula {
+        if self.formula.is_some() && self.law != LawId::ByFormula {
             write!(f, "+{}", LawId::ByFormula.info().id)?;
         }
         let elements = self.constants.elements;
@@ -251,7 +254,7 @@ impl fmt::Display for Spec {
 
 /// The text before a character and the text after it. The searches of `core` contain code that can
 /// panic.
-fn cut(text: &str, at: u8) -> (&str, Option<&str>) {
+fn split_at_byte(text: &str, at: u8) -> (&str, Option<&str>) {
     match text.bytes().position(|byte| byte == at) {
         Some(i) => (text.get(..i).unwrap_or_default(), text.get(i + 1..)),
         None => (text, None),
@@ -279,7 +282,7 @@ fn effects_of<'a>(
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composed<S: Real> {
     law: Law<S>,
-    own: Option<OwnTerms<S>>,
+    formula: Option<FormulaTerms<S>>,
     effects: Effects<S>,
     bristle: Option<Bristle<S>>,
     memory: Memory,
@@ -312,13 +315,13 @@ impl<S: Real> Composed<S> {
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
         let split = self.law.split(sample, &self.constants);
-        if self.effects.is_empty() && self.own.is_none() {
+        if self.effects.is_empty() && self.formula.is_none() {
             return split;
         }
         // A copy, so that a law without effects stays in registers.
         let mut altered = split;
-        if let Some(own) = &self.own {
-            own.add_to(&mut altered, sample);
+        if let Some(formula) = &self.formula {
+            formula.add_to(&mut altered, sample);
         }
         self.effects.apply(&mut altered, sample, &self.constants);
         altered
@@ -329,7 +332,7 @@ impl<S: Real> Composed<S> {
     #[inline]
     pub(crate) fn acting_torque(&self, sample: &Sample<S::Plain>) -> S {
         let direction = sample.velocity.sign();
-        if self.effects.is_empty() && self.own.is_none() {
+        if self.effects.is_empty() && self.formula.is_none() {
             return self.law.torque(sample, direction, &self.constants);
         }
         self.split(sample).torque(direction)
@@ -360,8 +363,8 @@ impl<S: Real> Composed<S> {
     #[inline]
     fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S> {
         let mut split = self.law.split(&interval.sample, &self.constants);
-        if let Some(own) = &self.own {
-            own.add_to(&mut split, &interval.sample);
+        if let Some(formula) = &self.formula {
+            formula.add_to(&mut split, &interval.sample);
         }
         self.effects.apply_over(&mut split, state, interval, &self.constants);
         split
@@ -395,7 +398,7 @@ impl<S: Real> Composed<S> {
     pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
         let mut state = State::default();
         let dt = S::Plain::from_f64(LONG);
-        self.over(&mut state, &Interval::held(*sample, dt));
+        self.step_over(&mut state, &Interval::constant(*sample, dt));
         state
     }
 
@@ -403,13 +406,13 @@ impl<S: Real> Composed<S> {
     /// memory.
     #[inline]
     pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
-        self.over(state, &Interval { mean: true, ..Interval::held(*sample, dt) })
+        self.step_over(state, &Interval { mean: true, ..Interval::constant(*sample, dt) })
     }
 
     /// Like [`step`](Self::step), over an interval. The torque at its end is the measured one; the
     /// mean is the real one, which does the work.
     #[inline]
-    pub fn over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
+    pub fn step_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
         let split = if self.has_state {
             self.split_over(state, interval)
         } else {
@@ -420,7 +423,7 @@ impl<S: Real> Composed<S> {
         } else {
             let dry = state.dry_over(split.dry(), interval);
             match self.bristle(&interval.sample) {
-                Some(bristle) => bristle.over(&mut state.bristle, dry, &split, interval),
+                Some(bristle) => bristle.step_over(&mut state.bristle, dry, &split, interval),
                 None => self.law.step(state, dry, &split, interval, &self.constants),
             }
         };

@@ -63,11 +63,11 @@ impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> FixedLaw<L, S> {
     /// influence on a static law.
     #[inline(always)]
     pub fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
-        let interval = Interval::held(*sample, dt);
+        let interval = Interval::constant(*sample, dt);
         let split = self.law.split(sample, &self.constants);
         let dry = split.dry();
         let step = match self.law.bristle(sample, &self.constants) {
-            Some(bristle) => bristle.over(&mut state.bristle, dry, &split, &interval),
+            Some(bristle) => bristle.step_over(&mut state.bristle, dry, &split, &interval),
             None => self.law.step(state, dry, &split, &interval, &self.constants),
         };
         step.torque

@@ -147,7 +147,7 @@ impl<S: Real> Split<S> {
         Self {
             coulomb: zero,
             height: zero,
-            shape: StribeckCurve::flat(),
+            shape: StribeckCurve::constant(),
             load: zero,
             smoothed_amplitude: zero,
             smoothed_torque: zero,
@@ -197,25 +197,25 @@ impl<S: Real> StribeckCurve<S> {
     /// The curve with this argument.
     #[inline]
     #[must_use]
-    pub fn of(argument: S, exponent: S) -> Self {
+    pub fn new(argument: S, exponent: S) -> Self {
         Self { value: (-argument).exp(), argument, exponent }
     }
 
     /// A constant curve, for a law without a Stribeck curve.
     #[inline]
     #[must_use]
-    pub fn flat() -> Self {
+    pub fn constant() -> Self {
         Self { value: S::one(), argument: S::zero(), exponent: S::one() }
     }
 
     /// The curve with another value, as at another speed.
     #[inline]
     #[must_use]
-    pub fn displaced(&self, value: S) -> Self {
+    pub fn with_value(&self, value: S) -> Self {
         let lowest = S::Plain::from_f64(LOWEST);
         let moved = self.argument - (value / self.value).ln();
-        let anew = S::choose(value.is_above(lowest), -value.ln(), self.argument);
-        let argument = S::choose(self.value.is_above(lowest), moved, anew);
+        let from_value = S::choose(value.is_above(lowest), -value.ln(), self.argument);
+        let argument = S::choose(self.value.is_above(lowest), moved, from_value);
         Self { value, argument, exponent: self.exponent }
     }
 
@@ -223,12 +223,12 @@ impl<S: Real> StribeckCurve<S> {
     /// influence.
     #[inline]
     #[must_use]
-    pub fn widened(&self, factor: S) -> Self {
+    pub fn with_scaled_velocity(&self, factor: S) -> Self {
         // The reciprocal first: if the power underflows it gives 0, and never inf/inf.
-        let narrowed = factor.abs().reciprocal_times(S::Plain::one()).powf(self.exponent);
+        let scaled = factor.abs().reciprocal_times(S::Plain::one()).powf(self.exponent);
         let argument = self.argument;
         let fixed = argument.at_zero().or(argument.is_finite().not());
-        let moved = Self::of(argument * narrowed, self.exponent);
+        let moved = Self::new(argument * scaled, self.exponent);
         Self {
             value: S::choose(fixed, self.value, moved.value),
             argument: S::choose(fixed, argument, moved.argument),
@@ -247,7 +247,7 @@ pub(crate) fn stribeck_curve<S: Real>(
 ) -> StribeckCurve<S> {
     let ratio = stribeck_velocity.reciprocal_times(velocity).abs();
     let argument = S::choose(velocity.at_zero(), S::zero(), ratio.powf(exponent));
-    StribeckCurve::of(argument, exponent)
+    StribeckCurve::new(argument, exponent)
 }
 
 /// `(2/pi) atan(k v)`: the sign of the velocity, smoothed over `1/k`.

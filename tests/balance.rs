@@ -1,4 +1,4 @@
-//! Laws whose friction depends on the motor torque, where that follows from the balance
+//! Laws whose friction depends on the motor torque, with the motor torque from the balance
 //! `tm = tl + tf(te, tm, v)`.
 #![cfg(feature = "std")]
 
@@ -37,7 +37,7 @@ fn values(spec: &Spec) -> Vec<f64> {
         .collect()
 }
 
-/// The motion as a fit sees it: without the motor torque.
+/// The input of a fit: the motion without the motor torque.
 fn unbalanced(motion: &Motion) -> Columns<'_> {
     let mut columns = motion.columns();
     columns.channels.motor_torque = None;
@@ -64,7 +64,7 @@ fn the_solution_balances_the_formula() {
     }
 }
 
-/// Driving a load, `tm = tl (1 + Kl)/(1 - Kl)`; letting it down, `tl (1 - Kl)/(1 + Kl)`.
+/// Raising a load, `tm = tl (1 + Kl)/(1 - Kl)`; lowering it, `tl (1 - Kl)/(1 + Kl)`.
 #[test]
 fn load_dependent_friction_is_an_efficiency() {
     let spec = Spec::new("bam_m3", []).unwrap();
@@ -121,12 +121,12 @@ fn assert_slopes(spec: &Spec, columns: &Columns<'_>) {
     }
 }
 
-/// Where friction drops as the motor comes to carry as much as the environment, no torque may
-/// balance exactly: the joint stays at the drop.
+/// Where friction drops as the motor torque reaches the external torque, no torque may balance
+/// exactly: the motor torque stays at the drop.
 #[test]
 fn the_motor_torque_stays_where_friction_jumps() {
     let spec = Spec::new("bam_m6", []).unwrap();
-    // Kqm tm^2 below |tm| = |te| = 2 and nothing above, at rest's end of the Stribeck curve.
+    // Kqm tm^2 below |tm| = |te| = 2 and zero above, at the low-speed end of the Stribeck curve.
     let values = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1, 1.0, 1.0, 0.0];
     let columns = Columns {
         channels: Channels {
@@ -156,7 +156,7 @@ fn a_self_locking_joint_has_no_motor_torque() {
     };
     let refused = batch::torque(&spec, &[0.0, 1.2, 0.0], &columns).unwrap_err();
     assert_eq!(refused, BatchError::SelfLocking { row: 1 });
-    // A search must be able to pass: finite, and continuous where the solution ends.
+    // A search must be able to pass through: finite, and continuous where the solution ends.
     let search = |share| batch::gradient(&spec, &[0.0, share, 0.0], &columns, None).unwrap();
     let (torque, jacobian) = search(1.2);
     assert!(torque.iter().chain(&jacobian).all(|x| x.is_finite()));
@@ -164,7 +164,7 @@ fn a_self_locking_joint_has_no_motor_torque() {
 }
 
 #[test]
-fn a_search_meets_no_nan() {
+fn a_search_never_gets_nan() {
     let speeds = [0.0, -0.0, 1e-308, 1e-12, 0.5, -0.5, 1e3, -1e12];
     let loads = [0.0, -0.0, 1e-300, -3.0, 3.0, 1e9];
     let velocity: Vec<f64> = speeds.iter().flat_map(|&v| loads.map(|_| v)).collect();
@@ -195,14 +195,14 @@ fn a_search_meets_no_nan() {
 }
 
 #[test]
-fn loads_that_cannot_be_found_are_asked_for() {
+fn missing_loads_are_reported() {
     let motion = motion(5);
     let refused = |law, effects: &[&'static str], columns: &Columns<'_>| {
         let spec = Spec::new(law, effects.iter().copied()).unwrap();
         batch::torque(&spec, &values(&spec), columns).unwrap_err().to_string()
     };
     let mut columns = unbalanced(&motion);
-    // With a memory the balance of one row depends on those before.
+    // With memory the balance of a sample depends on the samples before.
     assert_eq!(
         refused("bam_m3", &["presliding"], &columns),
         "the model needs the column 'motor_torque'"

@@ -1,4 +1,4 @@
-//! What every law with a memory promises, for any stiffness and any step.
+//! Properties of all laws with memory, for any stiffness and any step.
 #![allow(clippy::disallowed_methods)]
 
 mod common;
@@ -44,13 +44,13 @@ fn sample(velocity: f64) -> Sample<f64> {
     Sample { temperature: 31.0, load_torque: 2.0, acceleration: 0.7, ..Sample::at(velocity) }
 }
 
-/// A velocity that goes slow and fast, forth and back, and rests.
+/// A slow and fast velocity in both directions, with rests.
 fn velocity(i: u32) -> f64 {
     let pick = f64::from((i * 7919) % 401) / 200.0 - 1.0;
     if i.is_multiple_of(17) { 0.0 } else { pick * pick * pick }
 }
 
-/// The numbers in which a state is kept.
+/// The numbers of a state.
 fn forces(model: &Composed<f64>, state: &State<f64>) -> Vec<f64> {
     match model.memory() {
         Memory::Forces(count) => state.forces()[..count].to_vec(),
@@ -58,7 +58,7 @@ fn forces(model: &Composed<f64>, state: &State<f64>) -> Vec<f64> {
     }
 }
 
-/// What turns them into torques.
+/// The factor that converts them into torques.
 fn unit(model: &Composed<f64>, stiffness: f64) -> f64 {
     if matches!(model.memory(), Memory::Deflection) { 1e3 * stiffness } else { 1.0 }
 }
@@ -112,7 +112,7 @@ fn the_mean_is_that_of_many_small_steps() {
                 let mut last = None;
                 for _ in 0..pieces {
                     let step = model.step(&mut often, &sample(v), 0.02 / f64::from(pieces));
-                    // The trapezium of the torque at the ends, from the second piece on.
+                    // The trapezoidal rule with the torque at the ends, from the second piece on.
                     sum += last.map_or(step.mean_torque, |last: f64| 0.5 * (last + step.torque));
                     last = Some(step.torque);
                 }
@@ -160,12 +160,13 @@ fn rest_and_no_time_change_nothing() {
     }
 }
 
-/// From a joint without tension no passive law gives more than it got.
+/// From a relaxed state no passive law returns more energy than it received.
 #[test]
 fn work_is_never_gained() {
     for stiffness in [0.1, 1.0, 100.0] {
         for (law, model) in models(stiffness) {
-            // Indri's smoothed sign keeps the bristle from unwinding; Bliman's peak needs a bound.
+            // Indri's smoothed sign prevents the bristle from unloading; Bliman's peak needs a
+            // bound.
             if law == "indri_b" || law == "bliman_sorine" {
                 continue;
             }
@@ -180,7 +181,7 @@ fn work_is_never_gained() {
     }
 }
 
-/// A step-mean velocity is second order for slow states and for stiff ones.
+/// Steps with a mean velocity are second order for slow and for stiff states.
 #[test]
 fn step_means_are_second_order() {
     let speed = |t: f64| 0.02 + 0.4 * (1.0 - (-t).exp());
@@ -196,7 +197,7 @@ fn step_means_are_second_order() {
                     let mean_velocity = Some((travel(to) - travel(from)) / dt);
                     let sample = sample(speed(to));
                     let interval = Interval { sample, mean_velocity, dt, mean: false };
-                    torque = model.over(&mut state, &interval).torque;
+                    torque = model.step_over(&mut state, &interval).torque;
                 }
                 torque
             };
@@ -245,9 +246,9 @@ fn order_of_elements_does_not_matter() {
     }
 }
 
-/// A small loop inside a large one closes, and the large one goes on as if it had not been.
+/// A small hysteresis loop inside a large one closes, and the large one continues as without it.
 #[test]
-fn elements_remember_more_than_one_turn() {
+fn elements_remember_more_than_one_reversal() {
     let values = [0.0, 0.1, 2.0, 1e6, 0.0, 2.0, 1e4, 1.0, 3e3, 1.5, 1e3, 0.5, 300.0];
     let model = Spec::new("gms", []).unwrap().with(&values).unwrap();
     let run = |moves: &[f64]| {
@@ -257,6 +258,6 @@ fn elements_remember_more_than_one_turn() {
     };
     let plain = run(&[0.06, -0.04, 0.01, 0.01]);
     close(run(&[0.06, -0.04, 0.01, -0.005, 0.005, 0.01]), plain, 1e-12);
-    // A larger loop than the turn before wipes it out.
+    // A loop larger than the previous reversal erases it.
     assert!((run(&[0.06, -0.04, 0.01, -0.03, 0.03, 0.01]) - plain).abs() > 1e-3);
 }

@@ -1,4 +1,4 @@
-//! Friction in a controller: readings that are missing, cannot be, or come first.
+//! Friction feedforward: missing, invalid and first readings.
 
 use stribeck::law::Lugre;
 use stribeck::{Feed, Feedforward, FixedLaw, Friction, Limits, ModelError, Sample, Source, Spec};
@@ -26,7 +26,7 @@ fn fed(joint: &mut Feedforward<impl Friction<f64>, f64>, velocity: f64) -> Feed<
 }
 
 #[test]
-fn the_first_reading_is_taken_for_steady_motion() {
+fn the_first_reading_counts_as_steady_motion() {
     for velocity in [0.0, 1e-3, 0.5, -2.0] {
         let feed = fed(&mut joint(), velocity);
         let model = Spec::new("lugre", []).unwrap();
@@ -38,7 +38,7 @@ fn the_first_reading_is_taken_for_steady_motion() {
 }
 
 #[test]
-fn readings_that_cannot_be_leave_the_state_as_it_is() {
+fn invalid_readings_leave_the_state_unchanged() {
     let (nan, inf) = (f64::NAN, f64::INFINITY);
     let readings = [
         None,
@@ -65,7 +65,7 @@ fn readings_that_cannot_be_leave_the_state_as_it_is() {
 }
 
 #[test]
-fn after_too_many_the_torque_is_zero_and_the_state_forgotten() {
+fn after_too_many_the_torque_is_zero_and_the_state_discarded() {
     let mut joint = joint();
     fed(&mut joint, 0.5);
     for _ in 0..LIMITS.held {
@@ -97,7 +97,7 @@ fn torque_is_limited_and_the_state_is_not() {
 }
 
 #[test]
-fn whatever_is_read_the_state_stays_bounded() {
+fn the_state_stays_bounded_for_any_readings() {
     let mut joint = joint();
     let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
     for _ in 0..200_000 {
@@ -113,7 +113,7 @@ fn whatever_is_read_the_state_stays_bounded() {
 }
 
 #[test]
-fn every_law_with_effects_can_be_fed_forward() {
+fn feedforward_works_with_laws_and_effects() {
     let model = Spec::new("coulomb", ["stribeck", "presliding"]).unwrap();
     let model = model.with(&[1.5, 2.0, 0.7, 0.08, 2.0, 2000.0, 12.0]).unwrap();
     let mut joint = Feedforward::new(model, PERIOD, LIMITS).unwrap();

@@ -1,4 +1,4 @@
-//! A law chosen when the program is built gives the bits of the same law out of the catalog.
+//! A law selected at compile time has the bits of the same law from the catalog.
 #![cfg(feature = "std")]
 
 mod common;
@@ -58,7 +58,7 @@ laws! {
 }
 
 #[test]
-fn every_law_is_that_of_the_catalog() {
+fn every_fixed_law_equals_that_of_the_catalog() {
     for law in LawId::ALL {
         assert!(check(law.info().id), "{} is not in the list above", law.info().id);
     }

@@ -1,7 +1,7 @@
-//! Formulas against values computed with mpmath at 50 digits, written out from the papers'
-//! equations and not from this code.
+//! Laws against values computed with mpmath at 50 digits, from the equations of the papers and not
+//! from this code.
 
-// All the digits that mpmath printed; a printed 3.14 is no pi.
+// Values with all digits printed by mpmath; a 3.14 among them is not an approximation of pi.
 #![allow(clippy::excessive_precision, clippy::approx_constant)]
 
 mod common;
@@ -62,7 +62,7 @@ fn static_laws_of_the_review() {
     }
 }
 
-/// What friction is left at `v = 0`: none, but for the two laws with a constant.
+/// Friction at `v = 0`: zero except for the two laws with a constant.
 fn at_rest(law: &str) -> f64 {
     match law {
         "gaz_a" => 3.2346513139685619,
@@ -102,7 +102,7 @@ fn static_laws_of_the_other_papers() {
             Sample { acceleration, temperature: 40.0, load_torque: -0.3, ..Sample::at(velocity) };
         close(at(law, &[], values, &sample), expected, 2e-14);
     }
-    // Steady motion counts as accelerating, either way.
+    // Steady motion counts as accelerating, in both directions.
     let steady = |velocity| at("karahan_karci", &[], FOUR, &Sample::at(velocity));
     close(steady(0.2), 4.9357588823428846, 1e-15);
     close(steady(-0.2), -5.5927725752990117, 1e-15);
@@ -117,7 +117,7 @@ fn static_amplitude_of_lugre_is_the_total() {
 }
 
 #[test]
-fn all_static_effects_together() {
+fn all_static_effects_combined() {
     let sample = Sample {
         velocity: -0.25,
         position: 0.9,
@@ -152,7 +152,7 @@ fn all_static_effects_together() {
     close(at("coulomb", &effects, &values, &sample), -4.839884568237191, 1e-14);
 }
 
-/// Viscous and Coulomb friction with `effects` at one sample under load, where nothing cancels.
+/// Viscous and Coulomb friction with `effects` at one sample under load, without cancellation.
 fn at_one_sample(effects: &[&str], values: &[f64]) -> f64 {
     let mut spec = Spec::new("coulomb", effects.iter().copied()).unwrap();
     for (name, value) in [
@@ -185,7 +185,7 @@ fn effects_of_time_and_position() {
 }
 
 #[test]
-fn a_twist_follows_the_second_derivative_of_the_load() {
+fn elasticity_follows_the_second_derivative_of_the_load() {
     close(at_one_sample(&["elasticity"], &[0.004]), -5.456, 1e-15);
     close(at_one_sample(&["elasticity"], &[-0.03]), -5.83, 1e-15);
 }
@@ -206,7 +206,7 @@ fn effects_of_the_whole_torque() {
 }
 
 #[test]
-fn a_bristle_is_measured_like_a_static_law() {
+fn channel_effects_apply_to_a_bristle_as_to_a_static_law() {
     let values = [2.0, 5.0, 900.0, 1.5, 0.15, 2.3, 0.08];
     let mut spec = Spec::new("coulomb", ["presliding", "saturation", "gain"]).unwrap();
     spec.set_constant("reference_torque", 9.0).unwrap();
@@ -216,7 +216,7 @@ fn a_bristle_is_measured_like_a_static_law() {
     let acting = -5.5;
     let measured = at_one_sample(&["saturation", "gain"], &[0.15, 2.3, 0.08]);
     close(step.torque, measured, 1e-14);
-    // The bristle bends 5/900 first, with its damping: the work is that of the friction that acts.
+    // The bristle deflects by 5/900 first, with its damping: the work is that of the real friction.
     assert!((step.mean_torque - acting).abs() < 0.02, "{}", step.mean_torque);
 }
 
@@ -244,7 +244,7 @@ fn temperature_factor_at_and_near_zero_curvature() {
 }
 
 #[test]
-fn weights_of_an_exponential_step() {
+fn weights_of_an_exponential_integrator() {
     let expected = [
         (-0.5, [0.78693868057473315, 0.42612263885053369, 0.14775472229893261]),
         (-1e-8, [0.99999999500000002, 0.49999999833333334, 0.16666666625]),
@@ -262,10 +262,10 @@ fn weights_of_an_exponential_step() {
 
 #[test]
 fn lugre_of_the_1995_paper() {
-    // s0 = 1e5, s1 = 316.2, s2 = 0.4, Fc = 1, Fs = 1.5, vs = 1e-3, held at 1 mm/s for 5 ms.
+    // s0 = 1e5, s1 = 316.2, s2 = 0.4, Fc = 1, Fs = 1.5, vs = 1e-3, constant 1 mm/s for 5 ms.
     let spec = Spec::new("lugre", []).unwrap();
     let model = spec.with(&[1e5, 316.2, 0.4, 1.0, 1.5, 1e-3, 2.0]).unwrap();
-    let mut state = State::deflected(2e-6);
+    let mut state = State::with_deflection(2e-6);
     let step = model.step(&mut state, &Sample::at(1e-3), 5e-3);
     close(step.torque, 0.71160483134668455, 1e-14);
     close(step.mean_torque, 0.59611178951080239, 1e-14);

@@ -43,7 +43,7 @@ fn gradient_is_the_derivative_of_every_model() {
 }
 
 #[test]
-fn delay_at_zero_changes_nothing_and_has_the_mean_slope() {
+fn zero_delay_changes_nothing_and_has_the_mean_slope() {
     let motion = motion(120);
     let columns = motion.columns();
     let spec = Spec::new("coulomb", ["delay"]).unwrap();
@@ -58,7 +58,7 @@ fn delay_at_zero_changes_nothing_and_has_the_mean_slope() {
 }
 
 #[test]
-fn delay_of_whole_samples_shifts_rows_within_a_segment() {
+fn delay_of_integer_samples_shifts_within_a_segment() {
     let motion = motion(60);
     let mut dt = vec![motion.dt; 60];
     (dt[0], dt[30]) = (f64::NAN, 0.0);
@@ -80,7 +80,7 @@ fn delay_of_whole_samples_shifts_rows_within_a_segment() {
 }
 
 #[test]
-fn a_gap_makes_the_state_start_afresh() {
+fn a_time_gap_restarts_the_state() {
     let motion = motion(80);
     let mut dt = vec![motion.dt; 80];
     (dt[0], dt[40]) = (0.0, f64::NAN);
@@ -109,7 +109,7 @@ fn an_infinite_step_starts_a_segment_in_sliding() {
             parts.dry[30] * motion.velocity[30].signum() + parts.rate[30],
             1e-9,
         );
-        // The first row rests: without tension.
+        // The first sample is at rest: relaxed.
         assert_eq!((motion.velocity[0], torque[0]), (0.0, 0.0), "{law}");
         assert!(jacobian.iter().all(|x| x.is_finite()));
     }
@@ -164,9 +164,9 @@ fn split_adds_up_to_the_static_torque() {
     }
 }
 
-/// Bits, so that a fit may leave parameters out without changing its way.
+/// Equal bits, so that a fit may omit parameters without changing its path.
 #[test]
-fn wanted_columns_are_those_of_the_full_gradient() {
+fn selected_columns_equal_those_of_the_full_gradient() {
     let motion = motion(130);
     let columns = motion.columns();
     let mut specs = every_model();
@@ -189,7 +189,7 @@ fn wanted_columns_are_those_of_the_full_gradient() {
 }
 
 #[test]
-fn wanted_parameters_exist_and_are_named_once() {
+fn selected_parameters_exist_and_are_unique() {
     let motion = motion(3);
     let spec = Spec::new("coulomb", []).unwrap();
     let refused = |wanted: &[usize]| {

@@ -1,4 +1,4 @@
-//! Separable least squares: the bounded step, the search, and a model's linearisation.
+//! Separable least squares: the bounded solution, the search, and the linearisation of a model.
 #![cfg(feature = "std")]
 #![allow(clippy::disallowed_methods)]
 
@@ -12,7 +12,7 @@ use stribeck::identify::{
     minimise, triangles,
 };
 
-/// Numbers between -1 and 1 that look like chance.
+/// Pseudo-random numbers between -1 and 1.
 fn chance(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {
@@ -24,7 +24,7 @@ fn chance(count: usize, seed: u64) -> Vec<f64> {
     (0..count).map(|_| next()).collect()
 }
 
-/// Slope of half the squared error by each parameter.
+/// Gradient of half the squared error.
 fn slopes(matrix: &[f64], right: &[f64], x: &[f64]) -> Vec<f64> {
     let p = x.len();
     let row = |i: usize| &matrix[i * p..(i + 1) * p];
@@ -33,7 +33,7 @@ fn slopes(matrix: &[f64], right: &[f64], x: &[f64]) -> Vec<f64> {
 }
 
 #[test]
-fn a_bounded_step_cannot_be_bettered() {
+fn a_bounded_solution_is_optimal() {
     let mut met = 0;
     for seed in 0..300 {
         let (rows, p) = (8, 4);
@@ -58,10 +58,10 @@ fn a_bounded_step_cannot_be_bettered() {
 }
 
 #[test]
-fn what_is_not_shown_stays_at_zero() {
+fn undetermined_directions_stay_at_zero() {
     let free = [f64::INFINITY; 3];
     let none = free.map(|x| -x);
-    // The first two columns are one, the third is nothing.
+    // The first two columns are equal, the third is zero.
     let x = bounded_least_squares(&[1.0, 1.0, 0.0, 2.0, 2.0, 0.0], &[2.0, 4.0], &none, &free);
     close(x[0], 1.0, 1e-14);
     close(x[1], 1.0, 1e-14);
@@ -70,7 +70,7 @@ fn what_is_not_shown_stays_at_zero() {
     assert_eq!(bounded_least_squares(&infinite, &[1.0], &none, &free), [0.0; 3]);
 }
 
-/// y = a exp(-k t) + b, measured at some instants.
+/// y = a exp(-k t) + b, measured at several times.
 struct Decay {
     time: Vec<f64>,
     measured: Vec<f64>,
@@ -115,7 +115,7 @@ impl LeastSquares for Decay {
 const CAUTIOUS: Steps = Steps { tolerance: 1e-18, max_steps: 60, damping: 1e-2 };
 
 #[test]
-fn a_search_finds_what_made_the_data() {
+fn a_search_finds_the_true_parameters() {
     let truth = [3.0, 1.7, -0.4];
     let decay = Decay::new(truth[0], truth[1], truth[2]);
     let free = [f64::INFINITY; 3];
@@ -135,7 +135,7 @@ fn a_search_finds_what_made_the_data() {
 }
 
 #[test]
-fn bounds_hold_and_equal_ones_hold_a_parameter() {
+fn bounds_hold_and_equal_bounds_fix_a_parameter() {
     let decay = Decay::new(3.0, 1.7, -0.4);
     let bounds = Bounds {
         lower: &[0.0, 0.1, 0.2],
@@ -152,8 +152,8 @@ fn bounds_hold_and_equal_ones_hold_a_parameter() {
 }
 
 #[test]
-fn a_search_says_what_it_has_become_blind_to() {
-    // With an amplitude above zero the best is none, and then no decay is better than another.
+fn a_search_reports_insensitive_parameters() {
+    // The optimal amplitude is zero, and then the decay has no influence.
     let decay = Decay::new(-3.0, 1.7, -0.4);
     let bounds = Bounds {
         lower: &[0.0, 0.1, -9.0],
@@ -167,7 +167,7 @@ fn a_search_says_what_it_has_become_blind_to() {
     assert!(seen.insensitive.is_empty());
 }
 
-/// y = 1 + |x - 0.3| + x / 4, which is bent where it is least, measured as zero.
+/// y = 1 + |x - 0.3| + x / 4, which has a kink at its minimum, measured as zero.
 struct Bend;
 
 impl LeastSquares for Bend {
@@ -192,7 +192,7 @@ impl LeastSquares for Bend {
 }
 
 #[test]
-fn a_search_ends_in_a_bend() {
+fn a_search_ends_at_a_kink() {
     let bounds = Bounds { lower: &[-9.0], upper: &[9.0], linear: &[false], logarithmic: &[false] };
     let steps = Steps { tolerance: 1e-6, max_steps: 200, damping: 1e-2 };
     let found = minimise(&Bend, &[2.0], &bounds, steps).unwrap();
@@ -265,7 +265,7 @@ fn a_model_is_linearised_without_a_jacobian() {
 }
 
 #[test]
-fn many_rows_that_stand_by_themselves_are_one_problem() {
+fn independent_samples_give_one_problem_on_any_threads() {
     const ROWS: usize = 150_000;
     let spec = Spec::parse("bittencourt_a").unwrap();
     let values = [2.0, 1.0, 0.05, 1.4, 0.6];
@@ -295,7 +295,7 @@ fn many_rows_that_stand_by_themselves_are_one_problem() {
 }
 
 #[test]
-fn a_run_that_begins_in_motion_slides_already_or_does_not() {
+fn the_initial_state_of_a_run_in_motion_is_found() {
     let spec = Spec::parse("lugre").unwrap();
     let velocity = motion(600);
     let (group, moving) = (vec![0; 600], vec![true; 600]);
@@ -319,7 +319,7 @@ fn a_run_that_begins_in_motion_slides_already_or_does_not() {
 }
 
 #[test]
-fn what_does_not_fit_together_is_refused() {
+fn inconsistent_sizes_are_refused() {
     let spec = Spec::parse("coulomb").unwrap();
     let velocity = motion(4);
     let refused = |target: &[f64], group: &[u32], begins: &[usize]| {

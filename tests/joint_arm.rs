@@ -1,4 +1,4 @@
-//! A planar arm of two joints, friction in both.
+//! A planar arm with two joints, with friction in both.
 
 use stribeck::joint::{ArmPosture, ArmPush, JointStep, PlanarArm};
 use stribeck::{Composed, Spec, State};
@@ -32,7 +32,7 @@ fn moved(
 
 const SWINGING: ArmPosture<f64> = ArmPosture { position: [0.2, -0.4], velocity: [1.5, -4.0] };
 
-/// Without friction and motors nothing acts about the base: energy and angular momentum stay.
+/// Without friction and motors, energy and angular momentum about the base are constant.
 #[test]
 fn a_free_arm_keeps_energy_and_angular_momentum() {
     let free = model("coulomb", &[0.0, 0.0]);
@@ -47,12 +47,12 @@ fn a_free_arm_keeps_energy_and_angular_momentum() {
         let turning = momentum(posture) / momentum(&SWINGING) - 1.0;
         assert!(turning.abs() < 1e-11, "angular momentum is off by {turning:e}");
     }
-    // It does move: the second joint turns about itself.
+    // The arm moves: the second joint makes full turns.
     assert!(steps.last().unwrap().0.position[1].abs() > 10.0);
 }
 
 #[test]
-fn what_motors_give_is_kept_or_taken_by_friction() {
+fn motor_work_is_stored_or_dissipated() {
     let frictions = [
         [model("coulomb", &[0.8, 5.0]), model("coulomb", &[0.2, 1.0])],
         [
@@ -76,7 +76,8 @@ fn what_motors_give_is_kept_or_taken_by_friction() {
     }
 }
 
-/// Dry friction in both: the arm comes to rest, joint by joint, and stays there for a minute.
+/// Dry friction in both joints: the arm comes to rest, one joint after the other, and stays at rest
+/// for a minute.
 #[test]
 fn both_joints_stop_and_stay() {
     let friction = [model("coulomb", &[0.8, 5.0]), model("coulomb", &[0.2, 1.0])];
@@ -88,21 +89,21 @@ fn both_joints_stop_and_stay() {
     let end = steps[59_999].0;
     assert_eq!(end.velocity, [0.0; 2]);
     assert_eq!(end, steps[10_000].0);
-    // Friction never gave anything.
+    // Friction never generated energy.
     assert!(
         steps.iter().flat_map(|(_, result)| result).all(|result| result.friction_work >= -1e-15)
     );
 }
 
-/// A push that overcomes the first joint alone turns it, and the second one holds.
+/// A torque that overcomes friction in the first joint only moves it, and the second one sticks.
 #[test]
-fn friction_holds_a_joint_that_the_other_one_swings() {
+fn friction_holds_a_joint_against_the_motion_of_the_other() {
     let friction = [model("coulomb", &[0.8, 1.0]), model("coulomb", &[0.2, 4.0])];
     let start = ArmPosture { position: [0.0; 2], velocity: [0.0; 2] };
     let steps = moved([&friction[0], &friction[1]], start, 1_000, |_| [3.0, 0.0]);
     let (end, result) = steps[999];
     assert!(end.velocity[0] > 0.2);
     assert_eq!(end.position[1], 0.0);
-    // It holds what the first one's acceleration asks of it.
+    // Its friction balances the torque due to the acceleration of the first joint.
     assert!(result[1].friction < -0.1, "{}", result[1].friction);
 }

@@ -1,4 +1,4 @@
-//! Friction compensated by a model of it, and the observer for what is left.
+//! Friction compensation with a model, and the observer for the remaining torque.
 #![allow(clippy::disallowed_methods)]
 
 use stribeck::joint::{self, Compensator, Joint, Observer, Posture, Push};
@@ -22,7 +22,7 @@ fn lugre() -> Composed<f64> {
 }
 
 #[test]
-fn a_compensator_gives_its_share_and_has_a_memory_of_its_own() {
+fn a_compensator_gives_its_share_and_has_a_separate_state() {
     let friction = lugre();
     let (mut half, mut state) = (Compensator::new(&friction, 0.5), State::default());
     for k in 0..2000 {
@@ -33,12 +33,12 @@ fn a_compensator_gives_its_share_and_has_a_memory_of_its_own() {
 }
 
 #[test]
-fn the_observer_follows_friction_by_its_bandwidth() {
+fn the_observer_follows_friction_with_its_bandwidth() {
     let friction = Spec::new("coulomb", []).unwrap().with(&[0.5, 2.0]).unwrap();
     let (joint, bandwidth) = (Joint::free(0.7), 30.0);
     let (mut observer, mut state) = (Observer::new(0.7, bandwidth), State::default());
     let mut posture = Posture { position: 0.0, velocity: 1.0 };
-    // What keeps this speed: friction is constant from the first step on.
+    // The torque that keeps this speed: friction is constant from the first step on.
     let push = Push::by_motor(2.5);
     for k in 1..=500 {
         let mut body = joint.moving(posture, &push);

@@ -1,4 +1,4 @@
-//! What a joint is made of and who moves it: ball screw, trajectories, controller.
+//! Ball screw, trajectories and controller.
 
 mod common;
 
@@ -22,7 +22,7 @@ fn strokes() -> [Stroke<f64>; 3] {
     let stroke = |profile, dwell| Stroke { from: 0.3, to: -0.9, profile, dwell };
     [
         stroke(Profile::Trapezoid { speed: 0.8, acceleration: 4.0 }, 0.25),
-        // Too short for its speed.
+        // Too short to reach the speed limit.
         stroke(Profile::Trapezoid { speed: 8.0, acceleration: 3.0 }, 0.0),
         stroke(Profile::Quintic { duration: 1.7 }, 0.25),
     ]
@@ -56,7 +56,7 @@ fn velocity_and_acceleration_are_derivatives() {
 }
 
 #[test]
-fn strokes_go_there_and_back_within_their_limits() {
+fn strokes_go_back_and_forth_within_their_limits() {
     for stroke in strokes() {
         let trajectory = Trajectory::Stroke(stroke);
         let at = |strokes: f64| trajectory.at(strokes * stroke.duration());
@@ -96,7 +96,7 @@ fn the_controller_is_a_pid() {
     close(effort.integral, 0.3 + 5.0 * 0.3 * 0.01, 1e-15);
 }
 
-/// At its limit the integral stands still; an error that leads away from there counts at once.
+/// At the limit the integral is held; an error that leads away from the limit counts at once.
 #[test]
 fn the_integral_does_not_wind_up() {
     let mut effort = Effort { integral: 0.0 };

@@ -1,4 +1,4 @@
-//! A motor that moves its load through a spring with play.
+//! A motor that drives its load through a spring with backlash.
 
 use stribeck::joint::{
     self, ElasticJoint, ElasticPosture, Joint, JointStep, Posture, Push, Transmission,
@@ -40,9 +40,9 @@ fn pushed(
         .collect()
 }
 
-/// Two inertias on a spring swing at `sqrt(k (1/J1 + 1/J2))`.
+/// Two inertias on a spring oscillate at `sqrt(k (1/J1 + 1/J2))`.
 #[test]
-fn it_swings_at_its_own_frequency() {
+fn it_oscillates_at_its_natural_frequency() {
     let joint = joint(4e3, 0.0, 0.0);
     let start = ElasticPosture { twist: 0.01, ..ElasticPosture::aligned(AT_REST) };
     let steps = pushed(&coulomb(0.0, 0.0), &joint, start, 20_000, |_| 0.0);
@@ -75,9 +75,9 @@ fn energy_balances_through_gaps_and_stops() {
     }
 }
 
-/// A damper only takes energy.
+/// A damper only dissipates energy.
 #[test]
-fn damping_brings_the_swing_to_rest() {
+fn damping_stops_the_oscillation() {
     let joint = joint(4e3, 3.0, 0.01);
     let start = ElasticPosture { twist: 0.03, ..ElasticPosture::aligned(AT_REST) };
     let steps = pushed(&coulomb(0.0, 0.0), &joint, start, 20_000, |_| 0.0);
@@ -86,13 +86,13 @@ fn damping_brings_the_swing_to_rest() {
     assert!(energies[19_999] < 0.2 * energies[0]);
 }
 
-/// The motor crosses the gap before it moves a load that friction of its own does not hold.
+/// The motor crosses the gap before it moves a load without friction.
 #[test]
 fn the_motor_crosses_the_gap_first() {
     let joint = joint(1e5, 5.0, 0.05);
     let steps = pushed(&coulomb(0.1, 0.5), &joint, ElasticPosture::aligned(AT_REST), 400, |_| 1.0);
     let touch = steps.iter().position(|(p, _)| p.load.velocity != 0.0).unwrap();
-    // Half the play at (1 - 0.5)/0.2 rad/s2.
+    // Half the backlash at (1 - 0.5)/0.2 rad/s2.
     #[allow(clippy::disallowed_methods)]
     let expected = (2.0 * 0.025 / (0.5 / 0.2_f64)).sqrt();
     assert!((touch as f64 * DT - expected).abs() < 3.0 * DT, "after {touch} steps, {expected} s");
@@ -106,14 +106,14 @@ fn friction_of_the_motor_holds_the_load() {
     joint.load.gravity.constant = 3.0;
     let steps =
         pushed(&coulomb(0.1, 4.0), &joint, ElasticPosture::aligned(AT_REST), 60_000, |_| 0.0);
-    // The load drops into the spring and swings; then nothing.
+    // The load drops into the spring and oscillates, then comes to rest.
     let (settled, end) = (steps[9_999].0, steps[59_999].0);
     assert_eq!(end.motor, Posture { velocity: 0.0, ..settled.motor });
     assert!((end.twist - 3.0 / 1e4).abs() < 1e-12, "twist {}", end.twist);
     assert!(end.load.velocity.abs() < 1e-12);
 }
 
-/// A spring beyond all measure is a rigid joint.
+/// An extremely stiff spring gives a rigid joint.
 #[test]
 fn a_stiff_transmission_is_rigid() {
     let friction = coulomb(0.4, 1.0);

@@ -1,12 +1,12 @@
-//! What motor and environment give is what the joint keeps and the friction takes.
+//! The energy balance of motor, environment, joint and friction.
 
 mod common;
 
 use stribeck::joint::{self, Joint, Posture, Push};
 use stribeck::{Sample, Scalar, Spec, State};
 
-/// A joint that swings in gravity, pushed back and forth: per step, kinetic energy, potential energy
-/// and what friction takes against the work of the motor, relative to the largest of them.
+/// A pendulum driven back and forth: the balance per step of kinetic energy, potential energy,
+/// dissipation and the work of the motor, relative to the largest of them.
 fn largest_imbalance<P: Scalar<Plain = P> + PartialOrd>(spec: &Spec, dt: f64, steps: u32) -> f64 {
     let values: Vec<P> = common::values(spec).into_iter().map(P::from_f64).collect();
     let friction = spec.with(&values).unwrap();
@@ -57,9 +57,9 @@ fn energy_balances_in_single_precision() {
     }
 }
 
-/// The friction of a step is the mean of the model's own exact step, at the mean velocity.
+/// The friction of a step is the mean of the model's exact step at the mean velocity.
 #[test]
-fn friction_is_that_of_the_model() {
+fn friction_equals_that_of_the_model() {
     for law in ["lugre", "dahl", "gms", "leuven", "elastoplastic", "bliman_sorine", "indri_b"] {
         let spec = Spec::new(law, []).unwrap();
         let friction = spec.with(&common::values(&spec)).unwrap();
@@ -82,12 +82,12 @@ fn friction_is_that_of_the_model() {
     }
 }
 
-/// Of a bristle with known storage: what is dissipated is never negative, and the storage that the
-/// joint leaves behind is all that can come back.
+/// A bristle with a known storage function: the dissipated energy is never negative, and at most
+/// the stored energy returns.
 #[test]
 fn a_passive_joint_only_loses_energy() {
     let spec = Spec::new("lugre", []).unwrap();
-    // Passive at any speed: the damping vanishes, and D falls with speed only.
+    // Passive at any speed: no damping, and D falls with speed only.
     let values = [5e3, 0.0, 0.4, 1.0, 1.5, 0.05, 2.0];
     let friction = spec.with(&values).unwrap();
     let joint = Joint { stiffness: 40.0, ..Joint::revolute(0.2, 1.0, 0.5) };
@@ -107,7 +107,7 @@ fn a_passive_joint_only_loses_energy() {
     assert!(posture.velocity.abs() < 1e-6);
 }
 
-/// Nothing but the inputs decides: the same bits, from whatever was computed before.
+/// Only the inputs matter: equal bits, whatever was computed before.
 #[test]
 fn the_same_inputs_give_the_same_bits() {
     let spec = Spec::new("gms", []).unwrap();

@@ -1,11 +1,11 @@
-//! Whatever acts on a joint, a step ends, and its numbers are numbers.
+//! A step terminates and gives finite numbers for any input.
 
 mod common;
 
 use stribeck::joint::{self, ElasticJoint, ElasticPosture, Joint, Posture, Push, Transmission};
 use stribeck::{Scalar, Spec, State};
 
-/// Numbers that look random (xorshift64*).
+/// A pseudo-random generator (xorshift64*).
 struct Random(u64);
 
 impl Random {
@@ -16,7 +16,8 @@ impl Random {
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
 
-    /// Either sign, from `2^low` to `2^high`, evenly over the powers of two; one in eight is 0.
+    /// With both signs, from `2^low` to `2^high`, uniform over the powers of two; one in eight is
+    /// 0.
     fn spread(&mut self, low: i64, high: i64) -> f64 {
         let power = low + ((self.bits() >> 32) % high.abs_diff(low)) as i64;
         let size = f64::from_bits(((1023 + power) as u64) << 52 | self.bits() >> 12);
@@ -55,7 +56,7 @@ fn stays_finite<P: Scalar<Plain = P> + PartialOrd>(spec: &Spec, random: &mut Ran
         let numbers = [body.posture.position, body.posture.velocity, result.friction, result.load];
         assert!(numbers.iter().all(|x| x.value().is_finite()), "{spec} at step {k}: {numbers:?}");
         posture = body.posture;
-        // Far away nothing new happens, and single precision has few digits left.
+        // Far away nothing new happens, and single precision has few digits.
         if posture.position.abs() > number(1e3) || posture.velocity.abs() > number(1e3) {
             posture = Posture { position: number(0.0), velocity: number(random.spread(-20, 4)) };
         }
@@ -63,7 +64,7 @@ fn stays_finite<P: Scalar<Plain = P> + PartialOrd>(spec: &Spec, random: &mut Ran
 }
 
 #[test]
-fn every_model_stays_finite_under_anything() {
+fn every_model_stays_finite_for_any_input() {
     let mut random = Random(11);
     for spec in common::every_model() {
         stays_finite::<f64>(&spec, &mut random, 300);
@@ -72,7 +73,7 @@ fn every_model_stays_finite_under_anything() {
 }
 
 #[test]
-fn a_transmission_stays_finite_under_anything() {
+fn a_transmission_stays_finite_for_any_input() {
     let mut random = Random(12);
     for law in ["coulomb", "bittencourt_a", "lugre", "gms"] {
         let spec = Spec::new(law, []).unwrap();

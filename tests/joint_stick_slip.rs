@@ -1,4 +1,4 @@
-//! Stick and slip of the example of Canudas de Wit et al. 1995.
+//! The stick-slip example of Canudas de Wit et al. 1995.
 
 use stribeck::joint::{self, Joint, Posture, Push};
 use stribeck::{Composed, Spec, State};
@@ -11,7 +11,7 @@ const SLIPPING: f64 = 0.01;
 const STICKING: f64 = 1e-4;
 
 struct Slip {
-    /// When it moves at all, when it slips (s).
+    /// Times at which it starts to move and to slip (s).
     moves: f64,
     start: f64,
     peak: f64,
@@ -59,8 +59,8 @@ fn stick_slip_of_the_1995_example() {
     }
 }
 
-/// The same curve without a bristle sticks until the spring carries all of 1.5 N, at 7.5 s, and
-/// slips a little later and faster: nothing gives way beforehand.
+/// The same curve without a bristle sticks until the spring force is 1.5 N, at 7.5 s, and slips a
+/// little later and faster: there is no presliding.
 #[test]
 fn a_static_law_sticks_and_slips_as_well() {
     let [_, _, viscous, coulomb, stiction, velocity, exponent] = LUGRE_1995;

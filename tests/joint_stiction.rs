@@ -1,4 +1,4 @@
-//! A joint at rest stays there: without creep, without chatter, without exciting itself.
+//! A joint at rest stays at rest: no creep, no chatter, no self-excitation.
 
 mod common;
 
@@ -12,7 +12,7 @@ fn model(id: &str, values: &[f64]) -> Composed<f64> {
     Spec::new(id, []).unwrap().with(values).unwrap()
 }
 
-/// Pushes a joint through `steps` steps; what it does in each.
+/// Applies a torque for `steps` steps; the result of each step.
 fn pushed(
     friction: &Composed<f64>,
     joint: &Joint<f64>,
@@ -35,7 +35,7 @@ fn pushed(
 
 const AT_REST: Posture<f64> = Posture { position: 0.0, velocity: 0.0 };
 
-/// Every law without a memory whose dry friction has a plain sign.
+/// Every law without memory whose dry friction has the exact sign.
 fn with_stiction() -> Vec<Spec> {
     LawId::ALL
         .iter()
@@ -49,7 +49,7 @@ fn with_stiction() -> Vec<Spec> {
 }
 
 #[test]
-fn sixty_seconds_of_load_move_nothing() {
+fn sixty_seconds_of_load_cause_no_motion() {
     let specs = with_stiction();
     assert!(specs.len() > 10, "{} laws", specs.len());
     for spec in specs {
@@ -64,7 +64,7 @@ fn sixty_seconds_of_load_move_nothing() {
     }
 }
 
-/// Gravity, which depends on where the joint is, and a joint that has to come to rest first.
+/// With gravity, which depends on the position, and a joint that has to come to rest first.
 #[test]
 fn a_joint_that_comes_to_rest_stays_where_it_is() {
     let friction = model("bittencourt_a", &[2.0, 1.0, 0.1, 2.0, 0.3]);
@@ -75,12 +75,12 @@ fn a_joint_that_comes_to_rest_stays_where_it_is() {
     assert!(stop < 2000);
     let stopped = steps[stop].0;
     assert!(steps[stop..].iter().all(|(posture, _)| *posture == stopped));
-    // No reversal on the way: an explicit step would overshoot.
+    // No reversal before the stop: an explicit step would overshoot.
     assert!(steps[..stop].iter().all(|(posture, _)| posture.velocity > 0.0));
 }
 
-/// LuGre's example of 1995, pushed up to 80 % of its static friction in a second: the bristle gives
-/// way a few micrometres, then nothing.
+/// LuGre's example of 1995, loaded up to 80 % of its static friction within a second: the bristle
+/// deflects a few micrometres and then stays.
 #[test]
 fn a_bristle_does_not_creep_under_constant_load() {
     let friction = model("lugre", &[1e5, 316.227_766_016_837_95, 0.4, 1.0, 1.5, 1e-3, 2.0]);
@@ -90,8 +90,8 @@ fn a_bristle_does_not_creep_under_constant_load() {
     assert!((at_end - settled).abs() < 1e-12, "crept by {}", at_end - settled);
 }
 
-/// s0 and s1 of the six joints of Tadese et al. 2021, table 2, on the inertia of a light link: the
-/// damping felt over a step exceeds the inertia, `s1 dt > 2 J`, where an explicit coupling diverges.
+/// s0 and s1 of the six joints of Tadese et al. 2021, table 2, with the inertia of a light link:
+/// the damping over a step exceeds the inertia, `s1 dt > 2 J`, where an explicit coupling diverges.
 #[test]
 fn the_joints_of_table_2_do_not_excite_themselves() {
     let table = [
@@ -109,7 +109,7 @@ fn the_joints_of_table_2_do_not_excite_themselves() {
         let push = 0.8 * coulomb;
         let steps = pushed(&friction, &Joint::free(inertia), AT_REST, 10_000, |_| push);
         let fastest = steps.iter().map(|(p, _)| p.velocity.abs()).fold(0.0, f64::max);
-        // What the push would do in one step without friction.
+        // The speed change of one step without friction.
         assert!(fastest < push * DT / inertia);
         let late = &steps[5_000..];
         assert!(late.iter().all(|(posture, _)| posture.velocity.abs() < 1e-9));
@@ -121,7 +121,7 @@ fn the_joints_of_table_2_do_not_excite_themselves() {
     }
 }
 
-/// Largest speed after 200 steps with the friction of the velocity before.
+/// Largest speed in 200 steps with the friction at the previous velocity.
 fn explicit_speed(friction: &Composed<f64>, inertia: f64, push: f64) -> f64 {
     let (mut velocity, mut state, mut fastest) = (0.0, State::default(), 0.0_f64);
     for _ in 0..200 {
@@ -132,9 +132,9 @@ fn explicit_speed(friction: &Composed<f64>, inertia: f64, push: f64) -> f64 {
     fastest
 }
 
-/// Sliding friction and a push that is less than it: an analytic stop, met to rounding.
+/// A torque below the sliding friction: the analytic stop is met to rounding.
 #[test]
-fn a_stop_takes_place_within_the_step_where_it_belongs() {
+fn a_stop_within_a_step_is_exact() {
     let friction = model("coulomb", &[0.0, 2.0]);
     let start = Posture { position: 0.0, velocity: 0.123_4 };
     let steps = pushed(&friction, &Joint::free(0.5), start, 100, |_| 0.7);

@@ -1,5 +1,5 @@
-//! Elementary functions against values at 50 digits (`tests/elementary/references.py`), at their
-//! special points, and in packed loops.
+//! Elementary functions against values at 50 digits (`tests/elementary/references.py`), at special
+//! points, and in vectorised loops.
 
 use std::collections::BTreeMap;
 
@@ -24,7 +24,7 @@ fn bound(function: &str) -> f64 {
     BOUNDS.iter().find(|(name, _)| *name == function).expect("a bound for each function").1
 }
 
-/// A function for one number, and a loop over many that has the widest registers there are.
+/// A function of one number, and a loop over many with the widest vector registers.
 macro_rules! loops {
     ($name:ident: $function:expr) => {
         (stringify!($name), $function, |values| {
@@ -40,7 +40,7 @@ macro_rules! loops {
             }
             #[cfg(target_arch = "x86_64")]
             if std::arch::is_x86_feature_detected!("avx2") {
-                // SAFETY: the processor has it.
+                // SAFETY: the processor supports it.
                 return unsafe { wide(values, $function) };
             }
             plain(values, $function);
@@ -190,7 +190,7 @@ macro_rules! format {
                 }
             }
 
-            /// Numbers of every size and sign, and many of a common size.
+            /// Numbers of all magnitudes and signs, many of them of usual magnitude.
             fn arguments() -> Vec<$float> {
                 let step = $whole::MAX / 40_009;
                 let every_size = (0..40_009).map(|i| $float::from_bits(step * i));

@@ -1,4 +1,4 @@
-//! How laws and effects go together, and what is refused.
+//! Combinations of laws and effects, and errors.
 
 mod common;
 
@@ -20,7 +20,7 @@ fn order_of_effects_does_not_matter() {
 }
 
 #[test]
-fn parameters_depend_on_what_else_is_in_the_model() {
+fn parameters_depend_on_the_other_effects() {
     let with =
         |law, effects: &[&'static str]| names(&Spec::new(law, effects.iter().copied()).unwrap());
     let has = |law, effects, name| with(law, effects).contains(&name);
@@ -36,7 +36,7 @@ fn parameters_depend_on_what_else_is_in_the_model() {
 }
 
 #[test]
-fn refusals_say_what_and_why() {
+fn errors_state_what_and_why() {
     let refused = |law, effects: &[&'static str]| {
         Spec::new(law, effects.iter().copied()).unwrap_err().to_string()
     };
@@ -105,7 +105,7 @@ fn laws_without_direction_are_odd() {
     }
 }
 
-/// `linear` promises that the torque is an affine function of the parameter.
+/// `is_linear` means that the torque is an affine function of the parameter.
 #[test]
 fn linear_parameters_have_no_second_derivative() {
     type Second = Dual<Dual<f64, 1>, 1>;
@@ -160,7 +160,7 @@ fn tables_are_sound() {
 }
 
 #[test]
-fn a_model_is_read_from_what_it_displays_as() {
+fn a_model_parses_its_display_form() {
     for spec in every_model() {
         let read = Spec::parse(&spec.to_string()).unwrap();
         assert_eq!(read.to_string(), spec.to_string());

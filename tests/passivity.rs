@@ -1,4 +1,5 @@
-//! Proofs of passivity: what is certified holds at random, what is broken gives off energy.
+//! Proofs of passivity: certificates against random motions, and counterexamples that generate
+//! energy.
 
 #![cfg(feature = "std")]
 
@@ -15,7 +16,7 @@ const BUDGET: usize = 400_000;
 /// s0, s1, s2, Fc, Fs, vs, alpha of Canudas de Wit et al. 1995.
 const LUGRE_1995: [f64; 7] = [1e5, 316.227_766_016_837_95, 0.4, 1.0, 1.5, 1e-3, 2.0];
 
-/// Numbers that look random (xorshift64*).
+/// A pseudo-random generator (xorshift64*).
 struct Random(u64);
 
 impl Random {
@@ -30,7 +31,7 @@ impl Random {
         low + share * (high - low)
     }
 
-    /// A point of the box; half of the speeds are spread over decades.
+    /// A point of the box; half of the speeds are uniform over decades.
     #[allow(clippy::disallowed_methods)]
     fn point(&mut self, sides: &[Side]) -> Point {
         let mut point = Sample::at(0.0);
@@ -92,7 +93,7 @@ fn margin(verdict: &Verdict, condition: Condition) -> Margin {
     *verdict.margins.iter().find(|margin| margin.condition == condition).unwrap()
 }
 
-/// The counterexample gives off energy and leaves the model as it was.
+/// Checks that the counterexample generates energy and ends in its initial state.
 fn breaks(model: &Composed<f64>, verdict: &Verdict) {
     let example = verdict.counterexample.as_ref().expect("what is not passive has an example");
     let (work, end) = work(model, example.deflection, &example.holds);
@@ -104,7 +105,7 @@ fn breaks(model: &Composed<f64>, verdict: &Verdict) {
 }
 
 /// Every law, alone and with effects, static or in steady sliding: no sample contradicts a proof,
-/// and each counterexample gives off energy.
+/// and each counterexample generates energy.
 #[test]
 fn no_sample_contradicts_a_certificate() {
     let sides = wide();
@@ -145,7 +146,7 @@ fn no_sample_contradicts_a_certificate() {
     assert!(proved >= 60 && broken >= 3, "{proved} proved, {broken} broken");
 }
 
-/// Static laws with parameters of any sign and size: nearly all are decided, and none wrongly.
+/// Static laws with parameters of any sign and magnitude: nearly all are decided, and none wrongly.
 #[test]
 fn static_laws_with_any_parameters_are_decided() {
     let sides = wide();
@@ -188,8 +189,8 @@ fn the_margin_is_the_least_friction() {
 }
 
 #[test]
-fn friction_that_helps_the_motion_somewhere_is_found() {
-    // a1 v + a2 + a3/(1 + exp(-a4 (v + a5))): the offset pushes slow motion along.
+fn friction_that_drives_the_motion_is_found() {
+    // a1 v + a2 + a3/(1 + exp(-a4 (v + a5))): the offset drives slow motion.
     let gaz = [0.2, 0.1, 1.0, 20.0, 0.0];
     let found = verdict("gaz_a", &gaz, &speed(1.0));
     assert_eq!(found.passive, Some(false));
@@ -218,8 +219,8 @@ fn the_1995_example_is_passive_up_to_its_limit_and_not_above() {
     }
 }
 
-/// Property 1 of Tadese et al. 2021 as it stands, and where it is needlessly strict: with constant
-/// dry friction the bristle never leaves `|x| <= 1`, and no damping is too much.
+/// Property 1 of Tadese et al. 2021, and a case where it is too strict: with constant dry friction
+/// the bristle never leaves `|x| <= 1`, and any damping is passive.
 #[test]
 fn property_1_is_sufficient_and_needlessly_strict() {
     let kind = |damping: f64| [1e3, damping, 0.1, 1.0, 1.0, 0.1, 2.0];
@@ -238,7 +239,7 @@ fn property_1_is_sufficient_and_needlessly_strict() {
 
 /// Barabanov and Ortega's `s2 > s1 (Fs - Fc)/Fc` is sufficient over any box.
 #[test]
-fn what_is_known_to_be_passive_is_certified_and_random_cycles_agree() {
+fn known_passive_models_are_certified_and_random_cycles_agree() {
     let mut random = Random(23);
     for _ in 0..200 {
         let coulomb = random.between(0.5, 3.0);
@@ -258,9 +259,9 @@ fn what_is_known_to_be_passive_is_certified_and_random_cycles_agree() {
     }
 }
 
-/// Models that a cycle inside the box breaks: found first by trying cycles, then by the check.
+/// Models that a cycle inside the box proves not passive: found by random cycles and by the check.
 #[test]
-fn what_a_random_cycle_breaks_is_called_not_passive() {
+fn models_violated_by_a_random_cycle_are_not_passive() {
     let mut random = Random(31);
     let mut broken = 0;
     while broken < 200 {
@@ -284,7 +285,7 @@ fn what_a_random_cycle_breaks_is_called_not_passive() {
     }
 }
 
-/// What is proved misses no requirement, and what misses one is not proved.
+/// A proved model violates no requirement, and a model that violates one is not proved.
 #[test]
 fn requirements_agree_with_certificates() {
     let mut random = Random(47);
@@ -317,7 +318,7 @@ fn requirements_agree_with_certificates() {
 }
 
 #[test]
-fn slopes_of_requirements_are_those_of_their_margins() {
+fn gradients_of_requirements_equal_those_of_their_margins() {
     let sides = wide();
     for name in ["lugre", "tadese_full", "dahl", "bittencourt_b", "hao_a"] {
         let spec = made(name);
@@ -349,7 +350,7 @@ fn random_cycle(model: &Composed<f64>, random: &mut Random, sides: &[Side]) -> O
     let ends = [0, 1].map(|_| random.between(-strongest, strongest) / stiffness);
     let mut holds = Vec::new();
     for (k, point) in points.into_iter().enumerate() {
-        // z tends to the end at the rate r, for a velocity that is held.
+        // z tends to its end at the rate r, at constant velocity.
         let rate = stiffness * point.velocity.abs() / model.split(&point).dry();
         let end = point.velocity / rate;
         let (from, to) = (ends[k], ends[1 - k]);
@@ -360,7 +361,7 @@ fn random_cycle(model: &Composed<f64>, random: &mut Random, sides: &[Side]) -> O
         holds.push(Hold { point, duration });
     }
     let (work, end) = work(model, Some(ends[0]), &holds);
-    // What is left in the bristle by rounding.
+    // The energy left in the bristle due to rounding.
     let left = stiffness * end.abs().max(ends[0].abs()) * (end - ends[0]).abs();
     Some(work + left)
 }
@@ -371,7 +372,7 @@ fn other_single_deflections() {
     assert_eq!((dahl.passive, dahl.condition), (Some(true), Condition::Storage));
     let bristle = verdict("coulomb+presliding", &[0.4, 1.0, 1e4, 10.0], &speed(0.3));
     assert_eq!(bristle.passive, Some(true));
-    // The smoothed sign stops the bristle from unwinding in slow reversal.
+    // The smoothed sign prevents the bristle from unloading in a slow reversal.
     let indri = [1e4, 0.1, 1.0, 0.1, 1e3, 1.0, 0.2, 1.0, 0.3, 0.0];
     let mut sides = speed(1.0);
     sides.push(side(Channel::Acceleration, -1.0, 1.0));
@@ -380,9 +381,9 @@ fn other_single_deflections() {
     breaks(&made("indri_b").with(&indri[..]).unwrap(), &found);
 }
 
-/// Of each law with a single deflection that is certified: from a joint without tension, random
-/// motions of the box never take out more than they have put in, and where the storage is that of
-/// the spring, they have put in at least as much.
+/// For each certified law with a single deflection: from a relaxed state, random motions within the
+/// box never extract energy, and where the storage function is that of the spring, the work is at
+/// least the stored energy.
 #[test]
 fn random_motions_agree_with_certificates() {
     let sides = wide();
@@ -412,7 +413,7 @@ fn random_motions_agree_with_certificates() {
             let stiffness = model.deflection(&Sample::at(1.0)).unwrap().stiffness;
             let spring = 0.5 * stiffness * state.deflection() * state.deflection();
             let stored = if found.condition == Condition::Cycle { 0.0 } else { spring };
-            // The elastoplastic step is right to 6e-6 of the dry friction.
+            // The error of the elastoplastic step is up to 6e-6 of the dry friction.
             assert!(work - stored >= -2e-5 * effort, "{name}: {work} {stored}");
         }
     }
@@ -420,14 +421,14 @@ fn random_motions_agree_with_certificates() {
 }
 
 #[test]
-fn what_cannot_be_decided_is_not_called_either() {
+fn undecided_models_are_neither_passive_nor_not() {
     for law in [LawId::BlimanSorine, LawId::Leuven, LawId::Gms] {
         let spec = Spec::new(law.info().id, []).unwrap();
         let found = check(&spec, &common::values(&spec), &speed(1.0), BUDGET).unwrap();
         assert_eq!((found.passive, found.condition), (None, Condition::Unknown), "{spec}");
         assert_eq!(found.counterexample, None);
     }
-    // Too few evaluations to tell.
+    // Too few evaluations to decide.
     let found = check(&made("lugre"), &LUGRE_1995, &speed(0.0375), 2_000).unwrap();
     assert_eq!(found.passive, None);
 }
@@ -444,7 +445,7 @@ fn elements_of_constant_strength_are_passive() {
 }
 
 #[test]
-fn boxes_that_cannot_be_asked_are_refused() {
+fn invalid_boxes_are_refused() {
     let refused = |spec: &str, values: &[f64], sides: &[Side]| {
         check(&made(spec), values, sides, BUDGET).unwrap_err().to_string()
     };
@@ -461,11 +462,11 @@ fn boxes_that_cannot_be_asked_are_refused() {
 }
 
 #[test]
-fn a_counterexample_leaves_a_state_that_steps_as_any_other() {
+fn a_counterexample_leaves_an_ordinary_state() {
     let model = made("lugre").with(&LUGRE_1995[..]).unwrap();
     let found = verdict("lugre", &LUGRE_1995, &speed(0.05));
     let example = found.counterexample.unwrap();
-    let mut state = State::deflected(example.deflection.unwrap());
+    let mut state = State::with_deflection(example.deflection.unwrap());
     let mut energy = 0.0;
     for _ in 0..10 {
         for hold in &example.holds {

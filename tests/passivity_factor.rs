@@ -1,4 +1,4 @@
-//! The largest factor of a compensator, against the least ratio over a grid of frictions.
+//! The largest factor of a compensator, against the least ratio over a grid of friction models.
 
 use stribeck::passivity::{Side, largest_factor};
 use stribeck::{Channel, Sample, Spec};
@@ -18,15 +18,15 @@ fn within(reach: f64) -> Vec<[f64; 2]> {
 }
 
 #[test]
-fn known_exactly_all_may_be_cancelled() {
+fn exactly_known_friction_may_be_cancelled_completely() {
     let found =
         largest_factor((&spec(), &VALUES), (&spec(), &within(0.0)), &SIDES, BUDGET).unwrap();
     assert_eq!(found.proved, 1.0);
 }
 
 #[test]
-fn numbers_outside_the_bounds_are_compared_all_the_same() {
-    // Another Stribeck velocity: its curve is not straight in that.
+fn compensator_values_may_lie_outside_the_bounds() {
+    // Another Stribeck velocity, in which the curve is nonlinear.
     let mut other = VALUES;
     other[3] *= 4.0;
     for (cancels, resists) in [(VALUES, other), (other, VALUES)] {
@@ -62,7 +62,7 @@ fn no_friction_within_the_bounds_is_exceeded() {
         }
     }
     assert!(found.proved <= least, "{} above {least}", found.proved);
-    // Not needlessly strict either.
+    // The bound is also tight.
     assert!(found.proved > least - 0.02, "{} far below {least}", found.proved);
     assert!(found.proved <= found.at_point);
 }

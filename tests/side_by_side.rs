@@ -1,4 +1,4 @@
-//! Blocks of rows give the bits that rows give one after the other.
+//! Blocks of samples have the bits of evaluation sample by sample.
 #![cfg(feature = "std")]
 
 mod common;
@@ -7,11 +7,11 @@ use common::{every_model, motion, values};
 use stribeck::batch::{self, TimeStep};
 use stribeck::{Interval, State};
 
-/// More than two blocks, and a part of one.
+/// More than two blocks, the last one partial.
 const ROWS: usize = 300;
 
 #[test]
-fn every_model_steps_as_it_does_alone() {
+fn every_model_has_the_bits_of_scalar_evaluation() {
     let motion = motion(ROWS);
     let mut steps = vec![motion.dt; ROWS];
     (steps[0], steps[77], steps[128], steps[200]) = (f64::NAN, 0.0, f64::INFINITY, f64::INFINITY);
@@ -44,7 +44,7 @@ fn every_model_steps_as_it_does_alone() {
                 let dt = if settled || steps[i].is_nan() { 0.0 } else { steps[i] };
                 let mean_velocity = mean_velocity.map(|mean| mean[i]);
                 let interval = Interval { sample, mean_velocity, dt, mean: false };
-                let alone = model.over(&mut state, &interval).torque;
+                let alone = model.step_over(&mut state, &interval).torque;
                 assert_eq!(torque, alone, "{spec}: row {i}");
             }
         }

@@ -12,7 +12,7 @@ fn product(factor: &[f64], width: usize, i: usize, j: usize) -> f64 {
 }
 
 #[test]
-fn a_factor_keeps_every_sum_of_products() {
+fn a_factor_preserves_all_sums_of_products() {
     let n = 101;
     let jacobian: Vec<f64> = (0..n * 3).map(|k| ((k * k * 7) % 23) as f64 - 11.0).collect();
     let residual: Vec<f64> = (0..n).map(|k| ((k * 5) % 17) as f64 - 8.0).collect();
@@ -32,9 +32,9 @@ fn a_factor_keeps_every_sum_of_products() {
     }
 }
 
-/// Läuchli's columns (1, e, 0) and (1, 0, e): in the normal equations e^2 drowns in 1.
+/// Läuchli's columns (1, e, 0) and (1, 0, e): in the normal equations e^2 is lost next to 1.
 #[test]
-fn nearly_equal_columns_stay_apart() {
+fn nearly_equal_columns_stay_distinct() {
     let e = 1e-9;
     let made = triangles(&[1.0, 1.0, e, 0.0, 0.0, e], 2, &[2.0, e, e], &[0; 3], 1).unwrap();
     let factor = made[0].factor();
@@ -45,7 +45,7 @@ fn nearly_equal_columns_stay_apart() {
 }
 
 #[test]
-fn what_does_not_fit_together_is_refused() {
+fn inconsistent_sizes_are_refused() {
     let refused = |jacobian: &[f64], p, group: &[u32]| {
         triangles(jacobian, p, &[1.0, 2.0], group, 2).unwrap_err().to_string()
     };

@@ -222,8 +222,8 @@ impl<'a> Columns<'a> {
         let mut given = self.state.iter().map(|&x| S::from_f64(x));
         match memory {
             Memory::None => State::default(),
-            Memory::Deflection => given.next().map_or_else(State::default, State::deflected),
-            Memory::Forces(_) | Memory::Elements => State::tensioned(given),
+            Memory::Deflection => given.next().map_or_else(State::default, State::with_deflection),
+            Memory::Forces(_) | Memory::Elements => State::with_forces(given),
         }
     }
 

@@ -301,7 +301,7 @@ fn evaluate<S: Scalar>(
             dt: S::Plain::from_f64(dt),
             mean: false,
         };
-        sink(&model.over(&mut state, &interval).torque);
+        sink(&model.step_over(&mut state, &interval).torque);
     }
 }
 

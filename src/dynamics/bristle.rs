@@ -165,7 +165,7 @@ impl<S: Real> Bristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
     /// at the end.
     #[inline(always)]
-    pub(crate) fn over(
+    pub(crate) fn step_over(
         &self,
         state: &mut BristleState<S>,
         dry: S,
@@ -203,8 +203,8 @@ impl<S: Real> Bristle<S> {
         velocity: S::Plain,
         dt: S::Plain,
     ) -> Step<S> {
-        let interval = Interval { mean: true, ..Interval::held(Sample::at(velocity), dt) };
-        self.over(state, split.dry(), split, &interval)
+        let interval = Interval { mean: true, ..Interval::constant(Sample::at(velocity), dt) };
+        self.step_over(state, split.dry(), split, &interval)
     }
 
     /// Torque averaged over the step; `reach` is `1/x`.

@@ -49,7 +49,7 @@ impl<S: Real> ElastoplasticBristle<S> {
     /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
     /// at the end.
     #[inline]
-    pub fn over(
+    pub fn step_over(
         &self,
         state: &mut BristleState<S>,
         dry: S,

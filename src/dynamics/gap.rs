@@ -47,7 +47,7 @@ impl<S: Real> Default for Flanks<S> {
 impl<S: Real> Gap<S> {
     /// The part of the load torque that the gap takes away over `interval` (T).
     #[inline]
-    pub fn over(&self, state: &mut Flanks<S>, interval: &Interval<S::Plain>) -> S {
+    pub fn step_over(&self, state: &mut Flanks<S>, interval: &Interval<S::Plain>) -> S {
         let before = *state;
         let load = S::from_plain(interval.sample.load_torque);
         let earlier = S::choose(before.begun, before.load, load);

@@ -37,7 +37,7 @@ impl<S: Real> Lag<S> {
     /// there. Where the interval has a mean velocity, the steady value changes linearly within the
     /// step.
     #[inline]
-    pub fn over(&self, state: &mut Lagging<S>, steady: S, interval: &Interval<S::Plain>) -> S {
+    pub fn step_over(&self, state: &mut Lagging<S>, steady: S, interval: &Interval<S::Plain>) -> S {
         let before = *state;
         let follows = || {
             let (decay, late) = self.weights(interval);

@@ -34,7 +34,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
     /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
     /// at the end.
     #[inline]
-    pub fn over(
+    pub fn step_over(
         &self,
         state: &mut Elements<S>,
         dry: S,
@@ -142,7 +142,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
                 }
             };
             let ends = || {
-                let [way, following] = piece.over(left);
+                let [way, following] = piece.step_over(left);
                 Glide {
                     force: self.shifted(state, limit, toward, way.scale(along)),
                     left: S::zero(),
@@ -266,7 +266,7 @@ impl<S: Real> Piece<S> {
     /// The motion of `z` over a travel, and the share of a change of the target that the force has
     /// followed.
     #[inline]
-    fn over(&self, travel: S) -> [S; 2] {
+    fn step_over(&self, travel: S) -> [S; 2] {
         let pull = self.stiffness * travel;
         let follows = || {
             let y = -(pull / self.dry);

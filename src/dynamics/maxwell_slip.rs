@@ -27,7 +27,7 @@ impl<S: Real> MaxwellSlip<'_, S> {
     /// Steps over `interval` with the dry magnitude `dry` constant; the torque is that of `split`,
     /// at the end.
     #[inline]
-    pub fn over(
+    pub fn step_over(
         &self,
         state: &mut Elements<S>,
         dry: S,
@@ -64,7 +64,7 @@ impl<S: Real> MaxwellSlip<'_, S> {
             travel: interval.travel(),
             from: (dry - change) / total,
             to: (dry + change) / total,
-            whole: settling.over(S::one()),
+            whole: settling.weights(S::one()),
             settling,
         }
     }
@@ -101,7 +101,7 @@ struct Weights<S> {
 impl<S: Real> Settling<S> {
     /// The weights over a share of the step.
     #[inline]
-    fn over(&self, share: S) -> Weights<S> {
+    fn weights(&self, share: S) -> Weights<S> {
         let pull = self.pull * share;
         let stays = || [S::one(), S::from_f64(0.5), S::zero()];
         let follows = || {
@@ -163,7 +163,7 @@ impl<S: Real> Element<S> {
                 let share = room / gain;
                 let rest = (-share).shift(S::Plain::one());
                 let start = before + reach * share;
-                let weights = slide.settling.over(rest);
+                let weights = slide.settling.weights(rest);
                 let [after, mean] = approach(start, (start, to), &weights);
                 [after, share * (before + start).scale(half) + rest * mean, S::zero()]
             };

@@ -61,7 +61,7 @@ impl<P: Real> Interval<P> {
     /// `sample` constant for `dt` (s), without the mean torque.
     #[inline(always)]
     #[must_use]
-    pub const fn held(sample: Sample<P>, dt: P) -> Self {
+    pub const fn constant(sample: Sample<P>, dt: P) -> Self {
         Self { sample, mean_velocity: None, dt, mean: false }
     }
 
@@ -144,7 +144,7 @@ impl<S: Real> State<S> {
     /// The state for an initial deflection `z` (X); 0 for a relaxed bristle.
     #[inline]
     #[must_use]
-    pub fn deflected(z: S) -> Self {
+    pub fn with_deflection(z: S) -> Self {
         Self {
             bristle: BristleState { z },
             elements: Elements::default(),
@@ -164,7 +164,7 @@ impl<S: Real> State<S> {
 
     /// The state of sticking elements with these forces (T).
     #[must_use]
-    pub fn tensioned(forces: impl IntoIterator<Item = S>) -> Self {
+    pub fn with_forces(forces: impl IntoIterator<Item = S>) -> Self {
         let mut state = Self::default();
         for (own, force) in state.elements.force.iter_mut().zip(forces) {
             *own = force;
@@ -191,7 +191,7 @@ impl<S: Real> State<S> {
 
 impl<S: Real> Default for State<S> {
     fn default() -> Self {
-        Self::deflected(S::zero())
+        Self::with_deflection(S::zero())
     }
 }
 

@@ -30,7 +30,7 @@ impl<S: Real> Relaxation<S> {
     /// The state after a travel `>= 0`, from `z`.
     #[inline]
     #[must_use]
-    pub fn over(&self, z: S, travel: S::Plain) -> Relaxed<S> {
+    pub fn step_over(&self, z: S, travel: S::Plain) -> Relaxed<S> {
         let pull = self.pull.scale(travel);
         let way = self.target - z;
         let bound = self.hold.plain() * S::Plain::from_f64(SATURATED);

@@ -61,6 +61,6 @@ impl<S: Real> FrictionEffect<S> for Backlash<S> {
             reference: constants.reference_velocity,
             returned: self.backlash_return,
         };
-        split.additive += gap.over(&mut state.flanks, interval);
+        split.additive += gap.step_over(&mut state.flanks, interval);
     }
 }

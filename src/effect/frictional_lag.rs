@@ -42,7 +42,7 @@ impl<S: Real> FrictionEffect<S> for FrictionalLag<S> {
         _: &Constants<S::Plain>,
     ) {
         let lag = Lag { time: self.frictional_lag };
-        let value = lag.over(&mut state.curve, split.shape.value, interval);
-        split.shape = split.shape.displaced(value);
+        let value = lag.step_over(&mut state.curve, split.shape.value, interval);
+        split.shape = split.shape.with_value(value);
     }
 }

@@ -46,7 +46,8 @@ impl<S: Real> FrictionEffect<S> for Load<S> {
         let load = self.load_exponent.exp_with_base(ratio).scale(reference);
         let mut share = self.load_coulomb;
         if !self.load_stribeck.is_zero() {
-            share += self.load_stribeck * split.shape.widened(self.load_stribeck_ratio).value;
+            share += self.load_stribeck
+                * split.shape.with_scaled_velocity(self.load_stribeck_ratio).value;
         }
         split.load += share * load;
     }

@@ -56,8 +56,9 @@ impl<S: Real> FrictionEffect<S> for TemperatureDry<S> {
         split.load *= (self.temperature_dry_load * factor.shift(-one)).shift(one);
         if !split.height.is_zero() {
             split.height *= factor * self.temperature_dry_height.scale(above).shift(one);
-            split.shape =
-                split.shape.widened(self.temperature_dry_velocity.scale(above).shift(one));
+            split.shape = split
+                .shape
+                .with_scaled_velocity(self.temperature_dry_velocity.scale(above).shift(one));
         }
     }
 }

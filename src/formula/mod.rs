@@ -38,7 +38,7 @@ pub use parser::FormulaNames;
 #[cfg(feature = "python")]
 pub(crate) use program::Operation;
 pub use terms::Formula;
-pub(crate) use terms::OwnTerms;
+pub(crate) use terms::FormulaTerms;
 #[cfg(feature = "python")]
 pub(crate) use terms::Term;
 #[cfg(feature = "std")]

@@ -324,12 +324,12 @@ const fn table(role: Role) -> [ParameterInfo; MAX_PARAMETERS] {
 
 /// A formula with parameter values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OwnTerms<S> {
+pub struct FormulaTerms<S> {
     formula: Formula,
     parameters: [S; MAX_PARAMETERS],
 }
 
-impl<S: Real> OwnTerms<S> {
+impl<S: Real> FormulaTerms<S> {
     /// The formula with the parameters that `next` returns, in their order.
     #[inline]
     #[must_use]

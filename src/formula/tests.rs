@@ -1,9 +1,9 @@
-//! Laws by formula: what a text means, what it is refused for, and its numbers.
+//! Formula laws: parsing, errors and values.
 
-// All the digits that mpmath printed.
+// Values with all digits printed by mpmath.
 #![allow(clippy::excessive_precision)]
 
-use super::{OwnTerms, TermKind};
+use super::{FormulaTerms, TermKind};
 use crate::catalog::Role;
 use crate::common::close;
 use crate::{Channel, Dual, Formula, Real, Sample, Spec, State};
@@ -13,7 +13,7 @@ fn parse(text: &str) -> Formula {
 }
 
 fn torque(text: &str, parameters: &[f64], sample: &Sample<f64>) -> f64 {
-    OwnTerms::new(&parse(text), parameters).split(sample).torque(sample.velocity.sign())
+    FormulaTerms::new(&parse(text), parameters).split(sample).torque(sample.velocity.sign())
 }
 
 /// The value of a formula of `c` at `v`.
@@ -50,7 +50,7 @@ const SAMPLE: Sample<f64> = Sample {
 };
 
 #[test]
-fn operators_bind_as_in_every_textbook() {
+fn operators_have_the_usual_precedence() {
     assert_eq!(at("c + 2*3^2", 1.0, 0.0), 19.0);
     assert_eq!(at("c - 2 - 3", 1.0, 0.0), -4.0);
     assert_eq!(at("c*12/4/3", 1.0, 0.0), 1.0);
@@ -115,7 +115,7 @@ fn every_channel_has_its_names() {
 }
 
 #[test]
-fn whole_powers_are_exact_and_take_any_base() {
+fn integer_powers_are_exact_for_any_base() {
     let x: f64 = -1.1;
     assert_eq!(at("c*v**2", 1.0, x), x * x);
     assert_eq!(at("c*v**3", 1.0, x), x * (x * x));
@@ -133,7 +133,7 @@ fn names_come_in_the_order_of_the_text() {
 }
 
 #[test]
-fn a_law_written_out_is_the_law() {
+fn a_law_as_a_formula_equals_the_law() {
     let text = "(a1 + a2*exp(-abs(v/a3)^a4))*sgn(v) + a5*v";
     let values = [0.8, 0.5, 0.07, 1.4, 0.3];
     let law = Spec::new("bittencourt_a", []).unwrap().with(&values).unwrap();
@@ -149,7 +149,7 @@ fn terms_are_dry_smoothed_rate_or_additive() {
     assert_eq!(kinds("c1*abs(load)*sgn(velocity)/2 - (c2 + c3*T)*v"), [Dry, Rate]);
     assert_eq!(kinds("-(c1*tanh(v/c2) - c3*sin(q))"), [Smoothed, Additive]);
     assert_eq!(kinds("(2*c1/pi)*atan(c2*v)"), [Smoothed]);
-    // Vanishing magnitudes are no dry friction, however they are written.
+    // Magnitudes that vanish at rest are not dry friction, however they are written.
     assert_eq!(kinds("c1*abs(v)**c2*sgn(v) + sgn(v)*(1 - exp(-c3*abs(v)))"), [Rate, Rate]);
     assert_eq!(kinds("c1*v*tanh(v) + c2*tanh(v**3)"), [Rate, Rate]);
     assert_eq!(kinds("c1*tanh(v - c2) + c3*sgn(q)"), [Additive, Additive]);
@@ -157,19 +157,19 @@ fn terms_are_dry_smoothed_rate_or_additive() {
 }
 
 #[test]
-fn a_split_holds_what_a_bristle_needs() {
+fn a_split_contains_what_a_bristle_needs() {
     let text = "c1*abs(load)*sgn(v) + c2*tanh(v/c3) + c4*v + c5";
-    let split = OwnTerms::new(&parse(text), &[0.5, 0.25, -0.1, 3.0, 0.7]).split(&SAMPLE);
+    let split = FormulaTerms::new(&parse(text), &[0.5, 0.25, -0.1, 3.0, 0.7]).split(&SAMPLE);
     assert_eq!(split.coulomb, 2.0);
-    // Amplitude along the motion: both signs are turned, so friction still opposes it.
-    let turned = OwnTerms::new(&parse(text), &[0.5, -0.25, -0.1, 3.0, 0.7]).split(&SAMPLE);
+    // Amplitude along the motion: both signs are negative, so friction still opposes it.
+    let turned = FormulaTerms::new(&parse(text), &[0.5, -0.25, -0.1, 3.0, 0.7]).split(&SAMPLE);
     assert_eq!((split.smoothed_amplitude, turned.smoothed_amplitude), (-0.25, 0.25));
     close(split.smoothed_torque, 0.25 * 0.99505475368673045, 1e-15);
     assert_eq!((split.rate, split.additive), (3.0 * -0.3, 0.7));
     let at_rest = Sample { velocity: 0.0, ..SAMPLE };
-    let resting = OwnTerms::new(&parse(text), &[0.5, 0.25, 0.1, 3.0, 0.7]).split(&at_rest);
+    let resting = FormulaTerms::new(&parse(text), &[0.5, 0.25, 0.1, 3.0, 0.7]).split(&at_rest);
     assert_eq!((resting.dry(), resting.torque(0.0)), (2.25, 0.7));
-    let arctangent = OwnTerms::new(&parse("2*c1/pi*atan(v/c2)"), &[0.5, 0.1]).split(&SAMPLE);
+    let arctangent = FormulaTerms::new(&parse("2*c1/pi*atan(v/c2)"), &[0.5, 0.1]).split(&SAMPLE);
     close(arctangent.smoothed_amplitude, 0.5, 1e-15);
 }
 
@@ -180,7 +180,7 @@ fn linear_parameters_are_found_by_structure() {
     assert_eq!(roles(stribeck), [Rate, Dry, Dry, Nonlinear, Additive]);
     assert_eq!(roles("c1*tanh(v/c2)"), [Dry, Nonlinear]);
     assert_eq!(roles("b1*b2*v/(1 + b2*v)"), [Rate, Nonlinear]);
-    // Jointly linear: the two inside rather than the one outside.
+    // Jointly linear: the two inner parameters rather than the outer one.
     assert_eq!(roles("c1*(c2 + c3*v)"), [Nonlinear, Additive, Additive]);
     assert_eq!(roles("c1**2*v"), [Nonlinear]);
     assert_eq!(roles("c1**1*v + (c2 + 2)/3"), [Rate, Additive]);
@@ -188,18 +188,18 @@ fn linear_parameters_are_found_by_structure() {
 }
 
 #[test]
-fn gradients_are_those_of_the_formula() {
+fn gradients_equal_those_of_the_formula() {
     let text = "c1*v + (c2 + c3*exp(-abs(v/c4)^c5))*sgn(v) + atan(c6/(T - c7))/pi \
                 + min(c8*q, 2)*c2^(-1/c9) - sqrt(c1 + 3)/cbrt(c2) + 2^c3*tan(c4) + log(c5*tm)";
     let values = [1.2, 0.9, 0.4, 0.2, 1.6, 3.0, 12.0, 0.8, 1.9];
     let formula = parse(text);
     let plain = |values: &[f64]| {
-        let split = OwnTerms::new(&formula, values).split(&SAMPLE);
+        let split = FormulaTerms::new(&formula, values).split(&SAMPLE);
         split.torque(SAMPLE.velocity.sign())
     };
     let duals: Vec<Dual<f64, 9>> =
         values.iter().enumerate().map(|(i, &x)| Dual::variable(x, i)).collect();
-    let dual = OwnTerms::new(&formula, &duals).split(&SAMPLE).torque(SAMPLE.velocity.sign());
+    let dual = FormulaTerms::new(&formula, &duals).split(&SAMPLE).torque(SAMPLE.velocity.sign());
     assert_eq!(dual.value.to_bits(), plain(&values).to_bits());
     for (i, slope) in dual.derivative.iter().enumerate() {
         let mut beside = [values; 4];
@@ -215,13 +215,13 @@ fn gradients_are_those_of_the_formula() {
 fn single_precision_is_the_same_formula() {
     let formula = parse("c1*tanh(v/c2) + c3*abs(v)^1.5*sgn(v)");
     let sample = Sample::<f32>::at(0.2);
-    let single = OwnTerms::new(&formula, &[2.0_f32, 0.1, 0.3]).split(&sample).torque(1.0);
-    let double = OwnTerms::new(&formula, &[2.0, 0.1, 0.3]).split(&Sample::at(0.2)).torque(1.0);
+    let single = FormulaTerms::new(&formula, &[2.0_f32, 0.1, 0.3]).split(&sample).torque(1.0);
+    let double = FormulaTerms::new(&formula, &[2.0, 0.1, 0.3]).split(&Sample::at(0.2)).torque(1.0);
     close(f64::from(single), double, 3e-7);
 }
 
 #[test]
-fn refusals_say_what_and_where() {
+fn errors_state_what_and_where() {
     let refusals = [
         ("", "the formula is empty"),
         ("  ", "the formula is empty"),
@@ -274,7 +274,7 @@ fn refusals_say_what_and_where() {
 }
 
 #[test]
-fn what_is_too_large_is_refused() {
+fn formulas_that_are_too_large_are_refused() {
     let sum =
         |n: usize, term: &dyn Fn(usize) -> String| (0..n).map(term).collect::<Vec<_>>().join(" + ");
     assert!(refusal(&sum(17, &|i| format!("c{i}*v"))).contains("at most 16 parameters"));
@@ -287,7 +287,7 @@ fn what_is_too_large_is_refused() {
     assert!(Formula::parse(&sum(16, &|i| format!("c{i}*v"))).is_ok());
 }
 
-/// Texts of random pieces end in a formula or a sentence, and in numbers without a panic.
+/// Random texts give a formula or an error, and values without a panic.
 #[test]
 fn no_text_causes_a_panic() {
     let pieces = [
@@ -305,7 +305,7 @@ fn no_text_causes_a_panic() {
         match Formula::parse(&text) {
             Ok((formula, _)) => {
                 understood += 1;
-                let _ = OwnTerms::new(&formula, &[0.3, -0.7]).split(&SAMPLE);
+                let _ = FormulaTerms::new(&formula, &[0.3, -0.7]).split(&SAMPLE);
             }
             Err(error) => assert!(!error.to_string().is_empty()),
         }
@@ -318,7 +318,7 @@ fn static_torque(spec: &Spec, values: &[f64]) -> f64 {
 }
 
 #[test]
-fn effects_act_on_a_law_by_formula() {
+fn effects_act_on_a_formula_law() {
     let law = parse("c1*v + c2*tanh(v/c3)");
     let spec = Spec::by_formula(&law, ["offset", "temperature_dry"]).unwrap();
     assert_eq!(spec.to_string(), "formula+temperature_dry+offset");
@@ -336,7 +336,7 @@ fn effects_act_on_a_law_by_formula() {
 }
 
 #[test]
-fn presliding_puts_a_bristle_around_a_law_by_formula() {
+fn presliding_adds_a_bristle_to_a_formula_law() {
     let spec = Spec::by_formula(&parse("c1*v + c2*tanh(v/c3)"), ["presliding"]).unwrap();
     let linear: Vec<_> = spec.parameters().map(|p| spec.is_linear(p)).collect();
     assert_eq!(linear, [true, false, false, false, true]);
@@ -349,7 +349,7 @@ fn presliding_puts_a_bristle_around_a_law_by_formula() {
 }
 
 #[test]
-fn terms_by_formula_join_any_law() {
+fn formula_terms_extend_any_law() {
     let mut spec = Spec::new("coulomb", ["offset"]).unwrap();
     spec.add_terms(&parse("c*abs(load)*sgn(v)")).unwrap();
     spec.add_terms(&parse("2*d*v^2*sgn(v)")).unwrap();

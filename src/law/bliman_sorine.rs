@@ -61,7 +61,7 @@ impl<S: Real> FrictionLaw<S> for BlimanSorine<S> {
         for ((share, hold), force) in parts.into_iter().zip(&mut state.elements.force) {
             let target = (share * dry).scale(direction);
             let relaxation = Relaxation { target, pull: S::one(), hold };
-            let relaxed = relaxation.over(*force, interval.travel());
+            let relaxed = relaxation.step_over(*force, interval.travel());
             *force = relaxed.end;
             if interval.mean_velocity.is_some() {
                 let moved = (share * (split.dry() - dry)).scale(direction);

@@ -40,7 +40,7 @@ pub fn gaussian_curve<S: Real>(velocity: S::Plain, stribeck_velocity: S) -> Stri
         S::choose(velocity.at_zero(), S::zero(), stribeck_velocity.reciprocal_times(velocity));
     // `abs` makes the square of an interval non-negative.
     let ratio = ratio.abs();
-    StribeckCurve::of(ratio * ratio, S::from_f64(2.0))
+    StribeckCurve::new(ratio * ratio, S::from_f64(2.0))
 }
 
 /// `a + b x + c x^2`.

@@ -60,6 +60,6 @@ impl<S: Real> FrictionLaw<S> for Dahl<S> {
     ) -> Step<S> {
         let bristle =
             DahlBristle { stiffness: self.bristle_stiffness, exponent: self.dahl_exponent };
-        bristle.over(&mut state.bristle, dry, split, interval)
+        bristle.step_over(&mut state.bristle, dry, split, interval)
     }
 }

@@ -42,7 +42,7 @@ impl<S: Real> FrictionLaw<S> for Dong<S> {
         Split {
             coulomb: self.coulomb_friction * saturation(self.coulomb_steepness.scale(speed)),
             height: self.static_friction,
-            shape: StribeckCurve::of(self.stribeck_steepness.scale(speed), S::one()),
+            shape: StribeckCurve::new(self.stribeck_steepness.scale(speed), S::one()),
             rate: self.viscous_friction.scale(sample.velocity),
             ..Split::zero()
         }

@@ -85,6 +85,6 @@ impl<S: Real> FrictionLaw<S> for Elastoplastic<S> {
             damping: self.bristle_damping,
             breakaway: self.breakaway_ratio,
         };
-        bristle.over(&mut state.bristle, dry, split, interval)
+        bristle.step_over(&mut state.bristle, dry, split, interval)
     }
 }

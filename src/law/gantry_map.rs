@@ -44,7 +44,7 @@ impl<S: Real> FrictionLaw<S> for GantryMap<S> {
         Split {
             coulomb: self.coulomb_friction,
             height: self.static_friction - self.coulomb_friction,
-            shape: StribeckCurve::of(ratio * ratio, S::from_f64(2.0)),
+            shape: StribeckCurve::new(ratio * ratio, S::from_f64(2.0)),
             rate: viscous.scale(v),
             ..Split::zero()
         }

@@ -85,6 +85,6 @@ impl<S: Real> FrictionLaw<S> for Gms<S> {
             count: constants.element_count(),
             attraction: self.shared.attraction,
         };
-        slip.over(&mut state.elements, dry, split, interval)
+        slip.step_over(&mut state.elements, dry, split, interval)
     }
 }

@@ -65,7 +65,7 @@ impl<S: Real> FrictionLaw<S> for IndriStatic<S> {
             coulomb: set.coulomb
                 + set.rise * saturation(set.rise_velocity.reciprocal_times(v.abs())),
             height: set.height,
-            shape: StribeckCurve::of(set.stribeck_velocity.reciprocal_times(v.abs()), S::one()),
+            shape: StribeckCurve::new(set.stribeck_velocity.reciprocal_times(v.abs()), S::one()),
             rate: set.viscous.scale(v) + set.quadratic.scale(v * v),
             ..Split::zero()
         }

@@ -85,6 +85,6 @@ impl<S: Real> FrictionLaw<S> for Leuven<S> {
             count: constants.element_count(),
             damping: self.shared.bristle_damping,
         };
-        bristle.over(&mut state.elements, dry, split, interval)
+        bristle.step_over(&mut state.elements, dry, split, interval)
     }
 }

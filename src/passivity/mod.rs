@@ -407,7 +407,7 @@ impl<'a> Task<'a> {
     fn branches(&self) -> bool {
         let smoothed = |own: &Formula| own.terms().any(|term| term.kind == TermKind::Smoothed);
         let formula = |own: &Formula| own.compares() || (self.bounded.has_state() && smoothed(own));
-        self.spec.law() == LawId::BamM6 || self.spec.own().is_some_and(formula)
+        self.spec.law() == LawId::BamM6 || self.spec.formula().is_some_and(formula)
     }
 
     /// Whether the state consists of parallel elements of constant strength: springs and sliders.

@@ -140,7 +140,7 @@ fn between(
 #[must_use]
 pub fn work(model: &Composed<f64>, deflection: Option<f64>, holds: &[Hold]) -> (f64, f64) {
     let mut state = match (deflection, holds.first()) {
-        (Some(deflection), _) => State::deflected(deflection),
+        (Some(deflection), _) => State::with_deflection(deflection),
         (None, Some(hold)) => model.settled(&hold.point),
         (None, None) => State::default(),
     };
@@ -156,7 +156,7 @@ pub fn work(model: &Composed<f64>, deflection: Option<f64>, holds: &[Hold]) -> (
 /// there.
 fn duration(model: &Composed<f64>, from: f64, to: f64, point: &Point) -> Option<f64> {
     let passed = |dt: f64| {
-        let mut state = State::deflected(from);
+        let mut state = State::with_deflection(from);
         model.step(&mut state, point, dt);
         if to > from { state.bristle.z >= to } else { state.bristle.z <= to }
     };

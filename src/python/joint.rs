@@ -231,7 +231,7 @@ pub(super) fn simulate<'py>(
         Some(apart) => Mechanism::Elastic(apart.joint(joint), ElasticPosture::aligned(start)),
         None => Mechanism::Rigid(joint, start),
     };
-    let state = State::deflected(deflection);
+    let state = State::with_deflection(deflection);
     let motion = py.detach(|| run(&friction, mechanism, state, controller, &columns))?;
     let answer = PyDict::new(py);
     let place = |pick: fn(&[Posture<f64>; 2]) -> f64| {

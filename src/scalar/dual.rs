@@ -50,7 +50,7 @@ impl<T: Real, const N: usize> Dual<T, N> {
 
     /// The same value, with derivatives of 0 where the mask is true.
     #[inline(always)]
-    fn level_where(self, mask: T::Mask) -> Self {
+    fn with_zero_derivatives_where(self, mask: T::Mask) -> Self {
         Self { value: self.value, derivative: self.map(|d| T::choose(mask, T::zero(), d)) }
     }
 
@@ -252,7 +252,7 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
         if self.is_constant() {
             return Self::constant(value);
         }
-        self.chain(value, value * base.ln()).level_where(base.at_zero())
+        self.chain(value, value * base.ln()).with_zero_derivatives_where(base.at_zero())
     }
 
     #[inline(always)]
@@ -270,7 +270,7 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
         let value = self.value.exp();
         // e^(-x) falls faster than any power of x grows: the limit is 0 even where the exponent's
         // derivative has overflowed, and 0 * inf must not give NaN.
-        self.chain(value, value).level_where(value.at_zero())
+        self.chain(value, value).with_zero_derivatives_where(value.at_zero())
     }
 
     #[inline(always)]
@@ -282,7 +282,7 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
             return self.chain(value, value + T::one());
         }
         let slope = T::choose(near, value + T::one(), self.value.exp());
-        self.chain(value, slope).level_where(slope.at_zero())
+        self.chain(value, slope).with_zero_derivatives_where(slope.at_zero())
     }
 
     #[inline(always)]

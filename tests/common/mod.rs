@@ -1,4 +1,4 @@
-//! Models and motions that several tests share.
+//! Models and motions used by several tests.
 #![allow(dead_code)]
 
 pub mod random;
@@ -6,10 +6,10 @@ pub mod random;
 use stribeck::Spec;
 use stribeck::catalog::{EffectId, LawId};
 
-/// Laws around which each effect stands alone: static, with a bristle, with many states.
+/// Laws that are combined with each single effect: static, with a bristle, with many states.
 const WITH_EACH_EFFECT: [&str; 3] = ["coulomb", "lugre", "gms"];
 
-/// Every law alone and with all effects it can have; a few with each of them.
+/// Every law alone and with all effects it can have; some laws with each single effect.
 pub fn every_model() -> Vec<Spec> {
     let mut specs = Vec::new();
     for law in LawId::ALL {
@@ -37,7 +37,7 @@ pub fn every_model() -> Vec<Spec> {
     specs
 }
 
-/// Plausible values, none of them where a derivative happens to vanish.
+/// Plausible values, chosen so that no derivative is zero by accident.
 pub fn values(spec: &Spec) -> Vec<f64> {
     spec.parameters()
         .enumerate()

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 
-/// The settings of a property that is tried on this many inputs.
+/// Settings of a property with this many inputs.
 pub fn cases(count: u32) -> ProptestConfig {
     let usual = ProptestConfig::default();
     let rng_seed = match usual.rng_seed {
@@ -13,7 +13,7 @@ pub fn cases(count: u32) -> ProptestConfig {
     ProptestConfig { cases: count, rng_seed, failure_persistence: None, ..usual }
 }
 
-/// What tries a property on this many inputs.
+/// The runner of a property with this many inputs.
 pub fn runner(count: u32) -> TestRunner {
     TestRunner::new(cases(count))
 }
@@ -24,7 +24,7 @@ pub fn decades(low: i32, high: i32) -> impl Strategy<Value = f64> {
         .prop_map(|(power, share)| share * f64::from_bits(((1023 + power) as u64) << 52))
 }
 
-/// As [`decades`], of either sign; one in eight is zero.
+/// Like [`decades`], with both signs; one in eight is zero.
 pub fn spread(low: i32, high: i32) -> impl Strategy<Value = f64> {
     prop_oneof![
         1 => Just(0.0),

@@ -1,4 +1,4 @@
-//! What the exact step promises, for any stiffness and any step.
+//! The exact bristle step: properties that hold for any stiffness and any step.
 
 use super::super::{Bristle, BristleState};
 use crate::common::close;
@@ -82,7 +82,8 @@ fn without_a_step_the_state_is_kept() {
 
 #[test]
 fn work_of_a_cycle_is_never_gained() {
-    // Held velocities, exact mean torque: stored plus dissipated energy equals the work.
+    // With constant velocities and the exact mean torque, stored plus dissipated energy equals the
+    // work.
     let bristle = Bristle::new(2e3, 0.5);
     let mut state = BristleState::default();
     let (mut work, dt) = (0.0, 0.004);
@@ -99,7 +100,7 @@ fn bristle_approaches_the_static_law() {
     let split = Split {
         coulomb: 2.0,
         height: 1.0,
-        shape: StribeckCurve { value: 0.25, ..StribeckCurve::flat() },
+        shape: StribeckCurve { value: 0.25, ..StribeckCurve::constant() },
         rate: -0.3,
         additive: 0.1,
         ..Split::zero()

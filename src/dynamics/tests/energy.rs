@@ -1,8 +1,8 @@
-//! Passivity of the sampled friction: over a step the work at the port is what the bristle stores and
-//! what is dissipated, to rounding, whatever the step.
+//! Passivity of the sampled friction: over a step the work equals the stored plus the dissipated
+//! energy, to rounding, for any step.
 //!
-//! What is dissipated is computed apart from the step: with `x = s0 z sgn(v)/D` the power is
-//! `|v| (D x^2 + s1 |v| (1 - x) + V sgn v)`, and `1 - x` falls as `e^(-r t)`.
+//! The dissipated energy is computed independently of the step: with `x = s0 z sgn(v)/D` the power
+//! is `|v| (D x^2 + s1 |v| (1 - x) + V sgn v)`, and `1 - x` falls as `e^(-r t)`.
 
 use super::super::{Bristle, BristleState};
 use crate::{Real, Sample, Scalar, Spec, State, law::Split};
@@ -10,7 +10,7 @@ use crate::{Real, Sample, Scalar, Spec, State, law::Split};
 const MANY: u32 = 10_000_000;
 const SOME: u32 = 1_000_000;
 
-/// Numbers that look random (xorshift64*).
+/// A pseudo-random generator (xorshift64*).
 struct Random(u64);
 
 impl Random {
@@ -21,19 +21,19 @@ impl Random {
         self.0.wrapping_mul(0x2545_F491_4F6C_DD1D)
     }
 
-    /// One of so many.
+    /// A number below `count`.
     fn below(&mut self, count: u64) -> u64 {
         (self.bits() >> 32) % count
     }
 
-    /// From `2^low` to `2^high`, evenly over the powers of two.
+    /// From `2^low` to `2^high`, uniform over the powers of two.
     fn spread(&mut self, low: i64, high: i64) -> f64 {
         let power = low + self.below(high.abs_diff(low)) as i64;
         f64::from_bits(((1023 + power) as u64) << 52 | self.bits() >> 12)
     }
 }
 
-/// A step that is held: dry magnitude, viscous torque, velocity, length.
+/// A step with constant values: dry magnitude, viscous torque, velocity, length.
 struct Hold {
     dry: f64,
     rate: f64,
@@ -42,7 +42,7 @@ struct Hold {
 }
 
 impl Hold {
-    /// The dry magnitude may be much smaller than the one before, under a loaded bristle; one in
+    /// The dry magnitude may be much smaller than the previous one, with a loaded bristle; one in
     /// eight steps is at rest.
     fn draw(random: &mut Random, stiffness: f64) -> Self {
         let (dry, dt) = (random.spread(-10, 7), random.spread(-17, -3));
@@ -55,7 +55,7 @@ impl Hold {
         Self { dry, rate, velocity, dt }
     }
 
-    /// Rounded to the numbers that the step computes in.
+    /// Rounded to the precision of the step.
     fn rounded<P: Scalar>(&self) -> Self {
         let round = |x: f64| P::from_f64(x).value();
         Self {
@@ -66,7 +66,7 @@ impl Hold {
         }
     }
 
-    /// What is dissipated over the step from the deflection `z` on (J).
+    /// The energy dissipated over the step from the deflection `z` (J).
     fn dissipated(&self, stiffness: f64, damping: f64, z: f64) -> f64 {
         let speed = self.velocity.abs();
         let relaxation = stiffness * speed / self.dry * self.dt;
@@ -79,8 +79,8 @@ impl Hold {
     }
 }
 
-/// The largest imbalance of one step, relative to the largest of the absolute work, the energy stored
-/// before and after, and `D |v| dt`; and the least that was dissipated, relative likewise.
+/// The largest imbalance of one step, relative to the largest of the absolute work, the energy
+/// stored before and after, and `D |v| dt`; and the least dissipated energy, relative to the same.
 fn over_random_steps<P: Scalar<Plain = P> + PartialOrd>(
     seed: u64,
     steps: u32,
@@ -137,10 +137,10 @@ fn work_is_storage_and_dissipation_with_damping() {
     assert!(single <= 2e-6, "imbalance {single:e}");
 }
 
-/// Other laws with one deflection and no damping: what they take beyond what they store is never less
-/// than nothing, but for the error of a step that is not exact.
+/// Other laws with one deflection and no damping: the dissipated energy is never negative, up to
+/// the error of a step that is not exact.
 #[test]
-fn other_deflections_give_off_nothing() {
+fn other_deflections_do_not_generate_energy() {
     let laws: [(&str, &[f64], f64); 3] = [
         ("dahl", &[3e4, 2.0, 1.0], 1e-12),
         ("dahl", &[3e4, 2.0, 2.5], 1e-12),

@@ -1,4 +1,4 @@
-//! What the exact steps promise.
+//! Properties of the exact steps.
 
 mod bristle;
 mod energy;
