@@ -10,9 +10,9 @@
 //! let joint = Joint::free(0.3);
 //! let (push, mut state) = (Push::by_motor(2.5), State::default());
 //! let mut body = joint.moving(Posture { position: 0.0, velocity: 0.0 }, &push);
-//! let taken = joint::step(&friction, &mut state, &mut body, 1e-3);
+//! let result = joint::step(&friction, &mut state, &mut body, 1e-3);
 //! // Less than the 2.7 N m at which it breaks away.
-//! assert_eq!((taken.friction, body.posture.velocity), (2.5, 0.0));
+//! assert_eq!((result.friction, body.posture.velocity), (2.5, 0.0));
 //! # Ok::<(), ModelError>(())
 //! ```
 

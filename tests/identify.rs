@@ -54,7 +54,7 @@ fn a_bounded_solution_is_optimal() {
             assert!(slope >= -small || x[k] == reach[k], "{seed}: {k} would go up");
         }
     }
-    assert!(met > 300, "the bounds are met in {met} places only");
+    assert!(met > 300, "bounds are active in only {met} cases");
 }
 
 #[test]
@@ -280,7 +280,7 @@ fn independent_samples_give_one_problem_on_any_threads() {
         own.triangles(&values, &wanted, &[1.0; 5]).unwrap().unwrap()
     };
     let one = on(1);
-    assert_eq!(one, on(4), "the same bits on any number of threads");
+    assert_eq!(one, on(4), "equal bits on any number of threads");
     let (torque, jacobian) = batch::gradient(&spec, &values, &own.columns, None).unwrap();
     let entry =
         |i: usize, k: usize| if k < 5 { jacobian[i * 5 + k] } else { target[i] - torque[i] };

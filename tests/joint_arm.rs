@@ -43,9 +43,9 @@ fn a_free_arm_keeps_energy_and_angular_momentum() {
     };
     for (posture, _) in &steps {
         let energy = ARM.energy(posture) / ARM.energy(&SWINGING) - 1.0;
-        assert!(energy.abs() < 1e-11, "energy is off by {energy:e}");
+        assert!(energy.abs() < 1e-11, "energy changes by {energy:e}");
         let turning = momentum(posture) / momentum(&SWINGING) - 1.0;
-        assert!(turning.abs() < 1e-11, "angular momentum is off by {turning:e}");
+        assert!(turning.abs() < 1e-11, "angular momentum changes by {turning:e}");
     }
     // The arm moves: the second joint makes full turns.
     assert!(steps.last().unwrap().0.position[1].abs() > 10.0);

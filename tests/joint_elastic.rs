@@ -51,10 +51,10 @@ fn it_oscillates_at_its_natural_frequency() {
     let frequency = (4e3_f64 * (1.0 / 0.2 + 1.0 / 0.8)).sqrt() / core::f64::consts::TAU;
     assert!((crossings as f64 - 20.0 * frequency).abs() < 2.0, "{crossings}, {frequency} Hz");
     let largest = steps[19_000..].iter().map(|(p, _)| p.twist.abs()).fold(0.0, f64::max);
-    assert!((largest - 0.01).abs() < 1e-5, "the swing has come to {largest}");
+    assert!((largest - 0.01).abs() < 1e-5, "the amplitude is {largest}");
 }
 
-/// Through gaps, contacts, gravity and stops: what the motor gives is kept or result by friction.
+/// With gaps, contacts, gravity and stops: the work of the motor is stored or dissipated.
 #[test]
 fn energy_balances_through_gaps_and_stops() {
     let mut joint = joint(2e4, 0.0, 0.02);

@@ -282,6 +282,6 @@ fn errors_are_within_their_bounds() {
     assert_eq!(worst.len(), 2 * BOUNDS.len());
     for ((format, function), error) in worst {
         println!("{format} {function}: {error:.3}");
-        assert!(error <= bound(function), "{format} {function} is wrong by {error} units");
+        assert!(error <= bound(function), "{format} {function} has an error of {error} units");
     }
 }

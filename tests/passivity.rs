@@ -95,7 +95,8 @@ fn margin(verdict: &Verdict, condition: Condition) -> Margin {
 
 /// Checks that the counterexample generates energy and ends in its initial state.
 fn breaks(model: &Composed<f64>, verdict: &Verdict) {
-    let example = verdict.counterexample.as_ref().expect("what is not passive has an example");
+    let example =
+        verdict.counterexample.as_ref().expect("a model that is not passive has a counterexample");
     let (work, end) = work(model, example.deflection, &example.holds);
     assert!(work < 0.0, "{verdict:?}");
     assert_eq!(work, example.work);
@@ -308,7 +309,7 @@ fn requirements_agree_with_certificates() {
             }
             Some(false) => {
                 missed += 1;
-                let open = found.open.expect("what is broken is said");
+                let open = found.open.expect("a violated requirement is returned");
                 assert!(open.margin(&model) < 0.0, "{values:?} {open:?}");
             }
             None => assert!(least > -1e-9),

@@ -36,7 +36,7 @@ const MAX_AMPLIFIED: f64 = 100.0;
 const NEWTON_STEPS: usize = 20;
 /// Number of all steps: bisection of the widest bracket to rounding takes fewer.
 const MAX_STEPS: usize = 120;
-/// Number of times a bracket is with_scaled_velocity: friction that jumps upwards needs one, a self-locking
+/// Number of times a bracket is widened: friction that jumps upwards needs one, a self-locking
 /// joint all.
 const MAX_WIDENED: usize = 3;
 /// Rounding error of a balance, relative to its torques.
@@ -281,7 +281,7 @@ impl SampleBalance<'_> {
             };
             tried = self.at(next);
             bracket.narrow(&tried);
-            if bracket.with_scaled_velocity > MAX_WIDENED {
+            if bracket.widened > MAX_WIDENED {
                 return (unloaded.motor, unloaded.ending(Outcome::Locked, MAX_AMPLIFIED));
             }
         }
@@ -312,13 +312,13 @@ struct Bracket {
     far: f64,
     sign: f64,
     is_seen: bool,
-    with_scaled_velocity: usize,
+    widened: usize,
 }
 
 impl Bracket {
     fn from(first: &Imbalance) -> Self {
         let far = first.motor + MAX_AMPLIFIED * first.excess;
-        Self { near: first.motor, far, sign: first.excess, is_seen: false, with_scaled_velocity: 0 }
+        Self { near: first.motor, far, sign: first.excess, is_seen: false, widened: 0 }
     }
 
     fn contains(&self, motor: f64) -> bool {
@@ -338,7 +338,7 @@ impl Bracket {
         self.near = tried.motor;
         if !self.is_seen && tried.motor == self.far {
             self.far += MAX_AMPLIFIED * tried.excess;
-            self.with_scaled_velocity += 1;
+            self.widened += 1;
         }
     }
 

@@ -23,7 +23,7 @@ fn at(text: &str, c: f64, v: f64) -> f64 {
 
 fn refusal(text: &str) -> String {
     match Formula::parse(text) {
-        Ok(_) => panic!("'{text}' is taken for a formula"),
+        Ok(_) => panic!("'{text}' was parsed as a formula"),
         Err(error) => error.to_string(),
     }
 }

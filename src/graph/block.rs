@@ -162,7 +162,7 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
     }
 }
 
-/// Binary log2_each: writes the high parts and returns the low parts. Two loops keep more
+/// Binary logarithms: writes the high parts and returns the low parts. Two loops keep more
 /// independent operations in flight than one.
 #[inline(always)]
 fn log2_each<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {

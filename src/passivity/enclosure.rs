@@ -389,7 +389,7 @@ mod tests {
         #![proptest_config(cases(100_000))]
 
         #[test]
-        fn intervals_hold_what_is_computed_at_points((x, a) in pair(4.0), (y, b) in pair(3.0)) {
+        fn intervals_contain_the_values_at_points((x, a) in pair(4.0), (y, b) in pair(3.0)) {
             let pairs = [
                 (x + y, a + b),
                 (x * y, a * b),
