@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from stribeck.passivity.certificate import MEANING
+from stribeck.report.layout import paragraph
 from stribeck.report.numbers import listed
 
 if TYPE_CHECKING:
@@ -29,23 +30,22 @@ def certificate_text(certificate: Certificate) -> str:
         lines.append("  Conditions, with proved bounds of their margins over the whole box:")
         lines += [f"    {_bound(m, unit):>12}  {MEANING[m.condition]}" for m in shown]
     if certificate.passive and certificate.condition in ("storage", "cycle", "elements"):
-        lines.append(f"  The proof uses this condition: {MEANING[certificate.condition]}.")
+        lines.append(paragraph(f"The proof uses this condition: {MEANING[certificate.condition]}."))
     if certificate.left_out:
-        lines.append(
-            f"  Only the friction {certificate.friction.spec} was checked; "
-            f"{listed(certificate.left_out)} {'is' if len(certificate.left_out) == 1 else 'are'} "
-            f"not friction."
-        )
+        are = "is" if len(certificate.left_out) == 1 else "are"
+        checked = f"Only the friction {certificate.friction.spec} was checked"
+        lines.append(paragraph(f"{checked}; {listed(certificate.left_out)} {are} not friction."))
     return "\n".join(lines)
 
 
 def _verdict(certificate: Certificate) -> str:
     spec, where = certificate.model.spec, _box(certificate)
     if certificate.passive is None:
-        return f"Cannot decide whether {spec} is passive for {where}:\n  {certificate.why}."
+        undecided = paragraph(f"Cannot decide whether {spec} is passive for {where}:", 0, 2)
+        return undecided + "\n" + paragraph(f"{certificate.why}.", 2)
     if certificate.passive:
-        return f"{spec} is passive for {where}: proved over the whole box."
-    return f"{spec} is not passive for {where}."
+        return paragraph(f"{spec} is passive for {where}: proved over the whole box.", 0, 2)
+    return paragraph(f"{spec} is not passive for {where}.", 0, 2)
 
 
 def _box(certificate: Certificate) -> str:

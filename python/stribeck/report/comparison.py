@@ -44,8 +44,8 @@ def comparison_figure(comparison: Comparison) -> Figure:
 def noise_floor_sentence(floor: float, unit: str) -> str:
     """The noise floor, and what it is."""
     return (
-        f"Noise floor {plain(floor)} {unit}: no function of the recorded channels can have a "
-        f"smaller error (estimated from repeats of the same state)."
+        f"Noise floor {plain(floor)} {unit}: the smallest error that any function of the recorded "
+        f"channels can have, estimated from repeats of the same state."
     )
 
 
@@ -122,8 +122,8 @@ def _regimes_block(comparison: Comparison, first: int) -> str:
         cells = []
         for a in part:
             g = a.regimes[index]
-            mark = "▲" if g.regime != "standstill" and g.rmse > 1.2 * a.rmse else " "
-            cells.append(f"{plain(g.rmse)} ({signed(g.bias, g.rmse)}) {mark}")
+            mark = "▲ " if g.regime != "standstill" and g.rmse > 1.2 * a.rmse else ""
+            cells.append(f"{mark}{plain(g.rmse)} ({signed(g.bias, g.rmse)})")
         rows.append([REGIMES[regime.regime], percent(regime.share), *cells])
     text = table(rows, right=range(1, len(heading)))
     long = [f"  {tag} {a.model}" for tag, a in zip(tags, part, strict=True) if tag[0] == "["]

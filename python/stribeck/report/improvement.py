@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from stribeck.fitting.result import Fit
 
 STOPPED = {
-    "noise_floor": "The residual is noise: no structure above the noise floor.",
+    "noise_floor": "The residual is noise.",
     "nothing_passes": "Stopped: no further effect lowers the held-out error significantly.",
     "max_steps": "Stopped at the maximum number of steps; more effects may be missing.",
 }

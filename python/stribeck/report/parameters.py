@@ -20,7 +20,7 @@ def _flags(e: Estimate) -> str:
         return "fixed"
     flags = []
     if not e.identifiable:
-        flags.append("not identifiable on this data")
+        flags.append("not identifiable")
     if e.at_bound:
         if e.value > e.lower + 0.5 * (e.upper - e.lower):
             flags.append("at its upper bound")

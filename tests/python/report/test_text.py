@@ -80,7 +80,7 @@ def test_flags_of_parameters(improvement: sb.Improvement) -> None:
     blind = replace(e, identifiable=False, stderr=None, ci95=None)
     vague = replace(e, stderr=e.value)
     flags = [row[-1] for row in parameters.parameter_rows([e, top, blind, vague])]
-    assert flags == ["", "at its upper bound", "not identifiable on this data", "poorly determined"]
+    assert flags == ["", "at its upper bound", "not identifiable", "poorly determined"]
 
 
 def test_effects_with_the_same_reason_stand_together() -> None:
