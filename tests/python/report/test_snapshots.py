@@ -33,8 +33,9 @@ def diagnosed(improved: sb.Improvement) -> sb.Diagnosis:
 
 
 def steady(text: str) -> str:
-    """`text` without what differs from run to run: times, counts of evaluations, folders."""
+    """`text` without what differs from run to run: times, counts of evaluations, version, folder."""
     text = re.sub(r"\d+ evaluations, \d+\.\d s", "N evaluations, T s", text)
+    text = text.replace(f"stribeck {sb.__version__}", "stribeck VERSION")
     return text.replace(str(demo_path()), "demo.parquet")
 
 
