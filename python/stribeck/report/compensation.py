@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from stribeck.report.channels import torque_name
 from stribeck.report.layout import joined, paragraph, table
 from stribeck.report.numbers import DASH, MINUS, listed
-from stribeck.report.style import COLOURS, MEASURED, new_figure, strided, style, title
+from stribeck.report.style import COLOURS, MEASURED, legend_above, new_figure, strided, style, title
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -100,5 +100,5 @@ def tracking_figure(tracking: Tracking) -> Figure:
     for axes in (top, middle, bottom):
         style(axes)
     for axes in (middle, bottom):
-        axes.legend(loc="upper right", frameon=False, fontsize=9)
+        legend_above(axes)
     return figure

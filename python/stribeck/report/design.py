@@ -56,7 +56,7 @@ def _rows(plan: Plan) -> list[list[str]]:
 def _row(row: Prospect, torque_unit: str) -> list[str]:
     gain = "" if row.gain is None else f"{plain(row.gain, 2)} times"
     unit = "" if row.unit == "1" else f" {unit_text(row.unit)}"
-    name = f"{row.parameter}, {'up to' if row.inverse else 'from'}"
+    name = f"{row.parameter} (at most)" if row.inverse else row.parameter
     before, after = (_size(size, unit, torque_unit) for size in (row.before, row.after))
     return [row.effect, name, before, after, gain]
 

@@ -67,22 +67,19 @@ def table(rows: Sequence[Sequence[str]], right: Collection[int] = (), indent: in
 
     Notes
     -----
-    A table that is too wide breaks the words of its last column, or of the first where the last is
-    flush right.
+    In a table that is too wide, the widest of the other columns are broken into lines.
     """
     # Imported here: it takes a tenth of a second that `stribeck --help` need not wait for.
     from rich.box import Box
     from rich.console import Console
     from rich.table import Table
 
-    last = len(rows[0]) - 1
-    wrapped = 0 if last in right else last
     made = Table(box=Box(_RULED), show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
     for k, name in enumerate(rows[0]):
         made.add_column(
             name,
             justify="right" if k in right else "left",
-            no_wrap=k != wrapped,
+            no_wrap=k in right,
             overflow="fold",
         )
     for row in rows[1:]:

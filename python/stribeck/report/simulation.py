@@ -10,6 +10,7 @@ from stribeck.report.style import (
     AFTER,
     BEFORE,
     MEASURED,
+    legend_above,
     new_figure,
     strided,
     style,
@@ -100,7 +101,7 @@ def simulation_figure(simulation: Simulation) -> Figure:
     for axes in (top, middle, bottom):
         style(axes)
     for axes in (top, bottom):
-        axes.legend(loc="upper right", frameon=False, fontsize=9)
+        legend_above(axes)
     return figure
 
 
@@ -129,5 +130,5 @@ def validation_figure(validation: Validation) -> Figure:
         bottom.set_xlabel("time since the start [s]")
     for axes in (top, middle, bottom):
         style(axes)
-    top.legend(loc="upper right", frameon=False, fontsize=9)
+    legend_above(top)
     return figure

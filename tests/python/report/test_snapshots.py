@@ -33,7 +33,7 @@ def diagnosed(improved: sb.Improvement) -> sb.Diagnosis:
 
 
 def steady(text: str) -> str:
-    """`text` without what differs from run to run: times, counts of evaluations, version, folder."""
+    """`text` without times, counts of evaluations, version and folder."""
     text = re.sub(r"\d+ evaluations, \d+\.\d s", "N evaluations, T s", text)
     text = text.replace(f"stribeck {sb.__version__}", "stribeck VERSION")
     return text.replace(str(demo_path()), "demo.parquet")

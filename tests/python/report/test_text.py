@@ -68,6 +68,21 @@ def test_bars_without_figures() -> None:
     assert "no held-out error" in layout.bars(["base"], [None], None, "N")
 
 
+def test_wide_tables_are_broken_not_cut() -> None:
+    rows = [["name", "value", "size"], ["alpha", "lengthy " * 12, "1.0"], ["beta", "b", "2.0"]]
+    lines = layout.table(rows, right=(2,)).splitlines()
+    assert max(map(len, lines)) <= layout.WIDTH
+    assert " ".join(lines).count("lengthy") == 12
+    assert lines[0].split() == ["name", "value", "size"] and set(lines[1].strip()) == {"─"}
+    assert lines[2].startswith("  alpha  lengthy") and lines[2].endswith("1.0")
+    assert lines[-1].split() == ["beta", "b", "2.0"]
+
+
+def test_number_and_unit_stay_together() -> None:
+    for length in range(60, 100):
+        assert "0.5 N m" in layout.paragraph("a" * length + " 0.5 N m of torque")
+
+
 def test_ties_are_said(improvement: sb.Improvement) -> None:
     finding = replace(improvement.steps[0].finding, indistinguishable_from=("gravity", "inertia"))
     shown = diagnosis.finding_text(finding)
