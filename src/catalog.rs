@@ -1,4 +1,4 @@
-//! The list of laws and effects. Everything else about a law or effect is in its own file.
+//! The laws and effects by id. Their lists are in `src/law/mod.rs` and `src/effect/mod.rs`.
 
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
@@ -14,7 +14,7 @@ pub use crate::table::{
 };
 
 macro_rules! laws {
-    ($($law:ident),+; $by_formula:ident) => {
+    ($($file:ident::$law:ident),+; $formula_file:ident::$by_formula:ident) => {
         /// The id of a law.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs)]
@@ -254,39 +254,8 @@ macro_rules! effects {
     };
 }
 
-laws! {
-    Coulomb, BittencourtA, Clochiatti, Dong, GazA, GazB, GrotjahnA, GrotjahnB, HaoA, IndriA,
-    Makkar, Shao, Wolf, Zhou, BittencourtB, HaoB, Iskandar, Li, Madsen, Nevmerzhitskiy, Simoni,
-    Dahl, Lugre, IndriB, TadeseT, TadeseFull, Xiao, BlimanSorine, Elastoplastic, Leuven, Gms,
-    GantryMap, IndriStatic, M0, M1, MStar, KarahanKarci, BamM1, BamM2, BamM3, BamM4, BamM5, BamM6; ByFormula
-}
-
-effects! {
-    stribeck: Stribeck,
-    // Before all effects that use the Stribeck curve.
-    frictional_lag: FrictionalLag,
-    load: Load,
-    quadrant: Quadrant,
-    position: Position,
-    direction: Direction,
-    // After all effects on dry friction: time and temperature change all of it.
-    drift: Drift,
-    temperature_dry: TemperatureDry,
-    nonlinear_viscous: NonlinearViscous,
-    temperature_viscous: TemperatureViscous,
-    offset: Offset,
-    inertia: Inertia,
-    gravity: Gravity,
-    spring: Spring,
-    ripple: Ripple,
-    backlash: Backlash,
-    elasticity: Elasticity,
-    presliding: Presliding,
-    // Of the whole torque, whatever it consists of.
-    saturation: Saturation,
-    gain: Gain,
-    delay: Delay,
-}
+crate::law::every_law!(laws);
+crate::effect::every_effect!(effects);
 
 /// A set of effects.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

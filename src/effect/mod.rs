@@ -1,7 +1,6 @@
 //! Effects that can be added to a law, one per file: how each changes a split.
 //!
-//! A new effect is one file here and one entry in [`crate::catalog`], at its place in the order of
-//! action.
+//! A new effect is one file here, its `mod` row and its row in `every_effect`.
 
 mod backlash;
 mod delay;
@@ -26,27 +25,45 @@ mod stribeck;
 mod temperature_dry;
 mod temperature_viscous;
 
-pub use backlash::Backlash;
-pub use delay::Delay;
-pub use direction::Direction;
-pub use drift::Drift;
-pub use elasticity::Elasticity;
-pub use frictional_lag::FrictionalLag;
-pub use gain::Gain;
-pub use gravity::Gravity;
-pub use inertia::Inertia;
-pub use load::Load;
-pub use nonlinear_viscous::NonlinearViscous;
-pub use offset::Offset;
-pub use position::Position;
-pub use presliding::Presliding;
-pub use quadrant::Quadrant;
-pub use ripple::Ripple;
-pub use saturation::Saturation;
-pub use spring::Spring;
-pub use stribeck::Stribeck;
-pub use temperature_dry::TemperatureDry;
-pub use temperature_viscous::TemperatureViscous;
+/// Every effect as `file: Type`, in the order in which they act: the one list of them.
+macro_rules! every_effect {
+    ($list:ident) => {
+        $list! {
+            stribeck: Stribeck,
+            // Before all effects that use the Stribeck curve.
+            frictional_lag: FrictionalLag,
+            load: Load,
+            quadrant: Quadrant,
+            position: Position,
+            direction: Direction,
+            // After all effects on dry friction: time and temperature change all of it.
+            drift: Drift,
+            temperature_dry: TemperatureDry,
+            nonlinear_viscous: NonlinearViscous,
+            temperature_viscous: TemperatureViscous,
+            offset: Offset,
+            inertia: Inertia,
+            gravity: Gravity,
+            spring: Spring,
+            ripple: Ripple,
+            backlash: Backlash,
+            elasticity: Elasticity,
+            presliding: Presliding,
+            // Of the whole torque, whatever it consists of.
+            saturation: Saturation,
+            gain: Gain,
+            delay: Delay,
+        }
+    };
+}
+pub(crate) use every_effect;
+
+macro_rules! exported {
+    ($($file:ident: $effect:ident),+ $(,)?) => {
+        $(pub use $file::$effect;)+
+    };
+}
+every_effect!(exported);
 
 use crate::constants::Constants;
 use crate::dynamics::{Bristle, Interval, State};

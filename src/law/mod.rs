@@ -1,6 +1,6 @@
 //! Friction laws, one per file: parameters, table and formula.
 //!
-//! A new law is one file here and one entry in [`crate::catalog`].
+//! A new law is one file here, its `mod` row and its name in `every_law`.
 //!
 //! Bounds keep dry friction positive, except where the paper's coefficients need both signs:
 //! `indri_a`, `makkar`, `bittencourt_b`, `m_star`, `hao_b`, `iskandar`, `simoni` and `indri_static`
@@ -42,39 +42,33 @@ mod wolf;
 mod xiao;
 mod zhou;
 
-pub use bam::{BamM1, BamM2, BamM3, BamM4, BamM5, BamM6};
-pub use bittencourt_2010::{M0, M1};
-pub use bittencourt_a::BittencourtA;
-pub use bittencourt_b::{BittencourtB, MStar};
-pub use bliman_sorine::BlimanSorine;
-pub(crate) use by_formula::ByFormula;
-pub use clochiatti::Clochiatti;
-pub use coulomb::Coulomb;
-pub use dahl::Dahl;
-pub use dong::Dong;
-pub use elastoplastic::Elastoplastic;
-pub use gantry_map::GantryMap;
-pub use gaz::{GazA, GazB};
-pub use gms::Gms;
-pub use grotjahn::{GrotjahnA, GrotjahnB};
-pub use hao::{HaoA, HaoB, Simoni};
-pub use indri_a::IndriA;
-pub use indri_b::IndriB;
-pub use indri_static::IndriStatic;
-pub use iskandar::Iskandar;
-pub use karahan_karci::KarahanKarci;
-pub use leuven::Leuven;
-pub use li::Li;
-pub use lugre::Lugre;
-pub use madsen::Madsen;
-pub use makkar::Makkar;
-pub use nevmerzhitskiy::Nevmerzhitskiy;
-pub use shao::Shao;
-pub use tadese_full::TadeseFull;
-pub use tadese_t::TadeseT;
-pub use wolf::Wolf;
-pub use xiao::Xiao;
-pub use zhou::Zhou;
+/// Every law as `file::Type`, in the order of the catalog: the one list of them. The last is the law
+/// that a formula writes.
+macro_rules! every_law {
+    ($list:ident) => {
+        $list! {
+            coulomb::Coulomb, bittencourt_a::BittencourtA, clochiatti::Clochiatti, dong::Dong,
+            gaz::GazA, gaz::GazB, grotjahn::GrotjahnA, grotjahn::GrotjahnB, hao::HaoA,
+            indri_a::IndriA, makkar::Makkar, shao::Shao, wolf::Wolf, zhou::Zhou,
+            bittencourt_b::BittencourtB, hao::HaoB, iskandar::Iskandar, li::Li, madsen::Madsen,
+            nevmerzhitskiy::Nevmerzhitskiy, hao::Simoni, dahl::Dahl, lugre::Lugre, indri_b::IndriB,
+            tadese_t::TadeseT, tadese_full::TadeseFull, xiao::Xiao, bliman_sorine::BlimanSorine,
+            elastoplastic::Elastoplastic, leuven::Leuven, gms::Gms, gantry_map::GantryMap,
+            indri_static::IndriStatic, bittencourt_2010::M0, bittencourt_2010::M1,
+            bittencourt_b::MStar, karahan_karci::KarahanKarci, bam::BamM1, bam::BamM2, bam::BamM3,
+            bam::BamM4, bam::BamM5, bam::BamM6; by_formula::ByFormula
+        }
+    };
+}
+pub(crate) use every_law;
+
+macro_rules! exported {
+    ($($file:ident::$law:ident),+; $own_file:ident::$own:ident) => {
+        $(pub use $file::$law;)+
+        pub(crate) use $own_file::$own;
+    };
+}
+every_law!(exported);
 
 pub use crate::dynamics::{Approach, Bristle, Deflection};
 pub use crate::sample::{Split, StribeckCurve};
