@@ -8,9 +8,10 @@ from .base.errors import (
 )
 from .base.version import __version__
 from .diagnosis.compare import Comparison, compare
-from .diagnosis.improve import Addition, Improvement, add, improve
+from .diagnosis.diagnose import diagnose
+from .diagnosis.loop.add import Addition, add
+from .diagnosis.loop.improve import Improvement, improve
 from .diagnosis.result import Diagnosis, Finding
-from .diagnosis.run import diagnose
 from .exporters.export import Export, export
 from .fitting.evaluate import evaluate
 from .fitting.fit import fit

@@ -14,7 +14,7 @@ from stribeck.benchmark.oracle import held_out_rmse
 from stribeck.benchmark.sample import Sample
 
 if TYPE_CHECKING:
-    from stribeck.diagnosis.improve import Improvement
+    from stribeck.diagnosis.loop.improve import Improvement
     from stribeck.recording.recording import Recording
 
 
@@ -112,7 +112,7 @@ def answer(case: Case) -> CaseAnswer:
 
 
 def _diagnosed(case: Case) -> CaseAnswer:
-    from stribeck.diagnosis.improve import improve
+    from stribeck.diagnosis.loop.improve import improve
     from stribeck.recording.load import read
 
     sample = case.make()

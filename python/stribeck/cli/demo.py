@@ -12,7 +12,7 @@ from stribeck.base.errors import StribeckError
 from stribeck.base.files import write_whole
 from stribeck.cli.common import echo_json, json_option, save_fit, say, seed_option
 from stribeck.diagnosis.compare import Comparison, compare
-from stribeck.diagnosis.improve import Improvement, improve
+from stribeck.diagnosis.loop.improve import Improvement, improve
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.effect.describe import physically
 from stribeck.fitting.result import Fit

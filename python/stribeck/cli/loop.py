@@ -37,10 +37,10 @@ from stribeck.cli.methods import Method, method_options
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.diagnosis.compare import compare as compare_fits
-from stribeck.diagnosis.improve import Addition
-from stribeck.diagnosis.improve import add as add_to
-from stribeck.diagnosis.improve import improve as improve_from
-from stribeck.diagnosis.run import diagnose as diagnose_fit
+from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
+from stribeck.diagnosis.loop.add import Addition
+from stribeck.diagnosis.loop.add import add as add_to
+from stribeck.diagnosis.loop.improve import improve as improve_from
 from stribeck.fitting.fit import fit as fit_model
 from stribeck.identify.estimates import Errors
 from stribeck.models.formula_law import effect_name

@@ -1,16 +1,17 @@
-"""Models against measurements, and where each fails."""
+"""Error figures of models on one recording, over all scored samples and by regime."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
 from stribeck.base.shown import Plotted
+from stribeck.diagnosis.residual.noise_floor import noise_floor
+from stribeck.diagnosis.residual.regimes import regime_rows
 from stribeck.fitting.energy import electrical_energy
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.result import Fit
@@ -19,21 +20,26 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: A row belongs to a reversal within this time of a change of direction, s.
-REVERSAL_WINDOW = 0.2
-
 
 @dataclass(frozen=True)
 class Regime:
-    """Error within one part of the data: `share` of the rows, `bias` = mean(measured - model)."""
+    """Error within one part of the data.
+
+    Attributes
+    ----------
+    share
+        Share of the scored samples; of ``"standstill"``, of all samples.
+    bias
+        Mean of measured minus modelled torque, in the unit of torque.
+    """
 
     regime: str
     share: float
     rmse: float
     bias: float
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of one regime."""
         return {"regime": self.regime, "share": self.share, "rmse": self.rmse, "bias": self.bias}
 
 
@@ -53,8 +59,8 @@ class Assessment:
     regimes: tuple[Regime, ...]
     fit: Fit
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of one model."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of one model."""
         return {
             "model": self.model,
             "rmse": self.rmse,
@@ -71,16 +77,16 @@ class Assessment:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Plotted):
-    """Several models on the same rows of one recording."""
+    """Several models on the same samples of one recording."""
 
     recording: Recording
     models: tuple[Assessment, ...]
     noise_floor: float | None
     noise_floor_why: str | None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of `stribeck compare`."""
-        made: dict[str, Any] = {
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck compare`."""
+        made: dict[str, object] = {
             "data": {
                 "path": self.recording.path,
                 "joint": self.recording.joint,
@@ -97,65 +103,14 @@ class Comparison(Plotted):
         return made
 
     def to_frame(self) -> pl.DataFrame:
-        """One row a model and regime."""
+        """One row per model and regime."""
         return pl.DataFrame(
             [
-                {"model": a.model, "regime": r.regime, "share": r.share, "rmse": r.rmse,
-                 "bias": r.bias}
+                {"model": a.model, **r.to_dict()}
                 for a in self.models
                 for r in (Regime("all", 1.0, a.rmse, a.mean), *a.regimes)
             ]
-        )  # fmt: skip
-
-
-def regime_rows(fit: Fit) -> dict[str, NDArray[np.bool_]]:
-    """Rows of each regime, bool [n]; all but `standstill` among the scored rows."""
-    r = fit.recording
-    moving = r.moving
-    v = r.velocity
-    rows = {"reversal": _near_reversal(r) & moving}
-    speed = np.abs(v)
-    low, high = np.quantile(speed[moving], [0.25, 0.75])
-    rows["low_speed"] = moving & (speed <= low)
-    rows["high_speed"] = moving & (speed >= high)
-    rows["forward"] = moving & (v > 0)
-    rows["backward"] = moving & (v < 0)
-    power = v * r.torque
-    rows["motoring"] = moving & (power > 0)
-    rows["generating"] = moving & (power < 0)
-    if r.temperature is not None and np.ptp(r.temperature[moving]) > 0:
-        low, high = np.quantile(r.temperature[moving], [0.25, 0.75])
-        rows["cold"] = moving & (r.temperature <= low)
-        rows["hot"] = moving & (r.temperature >= high)
-    low, high = np.quantile(r.time[moving], [0.25, 0.75])
-    rows["start"] = moving & (r.time <= low)
-    rows["end"] = moving & (r.time >= high)
-    if r.enabled is not None and not r.enabled.all():
-        rows["drive_on"] = moving & r.enabled
-        rows["drive_off"] = moving & ~r.enabled
-    rows["standstill"] = ~moving
-    return rows
-
-
-def _near_reversal(r: Recording) -> NDArray[np.bool_]:
-    """Rows within `REVERSAL_WINDOW` of a change of direction in the same segment."""
-    near = np.zeros(r.time.size, dtype=bool)
-    moving = np.flatnonzero(r.moving)
-    if moving.size < 2 or r.averaged:
-        return near
-    left, right = moving[:-1], moving[1:]
-    turned = np.sign(r.velocity[right]) != np.sign(r.velocity[left])
-    turned &= r.segment[right] == r.segment[left]
-    for segment in np.unique(r.segment[left[turned]]):
-        here = np.flatnonzero(r.segment == segment)
-        mine = turned & (r.segment[left] == segment)
-        # A change of direction lasts from the last row before rest to the first after it.
-        ends = np.sort(np.concatenate([r.time[left[mine]], r.time[right[mine]]]))
-        at = np.searchsorted(ends, r.time[here])
-        before = r.time[here] - ends[np.maximum(at - 1, 0)]
-        after = ends[np.minimum(at, ends.size - 1)] - r.time[here]
-        near[here] = np.minimum(np.abs(before), np.abs(after)) <= REVERSAL_WINDOW
-    return near
+        )
 
 
 def compare(
@@ -164,12 +119,10 @@ def compare(
     *,
     floor: bool = True,
 ) -> Comparison:
-    """Error figures of `fits` over the scored rows of `recording`, all and by regime.
+    """Error figures of `fits` over the scored samples of `recording`, all and by regime.
 
-    A fit made on another recording is not refitted: its error here is a held-out one.
+    A fit made on another recording is not refitted: its error here is a held-out error.
     """
-    from stribeck.diagnosis.floor import noise_floor
-
     fits = [
         f
         if f.recording is recording
@@ -226,6 +179,6 @@ def assess(fit: Fit) -> Assessment:
 
 
 def _energy(fit: Fit) -> dict[str, float] | None:
-    """Electrical energy over the scored rows, measured and modelled; None where not known."""
+    """Electrical energy over the scored samples, measured and modelled; None where not known."""
     energy = electrical_energy(fit.recording, fit.prediction)
     return None if energy is None else energy.to_dict()

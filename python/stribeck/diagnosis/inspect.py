@@ -1,9 +1,12 @@
-"""What is in a file, and which effects it can show."""
+"""The columns of a file, and the effects that it can show."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.fitting.fit import fit
@@ -12,24 +15,26 @@ from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadArguments, ReadOptions
-from stribeck.recording.recording import Recording
+from stribeck.recording.recording import Column, Recording
 from stribeck.recording.scan import Table, scan_with
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+Array = NDArray[np.float64]
+
 
 @dataclass(frozen=True)
 class Inspection:
-    """A file's columns, and what each of its joints can show.
+    """The columns of a file, and what each of its joints can show.
 
     Attributes
     ----------
     recordings
         The joint that was read, or every joint of the file; empty where the file cannot be read
-        as a recording yet (`problem` says what is missing).
+        as a recording (`problem` says what is missing).
     untestable
-        Effects that no joint read can show, by id.
+        Effects that none of these joints can show, by id.
     """
 
     table: Table
@@ -46,33 +51,17 @@ class Inspection:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """How the columns were understood."""
+        """How the columns were interpreted."""
         notes = [note for r in self.recordings for note in r.notes]
         return tuple(dict.fromkeys([*self.table.notes, *notes]))
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON."""
-        columns = {
-            name: {
-                "from": column.source,
-                "unit": column.unit,
-                "min": column.minimum,
-                "max": column.maximum,
-            }
-            for name, column in self.table.channels.items()
-        }
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck inspect`."""
+        columns = {name: _described(column) for name, column in self.table.channels.items()}
         for r in self.recordings[:1]:
             for name, column in r.columns.items():
-                columns.setdefault(
-                    name,
-                    {
-                        "from": column.source,
-                        "unit": column.unit,
-                        "min": column.minimum,
-                        "max": column.maximum,
-                    },
-                )
-        made: dict[str, Any] = {
+                columns.setdefault(name, _described(column))
+        made: dict[str, object] = {
             "rows": self.table.rows,
             "joints": list(self.table.joints),
             "runs": self.table.runs,
@@ -88,6 +77,15 @@ class Inspection:
         if self.problem is not None:
             made["problem"] = self.problem
         return made
+
+
+def _described(column: Column) -> dict[str, object]:
+    return {
+        "from": column.source,
+        "unit": column.unit,
+        "min": column.minimum,
+        "max": column.maximum,
+    }
 
 
 def inspect(path: str, **reading: Unpack[ReadArguments]) -> Inspection:
@@ -116,8 +114,8 @@ def inspect(path: str, **reading: Unpack[ReadArguments]) -> Inspection:
     return Inspection(table, recordings, common, None)
 
 
-def _load(recording: Recording) -> Any:
-    """Load torque of the rigid body, identified where the recording does not give it."""
+def _load(recording: Recording) -> Array | None:
+    """Load torque of the rigid body, array [n], identified where the recording does not give it."""
     if not rigid_body_terms(recording, ()):
         return None
     return own_load(fit("coulomb", recording).model, recording)

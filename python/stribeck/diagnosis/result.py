@@ -1,18 +1,17 @@
-"""What a diagnosis answers."""
+"""The result of a diagnosis."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import polars as pl
 
 from stribeck.base.shown import Plotted
-from stribeck.diagnosis.bound import Explainable
-from stribeck.diagnosis.floor import NoiseFloor
+from stribeck.diagnosis.residual.explainable import Explainable
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.testable import Untestable
-from stribeck.diagnosis.unexplained import Unexplained
-from stribeck.diagnosis.visibility import Group, SmallestVisible
+from stribeck.diagnosis.visibility.result import Group, SmallestVisible
 from stribeck.fitting.result import Fit
 
 
@@ -25,7 +24,7 @@ class Finding(Plotted):
     where
         One sentence: where the data shows it.
     fit, before
-        The model with it and the model without.
+        The models with and without it.
     """
 
     effect: str
@@ -38,8 +37,8 @@ class Finding(Plotted):
     fit: Fit
     before: Fit
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of one finding."""
         return {
             "effect": self.effect,
             "confidence": self.confidence,
@@ -61,11 +60,11 @@ class Diagnosis(Plotted):
     findings
         Effects that pass the test, best first.
     smallest_visible
-        For each effect that was tried and not found, the smallest that would have been.
+        For each effect that was tried and not found, the smallest that would have been found.
     groups
-        Effects that this recording cannot tell apart.
+        Effects that are indistinguishable on this recording.
     explainable
-        How much of what these channels could show the model explains.
+        The share of the explainable torque that the model explains.
     """
 
     fit: Fit
@@ -78,9 +77,9 @@ class Diagnosis(Plotted):
     groups: tuple[Group, ...] = ()
     explainable: Explainable | None = None
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of `stribeck diagnose`."""
-        made: dict[str, Any] = {
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck diagnose`."""
+        made: dict[str, object] = {
             "model": self.fit.model.spec,
             "rmse": self.fit.rmse,
             "rmse_held_out": self.fit.rmse_held_out,

@@ -12,13 +12,13 @@ import polars as pl
 
 from stribeck.base.errors import ProjectError, SpecError, nearest
 from stribeck.base.shown import Plotted
-from stribeck.diagnosis.floor import NoiseFloor
-from stribeck.diagnosis.improve import add as add_to
-from stribeck.diagnosis.ranking import share_of_unexplained
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.loop.add import add as add_to
+from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.diagnosis.result import Diagnosis
-from stribeck.diagnosis.run import LEAST_FALL
-from stribeck.diagnosis.run import diagnose as diagnose_fit
-from stribeck.diagnosis.walk import MOST_STEPS, Step, Way, walk
+from stribeck.diagnosis.diagnose import LEAST_FALL
+from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
+from stribeck.diagnosis.loop.path import MOST_STEPS, ImprovementStep, ImprovementPath, improvement_paths
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
@@ -324,7 +324,7 @@ class Project(Plotted):
         """
         start = self.current
         project = self
-        for way in walk(
+        for way in improvement_paths(
             self.fit_of(self.node, seed),
             least_fall=least_fall,
             most_steps=most_steps,
@@ -358,7 +358,7 @@ class Project(Plotted):
         rejected = {**self.tree.node(number).rejected, effect: why}
         return replace(self, tree=self.tree.with_changed(number, rejected=rejected))
 
-    def _along(self, start: int, way: Way) -> Project:
+    def _along(self, start: int, way: ImprovementPath) -> Project:
         """The project with the nodes of a way that begins at `start`, at the way's end."""
         project = replace(self, current=start)
         for gone in way.superfluous:
@@ -371,7 +371,7 @@ class Project(Plotted):
         asked = project.tree.holding(way.last.fit)
         return project if asked is None else project._remembering(asked.number, way.last)
 
-    def _with_step(self, step: Step) -> Project:
+    def _with_step(self, step: ImprovementStep) -> Project:
         """One step on from the current node, by a node that took it before or a new one."""
         known = self.tree.holding(step.after)
         if known is not None:

@@ -8,7 +8,7 @@ import polars as pl
 
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.compare import Comparison, compare
-from stribeck.diagnosis.evidence import Difference, difference
+from stribeck.diagnosis.trials.evidence import Difference, difference
 from stribeck.fitting.result import Fit
 from stribeck.projects.node import Node
 from stribeck.recording.recording import Recording

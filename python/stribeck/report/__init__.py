@@ -35,8 +35,8 @@ RENDERERS: dict[str, dict[str, str]] = {
         "text": "diagnosis:diagnosis_text",
         "figure": "diagnosis:diagnosis_figure",
     },
-    "stribeck.diagnosis.improve:Addition": {"text": "improvement:addition_text"},
-    "stribeck.diagnosis.improve:Improvement": {
+    "stribeck.diagnosis.loop.add:Addition": {"text": "improvement:addition_text"},
+    "stribeck.diagnosis.loop.improve:Improvement": {
         "text": "improvement:improvement_text",
         "figure": "improvement_figure:improvement_figure",
     },

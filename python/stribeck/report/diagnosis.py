@@ -16,12 +16,12 @@ from stribeck.report.residual import residual_figure
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from stribeck.diagnosis.bound import Explainable
-    from stribeck.diagnosis.floor import NoiseFloor
+    from stribeck.diagnosis.residual.explainable import Explainable
+    from stribeck.diagnosis.residual.noise_floor import NoiseFloor
     from stribeck.diagnosis.result import Diagnosis, Finding
     from stribeck.diagnosis.testable import Untestable
-    from stribeck.diagnosis.unexplained import Unexplained
-    from stribeck.diagnosis.visibility import Group, SmallestVisible
+    from stribeck.diagnosis.residual.unexplained import Unexplained
+    from stribeck.diagnosis.visibility.result import Group, SmallestVisible
 
 VERDICTS = {
     "missing": "Missing, best first:",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.diagnosis.compare import REVERSAL_WINDOW, regime_rows
+from stribeck.diagnosis.residual.regimes import REVERSAL_WINDOW, regime_rows
 from stribeck.models.catalog import catalog
 from stribeck.report.channels import channel, clock, load_of, view_of
 from stribeck.report.numbers import change_text, plain

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from stribeck.diagnosis.improve import Improvement
+    from stribeck.diagnosis.loop.improve import Improvement
 
 #: Effects that get a panel, and the longest spec in a legend.
 MOST_PANELS, LONGEST = 2, 48

@@ -42,7 +42,7 @@ from stribeck.report.recording import file_name, held_out_meaning, scored_senten
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from stribeck.diagnosis.improve import Improvement
+    from stribeck.diagnosis.loop.improve import Improvement
     from stribeck.diagnosis.result import Diagnosis, Finding
     from stribeck.diagnosis.testable import Untestable
     from stribeck.fitting.result import Fit

@@ -6,7 +6,7 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.diagnosis.trial import TIE
+from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.describe import physically
 from stribeck.report.comparison import comparison_figure, comparison_text
 from stribeck.report.diagnosis import VERDICTS

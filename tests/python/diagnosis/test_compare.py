@@ -9,7 +9,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.compare import REVERSAL_WINDOW
+from stribeck.diagnosis.residual.regimes import REVERSAL_WINDOW
 from stribeck.fitting.energy import electrical_energy
 from synthetic import joint, motion, record
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from scipy.stats import binom
-from stribeck.diagnosis.evidence import added_torque_test, difference, evidence
+from stribeck.diagnosis.trials.evidence import added_torque_test, difference, evidence
 from synthetic import ar1, joint, motion, record
 
 TRIALS = 200

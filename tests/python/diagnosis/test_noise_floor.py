@@ -8,9 +8,9 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.bound import explainable
-from stribeck.diagnosis.floor import noise_floor
-from stribeck.diagnosis.unexplained import unexplained
+from stribeck.diagnosis.residual.explainable import explainable
+from stribeck.diagnosis.residual.noise_floor import noise_floor
+from stribeck.diagnosis.residual.unexplained import unexplained
 from stribeck.effect.columns import displacement_since_reversal, hats
 from synthetic import ar1, joint, record
 

@@ -12,10 +12,15 @@ import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.stats import f as fisher
-from stribeck.diagnosis.leverage import held_out
-from stribeck.diagnosis.power import Demand, ExpectedNoise, Noise, needed_factor
-from stribeck.diagnosis.tangent import Beside, Widened, orthonormal, rest, sine
-from stribeck.diagnosis.visibility import Visibility, cliques, problem_of, show, visibility
+from stribeck.diagnosis.visibility.added_effect import AddedEffect
+from stribeck.diagnosis.visibility.groups import cliques
+from stribeck.diagnosis.visibility.held_out import held_out_balance
+from stribeck.diagnosis.visibility.model_space import ModelSpace
+from stribeck.diagnosis.visibility.power import Demand, ExpectedNoise, Noise, needed_factor
+from stribeck.diagnosis.visibility.result import Visibility
+from stribeck.diagnosis.visibility.smallest import show
+from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span, sine_to_span
+from stribeck.diagnosis.visibility.visibility import problem_of, visibility
 from stribeck.models.catalog import effect_ids
 from stribeck.motion.generate.files import sidecar_text
 from stribeck.motion.generate.hidden import generate
@@ -223,8 +228,8 @@ def test_effects_that_are_not_proportional_to_their_size(effect: str, tmp_path: 
     curve = 1.5 * np.exp(-((v / 0.3) ** 2)) * np.sign(v)
     fit = sb.fit("coulomb+stribeck", record(tmp_path, joint(curve)))
     problem = problem_of(fit)
-    widened = Widened.of(problem, effect, fit.residual)
-    base = (Beside(problem), Demand(5e-4, 0.01))
+    widened = AddedEffect.of(problem, effect, fit.residual)
+    base = (ModelSpace(problem), Demand(5e-4, 0.01))
     sizes = []
     for noise in (0.003, 0.03):
         loud = ExpectedNoise(noise, 1.0, problem.rows.size)
@@ -252,9 +257,11 @@ def test_projections() -> None:
     basis = orthonormal(np.column_stack([columns, 1e6 * columns.sum(axis=1)]))
     assert basis.shape == (50, 3)
     np.testing.assert_allclose(basis.T @ basis, np.eye(3), atol=1e-12)
-    left = rest(basis, rng.standard_normal((50, 2)))
+    left = outside_span(basis, rng.standard_normal((50, 2)))
     np.testing.assert_allclose(columns.T @ left, 0.0, atol=1e-12)
-    assert sine(columns[:, 0], basis) < 1e-12 and sine(left[:, 0], basis) == pytest.approx(1.0)
+    assert sine_to_span(columns[:, 0], basis) < 1e-12 and sine_to_span(
+        left[:, 0], basis
+    ) == pytest.approx(1.0)
 
 
 def test_cost_and_gain_of_holding_out_are_those_of_refits() -> None:
@@ -265,7 +272,7 @@ def test_cost_and_gain_of_holding_out_are_those_of_refits() -> None:
     x = np.linspace(-1.0, 1.0, rows)
     base, space = np.column_stack([np.ones(rows), x]), np.column_stack([x**2, x**3])
     torque, wide = x**2, np.column_stack([base, space])
-    found = held_out(orthonormal(base), torque, space, block)
+    found = held_out_balance(orthonormal(base), torque, space, block)
 
     def left(columns: Array, values: Array) -> Array:
         made = values.copy()
@@ -275,7 +282,7 @@ def test_cost_and_gain_of_holding_out_are_those_of_refits() -> None:
             made[~kept] -= columns[~kept] @ shares
         return made
 
-    fitted = rest(orthonormal(base), torque[:, None])
+    fitted = outside_span(orthonormal(base), torque[:, None])
     assert found.gain == pytest.approx(np.sum(left(base, torque) ** 2) / np.sum(fitted**2))
     noise = rng.standard_normal((rows, draws))
     added = np.sum(left(wide, noise) ** 2) - np.sum(left(base, noise) ** 2)

@@ -108,18 +108,18 @@ def test_improve_heeds_what_is_rejected(diagnosed: sb.Project) -> None:
 
 def test_a_way_that_drops_an_effect_keeps_it_as_a_branch(begun: sb.Project) -> None:
     """The loop finds an effect superfluous: its branch stays, the way goes on beside it."""
-    from stribeck.diagnosis.run import diagnose
-    from stribeck.diagnosis.walk import Step, Superfluous, Way
+    from stribeck.diagnosis.diagnose import diagnose
+    from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep, Superfluous
 
     said = diagnose(begun.fit, brief=True)
     first = said.findings[0]
     later = sb.add(first.fit, "offset", starts=1)
     alone = sb.add(begun.fit, "offset", starts=1)
     other = replace(first, effect="offset")
-    step = Step(first, begun.fit, first.fit)
-    grown = Way(begun.fit, said, (step, Step(other, first.fit, later)))
-    pruned = Way(
-        begun.fit, said, (Step(other, begun.fit, alone),),
+    step = ImprovementStep(first, begun.fit, first.fit)
+    grown = ImprovementPath(begun.fit, said, (step, ImprovementStep(other, first.fit, later)))
+    pruned = ImprovementPath(
+        begun.fit, said, (ImprovementStep(other, begun.fit, alone),),
         (Superfluous("load", begun.fit, "offset"),),
     )  # fmt: skip
     made = begun._along(0, grown)._along(0, pruned)

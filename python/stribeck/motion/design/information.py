@@ -12,9 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.diagnosis.power import Demand, ExpectedNoise, Noise
-from stribeck.diagnosis.tangent import Beside, Widened, orthonormal, rest, sine
-from stribeck.diagnosis.visibility import Shown, show
+from stribeck.diagnosis.visibility.added_effect import AddedEffect
+from stribeck.diagnosis.visibility.model_space import ModelSpace
+from stribeck.diagnosis.visibility.power import Demand, ExpectedNoise, Noise
+from stribeck.diagnosis.visibility.smallest import VisibleEffect, smallest_visible
+from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span, sine_to_span
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.motion.design.motion import SampledMotion
@@ -40,7 +42,7 @@ class Wanted:
         Size of each at which it weighs alike on the reference.
     """
 
-    widened: Mapping[str, Widened]
+    widened: Mapping[str, AddedEffect]
     apart: tuple[str, ...]
     sizes: Mapping[str, float]
 
@@ -50,7 +52,7 @@ class Wanted:
     ) -> Wanted:
         """Add each effect to the model of `reference`, and weigh it there."""
         effects = dict.fromkeys((*apart, *show))
-        widened = {e: Widened.of(reference, e, residual) for e in effects}
+        widened = {e: AddedEffect.of(reference, e, residual) for e in effects}
         level = WEIGHED * rms(reference.target - reference.known[reference.rows])
         sizes = {}
         for effect, one in widened.items():
@@ -63,14 +65,14 @@ class Wanted:
         return [e for e in self.apart if e != effect] if effect in self.apart else []
 
 
-def typical_torque(one: Widened) -> Array:
+def typical_torque(one: AddedEffect) -> Array:
     """Torque for one unit of the size, array [m]; of a bristle, with one of middling stiffness."""
-    return one.change(one.sizes(3)[1]) if one.is_curved else one.unit_torque()
+    return one.torque_of(one.sizes(3)[1]) if one.is_nonlinear else one.unit_torque()
 
 
-def columns_of(one: Widened) -> Array:
+def columns_of(one: AddedEffect) -> Array:
     """Torques that the effect can make near its start, array [m, k]."""
-    return typical_torque(one)[:, None] if one.is_curved else one.spaces(1)[0]
+    return typical_torque(one)[:, None] if one.is_nonlinear else one.spaces(1)[0]
 
 
 def least_information(
@@ -84,17 +86,17 @@ def least_information(
     problem = setting.problem(recording)
     if problem.rows.size < 50:
         return -np.inf
-    beside = Beside(problem)
+    beside = ModelSpace(problem)
     here = {effect: one.on(problem) for effect, one in wanted.widened.items()}
-    spaces = {effect: beside.without(columns_of(here[effect])) for effect in wanted.apart}
+    spaces = {effect: beside.outside(columns_of(here[effect])) for effect in wanted.apart}
     least = np.inf
     for effect, one in here.items():
-        left = beside.without(wanted.sizes[effect] * typical_torque(one)[:, None])
+        left = beside.outside(wanted.sizes[effect] * typical_torque(one)[:, None])
         others = [spaces[e] for e in wanted.others(effect)]
         if one.simpler.size:
-            others.append(beside.without(one.simpler_columns()))
+            others.append(beside.outside(one.simpler_columns()))
         if others:
-            left = rest(orthonormal(np.column_stack(others)), left)
+            left = outside_span(orthonormal(np.column_stack(others)), left)
         least = min(least, float(np.sum(left**2)) / rate)
     return float(np.log(least)) if least > 0 else -np.inf
 
@@ -111,7 +113,7 @@ class Sight:
         Of each pair that is to be told apart, how alike they look beside the model, 0 to 1.
     """
 
-    smallest: Mapping[str, Shown]
+    smallest: Mapping[str, VisibleEffect]
     cosines: Mapping[tuple[str, str], float]
 
 
@@ -123,14 +125,16 @@ def sight(wanted: Wanted, problem: Problem, noise: Noise | ExpectedNoise, demand
     smallest = {}
     for effect, one in here.items():
         others = [spaces[e] for e in wanted.others(effect)]
-        beside = Beside(problem, np.column_stack(others) if others else None)
-        smallest[effect] = show(one, [(beside, demand)], noise, base)
-    alone = Beside(problem)
-    left = {e: alone.without(typical_torque(here[e])[:, None])[:, 0] for e in wanted.apart}
-    span = {e: orthonormal(alone.without(spaces[e])) for e in wanted.apart}
+        beside = ModelSpace(problem, np.column_stack(others) if others else None)
+        smallest[effect] = smallest_visible(one, [(beside, demand)], noise, base)
+    alone = ModelSpace(problem)
+    left = {e: alone.outside(typical_torque(here[e])[:, None])[:, 0] for e in wanted.apart}
+    span = {e: orthonormal(alone.outside(spaces[e])) for e in wanted.apart}
     cosines = {}
     for k, one_ in enumerate(wanted.apart):
         for other in wanted.apart[k + 1 :]:
-            angle = min(sine(left[one_], span[other]), sine(left[other], span[one_]))
+            angle = min(
+                sine_to_span(left[one_], span[other]), sine_to_span(left[other], span[one_])
+            )
             cosines[one_, other] = float(np.sqrt(max(0.0, 1.0 - angle**2)))
     return Sight(smallest, cosines)

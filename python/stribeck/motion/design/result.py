@@ -9,7 +9,7 @@ import numpy as np
 import polars as pl
 
 from stribeck.base.shown import Plotted
-from stribeck.diagnosis.visibility import Shown
+from stribeck.diagnosis.visibility.smallest import VisibleEffect
 from stribeck.models.model import Model
 from stribeck.motion.design.motion import Limits, SampledMotion
 
@@ -22,7 +22,7 @@ class Size:
     rms: float | None
 
     @classmethod
-    def of(cls, shown: Shown) -> Size:
+    def of(cls, shown: VisibleEffect) -> Size:
         """None where no size is seen."""
         if not np.isfinite(shown.factor):
             return cls(None, None)

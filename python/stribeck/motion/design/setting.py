@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, SpecError, option
-from stribeck.diagnosis.power import ExpectedNoise
+from stribeck.diagnosis.visibility.power import ExpectedNoise
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.covariance import correlation_length

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.diagnosis.floor import noise_floor
-from stribeck.diagnosis.improve import improve
+from stribeck.diagnosis.loop.improve import improve
+from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length, sandwich

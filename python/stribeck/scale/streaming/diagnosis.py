@@ -32,8 +32,10 @@ class StreamedDiagnosis(Shown):
         """The contract's JSON of `stribeck diagnose`; errors are of all rows."""
         made = self.found.to_dict()
         floor = self.found.noise_floor
-        for finding, after in zip(made["findings"], self.with_finding, strict=True):
-            finding.update(before_and_after(self.fit, after, floor))
+        made["findings"] = [
+            {**finding.to_dict(), **before_and_after(self.fit, after, floor)}
+            for finding, after in zip(self.found.findings, self.with_finding, strict=True)
+        ]
         own = self.fit.to_dict()
         made.update({key: own[key] for key in ("rmse", "rmse_held_out", "scored", "data", "notes")})
         return made

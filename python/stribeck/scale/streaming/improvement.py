@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.base.shown import Shown
-from stribeck.diagnosis.floor import NoiseFloor
-from stribeck.diagnosis.improve import Improvement
-from stribeck.diagnosis.ranking import share_of_unexplained
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.loop.improve import Improvement
+from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.scale.streaming.result import StreamedFit
 
 __all__ = ["StreamedImprovement"]
@@ -37,13 +37,18 @@ class StreamedImprovement(Shown):
         """The contract's JSON of `stribeck improve`; errors and parameters are of all rows."""
         made = self.found.to_dict()
         floor = self.found.noise_floor
-        for step, before, after in zip(made["steps"], self.fits, self.fits[1:], strict=False):
-            step.update(before_and_after(before, after, floor))
-            step.update(
-                rmse_before=before.rmse,
-                rmse_after=after.rmse,
-                parameters=after.to_dict()["parameters"],
+        made["steps"] = [
+            {
+                **step.to_dict(),
+                **before_and_after(before, after, floor),
+                "rmse_before": before.rmse,
+                "rmse_after": after.rmse,
+                "parameters": after.to_dict()["parameters"],
+            }
+            for step, before, after in zip(
+                self.found.steps, self.fits, self.fits[1:], strict=False
             )
+        ]
         last = self.final.to_dict()
         same = ("model", "rmse", "rmse_held_out", "relative_residual", "parameters")
         made["final"] = {key: last[key] for key in same}

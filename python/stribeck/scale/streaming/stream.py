@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from stribeck.diagnosis.improve import improve as improve_in_memory
-from stribeck.diagnosis.run import LEAST_FALL
-from stribeck.diagnosis.run import diagnose as diagnose_in_memory
+from stribeck.diagnosis.diagnose import LEAST_FALL
+from stribeck.diagnosis.diagnose import diagnose as diagnose_in_memory
+from stribeck.diagnosis.loop.improve import improve as improve_in_memory
 from stribeck.fitting.fit import fit as fit_in_memory
 from stribeck.fitting.result import Fit
 from stribeck.identify.search import QUICK

@@ -1,8 +1,9 @@
-"""Noise floor: what no function of the recorded channels explains.
+"""Noise floor: the error that no function of the recorded channels explains.
 
-Nearest neighbours in state space, far apart in time (so that correlated noise is independent),
-differ by twice the noise variance plus what the function changes between them; the latter is
-extrapolated to zero distance (the Gamma test, Stefansson, Koncar and Jones 1997).
+Nearest neighbours in state space are far apart in time, so that their noise is independent. Half of
+their mean squared difference is the noise variance plus what the function changes between them. An
+extrapolation to zero distance removes the latter (the Gamma test, Stefansson, Koncar and Jones
+1997).
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ Array = NDArray[np.float64]
 
 NEIGHBOURS = 40
 FEWEST_PAIRS = 300
-#: An error of so many times the noise floor is more than noise.
+#: An error above this multiple of the noise floor is more than noise.
 REACHED = 1.5
-#: Samples over which a residual must last to be smooth in time.
+#: Correlation length in samples from which a residual is smooth in time.
 SMOOTH = 10.0
-#: Strokes of travel below which hardly a position is passed twice.
+#: Travel in strokes below which hardly any position is passed twice.
 ONCE = 1.5
 
 
@@ -38,24 +39,24 @@ class NoiseFloor:
     why: str | None = None
 
     def is_reached_by(self, rmse: float) -> bool:
-        """Whether an error may be noise: repeats of the same state differ by hardly less."""
+        """Whether an error may be noise: repetitions of a state differ hardly less."""
         return self.value is not None and rmse <= REACHED * self.value
 
 
 def noise_floor(fit: Fit) -> NoiseFloor:
     """Estimate the noise floor from the residual of `fit`, the best model at hand.
 
-    The model takes out most of what varies, so that neighbours need not be very near.
+    The model explains most of the torque, so that neighbours need not be very close.
     """
     rows = fit.rows
     residual = fit.residual[rows]
     if residual.size < FEWEST_PAIRS:
-        return NoiseFloor(None, f"too few moving rows ({residual.size}) to compare repeats")
+        return NoiseFloor(None, f"too few moving samples ({residual.size}) to compare repetitions")
     lasting = correlation_length(residual)
     if lasting > SMOOTH and _passes_once(fit):
         why = (
-            "what is left is smooth in time and the joint passes no position twice, so that slow "
-            "noise cannot be told from a torque that varies along the stroke"
+            "the residual is smooth in time and the joint passes no position twice, so that slow "
+            "noise is indistinguishable from a torque that varies along the stroke"
         )
         return NoiseFloor(None, why)
     features = state_features(fit, rows)
@@ -73,13 +74,13 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     gap = distance[pick, first[pick]] ** 2
     other = index[neighbour[pick, first[pick]]]
     gamma = (residual[index[pick]] - residual[other]) ** 2 / 2.0
-    # The nearest half tells most about zero distance.
+    # The nearest half says most about zero distance.
     near = gap <= np.median(gap)
     return NoiseFloor(float(min(np.sqrt(_at_zero(gap[near], gamma[near])), fit.rmse)))
 
 
 def _passes_once(fit: Fit) -> bool:
-    """Whether the joint only moves on, or there and half the way back."""
+    """Whether the joint moves at most along its stroke and half of the way back."""
     r = fit.recording
     if r.position is None:
         return False
@@ -88,7 +89,7 @@ def _passes_once(fit: Fit) -> bool:
 
 
 def _at_zero(gap: Array, gamma: Array) -> float:
-    """`gamma` at zero gap: by a line where it clearly rises with the gap, else its mean."""
+    """`gamma` at zero gap: from a line where it clearly rises with the gap, else its mean."""
     mean = float(gamma.mean())
     if np.ptp(gap) == 0:
         return mean
@@ -99,7 +100,7 @@ def _at_zero(gap: Array, gamma: Array) -> float:
 
 
 def state_features(fit: Fit, rows: NDArray[np.intp]) -> Array:
-    """What the friction may depend on, each channel scaled to unit spread, array [m, k]."""
+    """The channels that friction may depend on, scaled to unit variance, array [m, k]."""
     r = fit.recording
     v = r.velocity[rows]
     load = r.load_torque if r.load_torque is not None else fit.load
@@ -113,6 +114,6 @@ def state_features(fit: Fit, rows: NDArray[np.intp]) -> Array:
         np.sqrt(travel),
     ]
     scaled = [(c - c.mean()) / c.std() for c in channels if c is not None and c.std() > 1e-12]
-    # Opposite directions are different states however slow.
+    # Opposite directions are different states, at any speed.
     scaled.append(3.0 * np.sign(v))
     return np.column_stack(scaled)

@@ -1,4 +1,4 @@
-"""Try one effect: refit with it, and weigh the evidence."""
+"""Try one effect: refit with it, and test the evidence."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ import numpy as np
 import scipy
 
 from stribeck.base.errors import StribeckError
-from stribeck.diagnosis.evidence import Evidence, difference, evidence
-from stribeck.diagnosis.screen import STARTS, Screened, screened, widened
-from stribeck.diagnosis.tangent import MOST_ROWS, orthonormal, rest
+from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence
+from stribeck.diagnosis.trials.screening import STARTS, Screened, extended_model, screened
+from stribeck.diagnosis.visibility.model_space import MOST_ROWS
+from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.problem import Problem
@@ -18,13 +19,13 @@ from stribeck.identify.search import QUICK
 from stribeck.models.catalog import catalog
 from stribeck.models.formula_law import effect_name
 
-#: An effect promises something from this share of the fall that it must bring.
+#: An effect is promising from this share of the fall that it must bring.
 PROMISE = 0.5
-#: A finding's probability of being chance, over all effects tried together.
+#: Significance level of a finding, over all effects tried together.
 SIGNIFICANCE = 0.01
-#: Of effects whose held-out errors differ by less than one standard error the simplest is named.
+#: Among effects whose held-out errors differ by less than one standard error, the simplest wins.
 SIMPLEST = 1.0
-#: Held-out errors within so many standard errors of their difference may be one.
+#: Held-out errors within this many standard errors are not significantly different.
 TIE = 2.0
 #: Cosine of the angle between two torques from which one may be tried in place of the other.
 RESEMBLING = 0.7
@@ -32,7 +33,7 @@ RESEMBLING = 0.7
 
 @dataclass(frozen=True)
 class Trial:
-    """One effect added to a model and fitted, and what speaks for it."""
+    """One effect added to a model and fitted, and the evidence for it."""
 
     effect: str
     fit: Fit
@@ -45,20 +46,20 @@ class Trial:
 
     @property
     def rank(self) -> float:
-        """What trials are ordered by, smallest first: the error left, raw and in the motion's band.
+        """Order of trials, smallest first: the remaining error, raw and in the motion's band.
 
-        The sum of both logarithms: in white noise they agree; where vibration fills the raw
-        error, a cause that only follows the vibration does not outrank one that moves the joint.
+        The sum of both logarithms. In white noise they agree; where vibration dominates the raw
+        error, an effect that only follows the vibration does not outrank one in the motion's band.
         """
         falls = np.array([self.evidence.fall, self.evidence.fall_in_band])
         return float(np.sum(np.log(np.maximum(1.0 - falls, 1e-12))))
 
     @property
     def is_implausible(self) -> bool:
-        """Whether the effect's size lies at the edge of what is plausible.
+        """Whether the effect's size is at its bound.
 
-        Its first parameter is its size (a height, a slope, a stiffness, a delay); at a bound the
-        fit has used the effect as a stand-in for something else.
+        The first parameter is the size (a height, a slope, a stiffness, a delay). At its bound the
+        fit uses the effect as a proxy for something else.
         """
         own = self.fit.model.formula(self.effect)
         if own is None:
@@ -69,7 +70,7 @@ class Trial:
 
     @property
     def square(self) -> float:
-        """Held-out sum of squares on the rows fitted to."""
+        """Held-out sum of squares on the samples fitted to."""
         return float(np.sum(self.fit.held_out_residual[self.fit.rows] ** 2))
 
 
@@ -80,15 +81,15 @@ def add_effect(
     starts: int = STARTS,
     seed: int = 0,
 ) -> Fit:
-    """Refit `before`'s model with `effect` added, starting from what is known.
+    """Refit the model of `before` with `effect` added, from the known values.
 
     Raises
     ------
     SpecError, FitError
-        The effect is in the model already, or needs a channel that is not there.
+        The effect is in the model already, or needs a channel that the recording lacks.
     """
     return fit(
-        widened(before, effect),
+        extended_model(before, effect),
         before.recording,
         starts=starts,
         seed=seed,
@@ -97,12 +98,12 @@ def add_effect(
 
 
 def promises(found: Screened, least: float) -> bool:
-    """Whether an effect that was tried on few rows may bring `least` on all of them."""
+    """Whether an effect that was tried on few samples may bring the fall `least` on all."""
     return found.fall >= PROMISE * least
 
 
 def try_effect(before: Fit, promising: Screened) -> Trial | None:
-    """Fit an effect to all rows from what few of them showed; None where that is impossible."""
+    """Fit an effect to all samples after its screening; None where that is impossible."""
     try:
         after = fit(
             promising.model, before.recording, transient=before.transient, effort=QUICK, starts=1
@@ -121,8 +122,8 @@ def try_beyond(
 
     Returns
     -------
-    What it adds beyond the simpler one, and what both together add to `before`; None where that is
-    nothing, or the model cannot take it.
+    The trial of the effect beside the simpler one, and of both together beside `before`; None
+    where the effect explains nothing more, or the model cannot take it.
     """
     beyond = _try_more(simpler.fit, effect, least, seed)
     if beyond is None:
@@ -130,27 +131,27 @@ def try_beyond(
     return beyond, Trial(effect, beyond.fit, evidence(before, beyond.fit))
 
 
-def instead_of(
+def simpler_substitute(
     beyond: Trial, simpler: Trial, others: list[Trial], before: Fit, least: float, seed: int
 ) -> Trial | None:
-    """One of `others` that with `simpler` does what `beyond`, which contains `simpler`, does.
+    """One of `others` that, together with `simpler`, replaces `beyond`, which contains `simpler`.
 
-    With fewer parameters, and within a standard error of its held-out error: a load dependence that
-    differs between motoring and generating, say, equals one that does not and a wrong torque
-    constant.
+    It has fewer parameters and a held-out error within one standard error. Example: a load
+    dependence that differs between motoring and generating, against one that does not differ and a
+    wrong torque constant.
     """
     other = _most_like(beyond, simpler, others, before)
     if other is None:
         return None
     effect = other.fit.model.written(other.effect)
-    if len(widened(simpler.fit, effect).names) >= beyond.parameters:
+    if len(extended_model(simpler.fit, effect).names) >= beyond.parameters:
         return None
     both = _try_more(simpler.fit, effect, least, seed)
     return other if both is not None and tie_statistic(beyond, both) <= SIMPLEST else None
 
 
 def _most_like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> Trial | None:
-    """The one of `others` whose torque, beside `simpler`, is most like what `beyond` adds there."""
+    """The one of `others` whose torque is most similar to what `beyond` adds to `simpler`."""
     if not others:
         return None
     fit = simpler.fit
@@ -159,7 +160,7 @@ def _most_like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) 
     basis = orthonormal(tangent)
     torques = [beyond.fit.prediction - fit.prediction]
     torques += [other.fit.prediction - before.prediction for other in others]
-    left = rest(basis, np.column_stack([torque[rows] for torque in torques]))
+    left = outside_span(basis, np.column_stack([torque[rows] for torque in torques]))
     size = np.sqrt(np.sum(left**2, axis=0))
     cosines = np.abs(left.T @ left[:, 0])[1:] / np.maximum(size[1:] * size[0], 1e-300)
     best = int(np.argmax(cosines))
@@ -167,13 +168,13 @@ def _most_like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) 
 
 
 def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
-    """Try an effect if it promises something."""
+    """Try an effect if its screening is promising."""
     found = screened(before, effect, seed=seed)
     return try_effect(before, found) if found is not None and promises(found, least) else None
 
 
 def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
-    """The same trial fitted thoroughly, from where it stands."""
+    """The same trial fitted thoroughly, from its values."""
     after = fit(
         trial.fit.model,
         trial.fit.recording,
@@ -185,14 +186,14 @@ def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
 
 
 def passes(trial: Trial, tried: int, least: float) -> bool:
-    """Whether a trial counts: it matters, not only once, and is not chance among `tried`."""
+    """Whether a trial passes: large enough, in several blocks, and significant among `tried`."""
     e = trial.evidence
-    counts = e.fall >= least and e.everywhere and e.fall_in_band > 0
-    return counts and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
+    relevant = e.fall >= least and e.everywhere and e.fall_in_band > 0
+    return relevant and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
 def reported_fall(before: Fit, trial: Trial) -> bool:
-    """The error over all scored rows must fall too, transients included."""
+    """Whether the error over all scored samples falls too, transients included."""
     assert before.rmse_held_out is not None and trial.fit.rmse_held_out is not None
     return trial.fit.rmse_held_out < before.rmse_held_out
 
@@ -203,11 +204,11 @@ def tie_statistic(best: Trial, other: Trial) -> float:
 
 
 def tie_weight(statistic: float) -> float:
-    """Two-sided probability of a difference at least this large by chance."""
+    """Two-sided probability of a difference this large or larger by chance."""
     return float(2.0 * scipy.special.ndtr(-abs(statistic)))
 
 
 def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:
-    """Whether `other`'s effect explains something that `first`'s, once in the model, does not."""
+    """Whether the effect of `other` explains something that the effect of `first` does not."""
     again = _try_more(first.fit, other.fit.model.written(other.effect), least, seed)
     return again is not None and passes(again, tried, least)

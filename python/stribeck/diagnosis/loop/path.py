@@ -1,21 +1,20 @@
-"""The loop, change by change: what is added, and what a later effect makes superfluous."""
+"""The greedy loop: the best effect is added at each step, and superfluous ones are dropped."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from stribeck.base.errors import FitError
-from stribeck.diagnosis.evidence import evidence
-from stribeck.diagnosis.floor import NoiseFloor
-from stribeck.diagnosis.ranking import share_of_unexplained
+from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
-from stribeck.diagnosis.run import LEAST_FALL, diagnose
-from stribeck.diagnosis.screen import STARTS
-from stribeck.diagnosis.trial import SIGNIFICANCE, add_effect
+from stribeck.diagnosis.trials.evidence import evidence
+from stribeck.diagnosis.trials.ranking import share_of_unexplained
+from stribeck.diagnosis.trials.screening import STARTS
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, add_effect
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
@@ -26,15 +25,15 @@ MOST_STEPS = 8
 
 
 @dataclass(frozen=True)
-class Step:
+class ImprovementStep:
     """One accepted finding, and the model with it."""
 
     finding: Finding
     before: Fit
     after: Fit
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of one step."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of one step."""
         return {
             "effect": self.finding.effect,
             "confidence": self.finding.confidence,
@@ -59,49 +58,51 @@ class Superfluous:
 
 
 @dataclass(frozen=True)
-class Way:
-    """How far the loop has come from `start`.
+class ImprovementPath:
+    """The state of the loop: what it has added to `start` so far.
 
     Attributes
     ----------
     steps
         What was added, in order.
     superfluous
-        What was added and then dropped; it is not tried again.
+        What was added and then dropped; these effects are not tried again.
     last
-        The last diagnosis: of `current`, or before the last change of the model before it.
+        The last diagnosis: of `current`, or of the model before the last change.
     """
 
     start: Fit
     last: Diagnosis
-    steps: tuple[Step, ...] = ()
+    steps: tuple[ImprovementStep, ...] = ()
     superfluous: tuple[Superfluous, ...] = ()
 
     @property
     def current(self) -> Fit:
-        """The model that the way has led to."""
+        """The model at the end of the path."""
         return self.steps[-1].after if self.steps else self.start
 
-    def with_best(self) -> Way:
-        """One step on: the best finding of the last diagnosis added."""
+    def with_best(self) -> ImprovementPath:
+        """The path with the best finding of the last diagnosis added."""
         finding = self.last.findings[0]
-        return replace(self, steps=(*self.steps, Step(finding, self.current, finding.fit)))
+        return replace(
+            self, steps=(*self.steps, ImprovementStep(finding, self.current, finding.fit))
+        )
 
-    def without(self, effect: str, seed: int) -> Way:
-        """The same way without one effect: those after it are refitted in their turn."""
+    def without(self, effect: str, seed: int) -> ImprovementPath:
+        """The path without one effect; the steps after it are fitted again, in order."""
         place = next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
         dropped = self.steps[place]
-        walked = list(self.steps[:place])
+        steps = list(self.steps[:place])
         current = dropped.before
         for step in self.steps[place + 1 :]:
             again = _refitted(step, current, self.last.noise_floor, seed)
-            walked.append(again)
+            steps.append(again)
             current = again.after
         later = Superfluous(effect, dropped.before, self.steps[-1].finding.effect)
-        return replace(self, steps=tuple(walked), superfluous=(*self.superfluous, later))
+        return replace(self, steps=tuple(steps), superfluous=(*self.superfluous, later))
 
 
-def walk(
+def improvement_paths(
     start: Fit,
     *,
     seed: int = 0,
@@ -110,36 +111,41 @@ def walk(
     rejected: Collection[str] = (),
     candidates: Collection[str] = (),
     progress: Callable[[str], None] = lambda sentence: None,
-) -> Iterator[Way]:
-    """The loop, change by change: the way after each effect that is added or dropped.
+) -> Iterator[ImprovementPath]:
+    """The path of the loop after each effect that is added or dropped.
 
-    The last one ends where nothing passes the test, or after `most_steps`: its last diagnosis is
-    that of its current model. Parameters are those of `improve`.
+    The loop ends where nothing passes the test, or after `most_steps`. The last diagnosis of the
+    last path is that of its current model. Parameters as in `improve`.
     """
-    steps: tuple[Step, ...] = ()
+    steps: tuple[ImprovementStep, ...] = ()
     gone: tuple[Superfluous, ...] = ()
     while True:
         current = steps[-1].after if steps else start
-        progress(f"looking for what {current.model.spec} misses")
+        progress(f"searching for effects that {current.model.spec} lacks")
         found = diagnose(
-            current, least_fall=least_fall, rejected={*rejected, *(s.effect for s in gone)},
-            candidates=candidates, seed=seed, sample_rows=start.recording.rows, brief=True,
-        )  # fmt: skip
-        way = Way(start, found, steps, gone)
+            current,
+            least_fall=least_fall,
+            rejected={*rejected, *(s.effect for s in gone)},
+            candidates=candidates,
+            seed=seed,
+            sample_rows=start.recording.rows,
+            brief=True,
+        )
+        path = ImprovementPath(start, found, steps, gone)
         if not found.findings or len(steps) >= most_steps:
-            yield way
+            yield path
             return
         progress(f"adding {found.findings[0].effect}")
-        way = way.with_best()
-        yield way
-        shorter = _shortened(way, least_fall, seed, progress)
+        path = path.with_best()
+        yield path
+        shorter = _shortened(path, least_fall, seed, progress)
         if shorter is not None:
-            way = shorter
-            yield way
-        steps, gone = way.steps, way.superfluous
+            path = shorter
+            yield path
+        steps, gone = path.steps, path.superfluous
 
 
-def _refitted(step: Step, before: Fit, floor: NoiseFloor, seed: int) -> Step:
+def _refitted(step: ImprovementStep, before: Fit, floor: NoiseFloor, seed: int) -> ImprovementStep:
     """The same effect added to another model."""
     effect = step.finding.effect
     after = add_effect(before, step.after.model.written(effect), starts=STARTS, seed=seed)
@@ -152,27 +158,27 @@ def _refitted(step: Step, before: Fit, floor: NoiseFloor, seed: int) -> Step:
         fit=after,
         before=before,
     )
-    return Step(finding, before, after)
+    return ImprovementStep(finding, before, after)
 
 
 def _shortened(
-    way: Way, least_fall: float, seed: int, progress: Callable[[str], None]
-) -> Way | None:
-    """The way without an effect that is no longer needed; None where all are, or must stay."""
-    idle = _superfluous(way.steps, least_fall, seed)
+    path: ImprovementPath, least_fall: float, seed: int, progress: Callable[[str], None]
+) -> ImprovementPath | None:
+    """The path without an effect that is superfluous; None where none is, or it must stay."""
+    idle = _superfluous(path.steps, least_fall, seed)
     if idle is None:
         return None
-    progress(f"{idle} is no longer needed: walking the way again without it")
+    progress(f"{idle} is superfluous: refitting the later effects without it")
     try:
-        return way.without(idle, seed)
+        return path.without(idle, seed)
     except FitError as error:
-        # A bristle, say, whose dry friction only this effect keeps above zero.
+        # For example a bristle whose dry friction is positive only with this effect.
         progress(f"{idle} stays: {error}")
         return None
 
 
-def _superfluous(steps: tuple[Step, ...], least_fall: float, seed: int) -> str | None:
-    """An earlier effect without which the model does as well, if there is one."""
+def _superfluous(steps: tuple[ImprovementStep, ...], least_fall: float, seed: int) -> str | None:
+    """An earlier effect without which the error is not significantly larger, if there is one."""
     if len(steps) < 2:
         return None
     current = steps[-1].after

@@ -1,4 +1,4 @@
-"""Friction that swings with nothing that was recorded, told from slow noise."""
+"""Friction that varies for no recorded reason, distinguished from slow noise."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.swings import swings
+from stribeck.diagnosis.residual.varying_friction import varying_friction
 from synthetic import ar1, record
 
 
 def moved(seed: int, swing: float, slow_noise: float) -> pl.DataFrame:
-    """Strokes to and fro; dry friction swings by `swing`, the noise remembers for a second."""
+    """Strokes to and fro; dry friction varies by `swing`, noise is correlated over a second."""
     rng = np.random.default_rng(seed)
     t = np.arange(12000) / 100.0
     v = np.cos(2 * np.pi * t / 1.3) + 0.3 * np.cos(2 * np.pi * t / 2.9)
@@ -29,13 +29,13 @@ def moved(seed: int, swing: float, slow_noise: float) -> pl.DataFrame:
 @pytest.mark.parametrize("seed", range(3))
 def test_swinging_friction_is_measured(tmp_path: Path, seed: int) -> None:
     fit = sb.fit("coulomb", record(tmp_path, moved(seed, 0.2, 0.05)))
-    assert swings(fit).rms == pytest.approx(0.2, rel=0.15)
+    assert varying_friction(fit).rms == pytest.approx(0.2, rel=0.15)
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_slow_noise_is_no_friction(tmp_path: Path, seed: int) -> None:
     fit = sb.fit("coulomb", record(tmp_path, moved(seed, 0.0, 0.2)))
-    assert swings(fit).rms == 0.0
+    assert varying_friction(fit).rms == 0.0
 
 
 def test_a_diagnosis_says_so(tmp_path: Path) -> None:
@@ -47,4 +47,4 @@ def test_a_diagnosis_says_so(tmp_path: Path) -> None:
 
 def test_one_direction_says_nothing(tmp_path: Path) -> None:
     frame = moved(0, 0.3, 0.02).with_columns(pl.col("velocity") + 2.0)
-    assert swings(sb.fit("coulomb", record(tmp_path, frame))).rms == 0.0
+    assert varying_friction(sb.fit("coulomb", record(tmp_path, frame))).rms == 0.0

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.screen import screened
-from stribeck.diagnosis.trial import promises, try_effect
+from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.trial import promises, try_effect
 from synthetic import joint, motion, record
 
 ROWS = 9000

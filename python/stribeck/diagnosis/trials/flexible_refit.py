@@ -1,4 +1,4 @@
-"""Free columns beside a model: what they take up, and what they leave to an effect."""
+"""A model whose effects may take any smooth form: what it leaves for another effect."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.diagnosis.evidence import added_torque_test
-from stribeck.diagnosis.shape import flexible_columns
-from stribeck.diagnosis.trial import SIGNIFICANCE, Trial
+from stribeck.diagnosis.flexible_shape import flexible_columns
+from stribeck.diagnosis.trials.evidence import added_torque_test
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial
 from stribeck.fitting.result import Fit
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class FreerShape:
+class FlexibleRefit:
     """A fit whose effects may take any smooth form.
 
     Attributes
@@ -26,9 +26,9 @@ class FreerShape:
     before
         The fit.
     columns : array [m, k]
-        What lets its effects do so, on its rows.
+        Columns that let its effects do so, on its samples.
     held_out, residual : array [m]
-        What is then left, by refits without each block and of all rows.
+        Residual of the refits without each block, and of the refit to all samples.
     """
 
     before: Fit
@@ -37,15 +37,15 @@ class FreerShape:
     residual: Array
 
     @classmethod
-    def of(cls, before: Fit) -> FreerShape | None:
-        """The freest form; None where no effect of the fit has one."""
+    def of(cls, before: Fit) -> FlexibleRefit | None:
+        """The most flexible form; None where no effect of the fit has one."""
         columns = flexible_columns(before)
         if columns.shape[1] == 0:
             return None
         return cls(before, columns, *_linear_refit(before, columns))
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
-        """Whether it leaves nothing to a trial among `tried` that must bring `least`."""
+        """Whether a trial among `tried`, which must bring the fall `least`, no longer passes."""
         along, residual_along = _linear_refit(trial.fit, self.columns)
         level = float(np.mean(self.held_out**2))
         fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
@@ -57,8 +57,8 @@ class FreerShape:
         return fall < least / 2 or p_value * tried > SIGNIFICANCE
 
 
-def held_out_beside(fitted: Fit, extra: Array) -> Array:
-    """Held-out residual of `fitted` [m], linearised, with columns [m, k] beside it."""
+def held_out_with_columns(fitted: Fit, extra: Array) -> Array:
+    """Held-out residual of `fitted` [m], linearised, with columns [m, k] added."""
     return _linear_refit(fitted, extra)[0]
 
 
@@ -73,7 +73,7 @@ def _linear_refit(fitted: Fit, extra: Array) -> tuple[Array, Array]:
     sums = NormalEquations.of(columns, residual, group)
     matrix, vector = sums.total()
     free = np.full(columns.shape[1], np.inf)
-    # A trace of ridge keeps columns that only one block shows from running away in its refit.
+    # A small ridge bounds columns that only one block determines, in the refit without it.
     ridge = 1e-6 * residual.size * np.eye(columns.shape[1])
     held_out = residual.copy()
     for b in range(sums.square.size):

@@ -7,19 +7,19 @@ from dataclasses import dataclass
 from functools import partial
 
 from stribeck.base.pool import on_threads
-from stribeck.diagnosis.beside import FreerShape
-from stribeck.diagnosis.screen import screened
+from stribeck.diagnosis.extend import missing_simpler_effect
 from stribeck.diagnosis.testable import Untestable, untestable
-from stribeck.diagnosis.trial import (
+from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
+from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.trial import (
     Trial,
-    instead_of,
     passes,
     promises,
     reported_fall,
+    simpler_substitute,
     try_beyond,
     try_effect,
 )
-from stribeck.diagnosis.widen import contained
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.scaling import check_channels
@@ -29,7 +29,7 @@ from stribeck.models.formula_law import effect_name
 
 @dataclass(frozen=True)
 class Candidates:
-    """What can be tried on a fitted model.
+    """The effects that can be tried on a fitted model.
 
     Attributes
     ----------
@@ -60,39 +60,41 @@ def candidates_for(fitted: Fit, rejected: Collection[str], more: Collection[str]
     return Candidates(possible, hidden)
 
 
-def tried_on(
+def passing_trials(
     fitted: Fit, possible: Collection[str], least: float, seed: int
 ) -> tuple[list[Trial], int]:
-    """Trials that pass, the best first, and how many effects were looked at.
+    """Trials that pass, the best first, and the number of effects that were screened.
 
-    An effect that contains a simpler one is tried on top of it, where that one passes. If another
-    effect does the same there with fewer parameters, those two take its place: the larger of them.
+    An effect that contains a simpler one is tried beside it, where the simpler one passes. If
+    another effect does as well there with fewer parameters, the pair replaces it: the larger of
+    the two comes first.
     """
-    alone = [effect for effect in possible if contained(effect, fitted.model) is None]
+    alone = [effect for effect in possible if missing_simpler_effect(effect, fitted.model) is None]
     with on_threads() as pool:
-        looked_at = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
-        promising = [s for s in looked_at if promises(s, least)]
+        screenings = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
+        promising = [s for s in screenings if promises(s, least)]
         trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]
-    tried = max(len(looked_at), 1)
+    tried = max(len(screenings), 1)
     good = [t for t in trials if passes(t, tried, least)]
     pairs: list[_Pair] = []
     for effect in possible:
-        simpler = next((t for t in good if t.effect == contained(effect, fitted.model)), None)
+        needed = missing_simpler_effect(effect, fitted.model)
+        simpler = next((t for t in good if t.effect == needed), None)
         if simpler is None:
             continue
         beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
         if beyond is None or not passes(beyond[0], tried, least):
             continue
         others = [t for t in good if t is not simpler]
-        other = instead_of(beyond[1], simpler, others, fitted, least, seed)
+        other = simpler_substitute(beyond[1], simpler, others, fitted, least, seed)
         if other is not None:
             pairs.append(_Pair(beyond[1], min(simpler, other, key=lambda trial: trial.rank)))
         elif passes(beyond[1], tried, least):
             good.append(beyond[1])
     good = [t for t in good if reported_fall(fitted, t)]
-    shape = FreerShape.of(fitted) if good else None
-    if shape is not None:
-        good = [t for t in good if not shape.explains(t, tried, least)]
+    flexible = FlexibleRefit.of(fitted) if good else None
+    if flexible is not None:
+        good = [t for t in good if not flexible.explains(t, tried, least)]
     good.sort(key=lambda trial: trial.rank)
     for pair in pairs:
         if pair.larger in good and pair.together.rank < good[0].rank:
@@ -102,7 +104,7 @@ def tried_on(
 
 @dataclass(frozen=True)
 class _Pair:
-    """Two effects that do what a wider one does, and the larger of the two."""
+    """Two effects that replace a wider one, and the larger of the two."""
 
     together: Trial
     larger: Trial

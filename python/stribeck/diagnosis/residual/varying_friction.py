@@ -1,8 +1,8 @@
-"""Friction that swings with something that was not recorded.
+"""Friction that varies along a recording for no recorded reason.
 
-Friction changes sign with the direction of motion; noise, however slow, does not. So where the
-residual of neighbouring forward and backward motion, each taken in its own direction, rises and
-falls together along the recording, friction itself does, and no channel says why.
+Friction changes its sign with the direction of motion; slow noise does not. The residual of forward
+and of backward motion is multiplied by the sign of the velocity. Where both then rise and fall
+together along the recording, friction itself varies, and no channel explains it.
 """
 
 from __future__ import annotations
@@ -17,38 +17,38 @@ from stribeck.fitting.result import Fit
 
 Array = NDArray[np.float64]
 
-#: Stretches that the recording is cut into, and rows a direction needs in each to count.
+#: Stretches of the recording, samples needed in each per direction, and stretches needed.
 STRETCHES, FEWEST_ROWS, FEWEST_STRETCHES = 80, 10, 8
-#: Probability below which an agreement between the directions is not by chance; and where repeats
-#: of the same state differ by so much less than the error that something must be missing.
+#: Significance level of a correlation between the directions; and the level where the noise floor
+#: is so far below the error that something must be missing.
 SIGNIFICANCE, SUSPECTED = 1e-3, 1e-2
 
 
 @dataclass(frozen=True)
-class Swings:
-    """How far friction swings along a recording for no recorded reason.
+class VaryingFriction:
+    """How much friction varies along a recording for no recorded reason.
 
     Attributes
     ----------
     rms
-        Of what both directions agree on, in the unit of torque; 0 where that may be chance.
+        RMS of the common part of both directions, in the unit of torque; 0 if not significant.
     """
 
     rms: float
 
 
-def swings(fit: Fit, *, suspected: bool = False) -> Swings:
+def varying_friction(fit: Fit, *, suspected: bool = False) -> VaryingFriction:
     """Compare the two directions of motion, stretch by stretch.
 
     Parameters
     ----------
     suspected : bool
-        Whether the noise floor says that something is missing.
+        Whether the noise floor shows that something is missing.
     """
     rows = fit.rows
     stretch = np.arange(rows.size) * STRETCHES // max(rows.size, 1)
     sign = np.sign(fit.recording.velocity[rows])
-    # Of all rows: a drift that a refit without the last tenth foretells badly is no swing.
+    # Not the held-out residual: a drift that is badly extrapolated to the last block would show.
     higher = fit.residual[rows] * sign
     means = []
     seen = np.ones(STRETCHES, dtype=bool)
@@ -59,8 +59,8 @@ def swings(fit: Fit, *, suspected: bool = False) -> Swings:
         means.append(total / np.maximum(count, 1.0))
     forward, backward = means[0][seen], means[1][seen]
     if forward.size < FEWEST_STRETCHES or np.ptp(forward) == 0.0 or np.ptp(backward) == 0.0:
-        return Swings(0.0)
+        return VaryingFriction(0.0)
     agreement = scipy.stats.pearsonr(forward, backward, alternative="greater")
     if agreement.pvalue > (SUSPECTED if suspected else SIGNIFICANCE):
-        return Swings(0.0)
-    return Swings(float(np.sqrt(np.cov(forward, backward)[0, 1])))
+        return VaryingFriction(0.0)
+    return VaryingFriction(float(np.sqrt(np.cov(forward, backward)[0, 1])))

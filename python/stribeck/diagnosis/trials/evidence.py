@@ -1,9 +1,9 @@
 """Does a wider model predict better, by more than chance?
 
-Two questions. How much does the error fall on held-out blocks? And could the torque that the
-wider model adds have come from the noise alone? The second is a Wald test along the added
-torque, with the noise's variance in that direction from batches longer than its memory, so that
-it stands up to autocorrelation and to noise that is not the same everywhere.
+Two questions. How much does the error fall on held-out blocks? Could noise alone explain the torque
+that the wider model adds? The second is a Wald test along the added torque. The variance of the
+noise in that direction comes from batches longer than its correlation, so that the test is robust
+to autocorrelation and to noise of varying level.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Evidence:
-    """What speaks for a wider model.
+    """The evidence for a wider model.
 
     Attributes
     ----------
     fall : float
-        Relative fall of the held-out RMSE, on the rows that are fitted to.
+        Relative fall of the held-out RMSE, on the samples fitted to.
     everywhere : bool
-        Whether the error falls without the block that gains most: not a single event.
+        Whether the error falls also without the block that gains most: it is no single event.
     fall_in_band : float
-        The same in the band of the motion, where friction acts and vibration does not.
+        Relative fall in the band of the motion, where friction acts and vibration does not.
     p_value : float
-        Probability of added torque this large if noise were all there is to explain, times the
-        number of forms that were guessed at; above 1 it means nothing but "by chance".
+        Probability that noise alone yields an added torque this large, times the number of forms
+        tried; it may exceed 1.
     """
 
     fall: float
@@ -47,7 +47,7 @@ class Evidence:
 
 
 def evidence(before: Fit, after: Fit) -> Evidence:
-    """Weigh a wider fit `after` against `before`."""
+    """The evidence for a wider fit `after` against `before`."""
     r, rows = before.recording, before.rows
     square_before = before.held_out_residual[rows] ** 2
     square_after = after.held_out_residual[rows] ** 2
@@ -66,11 +66,11 @@ def evidence(before: Fit, after: Fit) -> Evidence:
             after.residual[rows],
             len(after.model.names) - len(before.model.names),
         )
-        * _guesses(before, after),
+        * _forms(before, after),
     )
 
 
-def _guesses(before: Fit, after: Fit) -> int:
+def _forms(before: Fit, after: Fit) -> int:
     """From how many forms the wider model was chosen by looking at the data, such as periods."""
     added = [e for e in after.model.effects if e not in before.model.effects]
     return math.prod(of_catalog(effect).forms(after.recording) for effect in added)
@@ -79,8 +79,8 @@ def _guesses(before: Fit, after: Fit) -> int:
 def added_torque_test(added: Array, residual: Array, parameters: int) -> float:
     """Probability that noise like `residual` alone makes `added` torque [m] this large.
 
-    `added` is the best of a family with so many more `parameters`, nonlinear ones counted like
-    the others: that pays for their search.
+    `added` is the best of a family with this number of additional `parameters`. Nonlinear ones
+    count like the others, which accounts for their search.
     """
     size = float(added @ added)
     if size <= 0 or parameters < 1:
@@ -114,7 +114,7 @@ class Difference:
 
 
 def difference(worse: Fit, better: Fit) -> Difference:
-    """Compare two models that need not contain one another, on held-out rows."""
+    """Compare two models, nested or not, on held-out samples."""
     rows = worse.rows
     change = worse.held_out_residual[rows] ** 2 - better.held_out_residual[rows] ** 2
     batch = batches(change.size, correlation_length(change), fewest=20, most=100)

@@ -1,7 +1,7 @@
 """How large an added torque must be for a diagnosis to see it.
 
-The same test as in `evidence`, turned round: the size at which it answers yes with a given
-probability, from the noise that the residual shows along the torque.
+The power of the test in `evidence`: the size at which an effect passes with a given probability,
+from the noise of the residual along the torque.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.diagnosis.leverage import FITTED, HeldOut
+from stribeck.diagnosis.visibility.held_out import NOTHING_HELD_OUT, HeldOutBalance
 from stribeck.identify.covariance import batches, correlation_length
 
 Array = NDArray[np.float64]
 
-#: What estimating costs on held-out blocks may be so many times what is expected.
+#: Allowed ratio of the cost of estimation on held-out blocks to its expected value.
 MARGIN = 2.0
 #: Probability with which an effect of the stated size is seen.
 POWER = 0.95
@@ -26,12 +26,12 @@ POWER = 0.95
 
 @dataclass(frozen=True)
 class Demand:
-    """What a diagnosis asks of an effect.
+    """What a diagnosis demands of an effect.
 
     Attributes
     ----------
     significance
-        Probability of being chance that is allowed, over all effects tried together.
+        Allowed probability of a chance finding, over all effects tried together.
     least_fall
         Least relative fall of the held-out RMSE.
     """
@@ -42,14 +42,14 @@ class Demand:
 
 @dataclass(frozen=True)
 class Noise:
-    """What is not explained on some rows, as noise for anything that is added.
+    """The residual of a model on some samples, as noise for an added torque.
 
     Attributes
     ----------
     residual
         Array [m].
     batch
-        Number of the stretch that each row belongs to, longer than the noise's memory.
+        Batch of each sample, longer than the correlation of the noise.
     """
 
     residual: Array
@@ -57,13 +57,13 @@ class Noise:
 
     @classmethod
     def of(cls, residual: Array) -> Noise:
-        """Cut `residual` into stretches as the test of evidence does."""
+        """Cut `residual` into batches as the test of evidence does."""
         length = correlation_length(residual)
         return cls(residual, batches(residual.size, length, fewest=20, most=200))
 
     @cached_property
     def count(self) -> int:
-        """Number of stretches."""
+        """Number of batches."""
         return int(self.batch.max()) + 1
 
     @cached_property
@@ -71,7 +71,7 @@ class Noise:
         """Sum of squares."""
         return float(self.residual @ self.residual)
 
-    def beside(self, error: Array) -> Noise:
+    def with_error(self, error: Array) -> Noise:
         """The noise with an `error` [m] of a model on top."""
         return replace(self, residual=self.residual + error)
 
@@ -84,18 +84,18 @@ class Noise:
 
 @dataclass(frozen=True)
 class ExpectedNoise:
-    """Noise of a recording that has not been made yet.
+    """Noise of a planned recording.
 
     Attributes
     ----------
     rms
         In the unit of torque.
     memory
-        Rows over which it remembers itself, `correlation_length`.
+        Samples over which it is correlated, `correlation_length`.
     rows
-        Number of rows.
+        Number of samples.
     error : array [rows]
-        What a model leaves besides; zero if it is right.
+        Error of the model besides; zero if it is right.
     """
 
     rms: float
@@ -105,7 +105,7 @@ class ExpectedNoise:
 
     @property
     def count(self) -> int:
-        """Number of stretches that a test of evidence would cut."""
+        """Number of batches that a test of evidence would cut."""
         return int(batches(self.rows, self.memory, fewest=20, most=200).max()) + 1
 
     @property
@@ -113,7 +113,7 @@ class ExpectedNoise:
         """Sum of squares."""
         return self.rows * self.rms**2 + float(np.sum(np.square(self.error)))
 
-    def beside(self, error: Array) -> ExpectedNoise:
+    def with_error(self, error: Array) -> ExpectedNoise:
         """The noise with an `error` [rows] of a model on top."""
         return replace(self, error=self.error + error)
 
@@ -131,22 +131,22 @@ def needed_factor(
     need: Demand,
     *,
     loss: float = 0.0,
-    held_out: HeldOut = FITTED,
+    held_out: HeldOutBalance = NOTHING_HELD_OUT,
 ) -> float:
-    """By what a torque must be multiplied to be seen with the probability `POWER`.
+    """By what a torque must be multiplied to pass with the probability `POWER`.
 
     Parameters
     ----------
     square
-        Sum of squares of the torque, without what the model takes up.
+        Sum of squares of the torque, without the part that the model absorbs.
     variance
         Of the noise along it, `Noise.variance_along`.
     count
         Parameters of the effect.
     loss
-        Sum of squares by which the effect's form misses the data even where it is the truth.
+        Sum of squares of the error of the wider model even where the effect is true.
     held_out
-        How the torque fares on held-out blocks.
+        What holding blocks out gains and costs.
 
     Returns
     -------
@@ -158,7 +158,7 @@ def needed_factor(
         return np.inf
     spread = float(np.sqrt(variance))
     tested = np.sqrt(noncentrality(count, batches - count, need.significance)) * spread / square
-    # Held-out squares fall by f^2 gained, give or take 2 f spread, less what estimating costs.
+    # With a factor f held-out squares fall by f^2 gained +- 2 f spread, less estimation cost.
     fall = 1.0 / (1.0 - need.least_fall) ** 2 - 1.0
     due = fall * noise.square + MARGIN * held_out.cost * variance / square + loss
     slack, gained = float(scipy.special.ndtri(POWER)) * spread, held_out.gain * square
@@ -168,7 +168,7 @@ def needed_factor(
 
 @lru_cache(maxsize=256)
 def noncentrality(count: int, freedom: int, significance: float) -> float:
-    """Noncentrality at which an F test with (count, freedom) answers yes with `POWER`.
+    """Noncentrality at which an F test with (count, freedom) passes with probability `POWER`.
 
     Examples
     --------
@@ -179,5 +179,8 @@ def noncentrality(count: int, freedom: int, significance: float) -> float:
     highest = 4.0
     while scipy.special.ncfdtr(count, freedom, highest, critical) > 1.0 - POWER:
         highest *= 2.0
-    miss = lambda x: float(scipy.special.ncfdtr(count, freedom, x, critical)) - (1.0 - POWER)  # noqa: E731
+
+    def miss(x: float) -> float:
+        return float(scipy.special.ncfdtr(count, freedom, x, critical)) - (1.0 - POWER)
+
     return float(scipy.optimize.brentq(miss, 1e-9, highest, rtol=1e-6))

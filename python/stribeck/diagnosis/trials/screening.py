@@ -1,9 +1,9 @@
-"""Which effects are worth a fit: a few steps on a few rows.
+"""Which effects are worth a full fit: a few steps on a few samples.
 
-Most effects of the catalog bring nothing on a given recording, and a fit to all rows says so no
-better than some thousands of rows do. Each effect gets the tangent of the wider model, projected
-off the base by a step of Gauss and Newton, from several starts of its nonlinear parameters; those
-that promise something go on from where the best start led.
+Most effects of the catalog explain nothing on a given recording, and some thousands of samples
+show this as well as all do. The search of each effect starts from the values of the model and from
+several values of the effect's nonlinear parameters. A full fit of a promising effect continues from
+the best result.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
-from stribeck.diagnosis.widen import widening
+from stribeck.diagnosis.extend import extended_models
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.figures import rms
@@ -29,15 +29,15 @@ Array = NDArray[np.float64]
 
 #: Starts of an effect's nonlinear parameters; the others start from the fit before.
 STARTS = 6
-#: The same where every start runs a memory over the whole recording.
+#: The same where every start simulates a state over the whole recording.
 STARTS_ON_ALL_ROWS = 3
-#: Rows of a memoryless model, and samples of the stretch over which a new memory is tried.
+#: Samples of a memoryless model, and of the stretch on which a new state is tried.
 ROWS, SAMPLES = 3000, 6000
-#: Steps from each start, and from the best of them.
+#: Steps from each start, and further steps from the best of them.
 FIRST_STEPS, FURTHER_STEPS = 3, 20
-#: The latter on all rows: a fit that is worth it goes on from there.
+#: The further steps on all samples: the full fit continues from there.
 FURTHER_STEPS_ON_ALL_ROWS = 4
-#: A step that foresees a smaller relative fall of the squared error ends a search.
+#: A search ends at a step that predicts a smaller relative fall of the squared error.
 TOLERANCE = 1e-6
 
 
@@ -50,9 +50,9 @@ class Screened:
     effect : str
         An id, or ``"NAME = FORMULA"``.
     model : Model
-        The wider model with the values that were found.
+        The wider model with the values found.
     fall : float
-        Relative fall of the RMSE on the rows looked at: held out, where they are from all blocks.
+        Relative fall of the RMSE on these samples; held out, where they come from all blocks.
     """
 
     effect: str
@@ -60,7 +60,7 @@ class Screened:
     fall: float
 
 
-def widened(before: Fit, effect: str) -> Model:
+def extended_model(before: Fit, effect: str) -> Model:
     """`before`'s model with `effect` added, and the simpler effect that it contains.
 
     Raises
@@ -69,15 +69,15 @@ def widened(before: Fit, effect: str) -> Model:
         The effect is unknown, or in the model already.
     """
     load = own_load(before.model, before.recording)
-    return widening(before.model, effect, before.recording, load, before.residual)[-1]
+    return extended_models(before.model, effect, before.recording, load, before.residual)[-1]
 
 
 def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
-    """Try `effect` on few rows; None where the model cannot take it."""
+    """Try `effect` on few samples; None where the model cannot take it."""
     try:
-        model = model_for(widened(before, effect), before.recording)
+        model = model_for(extended_model(before, effect), before.recording)
         load = before.load if before.load is not None else own_load(before.model, before.recording)
-        problem = _few_rows(Problem(before.recording, model, before.rows, load), before.model)
+        problem = _few_samples(Problem(before.recording, model, before.rows, load), before.model)
         lower, upper, first = bounds(model, before.recording)
         found = _search(problem, lower, upper, first, seed)
         if not np.isfinite(found.square):
@@ -89,7 +89,7 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
 
 
 def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Array) -> float:
-    """Relative fall of the RMSE; on a single stretch, of both models fitted to that alone."""
+    """Relative fall of the RMSE; on a single stretch, with both models fitted to it alone."""
     if problem.span is None:
         level = rms(before.held_out_residual[problem.rows])
         left = rms(held_out_residual(problem, found.values, lower, upper))
@@ -103,10 +103,10 @@ def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Arr
     return 1.0 - float(left / level) if level > 0.0 else 0.0
 
 
-def _few_rows(problem: Problem, base: Model) -> Problem:
-    """Few rows where each stands by itself; of a new memory, the stretch that turns most.
+def _few_samples(problem: Problem, base: Model) -> Problem:
+    """Few samples of a memoryless model; for a new state, the stretch with the most reversals.
 
-    Where the base has a memory already, what is missing may show anywhere: all rows.
+    Where the base has a state already, an effect may show anywhere: all samples.
     """
     if problem.model.memoryless:
         return problem.thinned(ROWS)
@@ -114,13 +114,13 @@ def _few_rows(problem: Problem, base: Model) -> Problem:
 
 
 def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: int) -> Search:
-    """The best of searches from the known values, with several starts of the unknown ones."""
+    """The best search: from the known values, with several starts of the unknown ones."""
     known = problem.model.values
     unknown = ~np.isfinite(known)
     start = np.where(unknown, first, np.clip(known, lower, upper))
     space = SearchSpace(problem.model, lower, upper)
     nonlinear = space.nonlinear
-    # Behind a bristle a search finds the amplitudes of dry friction from anywhere.
+    # With a bristle, a search finds the amplitudes of dry friction from any start.
     amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
     varied = unknown & nonlinear & ~amplitude
     if not np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])):

@@ -1,4 +1,4 @@
-"""A model with an effect added, and the simpler effect that it contains."""
+"""A model extended by an effect, and by the simpler effect that it contains."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from stribeck.recording.recording import Recording
 Array = NDArray[np.float64]
 
 
-def contained(effect: str, model: Model) -> str | None:
+def missing_simpler_effect(effect: str, model: Model) -> str | None:
     """The simpler effect that `effect` contains and `model` lacks, if there is one."""
     simpler = simpler_effect(effect)
     return None if simpler is None or model.has(simpler) else simpler
 
 
-def widening(
+def extended_models(
     model: Model, effect: str, recording: Recording, load: Array | None, residual: Array | None
 ) -> tuple[Model, ...]:
     """`model`, then with the simpler effect where it lacks one, then with `effect`.
@@ -29,9 +29,9 @@ def widening(
     effect : str
         An id, or ``"NAME = FORMULA"``.
     load : array [n]
-        Load torque of every row.
+        Load torque of every sample, where the recording gives none.
     residual : array [n]
-        What the model leaves of every row; a ripple's period is found in it.
+        Residual of the model at every sample; some effects take a constant from it.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def widening(
         The effect is unknown, or in the model already.
     """
     models = [model]
-    for one in (contained(effect, model), effect):
+    for one in (missing_simpler_effect(effect, model), effect):
         if one is not None:
             constants = effect_constants(one, recording, load, residual)
             models.append(models[-1].with_effect(one, constants))

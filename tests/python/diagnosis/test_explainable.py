@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.bound import explainable
+from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.motion.generate.hidden import generate
 
 

@@ -1,0 +1,55 @@
+"""Long recordings: effects are searched on stretches, models identified on all samples."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.result import Diagnosis, Finding
+from stribeck.diagnosis.trials.ranking import share_of_unexplained
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
+from stribeck.identify.search import QUICK, THOROUGH, Effort
+from stribeck.recording.recording import Recording
+
+#: Effort of a reported fit that starts close to the solution. With a million samples the values
+#: converge to about a thousandth of their standard error.
+FROM_NEARBY = replace(THOROUGH, evaluations=0, finished=1, tolerance=1e-12)
+
+
+def on_all_samples(
+    found: Fit, recording: Recording, transient: NDArray[np.bool_], effort: Effort = QUICK
+) -> Fit:
+    """Identify a model that was fitted to stretches of `recording` on all of it."""
+    return fit(found.model, recording, starts=1, transient=transient, effort=effort)
+
+
+def with_errors_of(finding: Finding, before: Fit, after: Fit, floor: NoiseFloor) -> Finding:
+    """A finding with the errors of two fits to all samples."""
+    return replace(
+        finding,
+        rmse_held_out_before=float(before.rmse_held_out or np.nan),
+        rmse_held_out_after=float(after.rmse_held_out or np.nan),
+        share_of_unexplained=share_of_unexplained(before, after, floor),
+        fit=after,
+        before=before,
+    )
+
+
+def with_excerpt_note(fitted: Fit, rows: int) -> Fit:
+    """`fitted` with a note on how many samples effects were searched."""
+    note = f"effects were searched on {rows} of {fitted.recording.rows} samples, in stretches"
+    return replace(fitted, notes=(*fitted.notes, note))
+
+
+def with_errors_on_all_samples(found: Diagnosis, whole: Fit) -> Diagnosis:
+    """A diagnosis of stretches with the errors on all samples, those of `whole`."""
+    findings = []
+    for finding in found.findings:
+        after = on_all_samples(finding.fit, whole.recording, whole.transient)
+        findings.append(with_errors_of(finding, whole, after, found.noise_floor))
+    rows = found.fit.recording.rows
+    return replace(found, fit=with_excerpt_note(whole, rows), findings=tuple(findings))

@@ -1,0 +1,105 @@
+"""Find the effects that are missing from a model."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from stribeck.diagnosis.all_samples import FROM_NEARBY, with_errors_on_all_samples
+from stribeck.diagnosis.residual.explainable import explainable
+from stribeck.diagnosis.residual.noise_floor import noise_floor
+from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
+from stribeck.diagnosis.result import Diagnosis
+from stribeck.diagnosis.trials.candidates import candidates_for, passing_trials
+from stribeck.diagnosis.trials.proxies import without_proxies
+from stribeck.diagnosis.trials.ranking import findings
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE
+from stribeck.diagnosis.visibility.visibility import visibility
+from stribeck.fitting.fit import fit, on_recording
+from stribeck.fitting.result import Fit
+from stribeck.models.catalog import effect_ids
+from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
+from stribeck.recording.recording import Recording
+
+#: Least relative fall of the held-out RMSE that a finding must bring.
+LEAST_FALL = 0.01
+NOT_ASKED = Unexplained(None, None)
+
+
+def diagnose(
+    fitted: Fit,
+    recording: Recording | None = None,
+    *,
+    least_fall: float = LEAST_FALL,
+    rejected: Collection[str] = (),
+    candidates: Collection[str] = (),
+    seed: int = 0,
+    sample_rows: int = SAMPLE_ROWS,
+    brief: bool = False,
+) -> Diagnosis:
+    """Find the effects that are missing from `fitted`.
+
+    Every effect that the recording can show is added and refitted. It passes if the held-out RMSE
+    falls by at least `least_fall`, if the fall is significant given the autocorrelation of the
+    residual and the number of effects tried, and if the effects already in the model cannot explain
+    the same with a more flexible shape.
+
+    Parameters
+    ----------
+    recording : Recording
+        Default: the recording of the fit. On another one the model is fitted again first.
+    rejected : collection of str
+        Effects that are not tried.
+    candidates : collection of str
+        Effects by formula that are tried as well: ``"creep = c*abs(load)*sgn(v)"``.
+    sample_rows : int
+        A longer recording is searched for effects on this number of samples, in evenly spaced
+        stretches; the errors are those of all samples.
+    brief : bool
+        Where there are findings, return only those, without the smallest visible effects and the
+        explainable share.
+    """
+    fitted = on_recording(fitted, recording, seed)
+    few = excerpt(fitted.recording, sample_rows, seed)
+    if few is not fitted.recording:
+        found = diagnose(
+            fit(fitted.model, few, starts=1, effort=FROM_NEARBY),
+            least_fall=least_fall,
+            rejected=rejected,
+            candidates=candidates,
+            seed=seed,
+            sample_rows=few.rows,
+            brief=brief,
+        )
+        return with_errors_on_all_samples(found, fitted)
+    could_be = candidates_for(fitted, rejected, candidates)
+    passed, tried = passing_trials(fitted, could_be.possible, least_fall, seed)
+    good = without_proxies(fitted, passed)
+    best = good[0].fit if good else fitted
+    floor = noise_floor(best)
+    ranked = findings(fitted, good, tried, least_fall, floor, seed)
+    if brief and ranked:
+        return Diagnosis(fitted, floor, "missing", ranked, could_be.untestable, NOT_ASKED)
+    # Without repeated states a regressor learns nothing that holds on other blocks.
+    after = ranked[0].fit if ranked else fitted
+    could = None if floor.value is None else explainable(fitted, after)
+    left = unexplained(after, floor, could, last=not ranked)
+    verdict = "missing" if ranked else ("unexplained" if left.is_structure else "none")
+    shown = visibility(
+        fitted,
+        [effect for effect in could_be.possible if effect in effect_ids()],
+        found={e for finding in ranked for e in (finding.effect, *finding.indistinguishable_from)},
+        tried=tried,
+        significance=SIGNIFICANCE,
+        least_fall=least_fall,
+    )
+    return Diagnosis(
+        fit=fitted,
+        noise_floor=floor,
+        verdict=verdict,
+        findings=ranked,
+        untestable=(*could_be.untestable, *shown.hidden),
+        unexplained=left,
+        smallest_visible=shown.smallest,
+        groups=shown.groups,
+        explainable=could,
+    )

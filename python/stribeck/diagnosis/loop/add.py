@@ -1,0 +1,63 @@
+"""One effect added to a fitted model by hand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from stribeck.base.shown import Shown
+from stribeck.diagnosis.trials.trial import add_effect
+from stribeck.fitting.fit import on_recording
+from stribeck.fitting.result import Fit
+from stribeck.models.catalog import check_effect
+from stribeck.models.formula_law import is_formula
+from stribeck.recording.recording import Recording
+
+
+@dataclass(frozen=True, repr=False)
+class Addition(Shown):
+    """One effect added: the model before and after, on the same samples."""
+
+    effect: str
+    before: Fit
+    after: Fit
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck add`."""
+        return {
+            "model": self.after.model.spec,
+            "effect": self.effect,
+            "rmse_before": self.before.rmse,
+            "rmse_after": self.after.rmse,
+            "rmse_held_out_before": self.before.rmse_held_out,
+            "rmse_held_out_after": self.after.rmse_held_out,
+            "unit": self.after.model.torque_unit,
+            "parameters": {n: e.to_dict() for n, e in self.after.estimates.items()},
+            "scored": self.after.recording.scored(),
+        }
+
+
+def add(
+    fitted: Fit,
+    effect: str,
+    recording: Recording | None = None,
+    *,
+    starts: int = 20,
+    seed: int = 0,
+) -> Fit:
+    """Add `effect` to a fitted model and refit it on `recording` (default: the fit's own).
+
+    Parameters
+    ----------
+    effect : str
+        An id of the catalog, or an effect by formula: ``"creep = c*abs(load)*sgn(v)"``.
+
+    Raises
+    ------
+    SpecError
+        The effect is unknown or in the model already.
+    FitError
+        The recording lacks a channel that the effect needs.
+    """
+    if not is_formula(effect):
+        check_effect(effect)
+    return add_effect(on_recording(fitted, recording, seed), effect, starts=starts, seed=seed)

@@ -1,0 +1,174 @@
+"""Diagnose and add effects until the residual is noise."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Collection
+from dataclasses import dataclass, replace
+
+import polars as pl
+
+from stribeck.base.pool import on_threads
+from stribeck.base.shown import Plotted
+from stribeck.diagnosis.all_samples import (
+    FROM_NEARBY,
+    on_all_samples,
+    with_errors_of,
+    with_excerpt_note,
+)
+from stribeck.diagnosis.diagnose import LEAST_FALL
+from stribeck.diagnosis.loop.path import (
+    MOST_STEPS,
+    ImprovementPath,
+    ImprovementStep,
+    improvement_paths,
+)
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.residual.unexplained import Unexplained
+from stribeck.diagnosis.result import Diagnosis
+from stribeck.diagnosis.testable import Untestable
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
+from stribeck.identify.transients import transient_rows
+from stribeck.models.model import Model
+from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
+from stribeck.recording.recording import Recording
+
+
+@dataclass(frozen=True, repr=False)
+class Improvement(Plotted):
+    """The steps from a base model to one whose residual is noise."""
+
+    base: Fit
+    steps: tuple[ImprovementStep, ...]
+    final: Fit
+    noise_floor: NoiseFloor
+    stopped: str
+    untestable: tuple[Untestable, ...]
+    unexplained: Unexplained
+    last: Diagnosis
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck improve`."""
+        made: dict[str, object] = {
+            "base": self.base.model.spec,
+            "unit": self.final.model.torque_unit,
+            "noise_floor": self.noise_floor.value,
+            "steps": [step.to_dict() for step in self.steps],
+            "final": {
+                "model": self.final.model.spec,
+                "rmse": self.final.rmse,
+                "rmse_held_out": self.final.rmse_held_out,
+                "relative_residual": self.final.relative_residual,
+                "parameters": {n: e.to_dict() for n, e in self.final.estimates.items()},
+            },
+            "rmse_held_out_base": self.base.rmse_held_out,
+            "relative_residual_base": self.base.relative_residual,
+            "stopped": self.stopped,
+            "untestable": [row.to_dict() for row in self.untestable],
+            "unexplained": self.unexplained.to_dict(),
+            "explainable": self.last.explainable.to_dict() if self.last.explainable else None,
+            "smallest_visible": [row.to_dict() for row in self.last.smallest_visible],
+            "indistinguishable": [group.to_dict() for group in self.last.groups],
+            "scored": self.final.recording.scored(),
+            "notes": [*self.final.recording.notes, *self.final.notes],
+        }
+        if self.noise_floor.value is None:
+            made["noise_floor_why"] = self.noise_floor.why
+        return made
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row per step, after one for the base model."""
+        fits = [("(base)", self.base), *((s.finding.effect, s.after) for s in self.steps)]
+        rows = [
+            {
+                "effect": effect,
+                "model": fit.model.spec,
+                "rmse": fit.rmse,
+                "rmse_held_out": fit.rmse_held_out,
+            }
+            for effect, fit in fits
+        ]
+        return pl.DataFrame(rows)
+
+
+def improve(
+    base: str | Model,
+    recording: Recording,
+    *,
+    starts: int = 20,
+    seed: int = 0,
+    least_fall: float = LEAST_FALL,
+    most_steps: int = MOST_STEPS,
+    rejected: Collection[str] = (),
+    candidates: Collection[str] = (),
+    sample_rows: int = SAMPLE_ROWS,
+    progress: Callable[[str], None] = lambda sentence: None,
+) -> Improvement:
+    """Diagnose and add until nothing passes the test.
+
+    An effect that a later one makes superfluous is dropped, and those after it are fitted again.
+
+    Parameters
+    ----------
+    rejected, candidates : collections of str
+        Effects that are never added, and effects by formula that are tried as well
+        (``"creep = c*abs(load)*sgn(v)"``).
+    sample_rows : int
+        A longer recording is searched for effects on this number of samples, in evenly spaced
+        stretches; the model of each step is then identified on all samples.
+    progress : callable
+        Called with one sentence at each step.
+    """
+    progress(f"fitting {base if isinstance(base, str) else base.spec}")
+    few = excerpt(recording, sample_rows, seed)
+    first = fit(base, few, starts=starts, seed=seed)
+    *_, path = improvement_paths(
+        first,
+        seed=seed,
+        least_fall=least_fall,
+        most_steps=most_steps,
+        rejected=rejected,
+        candidates=candidates,
+        progress=progress,
+    )
+    if few is not recording:
+        path = _on_all_samples(path, recording, progress)
+    found = path.last
+    stopped = "nothing_passes"
+    if found.findings:
+        stopped = "max_steps"
+    elif not found.unexplained.is_structure and found.noise_floor.is_reached_by(path.current.rmse):
+        stopped = "noise_floor"
+    return Improvement(
+        base=path.start,
+        steps=path.steps,
+        final=path.current,
+        noise_floor=found.noise_floor,
+        stopped=stopped,
+        untestable=found.untestable,
+        unexplained=found.unexplained,
+        last=found,
+    )
+
+
+def _on_all_samples(
+    path: ImprovementPath, recording: Recording, progress: Callable[[str], None]
+) -> ImprovementPath:
+    """The same path with each model identified on all samples of `recording`."""
+    progress(f"identifying the models on all {recording.rows} samples")
+    transient = transient_rows(recording)
+    rows = path.start.recording.rows
+    *earlier, last = [path.start, *(step.after for step in path.steps)]
+    with on_threads() as pool:
+        final = pool.submit(on_all_samples, last, recording, transient, FROM_NEARBY)
+        # Only the errors of the earlier models are needed.
+        fits = list(pool.map(lambda found: on_all_samples(found, recording, transient), earlier))
+        fits.append(with_excerpt_note(final.result(), rows))
+    steps = [
+        ImprovementStep(
+            with_errors_of(step.finding, before, after, path.last.noise_floor), before, after
+        )
+        for step, (before, after) in zip(path.steps, itertools.pairwise(fits), strict=True)
+    ]
+    return replace(path, start=fits[0], steps=tuple(steps))

@@ -1,0 +1,1 @@
+"""The residual of a model: the noise floor, and the structure that remains above it."""

@@ -1,0 +1,112 @@
+"""Unexplained structure: how much of the error it is, and where it is largest.
+
+Two kinds of structure can be shown without knowing the cause: what a flexible regressor finds in
+the recorded channels on unseen blocks, and friction that varies along the recording in both
+directions alike. If neither shows, the residual counts as noise. The amount of structure follows
+from the noise floor, because a regressor never finds all of it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from stribeck.diagnosis.residual.explainable import Explainable
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.residual.regimes import regime_rows
+from stribeck.diagnosis.residual.varying_friction import VaryingFriction, varying_friction
+from stribeck.fitting.result import Fit
+from stribeck.identify.figures import rms
+
+#: Share of the squared error from which it counts as structure.
+STRUCTURE = 0.1
+#: Share of the squared error above the noise floor that is a reason for a less strict test.
+SUSPICIOUS = 0.15
+#: A regime is named where the error exceeds this multiple of the average.
+WORSE = 1.15
+FEWEST_ROWS = 50
+
+PLACES = {
+    "reversal": "around reversals",
+    "low_speed": "at low speed",
+    "high_speed": "at high speed",
+    "forward": "moving forward",
+    "backward": "moving backward",
+    "motoring": "while the motor drives the load",
+    "generating": "while the load drives the motor",
+    "cold": "while cold",
+    "hot": "while hot",
+    "start": "in the first quarter of the time",
+    "end": "in the last quarter of the time",
+}
+
+
+@dataclass(frozen=True)
+class Unexplained:
+    """Share of the squared held-out error that is structure, and where it is largest.
+
+    Attributes
+    ----------
+    share : float
+        None where it cannot be estimated.
+    where : str
+        In words; None where the residual counts as noise.
+    """
+
+    share: float | None
+    where: str | None
+
+    @property
+    def is_structure(self) -> bool:
+        """Whether the residual is more than noise."""
+        return self.share is not None and self.share > STRUCTURE
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `unexplained`."""
+        return {"share": self.share, "where": self.where}
+
+
+def unexplained(
+    fit: Fit, floor: NoiseFloor, could: Explainable | None, *, last: bool = True
+) -> Unexplained:
+    """The part of the held-out residual of `fit` that is not noise.
+
+    Parameters
+    ----------
+    last : bool
+        Whether no effect is left to add. Otherwise such an effect may explain varying friction.
+    """
+    total = rms(fit.held_out_residual[fit.rows]) ** 2
+    if could is None or not total > 0.0:
+        return Unexplained(None, None)
+    above = 0.0 if floor.value is None else 1.0 - floor.value**2 / total
+    varying = VaryingFriction(0.0)
+    if last:
+        varying = varying_friction(fit, suspected=above > SUSPICIOUS)
+    varying_share = min(varying.rms**2 / total, 1.0)
+    share = max(could.left, varying_share)
+    if share <= STRUCTURE:
+        return Unexplained(share, None)
+    share = max(share, above)
+    is_varying = varying_share > could.left
+    return Unexplained(share, _varying(fit, varying) if is_varying else _place(fit))
+
+
+def _varying(fit: Fit, varying: VaryingFriction) -> str:
+    return (
+        f"friction varies by {varying.rms:.2g} {fit.model.torque_unit} (RMS) along the recording, "
+        f"forward and backward alike, for no recorded reason"
+    )
+
+
+def _place(fit: Fit) -> str:
+    """Where the error is largest, compared with the average."""
+    total = rms(fit.held_out_residual[fit.rows])
+    worst, level = None, WORSE
+    for name, mask in regime_rows(fit).items():
+        chosen = mask & fit.recording.moving & ~fit.transient
+        if name not in PLACES or chosen.sum() < FEWEST_ROWS:
+            continue
+        ratio = rms(fit.held_out_residual[chosen]) / total
+        if ratio > level:
+            worst, level = name, ratio
+    return f"the error is {level:.2g} times the average {PLACES[worst]}" if worst else "everywhere"

@@ -1,0 +1,77 @@
+"""Effects that are proxies for another dependence on the same channel.
+
+The form of some effects is fixed by physics: an error of inertia is proportional to acceleration,
+gravity varies with the sine and cosine of the angle, a wrong torque constant with the torque. If
+a free function of the channel, added to such an effect, explains much of what the effect itself
+explained, the torque depends on that channel in another way. Then the effect is not the cause, nor
+are other effects that owe what they explain to the same dependence.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.diagnosis.trials.flexible_refit import held_out_with_columns
+from stribeck.diagnosis.trials.trial import Trial
+from stribeck.effect.base import FixedForm
+from stribeck.effect.registry import find
+from stribeck.fitting.result import Fit
+from stribeck.models.catalog import effect_row
+
+Array = NDArray[np.float64]
+
+#: A free function that explains this share of what the effect explained shows another dependence.
+SHARE = 0.25
+#: An effect that keeps less than this share of what it explains, once free functions of another
+#: channel are added, owes it to that channel.
+MOST = 0.5
+
+
+def without_proxies(before: Fit, good: list[Trial]) -> list[Trial]:
+    """Trials, best first, without the proxies for another dependence on their channel."""
+    kept = list(good)
+    for rank, trial in enumerate(good):
+        form = _fixed_form(trial.effect)
+        if trial not in kept or form is None:
+            continue
+        columns = form.free_functions(trial.fit)
+        if not columns or not _is_proxy(before, trial, np.column_stack(columns)):
+            continue
+        kept.remove(trial)
+        extra = np.column_stack(form.free_functions(before))
+        kept = [
+            other
+            for other in kept
+            if other in good[:rank]
+            or form.channel in _channels(other.effect)
+            or not _owes_to(before, other, extra)
+        ]
+    return kept
+
+
+def _is_proxy(before: Fit, trial: Trial, extra: Array) -> bool:
+    """Whether free functions, columns [m, k], explain more than the effect does."""
+    left = float(np.sum(held_out_with_columns(trial.fit, extra) ** 2))
+    return trial.square - left > SHARE * (_square(before) - trial.square)
+
+
+def _owes_to(before: Fit, other: Trial, extra: Array) -> bool:
+    """Whether free functions explain most of what another effect explains."""
+    without = float(np.sum(held_out_with_columns(before, extra) ** 2))
+    along = float(np.sum(held_out_with_columns(other.fit, extra) ** 2))
+    return without - along < MOST * (_square(before) - other.square)
+
+
+def _square(fit: Fit) -> float:
+    return float(np.sum(fit.held_out_residual[fit.rows] ** 2))
+
+
+def _fixed_form(effect: str) -> FixedForm | None:
+    known = find(effect)
+    return None if known is None else known.fixed_form
+
+
+def _channels(effect: str) -> list[str]:
+    row = effect_row(effect)
+    return [] if row is None else row["channels"]

@@ -1,0 +1,140 @@
+"""Findings in order: the best first, those indistinguishable from it next."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.trial import (
+    SIMPLEST,
+    TIE,
+    Trial,
+    adds_to,
+    passes,
+    refined,
+    reported_fall,
+    tie_statistic,
+    tie_weight,
+)
+from stribeck.effect.describe import is_friction, where
+from stribeck.fitting.result import Fit
+
+#: An effect that brings this share of the fall of the best, and adds nothing to it, is a tie.
+ALIKE = 0.9
+#: An effect that explains less than this share of the squared error above the noise floor is not
+#: reported, however significant: much larger causes remain.
+MATERIAL = 0.05
+
+
+def findings(
+    before: Fit, good: list[Trial], tried: int, least: float, floor: NoiseFloor, seed: int
+) -> tuple[Finding, ...]:
+    """Order the trials that pass; of indistinguishable effects, the simplest first.
+
+    Empty where even the best explains hardly any of the unexplained error.
+    """
+    if not good:
+        return ()
+    best = good[0]
+    statistic = {t.effect: tie_statistic(best, t) for t in good}
+    tied = _tied(before, good, statistic, tried, least, seed)
+    ordered = tied + [t for t in good if t not in tied]
+    first = refined(ordered[0], before, seed)
+    if not (passes(first, tried, least) and reported_fall(before, first)):
+        # The thorough fit does not confirm the quick one.
+        rest = [t for t in good if t.effect != first.effect]
+        return findings(before, rest, tried, least, floor, seed)
+    taken = share_of_unexplained(before, first.fit, floor)
+    if taken is not None and taken < MATERIAL:
+        return ()
+    ordered[0] = first
+    weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
+    total = sum(weights[t.effect] for t in tied)
+    alike = [t.effect for t in tied]
+    made = []
+    for t in ordered:
+        chance = min(1.0, t.evidence.p_value * tried)
+        is_tied = t.effect in alike
+        share = weights[t.effect] / (total if is_tied else total + weights[t.effect])
+        others = tuple(o for o in alike if o != t.effect) if is_tied else ()
+        made.append(_finding(before, t, float((1.0 - chance) * share), others, floor))
+    return tuple(made)
+
+
+def _tied(
+    before: Fit,
+    good: list[Trial],
+    statistic: dict[str, float],
+    tried: int,
+    least: float,
+    seed: int,
+) -> list[Trial]:
+    """The best trial and those indistinguishable from it, in the order in which they are named."""
+    best = good[0]
+    level = float(np.sum(before.held_out_residual[before.rows] ** 2))
+    same = {
+        t.effect
+        for t in good[1:]
+        if (statistic[t.effect] <= TIE or level - t.square >= ALIKE * (level - best.square))
+        and not adds_to(best, t, tried, least, seed)
+    }
+    tied = [best] + [t for t in good if t.effect in same]
+    # Of the ties that may replace the best, the simplest comes first.
+    replaces = {
+        t.effect: _may_replace(t, best, statistic[t.effect], tried, least, seed) for t in tied
+    }
+    return sorted(tied, key=lambda t: (not replaces[t.effect], t.parameters, t.rank))
+
+
+def _finding(
+    before: Fit, trial: Trial, confidence: float, others: tuple[str, ...], floor: NoiseFloor
+) -> Finding:
+    return Finding(
+        effect=trial.effect,
+        confidence=confidence,
+        rmse_held_out_before=float(before.rmse_held_out or np.nan),
+        rmse_held_out_after=float(trial.fit.rmse_held_out or np.nan),
+        share_of_unexplained=share_of_unexplained(before, trial.fit, floor),
+        where=where(trial.effect, before, trial.fit),
+        indistinguishable_from=others,
+        fit=trial.fit,
+        before=before,
+    )
+
+
+def _may_replace(
+    trial: Trial, best: Trial, statistic: float, tried: int, least: float, seed: int
+) -> bool:
+    """Whether an effect may replace the best one.
+
+    Its error must be within one standard error, or within two where the best one adds nothing to
+    it. An effect that is not friction needs the former to replace one that is.
+    """
+    if trial is best or statistic <= SIMPLEST:
+        return True
+    if statistic > TIE or trial.parameters >= best.parameters:
+        return False
+    if is_friction(best.effect) and not is_friction(trial.effect):
+        return False
+    return not adds_to(trial, best, tried, least, seed)
+
+
+class HeldOut(Protocol):
+    """A fit, or another result with a held-out error."""
+
+    @property
+    def rmse_held_out(self) -> float | None:
+        """Over the scored samples, in the unit of torque."""
+
+
+def share_of_unexplained(before: HeldOut, after: HeldOut, floor: NoiseFloor) -> float | None:
+    """(before^2 - after^2) / (before^2 - floor^2), clipped to 0..1."""
+    if floor.value is None or before.rmse_held_out is None or after.rmse_held_out is None:
+        return None
+    room = before.rmse_held_out**2 - floor.value**2
+    if room <= 0:
+        return 0.0
+    return float(np.clip((before.rmse_held_out**2 - after.rmse_held_out**2) / room, 0.0, 1.0))

@@ -1,0 +1,1 @@
+"""How large an effect must be to be seen, and which effects are indistinguishable."""

@@ -1,0 +1,126 @@
+"""What a recording could have shown: the smallest visible effects, and indistinguishable ones."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from stribeck.base.errors import StribeckError
+from stribeck.base.pool import on_threads
+from stribeck.diagnosis.flexible_shape import flexible_columns
+from stribeck.diagnosis.testable import Untestable
+from stribeck.diagnosis.visibility.added_effect import AddedEffect
+from stribeck.diagnosis.visibility.groups import indistinguishable
+from stribeck.diagnosis.visibility.model_space import ModelSpace
+from stribeck.diagnosis.visibility.power import Demand, Noise
+from stribeck.diagnosis.visibility.result import Visibility
+from stribeck.diagnosis.visibility.smallest import VisibleEffect, smallest_visible
+from stribeck.diagnosis.visibility.subspace import sine_to_span
+from stribeck.effect.registry import of_catalog
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
+from stribeck.identify.confounded import partners, reason
+from stribeck.identify.figures import rms
+from stribeck.identify.problem import Problem
+from stribeck.models.catalog import effect_row
+
+#: Sine of the angle to a model from which it is not the model that hides an effect.
+NOT_ABSORBED = 0.3
+
+
+def visibility(
+    fit: Fit,
+    candidates: Iterable[str],
+    *,
+    found: Collection[str] = (),
+    tried: int = 1,
+    significance: float = 0.01,
+    least_fall: float = 0.01,
+) -> Visibility:
+    """How visible `candidates`, effects that `fit` lacks, are on its recording beside its model.
+
+    Parameters
+    ----------
+    found
+        Effects that were found; they are considered for the groups only.
+    tried, significance, least_fall
+        What the diagnosis demands of a finding: significance over all effects tried, and the least
+        relative fall of the held-out RMSE.
+    """
+    problem = problem_of(fit)
+    model = ModelSpace(problem)
+    noise = Noise.of(fit.residual[fit.rows])
+    need = Demand(significance / max(tried, 1), least_fall)
+    columns = flexible_columns(fit)
+    models = [(model, need)]
+    if columns.shape[1]:
+        # What a flexible form of the effects in the model explains is not claimed for another.
+        flexible = ModelSpace(problem, columns)
+        models.append((flexible, replace(need, least_fall=need.least_fall / 2.0)))
+    unit, largest = fit.model.torque_unit, _friction(fit)
+
+    def look(effect: str) -> VisibleEffect | None:
+        try:
+            added = AddedEffect.of(problem, effect, fit.residual)
+            forms = of_catalog(effect).forms(fit.recording)
+            return smallest_visible(added, models, noise, fit.prediction[fit.rows], forms)
+        except StribeckError:
+            return None
+
+    visible, hidden = [], []
+    with on_threads() as pool:
+        effects = [one for one in pool.map(look, candidates) if one is not None]
+    for one in effects:
+        if one.smallest <= largest:
+            visible.append(one)
+        elif (
+            one.effect not in found
+            and one.is_tested(found)
+            and not fit.model.has(of_catalog(one.effect).part_of or one.effect)
+        ):
+            hidden.append(_hidden(one, model, unit))
+    smallest = sorted(
+        (s.result(unit) for s in visible if s.effect not in found and s.is_tested(found)),
+        key=lambda s: s.rms,
+    )
+    groups = indistinguishable(visible, problem, rms(noise.residual), unit)
+    return Visibility(tuple(smallest), groups, tuple(hidden))
+
+
+def problem_of(fit: Fit) -> Problem:
+    """The problem that `fit` solves, with the load torque that an effect may depend on."""
+    load = fit.load if fit.load is not None else own_load(fit.model, fit.recording)
+    return Problem(fit.recording, fit.model, fit.rows, load)
+
+
+def _friction(fit: Fit) -> float:
+    """RMS of the modelled friction: no addition is larger."""
+    friction = fit.prediction - fit.recording.known_torque
+    load = own_load(fit.model, fit.recording)
+    if load is not None:
+        friction = friction - load
+    return rms(friction[fit.rows])
+
+
+def _hidden(one: VisibleEffect, space: ModelSpace, unit: str) -> Untestable:
+    """Say why an effect as large as all friction would not be seen."""
+    model = space.problem.model
+    columns = np.column_stack([one.torque, space.columns])
+    names = (one.effect, *(model.names[k] for k in space.free))
+    alike = partners(columns, 0, np.ones(columns.shape[1], dtype=bool))
+    why = reason(names, alike)
+    if sine_to_span(one.torque, space.basis) > NOT_ABSORBED:
+        why = (
+            "a part of it shows in one stretch of the recording only, and no refit without that "
+            "stretch predicts it"
+        )
+    elif np.isfinite(one.smallest):
+        why = (
+            f"it would be visible from {one.smallest:.2g} {unit} RMS on, more than all the "
+            f"friction ({why}, or nearly)"
+        )
+    row = effect_row(one.effect)
+    needs = "other motion" if row is None else row["needs"]
+    return Untestable(one.effect, why, f"record {needs}")
