@@ -69,7 +69,7 @@ def test_floor_is_never_above_the_error(plain: sb.Recording) -> None:
 def test_too_little_data_says_so(tmp_path: Path) -> None:
     few = record(tmp_path, joint(rows=250))
     floor = noise_floor(sb.fit("coulomb", few))
-    assert floor.value is None and floor.why is not None and "rows" in floor.why
+    assert floor.value is None and floor.why is not None and "samples" in floor.why
 
 
 def test_displacement_starts_at_each_reversal(plain: sb.Recording) -> None:

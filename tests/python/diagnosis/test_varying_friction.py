@@ -17,9 +17,9 @@ def moved(seed: int, swing: float, slow_noise: float) -> pl.DataFrame:
     rng = np.random.default_rng(seed)
     t = np.arange(12000) / 100.0
     v = np.cos(2 * np.pi * t / 1.3) + 0.3 * np.cos(2 * np.pi * t / 2.9)
-    swinging = swing * np.sqrt(2.0) * np.sin(2 * np.pi * t / 31.0 + seed)
+    varying = swing * np.sqrt(2.0) * np.sin(2 * np.pi * t / 31.0 + seed)
     noise = ar1(rng, t.size, 0.99, slow_noise) + 0.05 * rng.standard_normal(t.size)
-    torque = (3.0 + swinging) * np.sign(v) + 1.5 * v + noise
+    torque = (3.0 + varying) * np.sign(v) + 1.5 * v + noise
     return pl.DataFrame(
         {"time": t, "velocity": v + 1e-4 * rng.standard_normal(t.size),
          "torque": torque, "load_torque": np.zeros_like(t)}
@@ -27,7 +27,7 @@ def moved(seed: int, swing: float, slow_noise: float) -> pl.DataFrame:
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_swinging_friction_is_measured(tmp_path: Path, seed: int) -> None:
+def test_varying_friction_is_measured(tmp_path: Path, seed: int) -> None:
     fit = sb.fit("coulomb", record(tmp_path, moved(seed, 0.2, 0.05)))
     assert varying_friction(fit).rms == pytest.approx(0.2, rel=0.15)
 

@@ -18,7 +18,7 @@ from stribeck.diagnosis.visibility.held_out import held_out_balance
 from stribeck.diagnosis.visibility.model_space import ModelSpace
 from stribeck.diagnosis.visibility.power import Demand, ExpectedNoise, Noise, needed_factor
 from stribeck.diagnosis.visibility.result import Visibility
-from stribeck.diagnosis.visibility.smallest import show
+from stribeck.diagnosis.visibility.smallest import smallest_visible
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span, sine_to_span
 from stribeck.diagnosis.visibility.visibility import problem_of, visibility
 from stribeck.models.catalog import effect_ids
@@ -233,7 +233,7 @@ def test_effects_that_are_not_proportional_to_their_size(effect: str, tmp_path: 
     sizes = []
     for noise in (0.003, 0.03):
         loud = ExpectedNoise(noise, 1.0, problem.rows.size)
-        sizes.append(show(widened, [base], loud, fit.prediction[fit.rows]).size)
+        sizes.append(smallest_visible(widened, [base], loud, fit.prediction[fit.rows]).size)
     first, *_, last = widened.sizes(3)
     assert min(first, last) <= min(sizes) and max(sizes) <= max(first, last)
     assert (sizes[0] > sizes[1]) == widened.is_inverse and sizes[0] != sizes[1]

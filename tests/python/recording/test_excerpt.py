@@ -41,7 +41,7 @@ def test_causes_found_on_stretches_are_counted_on_all_rows(recording: sb.Recordi
     assert found.final.recording is recording and found.base.recording is recording
     assert found.final.rmse == pytest.approx(whole.final.rmse, rel=1e-6)
     assert found.final.rmse_held_out == pytest.approx(whole.final.rmse_held_out, rel=1e-3)
-    assert "causes were looked for on 2000 of 3000 rows" in found.final.notes[-1]
+    assert "effects were searched on 2000 of 3000 samples" in found.final.notes[-1]
     diagnosis = sb.diagnose(whole.base, sample_rows=2000)
     first = diagnosis.findings[0]
     assert first.effect == whole.steps[0].finding.effect
@@ -60,4 +60,4 @@ def test_the_command_takes_the_number_of_rows(tmp_path: Path) -> None:
     words = ["improve", str(path), "--sample-rows", "2000"]
     done = CliRunner().invoke(cli, words, catch_exceptions=False)
     assert done.exit_code == 0
-    assert "causes were looked for on 2000 of 3000 rows" in done.output
+    assert "effects were searched on 2000 of 3000 samples" in done.output
