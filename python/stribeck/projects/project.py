@@ -12,13 +12,18 @@ import polars as pl
 
 from stribeck.base.errors import ProjectError, SpecError, nearest
 from stribeck.base.shown import Plotted
-from stribeck.diagnosis.residual.noise_floor import NoiseFloor
-from stribeck.diagnosis.loop.add import add as add_to
-from stribeck.diagnosis.trials.ranking import share_of_unexplained
-from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
-from stribeck.diagnosis.loop.path import MOST_STEPS, ImprovementStep, ImprovementPath, improvement_paths
+from stribeck.diagnosis.loop.add import add as add_to
+from stribeck.diagnosis.loop.path import (
+    MOST_STEPS,
+    ImprovementPath,
+    ImprovementStep,
+    improvement_paths,
+)
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.result import Diagnosis
+from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit

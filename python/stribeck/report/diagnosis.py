@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from stribeck.diagnosis.residual.explainable import Explainable
     from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+    from stribeck.diagnosis.residual.unexplained import Unexplained
     from stribeck.diagnosis.result import Diagnosis, Finding
     from stribeck.diagnosis.testable import Untestable
-    from stribeck.diagnosis.residual.unexplained import Unexplained
     from stribeck.diagnosis.visibility.result import Group, SmallestVisible
 
 VERDICTS = {

@@ -20,9 +20,9 @@ from stribeck.report.parameters import parameters_text
 from stribeck.report.recording import file_name, held_out_meaning
 
 if TYPE_CHECKING:
-    from stribeck.diagnosis.residual.noise_floor import NoiseFloor
     from stribeck.diagnosis.loop.add import Addition
     from stribeck.diagnosis.loop.improve import Improvement
+    from stribeck.diagnosis.residual.noise_floor import NoiseFloor
     from stribeck.fitting.result import Fit
 
 STOPPED = {

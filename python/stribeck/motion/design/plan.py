@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from stribeck.base.errors import SpecError, option
-from stribeck.diagnosis.visibility.power import Demand, Noise
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.testable import untestable
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
+from stribeck.diagnosis.visibility.power import Demand, Noise
 from stribeck.diagnosis.visibility.visibility import problem_of
 from stribeck.effect.registry import of_catalog
 from stribeck.effect.thermal import WARMING

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.base.shown import Shown
-from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.loop.improve import Improvement
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.scale.streaming.result import StreamedFit
 
@@ -45,9 +45,7 @@ class StreamedImprovement(Shown):
                 "rmse_after": after.rmse,
                 "parameters": after.to_dict()["parameters"],
             }
-            for step, before, after in zip(
-                self.found.steps, self.fits, self.fits[1:], strict=False
-            )
+            for step, before, after in zip(self.found.steps, self.fits, self.fits[1:], strict=False)
         ]
         last = self.final.to_dict()
         same = ("model", "rmse", "rmse_held_out", "relative_residual", "parameters")
