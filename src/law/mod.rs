@@ -63,9 +63,9 @@ macro_rules! every_law {
 pub(crate) use every_law;
 
 macro_rules! exported {
-    ($($file:ident::$law:ident),+; $own_file:ident::$own:ident) => {
+    ($($file:ident::$law:ident),+; $formula_file:ident::$by_formula:ident) => {
         $(pub use $file::$law;)+
-        pub(crate) use $own_file::$own;
+        pub(crate) use $formula_file::$by_formula;
     };
 }
 every_law!(exported);
