@@ -60,17 +60,22 @@ def diagnose(
     """
     fitted = on_recording(fitted, recording, seed)
     few = excerpt(fitted.recording, sample_rows, seed)
-    if few is not fitted.recording:
-        found = diagnose(
-            fit(fitted.model, few, starts=1, effort=FROM_NEARBY),
-            least_fall=least_fall,
-            rejected=rejected,
-            candidates=candidates,
-            seed=seed,
-            sample_rows=few.rows,
-            brief=brief,
-        )
-        return with_errors_on_all_samples(found, fitted)
+    if few is fitted.recording:
+        return _diagnosed(fitted, least_fall, rejected, candidates, seed, brief)
+    start = fit(fitted.model, few, starts=1, effort=FROM_NEARBY)
+    found = _diagnosed(start, least_fall, rejected, candidates, seed, brief)
+    return with_errors_on_all_samples(found, fitted)
+
+
+def _diagnosed(
+    fitted: Fit,
+    least_fall: float,
+    rejected: Collection[str],
+    candidates: Collection[str],
+    seed: int,
+    brief: bool,
+) -> Diagnosis:
+    """A diagnosis on all samples of the fit's recording."""
     could_be = candidates_for(fitted, rejected, candidates)
     passed, tried = passing_trials(fitted, could_be.possible, least_fall, seed)
     good = without_proxies(fitted, passed)

@@ -1,7 +1,7 @@
 """Period of a ripple: the strongest line in the spectrum of a residual over position.
 
-A ripple does not know time. Over position, which a joint passes at any speed and both ways, a
-magnet, a tooth, a pole of the motor or a turn of the screw leaves a line, whatever the gear ratio.
+A ripple repeats in position, not in time. A magnet, a tooth, a pole of the motor or a turn of the
+screw leaves a line in the spectrum over position, at any speed and gear ratio.
 """
 
 from __future__ import annotations
@@ -13,20 +13,20 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Periods that the stroke must hold: fewer are a shape along it, not a ripple.
+#: Fewest periods along the stroke: fewer are a shape along it, not a ripple.
 FEWEST_PERIODS = 3
-#: Samples that a period must hold at half of the speeds.
+#: Fewest samples per period at the median speed.
 FEWEST_SAMPLES = 4
-#: Most periods that are looked for along the stroke.
+#: Most periods along the stroke that are searched.
 MOST_PERIODS = 2000
-#: Frequencies that are looked at for each period along the stroke.
+#: Frequencies searched per period along the stroke.
 FINENESS = 4
-#: A line of half the frequency is the fundamental from this share of the power on.
+#: A line at half the frequency with this share of the power is the fundamental.
 SHARE_OF_FUNDAMENTAL = 0.05
 
 
 def most_periods(recording: Recording) -> int:
-    """How many periods along the stroke the samples can show; they are that many guesses too."""
+    """The most periods along the stroke that the samples resolve."""
     if recording.position is None or recording.averaged:
         return 0
     moving = recording.moving
@@ -43,13 +43,12 @@ def strongest_period(recording: Recording, residual: Array | None = None) -> flo
     Parameters
     ----------
     residual : array [n]
-        What a model leaves of the measured torque; default: what Coulomb and viscous friction and
-        a rigid body leave.
+        Residual of a model; default: of Coulomb and viscous friction with a rigid body.
 
     Returns
     -------
     float
-        The whole stroke where no period can be told.
+        In the unit of position; the whole stroke where no period can be identified.
     """
     assert recording.position is not None
     q = recording.position[recording.moving]
@@ -66,14 +65,14 @@ def strongest_period(recording: Recording, residual: Array | None = None) -> flo
     lowest = FINENESS * FEWEST_PERIODS
     line = lowest + int(np.argmax(power[lowest : FINENESS * highest]))
     half = line // 2
-    # Of a strong second harmonic the fundamental is half the frequency.
+    # The strongest line may be the second harmonic; then the fundamental has half its frequency.
     if half >= lowest and power[half] > max(SHARE_OF_FUNDAMENTAL * power[line], power[2 * line]):
         line = half
     return stroke * FINENESS / line
 
 
 def _without_trend(recording: Recording, along: Array, rest: Array) -> Array:
-    """`rest` without what varies slower than a ripple along the stroke, in either direction."""
+    """`rest` without what varies slower than a ripple along the stroke, for each direction."""
     slow = [np.cos(k * np.pi * along) for k in range(2 * FEWEST_PERIODS)]
     sign = np.sign(recording.velocity[recording.moving])
     columns = np.column_stack([*slow, *(sign * shape for shape in slow)])
@@ -81,7 +80,7 @@ def _without_trend(recording: Recording, along: Array, rest: Array) -> Array:
 
 
 def _plain_residual(recording: Recording) -> Array:
-    """What is left of the torque by Coulomb and viscous friction and a rigid body, array [n]."""
+    """Residual of Coulomb and viscous friction with a rigid body, array [n]."""
     v, q, a = recording.velocity, recording.position, recording.acceleration
     assert q is not None
     columns = np.column_stack([np.sign(v), v, np.ones_like(v), a, np.cos(q), np.sin(q)])
