@@ -1,28 +1,26 @@
-"""Inertia and friction of a planar two-joint arm together, by linear least squares.
+"""Inertia and friction of a planar two-joint arm, identified together by linear least squares.
 
 Indri et al., "Nonlinear friction estimation for digital control of direct-drive manipulators",
 section 4.2: eqs 4 and 10-15. The second joint's angle is relative to the first link, the arm moves
 in the horizontal plane. The torques are linear in four inertial parameters and in four friction
-coefficients a joint (eq 12 lists five, eq 14 has four: eq 10 has no a4).
+coefficients per joint (eq 12 lists five, eq 14 has four: eq 10 has no a4).
 
-Two things are done beyond the paper, and can be undone. Each joint's equation is weighted by its
-own error, or the first joint's larger torques drown what the second one says of the parameters that
-both share (Gautier 1997). And rows slower than a share of the top speed are left out: there dry
-friction follows a Stribeck curve, which no cubic polynomial does, and the inertial terms would take
-it up.
+Two options go beyond the paper. Each joint's equation is weighted by its error; otherwise the
+larger torques of the first joint dominate the parameters that both share (Gautier 1997). And
+samples slower than a share of the top speed are left out: there dry friction follows a Stribeck
+curve, which a cubic polynomial does not fit, so that the inertial terms would be biased.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
 from stribeck.base.shown import Shown
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
@@ -33,7 +31,7 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: The weights follow from the errors and the errors from the weights: so many times.
+#: Iterations in which weights follow from errors and errors from weights.
 WEIGHINGS = 5
 #: Name, symbol, unit and meaning of the parameters, in the order of eq 12.
 INERTIAL = (
@@ -69,14 +67,14 @@ class ArmFit(Shown):
     Attributes
     ----------
     parameters : tuple of ArmParameter
-        The twelve of eq 14, in its order.
+        The twelve parameters of eq 14, in its order.
     relative_errors : tuple of two floats
-        RMS of the torque error over RMS of the measured torque, each joint, all rows
+        RMS of the torque error over RMS of the measured torque for each joint, over all samples
         (section 4.2).
     prediction : array [n, 2]
-        Torque of every row, N m.
+        Torque of every sample, N m.
     first_link_length : float
-        The l1 that was given, m: first moments are inversely proportional to it.
+        The given l1, m: first moments are inversely proportional to it.
     """
 
     parameters: tuple[ArmParameter, ...]
@@ -92,16 +90,13 @@ class ArmFit(Shown):
         return np.array([p.value for p in self.parameters])
 
     def friction(self, joint: int) -> Model:
-        """The friction of joint 1 or 2 as a model, which `stribeck compare` takes once saved.
-
-        It is the law ``hao_a``, the polynomial of eq 10.
-        """
+        """The friction of joint 1 or 2 as a model: the law ``hao_a``, the polynomial of eq 10."""
         first = len(INERTIAL) + (joint - 1) * len(FRICTION)
         a0, a1, a2, a3 = self.values[first : first + len(FRICTION)]
         return model("hao_a", a1=a0, a2=a1, a3=a2, a4=a3)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON of `stribeck arm`."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of the command ``stribeck arm``."""
         return {
             "parameters": {
                 p.name: {
@@ -135,16 +130,15 @@ def arm_fit(
     Parameters
     ----------
     first, second : Recording
-        Both joints over the same time: angles in rad, motor torques at the joints in N m. Where
-        the file has angles alone, speeds and accelerations come from their zero-phase filter.
+        Both joints over the same time: angles in rad, motor torques at the joints in N m. Missing
+        speeds and accelerations are derived from angles by a zero-phase filter.
     first_link_length : float
-        l1 in m, from one joint's axis to the other's. It is not identifiable: eq 12's first
-        moments are inversely proportional to it.
+        l1 in m, between the axes. Not identifiable: first moments are inversely proportional to it.
     slowest : float
-        Share of each joint's top speed below which its rows are left out, 0 to below 1.
+        Share of each joint's top speed below which samples are left out, 0 to below 1.
     weighted : bool
-        Weight each joint's equation by its own lasting error, RMS times the root of the samples
-        that it lasts; False is the paper's plain least squares, together with ``slowest=0``.
+        Weight each joint's equation by its error: RMS times the root of its correlation length.
+        False, together with ``slowest=0``, is the least squares of the paper.
 
     Returns
     -------
@@ -153,12 +147,12 @@ def arm_fit(
     Raises
     ------
     FitError
-        Other times, units or lengths; a motion that leaves a parameter unseen.
+        Times, units or lengths that do not fit; a parameter that is not identifiable.
 
     Notes
     -----
-    A joint's equation counts on the rows where that joint moves faster than its velocity noise: at
-    rest friction is whatever holds it. Standard errors allow for noise that is correlated in time.
+    A joint's equation is used where that joint moves faster than its velocity noise: at rest
+    friction is undetermined. Standard errors are valid for noise that is correlated in time.
 
     Examples
     --------
@@ -174,12 +168,7 @@ def arm_fit(
     prediction = columns @ values
     errors = [rms(e) / rms(t) for e, t in zip((torque - prediction).T, torque.T, strict=True)]
     return ArmFit(
-        parameters=tuple(
-            ArmParameter(name, symbol, float(value), float(error), unit, description)
-            for (name, symbol, unit, description), value, error in zip(
-                _table(), values, stderr, strict=True
-            )
-        ),
+        parameters=_parameters(values, stderr),
         relative_errors=(errors[0], errors[1]),
         prediction=prediction,
         first_link_length=first_link_length,
@@ -237,7 +226,7 @@ def _angles(recording: Recording) -> Array:
 
 
 def _regressor(joints: Sequence[Recording], first_link_length: float) -> Array:
-    """D of eq 11 at every row, array [n, 2, 12]."""
+    """D of eq 11 at every sample, array [n, 2, 12]."""
     position = np.column_stack([_angles(r) for r in joints])
     velocity = np.column_stack([r.velocity_smooth for r in joints])
     acceleration = np.column_stack([r.acceleration_smooth for r in joints])
@@ -253,7 +242,7 @@ def _regressor(joints: Sequence[Recording], first_link_length: float) -> Array:
 
 
 def _fast_enough(recording: Recording, slowest: float) -> NDArray[np.bool_]:
-    """The rows on which a joint's equation counts, bool array [n]."""
+    """The samples at which a joint's equation is used, bool array [n]."""
     return recording.moving & (
         np.abs(recording.velocity_smooth) > slowest * recording.scales()["speed"]
     )
@@ -266,14 +255,15 @@ def _least_squares(
     recording: Recording,
     weighted: bool,
 ) -> tuple[Array, Array]:
-    """Parameters and standard errors over the `used` rows of each joint, arrays [12]."""
+    """Parameters and standard errors from the `used` samples of each joint, arrays [12]."""
     everything = np.ones(columns.shape[2], dtype=bool)
     shown = seen(columns[used], everything)
     if not shown.all():
         names = [row[0] for row, seen_here in zip(_table(), shown, strict=True) if not seen_here]
         raise FitError(
-            f"{recording.path}: this motion does not show {', '.join(names)} apart from the other "
-            f"parameters: move both joints over a wide range of angles, speeds and accelerations"
+            f"{recording.path}: {', '.join(names)} cannot be distinguished from the other "
+            f"parameters with this motion: move both joints over a wide range of angles, speeds "
+            f"and accelerations"
         )
     free = np.full(columns.shape[2], np.inf)
     weight = np.ones(2)
@@ -283,14 +273,23 @@ def _least_squares(
         values = solve_bounded(*NormalEquations.of(scaled, target).total(), -free, free)
         residual = torque - columns @ values
         each = [residual[rows, k] for k, rows in enumerate(used.T)]
-        # What white noise averages out weighs less than an error of the friction polynomial.
+        # White noise averages out, so it has less weight than an error of the friction polynomial.
         lasting = [rms(r) * np.sqrt(correlation_length(r)) for r in each]
         weight = 1.0 / np.maximum(lasting, np.finfo(float).tiny)
     batch = batches(torque.shape[0], max(correlation_length(r) for r in each))
-    # Both joints' errors at one time belong to one batch.
+    # The errors of both joints at one time belong to one batch.
     together = np.repeat(batch[:, None], 2, axis=1)[used]
     covariance = sandwich(scaled, target - scaled @ values, together, everything)
     return values, np.sqrt(np.diag(covariance))
+
+
+def _parameters(values: Array, stderr: Array) -> tuple[ArmParameter, ...]:
+    return tuple(
+        ArmParameter(name, symbol, float(value), float(error), unit, description)
+        for (name, symbol, unit, description), value, error in zip(
+            _table(), values, stderr, strict=True
+        )
+    )
 
 
 def _table() -> list[tuple[str, str, str, str]]:
@@ -306,16 +305,18 @@ def _table() -> list[tuple[str, str, str, str]]:
 def _check(first: Recording, second: Recording, length: float, slowest: float) -> None:
     path = first.path
     if not 0.0 <= slowest < 1.0:
-        raise FitError(f"--slowest {slowest:g} is out of range: give a share, 0 to below 1")
+        raise FitError(f"{option('slowest', slowest)} is out of range: give a share, 0 to below 1")
     if not (np.isfinite(length) and length > 0.0):
-        raise FitError(f"--first-link-length {length:g} is no length: give metres above 0")
+        raise FitError(
+            f"{option('first_link_length', length)} is not a length: give metres above 0"
+        )
     for r in (first, second):
         if r.position is None:
             raise FitError(f"{path}: joint {r.joint} has no position column: an arm needs angles")
         if r.joint_kind != "revolute" or r.torque_unit != "N m":
             raise FitError(
                 f"{path}: joint {r.joint} is {r.joint_kind} with a torque in {r.torque_unit}, and "
-                f"the arm needs revolute joints with torques in N m"
+                f"an arm needs revolute joints with torques in N m"
             )
         if r.averaged:
             raise FitError(f"{path}: an arm is identified in motion, not from averaged runs")

@@ -1,7 +1,7 @@
 """Friction without a gravity model: half the difference of a forward and a backward pass.
 
 Bittencourt et al. 2010, eqs 3-4. At constant speed over the same positions the load torque is the
-same in both directions, so it leaves the difference; half the sum is the load.
+same in both directions: it cancels in the difference, and half the sum is the load torque.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Share of the shorter pass that the other must cover.
+#: Least share of the shorter pass that the other one covers.
 COVERED = 0.5
 
 
@@ -37,20 +37,20 @@ class Pair:
 def averaged_points(
     recording: Recording, *, bins: int = 1, search: Search | None = None
 ) -> SteadyPoints:
-    """Turn passes at constant speed in both directions into steady-state friction points.
+    """Steady-state friction points from passes at constant speed in both directions.
 
-    Supposes friction that does not depend on direction (Bittencourt et al. 2010, eq 4): half the
-    difference is the mean of both directions, and an offset counts as load.
+    The method assumes friction that does not depend on direction (Bittencourt et al. 2010, eq 4):
+    half the difference is the mean of both directions, and an offset is part of the load.
 
     Parameters
     ----------
     recording : Recording
-        With a measured position. A load torque that it gives is not used.
+        With a measured position. Its load torque, if any, is not used.
     bins : int
-        Points a pair of passes, each over an equal share of the positions: with gravity, each
-        has another load torque.
+        Points per pair of passes, each over an equal share of the positions: with gravity their
+        load torques differ.
     search : Search, optional
-        What counts as constant speed; passes pair up whose speeds agree to its tolerance.
+        Criteria of constant speed; passes are paired if their speeds agree to its tolerance.
 
     Returns
     -------
@@ -60,14 +60,14 @@ def averaged_points(
     Raises
     ------
     FitError
-        No position; no passes at constant speed; none that pair up.
+        No position; no passes at constant speed; no pair of passes.
 
     Examples
     --------
     >>> points = averaged_points(sb.read("joint2.parquet"), bins=10)  # doctest: +SKIP
     >>> points.write("points.csv")  # doctest: +SKIP
 
-    Then: ``stribeck fit points.csv --model m1 --method grid``.
+    On the command line: ``stribeck fit points.csv --model m1 --method grid``.
     """
     check_bins(bins)
     search = search or Search()
@@ -77,8 +77,8 @@ def averaged_points(
         forward = sum(line.velocity > 0 for line in lines)
         raise FitError(
             f"{recording.path} has {forward} forward and {len(lines) - forward} backward passes at "
-            f"constant speed, and no two at one speed over the same positions: record each speed "
-            f"in both directions"
+            f"constant speed, but no two at the same speed over the same positions: record each "
+            f"speed in both directions"
         )
     points = [point for pair in pairs for point in _points(recording, pair, bins)]
     alone = len(lines) - 2 * len(pairs)
@@ -89,7 +89,7 @@ def averaged_points(
 
 
 def _pairs(lines: Sequence[Line], time: Array, search: Search) -> Iterator[Pair]:
-    """Each forward pass with the nearest backward pass in time that is like it, each used once."""
+    """Each forward pass with the nearest backward pass in time that matches, each used once."""
     backward = [line for line in lines if line.velocity < 0]
     for one in (line for line in lines if line.velocity > 0):
         for other in sorted(backward, key=lambda line: abs(line.time - one.time)):
@@ -101,7 +101,7 @@ def _pairs(lines: Sequence[Line], time: Array, search: Search) -> Iterator[Pair]
 
 
 def _paired(one: Line, other: Line, time: Array, search: Search) -> Pair | None:
-    """The two passes as a pair, if they have one speed and cover the same positions."""
+    """The two passes as a pair; None if their speeds or positions differ."""
     if abs(one.velocity + other.velocity) > search.tolerance * one.velocity:
         return None
     low_one, high_one = one.ends(time)
@@ -112,7 +112,7 @@ def _paired(one: Line, other: Line, time: Array, search: Search) -> Pair | None:
 
 
 def _points(recording: Recording, pair: Pair, bins: int) -> Iterator[SteadyPoint]:
-    """Points of a pair, one a bin of positions."""
+    """Points of a pair, one per bin of positions."""
     rows = max(pair.forward.rows, pair.backward.rows)
     grid = np.linspace(pair.low, pair.high, rows)
     plus = _torque_at(recording, pair.forward, grid)
@@ -138,7 +138,7 @@ def _points(recording: Recording, pair: Pair, bins: int) -> Iterator[SteadyPoint
 def _torque_at(recording: Recording, line: Line, grid: Array) -> Array:
     """Torque of a pass at the positions `grid`, array [len(grid)].
 
-    Positions come from the pass's line, which increases strictly where noisy samples may not.
+    Positions are those of the pass's line, which is monotonic where noisy samples may not be.
     """
     rows = slice(line.start, line.stop)
     along = line.at(recording.time[rows])

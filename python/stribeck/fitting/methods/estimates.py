@@ -1,4 +1,4 @@
-"""Estimates of the methods that have standard errors of their own kind."""
+"""Estimates for methods with their own standard errors."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 
-#: A bound counts as reached within this share of its range.
+#: A parameter is at its bound within this share of its range.
 AT_BOUND = 1e-6
 
 
 def reached_bounds(values: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
-    """Which values lie on one of their bounds, bool array [p]."""
+    """Which values are at a bound, bool array [p]."""
     span = AT_BOUND * (upper - lower)
     return (values <= lower + span) | (values >= upper - span)
 
@@ -31,10 +31,10 @@ def estimates(
     model : Model
         With values and bounds.
     errors : array [p]
-        Standard errors in the parameters' units; NaN where there is none. Intervals suppose that
-        the estimates scatter normally.
+        Standard errors in the parameters' units; NaN where there is none. Intervals assume
+        normally distributed estimates.
     at_bound, shown : bool array [p]
-        Which values lie on a bound, and which the data can show.
+        Which values are at a bound, and which parameters are identifiable.
     """
     reach = float(scipy.special.ndtri(0.975))
     made = {}

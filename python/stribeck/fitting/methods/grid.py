@@ -1,8 +1,8 @@
-"""Linear regression inside a grid over the nonlinear parameters, with absolute error.
+"""Linear regression on a grid of the nonlinear parameters, with least absolute error.
 
 Bittencourt et al. 2010, eqs 5-6: a friction law tau = f(v, theta2) theta1 is linear in theta1 for
-given theta2. Each point of a grid over theta2 is a regression; the one whose sum of absolute errors
-is least is the answer. A few wrong measurements do not move it, as they move least squares.
+given theta2. Each point of a grid over theta2 is a regression; the result is the one with the least
+sum of absolute errors. It is robust to outliers, unlike least squares.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.errors import FitError, SpecError, nearest
+from stribeck.base.errors import FitError, SpecError, nearest, option
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.methods.estimates import estimates, reached_bounds
 from stribeck.fitting.methods.least_absolute import least_absolute, least_total, standard_errors
@@ -33,20 +33,20 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Rows that the regressions use; more are thinned evenly. A programme's time grows faster than
-#: its rows, and steady-state points are few.
+#: Most samples of the regressions, evenly spaced. The time of a linear programme grows faster than
+#: its size, and steady-state points are few.
 MOST_ROWS = 500
-#: A larger grid would take minutes to hours.
+#: Most points of a grid; a larger one would take minutes to hours.
 MOST_POINTS = 20_000
-#: Points of the grid along each nonlinear parameter, by their number.
+#: Points per nonlinear parameter, by the number of these parameters.
 COUNTS = {1: 120, 2: 25, 3: 10}
-#: After the grid, so many finer ones about its best point, of so many points a parameter.
+#: Number of refined grids about the best point, and their points per parameter.
 ROUNDS, FINER = 8, 5
 
 
 @dataclass(frozen=True)
 class Axis:
-    """One parameter of the grid: from `lower` to `upper`, evenly in its logarithm if positive."""
+    """One parameter of a grid: from `lower` to `upper`, uniform in its logarithm if positive."""
 
     lower: float
     upper: float
@@ -56,19 +56,18 @@ class Axis:
 def grid_fit(
     spec: str | Model, recording: Recording, *, grid: Mapping[str, Axis] | None = None
 ) -> Fit:
-    """Identify a static law by linear regression in a grid, with least absolute error.
+    """Identify a static law by linear regression on a grid, with least absolute error.
 
     Parameters
     ----------
     spec : str or Model
         A law without a state, ``"m0"`` or ``"bittencourt_a"``; a model's values are not used.
     recording : Recording
-        Best steady-state points. Of more than 500 moving rows, 500 evenly chosen ones are used:
-        the sum of absolute errors is theirs, RMSE and held-out error are over all moving rows.
+        Preferably steady-state points. At most 500 evenly spaced moving samples are used for the
+        sum of absolute errors; RMSE and held-out RMSE are over all moving samples.
     grid : mapping of parameter name (or symbol) to Axis, optional
-        Ranges and counts; default: the catalog's bounds, 120, 25 or 10 points a parameter where
-        there are 1, 2 or 3 of them. About its best point the grid is refined until it no longer
-        matters; the range is never left.
+        Ranges and counts; default: the catalog's bounds, with 120, 25 or 10 points per parameter
+        for 1, 2 or 3 parameters. The grid is refined about its best point, within the range.
 
     Returns
     -------
@@ -80,7 +79,7 @@ def grid_fit(
     SpecError
         A grid over a parameter that the law does not have, or that is linear.
     FitError
-        A law with a state; too many nonlinear parameters; too few rows; a channel that is missing.
+        A law with a state; too many nonlinear parameters; too few samples; a missing channel.
 
     Examples
     --------
@@ -94,7 +93,7 @@ def grid_fit(
     rows = np.flatnonzero(recording.moving)
     if rows.size < len(made.names) + 2:
         raise FitError(
-            f"{recording.path} has {rows.size} rows that move, {made.spec} needs at least "
+            f"{recording.path} has {rows.size} moving samples, {made.spec} needs at least "
             f"{len(made.names) + 2}: record more motion"
         )
     whole = Problem(recording, made, rows)
@@ -113,13 +112,13 @@ def _static_model(spec: str | Model, recording: Recording) -> Model:
     made = model_for(spec, recording)
     if not made.memoryless:
         raise FitError(
-            f"{made.spec} depends on the past motion, and the grid takes laws of which each sample "
-            f"stands by itself: use --method rms"
+            f"{made.spec} depends on the past motion, and a grid needs a law without memory: use "
+            f"{option('method', 'rms')}"
         )
     if made.rigid_body and "load_torque" in made.core.needs:
         raise FitError(
-            f"{made.spec} needs the load torque, which {recording.path} does not give: make points "
-            f"with `stribeck points --method averaging`, or use --method rms"
+            f"{made.spec} needs the load torque, which {recording.path} does not give: make "
+            f"steady-state points by averaging, or use {option('method', 'rms')}"
         )
     return made
 
@@ -127,7 +126,7 @@ def _static_model(spec: str | Model, recording: Recording) -> Model:
 def _ranges(
     made: Model, recording: Recording, grid: Mapping[str, Axis]
 ) -> tuple[Array, Array, Array]:
-    """Bounds of all parameters and points along each nonlinear one, arrays [p], [p], [k]."""
+    """Bounds of all parameters, points per nonlinear parameter: arrays [p], [p], [k]."""
     ranges = Ranges.of(made, recording)
     lower, upper = ranges.lower.copy(), ranges.upper.copy()
     linear = np.array([p.linear for p in made.parameters], dtype=bool)
@@ -140,7 +139,7 @@ def _ranges(
         nonlinear = [made.names[k] for k in np.flatnonzero(~linear)]
         if name not in nonlinear:
             raise SpecError(
-                f"the grid names {given!r}{nearest(name, nonlinear)}, which is no nonlinear "
+                f"the grid names {given!r}{nearest(name, nonlinear)}, which is not a nonlinear "
                 f"parameter of {made.spec}; those are {', '.join(nonlinear) or 'none'}"
             )
         if not (np.isfinite([axis.lower, axis.upper]).all() and axis.lower < axis.upper):
@@ -153,19 +152,19 @@ def _ranges(
         names = [made.names[k] for k in searched if not counts[k]]
         raise FitError(
             f"{made.spec} has {searched.size} nonlinear parameters, too many for a grid: give the "
-            f"range of {', '.join(names)} with --grid, or use --method rms"
+            f"range of {', '.join(names)} with {option('grid')}, or use {option('method', 'rms')}"
         )
     points = math.prod(counts.tolist())
     if points > MOST_POINTS:
         raise FitError(
-            f"the grid has {points} points, {MOST_POINTS} at most are searched: give fewer a "
-            f"parameter with --grid NAME=FROM:TO:COUNT, its best point is refined anyway"
+            f"the grid has {points} points, at most {MOST_POINTS} are searched: give fewer per "
+            f"parameter with {option('grid', 'NAME=FROM:TO:COUNT')}; the best one is refined"
         )
     return lower, upper, counts[~linear]
 
 
 class _GridSearch:
-    """Regressions over a grid of the nonlinear parameters, in 0..1 from lower to upper."""
+    """Regressions on a grid of the nonlinear parameters, scaled to 0..1 between bounds."""
 
     def __init__(self, problem: Problem, lower: Array, upper: Array, counts: Array) -> None:
         self.problem = problem
@@ -177,7 +176,7 @@ class _GridSearch:
         self.regressions = 0
 
     def best(self) -> Array:
-        """Parameters of least absolute error: of the grid, then of finer grids about its best."""
+        """Parameters with the least absolute error on the grid and its refinements, array [p]."""
         spacing = 1.0 / np.maximum(self.counts - 1, 1)
         here = self._search([np.linspace(0.0, 1.0, n) for n in self.counts])
         for _ in range(ROUNDS if self.counts.size else 0):
@@ -191,10 +190,10 @@ class _GridSearch:
         return self.values
 
     def _search(self, axes: list[Array]) -> Array:
-        """Where the least sum so far lies, after the grid of `axes`; array [k].
+        """The point with the least sum so far, after the grid of `axes`, array [k].
 
-        The most promising points are solved first, and those of which least squares shows that
-        they cannot be better are passed over: the answer is that of the whole grid.
+        The most promising points are solved first. Points that a bound from least squares rules
+        out are skipped, which does not change the result.
         """
         points = [np.array(point) for point in itertools.product(*axes)]
         totals = [least_total(*self._regression(u)[:2]) for u in points]
@@ -221,10 +220,10 @@ class _GridSearch:
 
 
 def _held_out(problem: Problem, values: Array, lower: Array, upper: Array) -> Array:
-    """Prediction of every row by the regression that has not seen its block, array [n].
+    """Prediction of every sample by a regression without its block, array [n].
 
-    Each is one step of least absolute error from the solution in all parameters, for which the law
-    is linear: leaving one block out moves them little.
+    Each regression is one step of least absolute error in all parameters of the linearised law,
+    from the solution: leaving one block out changes it little.
     """
     recording = problem.recording
     prediction = problem.predict(values)
@@ -244,7 +243,7 @@ def _as_fit(made: Model, whole: Problem, search: _GridSearch) -> Fit:
     note = (
         f"least absolute error over a grid of {math.prod(search.counts.tolist())} points, then "
         f"refined: mean {search.total / used.rows.size:.4g} {recording.torque_unit} over "
-        f"{used.rows.size} of {whole.rows.size} rows"
+        f"{used.rows.size} of {whole.rows.size} samples"
     )
     enough = np.unique(recording.block[used.rows]).size > 1
     fitted = evaluate(made, recording)

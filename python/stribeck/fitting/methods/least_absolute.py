@@ -8,12 +8,12 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
 
 Array = NDArray[np.float64]
 
-#: Rounds of reweighted least squares, and the share of the mean error below which all errors
-#: weigh alike.
+#: Rounds of reweighted least squares, and the share of the mean error below which all errors have
+#: the same weight.
 ROUNDS, SMALL = 8, 0.1
 
 
@@ -30,7 +30,7 @@ def least_absolute(columns: Array, target: Array, lower: Array, upper: Array) ->
 
     With e+ and e- the parts of the error above and below zero, this is the linear programme
     min sum(e+ + e-) subject to columns @ x + e+ - e- = target, e+, e- >= 0. HiGHS finds its
-    optimum, which reweighted least squares only approaches.
+    exact optimum, which reweighted least squares only approaches.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def least_absolute(columns: Array, target: Array, lower: Array, upper: Array) ->
     Raises
     ------
     FitError
-        Where the solver gives up.
+        The solver finds no solution.
 
     Examples
     --------
@@ -73,18 +73,18 @@ def least_absolute(columns: Array, target: Array, lower: Array, upper: Array) ->
     if solved.x is None:
         raise FitError(
             f"the regression with least absolute error over {rows} rows has no solution "
-            f"({solved.message}): use --method rms"
+            f"({solved.message}): use {option('method', 'rms')}"
         )
     values = np.clip(solved.x[:count] * scale / size, lower, upper)
     return LeastAbsolute(values, float(np.abs(target - columns @ values).sum()))
 
 
 def least_total(columns: Array, target: Array) -> tuple[float, float]:
-    """Bounds of the least sum of absolute errors from reweighted least squares.
+    """Bounds of the least sum of absolute errors, from reweighted least squares.
 
     The residual r of a least-squares fit with weights w is orthogonal to the columns in w r. Scaled
     by its largest entry, w r is a feasible point of the dual programme, whose value r'(w r) no x
-    can undercut. Weights 1/|r| of the round before bring the two bounds together.
+    can undercut. With weights 1/|r| of the previous round the two bounds converge.
 
     Parameters
     ----------

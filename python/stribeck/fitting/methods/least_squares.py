@@ -1,4 +1,4 @@
-"""Least squares of some of a law's parameters while the others stay."""
+"""Least squares of some parameters of a law while the others are held."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ TIE = 1.0 + 1e-6
 
 
 class BoundedLeastSquares:
-    """Least squares of some parameters while the others stay, from several starts.
+    """Least squares of some parameters while the others are held, from several starts.
 
-    Levenberg's and Marquardt's method in its trust-region form, which keeps to bounds.
+    Levenberg and Marquardt's method in its trust-region form, which respects bounds.
 
     Attributes
     ----------
     start
-        Values to start from, array [p]: those of the model where it has any, else the catalog's.
+        Values of the first start, array [p]: those of the model where known, else the catalog's.
     evaluations
-        How often the residuals were computed so far.
+        Number of evaluations of the residuals so far.
     """
 
     def __init__(self, made: Model, recording: Recording, starts: int, seed: int) -> None:
@@ -45,7 +45,7 @@ class BoundedLeastSquares:
         self.random = np.random.default_rng(seed)
 
     def solve(self, problem: Problem, values: Array, free: Indices) -> Array:
-        """`values` with the parameters `free` at their least sum of squares, array [p].
+        """`values` [p] with the parameters `free` at their least sum of squares.
 
         Raises
         ------
@@ -54,14 +54,14 @@ class BoundedLeastSquares:
         """
         if problem.rows.size < free.size + 2:
             raise FitError(
-                f"{problem.recording.path} has {problem.rows.size} points that move, and "
-                f"{free.size} parameters are to come from them: record more speeds"
+                f"{problem.recording.path} has {problem.rows.size} moving points for "
+                f"{free.size} parameters: record more speeds"
             )
         found = [self._from(problem, values, free, k) for k in range(self.starts)]
         least = min(square for square, _ in found)
         if not np.isfinite(least):
             raise FitError(f"{problem.model.spec} is not finite on {problem.recording.path}")
-        # Of equals the first, from the usual start: some laws do not tell a sign.
+        # Of equal ones the first, from the usual start: in some laws a sign is not identifiable.
         return next(reached for square, reached in found if square <= TIE * least)
 
     def _from(self, problem: Problem, values: Array, free: Indices, k: int) -> tuple[float, Array]:
@@ -83,9 +83,12 @@ class BoundedLeastSquares:
         if not np.all(np.isfinite(residual(values[free]))):
             return np.inf, values
         found = scipy.optimize.least_squares(
-            residual, values[free], slope, x_scale="jac",
+            residual,
+            values[free],
+            slope,
+            x_scale="jac",
             bounds=(self.lower[free], self.upper[free]),
-        )  # fmt: skip
+        )
         values[free] = found.x
         self.evaluations += int(found.nfev)
         return float(found.cost), values

@@ -1,22 +1,22 @@
-"""Stiffness and damping of a bristle from presliding, by Nelder and Mead's simplex.
+"""Stiffness and damping of a bristle from presliding, by the simplex of Nelder and Mead.
 
-Tadese et al. 2021, section V-A.3: a slow torque below the Coulomb friction swings the joint by
-fractions of a degree. The paper simulates that motion under the measured torque; here the torque is
-predicted from the measured motion, so that the target is what was recorded.
+Tadese et al. 2021, section V-A.3: a slow torque below the Coulomb friction moves the joint back and
+forth by fractions of a degree. The paper simulates the motion under the measured torque; here the
+torque is predicted from the measured motion, so that the target is a recorded quantity.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
 from stribeck.identify.figures import rms
+from stribeck.models.channels import ChannelArguments
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import segment_slices
@@ -24,22 +24,22 @@ from stribeck.recording.rows import segment_slices
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-#: First size of the simplex: decades of a parameter, and shares of the torque's swing.
+#: Initial size of the simplex: decades of a parameter, and share of the torque range.
 DECADES, SHARE = 0.3, 0.1
-#: The search ends where the parameters agree to this many decades.
+#: The search ends when the parameters agree to this many decades.
 TOLERANCE = 1e-5
-#: Damping to start from, as a share of the stiffness over the motion's own frequency.
+#: Initial damping, as a share of the stiffness divided by the frequency of the motion.
 LOSS = 0.1
 
 
 @dataclass(frozen=True)
 class Presliding:
-    """The torque of `model` over the longest gapless stretch of `recording`.
+    """The torque of `model` over the longest segment of `recording` without a gap.
 
     Attributes
     ----------
     stiffness, damping
-        Places of the two parameters that are searched, in the model's values.
+        Indices of the two parameters that are searched.
     """
 
     recording: Recording
@@ -49,38 +49,38 @@ class Presliding:
 
     @property
     def searched(self) -> tuple[int, int]:
-        """Places of the parameters that are searched."""
+        """Indices of the parameters that are searched."""
         return self.stiffness, self.damping
 
     @cached_property
     def rows(self) -> slice:
-        """The longest stretch without a gap."""
+        """The longest segment without a gap."""
         return max(segment_slices(self.recording.segment), key=lambda s: s.stop - s.start)
 
     @cached_property
     def target(self) -> Array:
-        """Measured torque less what is known of it, array [n]."""
+        """Measured torque minus its known part, array [n]."""
         return (self.recording.torque - self.recording.known_torque)[self.rows]
 
     @cached_property
     def position(self) -> Array:
-        """Position with its noise taken out, which stiffness would turn into torque, array [n].
+        """Smoothed position, array [n]: the stiffness would turn its noise into torque.
 
         Raises
         ------
         FitError
-            Where none was recorded.
+            No position was recorded.
         """
         r = self.recording
         if r.position_smooth is None or r.columns["position"].derived:
             raise FitError(
                 f"{r.path} has no position column, which shows the presliding deflection: map one "
-                f"with --map position=COLUMN"
+                f"with {option('map', 'position=COLUMN')}"
             )
         return r.position_smooth[self.rows]
 
     @cached_property
-    def _channels(self) -> dict[str, Any]:
+    def _channels(self) -> ChannelArguments:
         r, rows = self.recording, self.rows
         dt = r.dt[rows].copy()
         dt[0] = 0.0
@@ -103,14 +103,14 @@ class Presliding:
         }
 
     def predict(self, values: Array, first_torque: float) -> Array:
-        """Friction torque while the bristle starts from `first_torque`, array [n]."""
+        """Friction torque of a bristle that starts with `first_torque`, array [n]."""
         deflection = first_torque / values[self.stiffness]
         return self.model.core.torque(values, **self._channels, state=deflection)
 
     def fit(self, values: Array) -> tuple[Array, float, int]:
         """Search stiffness and damping from the slope of torque over position.
 
-        The bristle's first deflection is not recorded: the torque it bears is searched too.
+        The initial deflection is not recorded: the initial torque of the bristle is searched too.
 
         Returns
         -------
@@ -122,45 +122,49 @@ class Presliding:
         Raises
         ------
         FitError
-            No position; a torque that does not rise with it; a search that does not settle.
+            No position; a torque that does not rise with it; a search that does not converge.
         """
         values = values.copy()
         stiffness, damping = self._first_guess()
-        swing = float(np.ptp(self.target))
+        torque_range = float(np.ptp(self.target))
 
         def place(x: Array) -> tuple[Array, float]:
             values[self.stiffness] = stiffness * 10.0 ** x[0]
             values[self.damping] = damping * 10.0 ** x[1]
-            return values, float(self.target[0] + swing * x[2])
+            return values, float(self.target[0] + torque_range * x[2])
 
         def error(x: Array) -> float:
             miss = rms(self.target - self.predict(*place(x)))
-            return miss / swing if np.isfinite(miss) else 1e30
+            return miss / torque_range if np.isfinite(miss) else 1e30
 
         simplex = np.vstack([np.zeros(3), np.diag([DECADES, DECADES, SHARE])])
         found = scipy.optimize.minimize(
             error,
             np.zeros(3),
             method="Nelder-Mead",
-            options={"initial_simplex": simplex, "xatol": TOLERANCE, "fatol": 1e-9,
-                     "maxfev": 2000},
-        )  # fmt: skip
+            options={
+                "initial_simplex": simplex,
+                "xatol": TOLERANCE,
+                "fatol": 1e-9,
+                "maxfev": 2000,
+            },
+        )
         if not found.success:
             raise FitError(
-                f"{self.recording.path}: the presliding search did not settle ({found.message}): "
-                f"record a slower torque that swings closer to the Coulomb friction"
+                f"{self.recording.path}: the presliding search did not converge ({found.message}): "
+                f"record a slower torque with an amplitude closer to the Coulomb friction"
             )
         return *place(found.x), int(found.nfev)
 
     def _first_guess(self) -> tuple[float, float]:
-        """Stiffness and damping that the torque's slope over position suggests."""
+        """Stiffness and damping from the slope of the torque over position."""
         q = self.position - self.position.mean()
         power = float(q @ q)
         slope = float(q @ (self.target - self.target.mean())) / power if power > 0 else 0.0
         if slope <= 0.0:
             raise FitError(
-                f"{self.recording.path}: the torque does not rise with the position, so this is no "
-                f"presliding: swing the joint with a slow torque below its Coulomb friction"
+                f"{self.recording.path}: the torque does not rise with the position, so this is "
+                f"not presliding: apply a slow alternating torque below the Coulomb friction"
             )
         frequency = rms(self._channels["mean_velocity"]) / rms(q)
         return slope, LOSS * slope / frequency

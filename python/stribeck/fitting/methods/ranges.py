@@ -1,4 +1,4 @@
-"""Ranges of parameters as a unit box: evenly in the logarithm where a range is positive."""
+"""Ranges of parameters as a unit box: logarithmic where a range is positive."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Ranges:
-    """From `lower` to `upper`, arrays [p]; where both are equal, the parameter is held.
+    """From `lower` to `upper`, arrays [p]; a parameter with equal ends is held.
 
     Examples
     --------
@@ -32,20 +32,20 @@ class Ranges:
 
     @classmethod
     def of(cls, model: Model, recording: Recording) -> Ranges:
-        """The catalog's bounds at the recording's scales; what a law holds stays at its start."""
+        """The catalog's bounds on a recording; parameters that a law holds stay at their start."""
         lower, upper, start = bounds(model, recording)
         held = np.array([p.role == "held" for p in model.parameters], dtype=bool)
         return cls(np.where(held, start, lower), np.where(held, start, upper))
 
     def at(self, share: Array) -> Array:
-        """Values at `share` (0..1) of the way from lower to upper, array [p]."""
+        """Values at `share` (0..1) of the range, array [p]."""
         with np.errstate(divide="ignore", invalid="ignore"):
             geometric = self.lower * (self.upper / self.lower) ** share
         straight = self.lower + share * (self.upper - self.lower)
         return np.clip(np.where(self.lower > 0, geometric, straight), self.lower, self.upper)
 
     def share(self, values: Array) -> Array:
-        """How far `values` are on the way from lower to upper, 0..1, array [p]; 0 if held."""
+        """Share (0..1) of the range at which `values` are, array [p]; 0 if held."""
         with np.errstate(divide="ignore", invalid="ignore"):
             geometric = np.log(values / self.lower) / np.log(self.upper / self.lower)
             straight = (values - self.lower) / (self.upper - self.lower)

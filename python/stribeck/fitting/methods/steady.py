@@ -1,17 +1,17 @@
-"""Steady-state friction points: what remains of a recording when each pass becomes a number."""
+"""Steady-state friction points: a recording with each pass reduced to a mean."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import polars as pl
 import tomlkit
 from numpy.typing import NDArray
 
+from stribeck.base.errors import ModelFileError
 from stribeck.base.files import write_whole
 from stribeck.base.shown import Shown
 from stribeck.identify.covariance import correlation_length
@@ -27,15 +27,15 @@ class SteadyPoint:
     Attributes
     ----------
     start, stop : float
-        Time span of the rows it was taken from, in s.
+        Time span of its samples, in s.
     rows : int
-        Number of those rows.
+        Number of these samples.
     velocity, velocity_stderr : float
         In rad/s or m/s.
     friction_torque, friction_stderr : float
         In the recording's unit of torque.
     load_torque, temperature : float or None
-        Means over the same rows, in the unit of torque and in degC; None where not known.
+        Means over the same samples, in the unit of torque and in degC; None where not known.
     """
 
     start: float
@@ -79,13 +79,13 @@ class SteadyPoints(Shown):
 
     @property
     def friction_torque(self) -> Array:
-        """Friction of each point in the unit of torque, array [n]; it has the sign of velocity."""
+        """Friction of each point in the unit of torque, array [n], with the sign of velocity."""
         return self._column("friction_torque")
 
     def to_frame(self) -> pl.DataFrame:
-        """One row a point, as a recording that `stribeck.read` takes with ``average="run"``.
+        """One row per point, as a recording for `stribeck.read` with ``average="run"``.
 
-        Where the load is known, ``torque`` is friction and load together.
+        Where the load is known, ``torque`` is the sum of friction and load.
         """
         frame = pl.DataFrame([{"run": k, **vars(p)} for k, p in enumerate(self.points, 1)])
         frame = frame.select(c for c in frame if c.null_count() == 0)
@@ -93,8 +93,8 @@ class SteadyPoints(Shown):
             frame = frame.with_columns(torque=pl.col("friction_torque") + pl.col("load_torque"))
         return frame
 
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON of `stribeck points`."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of the command ``stribeck points``."""
         return {
             "method": self.method,
             "points": [vars(point) for point in self.points],
@@ -104,15 +104,15 @@ class SteadyPoints(Shown):
         }
 
     def write(self, path: str | Path) -> None:
-        """Write the points (CSV), and beside them the sidecar that says how to read them.
+        """Write the points (CSV) and a sidecar that states how to read them.
 
         Raises
         ------
         ModelFileError
-            Where the file cannot be written.
+            The file cannot be written.
         """
-        write_whole(f"{path}.sidecar.toml", self._sidecar())
-        write_whole(path, self.to_frame().write_csv())
+        write_whole(f"{path}.sidecar.toml", self._sidecar(), ModelFileError)
+        write_whole(path, self.to_frame().write_csv(), ModelFileError)
 
     def _sidecar(self) -> str:
         said = {
@@ -127,12 +127,12 @@ class SteadyPoints(Shown):
 
 
 def mean_of(values: Array) -> tuple[float, float]:
-    """Mean and its standard error, allowing for noise that is correlated in time.
+    """Mean and its standard error, valid for noise that is correlated in time.
 
     Parameters
     ----------
     values : array [n]
-        In the order of time.
+        In order of time.
 
     Returns
     -------
@@ -147,6 +147,6 @@ def mean_of(values: Array) -> tuple[float, float]:
 def checked_points(
     points: Sequence[SteadyPoint], recording: Recording, method: str, notes: Sequence[str] = ()
 ) -> SteadyPoints:
-    """The points in the order of time."""
+    """The points in order of time."""
     ordered = sorted(points, key=lambda point: point.start)
     return SteadyPoints(tuple(ordered), recording, method, tuple(notes))

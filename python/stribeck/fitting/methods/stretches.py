@@ -1,8 +1,8 @@
-"""Constant-speed stretches of a displacement log: where is the position a straight line in time?
+"""Constant-speed intervals of a displacement log, in which the position is linear in time.
 
-Split and merge: a line is fitted by least squares, cut at the best break into two lines where
-they are better than one, and neighbours that belong to one line are joined again. Nothing is
-differentiated, so that the noise of a position sensor is not raised.
+Split and merge: a line is fitted by least squares, and split at the best break into two lines where
+two fit better than one; neighbours that fit one line are merged again. Positions are not
+differentiated, which would amplify the noise of the sensor.
 """
 
 from __future__ import annotations
@@ -14,25 +14,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
 from stribeck.recording.rows import segment_slices
 
 Array = NDArray[np.float64]
 
-#: Two lines count as better than one where they lower the sum of squares by so many residual
-#: variances: F(2, n) exceeds this by chance at one of 10^6 breaks.
+#: Two lines fit better than one if they lower the sum of squares by so many residual variances:
+#: F(2, n) exceeds this by chance at one in 10^6 breaks.
 SIGNIFICANT = 30.0
-#: A residual whose squared differences sum to less than this share of its own squares is smooth.
+#: A residual is smooth if its squared differences sum to less than this share of its squares.
 SMOOTH = 0.5
-#: Fewest rows on either side of a break.
+#: Fewest samples on either side of a break.
 FEWEST = 4
-#: A joint moves where its speed is so many times the speed's standard error.
+#: A joint moves if its speed is at least so many times the speed's standard error.
 SIGMAS = 5.0
 
 
 @dataclass(frozen=True)
 class Line:
-    """A straight line through the positions of the rows `start` to `stop` (exclusive).
+    """A straight line through the positions of the samples `start` to `stop` (exclusive).
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Line:
     time, position
         A point of the line: the means, in s and rad or m.
     rms
-        Of the distances from the line, in rad or m.
+        RMS of the distances from the line, in rad or m.
     """
 
     start: int
@@ -54,7 +54,7 @@ class Line:
 
     @classmethod
     def through(cls, time: Array, position: Array, start: int, stop: int) -> Line:
-        """Fit a line to the rows `start` to `stop` by least squares."""
+        """Fit a line to the samples `start` to `stop` by least squares."""
         t, x = time[start:stop], position[start:stop]
         middle, height = float(t.mean()), float(x.mean())
         t, x = t - middle, x - height
@@ -79,28 +79,28 @@ class Line:
 
     @property
     def rows(self) -> int:
-        """Number of rows."""
+        """Number of samples."""
         return self.stop - self.start
 
     def ends(self, time: Array) -> tuple[float, float]:
-        """Positions on the line at its first and last row, rad or m."""
+        """Positions on the line at its first and last sample, rad or m."""
         first, last = self.at(time[[self.start, self.stop - 1]])
         return float(first), float(last)
 
 
 @dataclass(frozen=True)
 class Search:
-    """What counts as a constant-speed stretch.
+    """Criteria of a constant-speed interval.
 
     Attributes
     ----------
     tolerance
-        Largest relative difference of speed within a stretch; also the largest relative
+        Largest relative difference of speed within an interval; also the largest relative
         standard error of its speed.
     shortest
-        Shortest duration of a stretch in s.
+        Shortest duration of an interval in s.
     trim
-        Share of each end that is left out: what remains there of starting and stopping.
+        Share of each end that is left out, where starting and stopping may still have an effect.
     """
 
     tolerance: float = 0.05
@@ -108,37 +108,43 @@ class Search:
     trim: float = 0.05
 
     def check(self) -> None:
-        """Refuse values that no stretch can meet.
+        """Refuse values out of range.
 
         Raises
         ------
         FitError
         """
         if not 0.0 < self.tolerance < 1.0:
-            raise FitError(f"--tolerance {self.tolerance:g} is out of range: give a share, 0..1")
+            raise FitError(
+                f"{option('tolerance', self.tolerance)} is out of range: give a share, 0..1"
+            )
         if not (math.isfinite(self.shortest) and self.shortest > 0.0):
-            raise FitError(f"--shortest {self.shortest:g} is out of range: give seconds above 0")
+            raise FitError(
+                f"{option('shortest', self.shortest)} is out of range: give seconds above 0"
+            )
         if not 0.0 <= self.trim < 0.5:
-            raise FitError(f"--trim {self.trim:g} is out of range: give a share, 0 to below 0.5")
+            raise FitError(
+                f"{option('trim', self.trim)} is out of range: give a share, 0 to below 0.5"
+            )
 
 
 def constant_speed(
     time: Array, position: Array, segment: NDArray[np.int64], search: Search | None = None
 ) -> list[Line]:
-    """Find the stretches in which a joint moves at constant speed.
+    """Find the intervals in which a joint moves at constant speed.
 
     Parameters
     ----------
     time, position : array [n]
-        In s, and rad or m as measured: noise and quantisation are what the lines average out.
+        In s, and rad or m as measured: the lines average noise and quantisation.
     segment : int array [n]
-        Number of the contiguous stretch of rows; no line crosses a gap.
+        Number of the segment without a gap; no line crosses a gap.
     search : Search
 
     Returns
     -------
     list of Line
-        In the order of time, trimmed. Empty where there are none.
+        In order of time, trimmed; may be empty.
 
     Examples
     --------
@@ -159,7 +165,7 @@ def constant_speed(
 
 
 def _split(time: Array, position: Array, start: int, stop: int, search: Search) -> Iterator[Line]:
-    """Straight pieces of the rows `start` to `stop`, in the order of time."""
+    """Straight pieces of the samples `start` to `stop`, in order of time."""
     waiting = [(start, stop)]
     while waiting:
         a, b = waiting.pop()
@@ -169,19 +175,19 @@ def _split(time: Array, position: Array, start: int, stop: int, search: Search) 
         if at is None:
             yield Line.through(time, position, a, b)
         else:
-            # The earlier half is taken up first.
+            # The earlier part comes first.
             waiting += [(at, b), (a, at)]
 
 
 def _break(time: Array, position: Array, start: int, stop: int, search: Search) -> int | None:
-    """The row at which a second line begins; None where one line serves."""
+    """The sample at which a second line begins; None where one line is enough."""
     t = time[start:stop] - time[start:stop].mean()
     x = position[start:stop] - position[start:stop].mean()
     slope = float(t @ x) / float(t @ t)
     residual = x - slope * t
     left, slope_left = _growing_lines(t, x)
     right, slope_right = _growing_lines(t[::-1], x[::-1])
-    # Entry k of each: the first k + 1 rows against the last n - k - 1.
+    # Entry k of each: the first k + 1 samples and the last n - k - 1.
     two = left[:-1] + right[::-1][1:]
     k = int(np.argmin(two[FEWEST - 1 : t.size - FEWEST])) + FEWEST - 1
     first, second = slope_left[k], slope_right[::-1][k + 1]
@@ -193,11 +199,11 @@ def _break(time: Array, position: Array, start: int, stop: int, search: Search) 
 
 
 def _is_bent(residual: Array, spread: float, search: Search) -> bool:
-    """Whether a line misses a change of speed that two lines would miss too.
+    """Whether the speed changes in a way that two lines do not fit either.
 
-    So it is with many passes to and fro, and with a speed that rises and falls again. The latter,
-    by the share p of the speed, bends the position by 0.39 p of the line's own spread; what is
-    left is then smooth, where noise is rough (von Neumann's ratio is near 2).
+    Examples are many passes back and forth, and a speed that rises and falls again. The latter, by
+    the share p of the speed, bends the position by 0.39 p of the line's spread. The residual is
+    then smooth, unlike noise, whose von Neumann ratio is near 2.
     """
     square = float(residual @ residual)
     rough = float((np.diff(residual) ** 2).sum())
@@ -206,7 +212,7 @@ def _is_bent(residual: Array, spread: float, search: Search) -> bool:
 
 
 def _growing_lines(t: Array, x: Array) -> tuple[Array, Array]:
-    """Sum of squares and slope of the lines through the first 1, 2, ... n rows, arrays [n]."""
+    """Sum of squares and slope of the lines through the first 1, 2, ... n samples, arrays [n]."""
     count = np.arange(1.0, t.size + 1.0)
     st, sx = np.cumsum(t), np.cumsum(x)
     tt = np.cumsum(t * t) - st * st / count
@@ -217,7 +223,7 @@ def _growing_lines(t: Array, x: Array) -> tuple[Array, Array]:
 
 
 def _merge(time: Array, position: Array, pieces: list[Line], search: Search) -> Iterator[Line]:
-    """Join neighbours of which one line serves both, apart from the ends that are trimmed."""
+    """Join neighbours that fit one line, apart from the trimmed ends."""
     current: Line | None = None
     for piece in pieces:
         if current is not None and current.stop == piece.start:
@@ -233,12 +239,12 @@ def _merge(time: Array, position: Array, pieces: list[Line], search: Search) -> 
 
 
 def _inner(start: int, stop: int, search: Search) -> tuple[int, int]:
-    """The rows `start` to `stop` without the ends that are trimmed."""
+    """First and last of the samples `start` to `stop` without the trimmed ends."""
     cut = min(int(search.trim * (stop - start)), (stop - start) // 2 - FEWEST)
     return start + cut, stop - cut
 
 
 def _moves(line: Line, search: Search) -> bool:
-    """Whether the speed is known well enough to be told from rest."""
+    """Whether the speed is significantly different from zero, and accurate enough."""
     speed = abs(line.velocity)
     return speed > SIGMAS * line.stderr and line.stderr <= search.tolerance * speed

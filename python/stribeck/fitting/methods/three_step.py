@@ -1,8 +1,8 @@
-"""Three experiments, one after another: temperature, load, presliding.
+"""Identification in three steps: temperature, load, presliding.
 
 Tadese et al. 2021, section V-A. Without load, constant speeds at several temperatures give dry and
-viscous friction (eqs 13, 20). With load, what these leave is fitted, each quadrant of speed and
-load by itself (eq 15). Last, presliding gives stiffness and damping of the bristle.
+viscous friction (eqs 13, 20). With load, the residual is fitted, separately in each quadrant of
+speed and load (eq 15). Last, presliding gives stiffness and damping of the bristle.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,15 +42,15 @@ class Step:
     Attributes
     ----------
     name
-        What it identifies.
+        What the step identifies.
     data
         Path of its recording.
     parameters
-        Names of the parameters that it gave.
+        Names of the parameters that it identified.
     rows
-        Rows that were fitted to.
+        Number of samples of the fit.
     rmse
-        Of what is left on them, in the unit of torque.
+        RMSE of these samples, in the unit of torque.
     """
 
     name: str
@@ -67,8 +66,8 @@ class ThreeStepFit(Fit):
 
     steps: tuple[Step, ...] = ()
 
-    def to_dict(self) -> dict[str, Any]:
-        """The contract's JSON of `stribeck fit`, and the three steps."""
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of a fit, and the three steps."""
         steps = [{**vars(step), "parameters": list(step.parameters)} for step in self.steps]
         return {**super().to_dict(), "steps": steps}
 
@@ -85,36 +84,35 @@ def three_step_fit(
 ) -> ThreeStepFit:
     """Identify a law with temperature, load and bristle in three steps.
 
-    Which parameters a step gives follows from the law: the first those that act on steady friction
-    without load, the second those that act with it, the third stiffness and damping.
+    The first step identifies the parameters that act on steady friction without load, the second
+    those that act with load, the third stiffness and damping of the bristle.
 
     Parameters
     ----------
     spec : str or Model
         ``"tadese_full"``, or another law and effects with load and bristle.
     no_load, loaded : Recording
-        Steady-state points (`segment_points`): over the temperatures, and over
-        the loads.
+        Steady-state points (`segment_points`) over temperatures, and over loads.
     presliding : Recording
-        Position and torque while a slow torque below the Coulomb friction swings the joint, read
-        with ``standstill=True``. Its longest stretch without a gap is used.
+        Motion under a slow alternating torque below the Coulomb friction, read with
+        ``standstill=True``. Its longest segment without a gap is used.
     damping_velocity : float
-        Speed at which the bristle's damping has fallen to 1/e, rad/s or m/s, where the law has one:
-        it is chosen and not identified, 0.001 rad/s by the paper (section IV).
+        Speed at which the bristle's damping has fallen to 1/e, rad/s or m/s, if the law has one: it
+        is not identified; 0.001 rad/s in the paper (section IV).
     starts, seed : int
         Random starts of the nonlinear parameters in the first two steps.
 
     Returns
     -------
     ThreeStepFit
-        `steps` tells the error that each step reached. Standard errors are those of a parameter's
-        own step: what a step before it left open is not in them.
+        With the error of each step in `steps`. Standard errors are those of a parameter's own step,
+        without the uncertainty of earlier steps.
 
     Raises
     ------
     FitError
-        A law that leaves a step without parameters; recordings that are not steady-state points;
-        too few rows; a presliding log without position.
+        A step without parameters; recordings that are not steady-state points, or too short; a
+        presliding recording without position.
 
     Examples
     --------
@@ -125,15 +123,26 @@ def three_step_fit(
     """
     began = time.perf_counter()
     made = model_for(spec, loaded)
-    warm, heavy = _steady(no_load, made), _steady(loaded, made)
     search = BoundedLeastSquares(made, loaded, starts, seed)
     if "damping_velocity" in made.names:
         search.start[made.names.index("damping_velocity")] = damping_velocity
+    fitted = _in_three_steps(made, no_load, loaded, presliding, search)
+    return replace(fitted, seconds=time.perf_counter() - began)
+
+
+def _in_three_steps(
+    made: Model,
+    no_load: Recording,
+    loaded: Recording,
+    presliding: Recording,
+    search: BoundedLeastSquares,
+) -> ThreeStepFit:
+    warm, heavy = _steady(no_load, made), _steady(loaded, made)
     first, second, third = _groups(warm, heavy, search)
     values = search.solve(heavy, search.solve(warm, search.start, first), second)
     slow = Presliding(presliding, made, *_bristle(made, third))
     values, first_torque, evaluations = slow.fit(values)
-    # The simplex knows no bounds: where it ended lies inside.
+    # The simplex has no bounds: they are widened to include its result.
     lower, upper = np.minimum(search.lower, values), np.maximum(search.upper, values)
     made = replace(
         made,
@@ -143,20 +152,12 @@ def three_step_fit(
     steps = (
         _step("speed and temperature", warm, values, first),
         _step("load", heavy, values, second),
-        Step(
-            "presliding", presliding.path, tuple(made.names[k] for k in slow.searched),
-            slow.target.size, rms(slow.target - slow.predict(values, first_torque)),
-        ),
-    )  # fmt: skip
+        _presliding_step(slow, values, first_torque),
+    )
     errors = _standard_errors(warm, values, first)
     errors[second] = _standard_errors(heavy, values, second)[second]
     fitted = _as_fit(made, loaded, errors, steps)
-    return replace(
-        fitted,
-        starts=search.starts,
-        evaluations=search.evaluations + evaluations,
-        seconds=time.perf_counter() - began,
-    )
+    return replace(fitted, starts=search.starts, evaluations=search.evaluations + evaluations)
 
 
 def _steady(recording: Recording, made: Model) -> Problem:
@@ -165,12 +166,12 @@ def _steady(recording: Recording, made: Model) -> Problem:
     Raises
     ------
     FitError
-        Where the recording is none of points, or has too few.
+        The recording does not hold steady-state points.
     """
     if not recording.averaged:
         raise FitError(
-            f"{recording.path} does not hold steady-state points: make them with `stribeck points "
-            f"{recording.path} --method segments --bins 10 -o points.csv`"
+            f"{recording.path} does not hold steady-state points: make them with `segment_points` "
+            f"or the command `stribeck points`"
         )
     return Problem(recording, model_for(made, recording), np.flatnonzero(recording.moving))
 
@@ -178,15 +179,15 @@ def _steady(recording: Recording, made: Model) -> Problem:
 def _groups(
     warm: Problem, heavy: Problem, search: BoundedLeastSquares
 ) -> tuple[Indices, Indices, Indices]:
-    """Parameters of the three steps, by what they act on.
+    """Indices of the parameters of the three steps, by what they act on.
 
     Raises
     ------
     FitError
-        Where a step is left without any.
+        A step has no parameter.
     """
     made = warm.model
-    # Neither a bound nor zero, where a parameter that acts may seem not to.
+    # Values that are neither a bound nor zero, where a parameter may have no effect.
     values = search.ranges.at(np.full(search.start.size, 0.6))
     free = search.upper > search.lower
     unloaded, loaded = _acting(warm, values) & free, _acting(heavy, values) & free
@@ -202,26 +203,26 @@ def _groups(
     ]
     if missing:
         raise FitError(
-            f"{made.spec} has no parameter of {missing[0]}, and three steps need all of them: take "
+            f"{made.spec} has no parameter of {missing[0]}, which the three steps need: use "
             f"tadese_full, or add the effects load and presliding"
         )
     return groups
 
 
 def _acting(problem: Problem, values: Array) -> NDArray[np.bool_]:
-    """Which parameters act on the torque of the problem's rows, bool array [p]."""
+    """Which parameters act on the torque of the problem's samples, bool array [p]."""
     _, jacobian = problem.linearise(values)
     size = np.abs(jacobian * values).max(axis=0)
     return size > ACTS * np.abs(problem.target).max()
 
 
 def _bristle(made: Model, third: Indices) -> tuple[int, int]:
-    """Places of the bristle's stiffness and damping among the parameters.
+    """Indices of the bristle's stiffness and damping among the parameters.
 
     Raises
     ------
     FitError
-        Where the law has another kind of state.
+        The law has another kind of state.
     """
     places = []
     for kind in ("_stiffness", "_damping"):
@@ -229,7 +230,7 @@ def _bristle(made: Model, third: Indices) -> tuple[int, int]:
         if len(found) != 1:
             raise FitError(
                 f"{made.spec} has no bristle with one stiffness and one damping, which the third "
-                f"step identifies: take tadese_full, or add the effect presliding"
+                f"step identifies: use tadese_full, or add the effect presliding"
             )
         places.append(found[0])
     return places[0], places[1]
@@ -241,8 +242,14 @@ def _step(name: str, problem: Problem, values: Array, free: Indices) -> Step:
     return Step(name, problem.recording.path, names, problem.rows.size, rms(residual))
 
 
+def _presliding_step(slow: Presliding, values: Array, first_torque: float) -> Step:
+    names = tuple(slow.model.names[k] for k in slow.searched)
+    error = rms(slow.target - slow.predict(values, first_torque))
+    return Step("presliding", slow.recording.path, names, slow.target.size, error)
+
+
 def _standard_errors(problem: Problem, values: Array, free: Indices) -> Array:
-    """Standard errors of the parameters `free` that the rows show, NaN for the others; [p]."""
+    """Standard errors of the identifiable parameters among `free`, NaN for others; [p]."""
     residual, jacobian = problem.linearise(values)
     chosen = np.zeros(values.size, dtype=bool)
     chosen[free] = True
@@ -253,13 +260,14 @@ def _standard_errors(problem: Problem, values: Array, free: Indices) -> Array:
 
 
 def _as_fit(made: Model, loaded: Recording, errors: Array, steps: Sequence[Step]) -> ThreeStepFit:
-    """The fit on the loaded points: nothing there is held out, and the simplex has no errors."""
+    """The fit on the loaded points, without held-out error, or errors of the simplex."""
     known = ~np.isnan(errors)
     lower, upper = np.array([made.bounds[name] for name in made.names]).T
     shown = known | np.isin(made.names, steps[-1].parameters)
     unit = made.torque_unit
     notes = [
-        f"step {k}, {step.name}: RMSE {step.rmse:.4g} {unit} over {step.rows} rows of {step.data}"
+        f"step {k}, {step.name}: RMSE {step.rmse:.4g} {unit} over {step.rows} samples of "
+        f"{step.data}"
         for k, step in enumerate(steps, 1)
     ]
     fitted = evaluate(made, loaded)
@@ -272,6 +280,5 @@ def _as_fit(made: Model, loaded: Recording, errors: Array, steps: Sequence[Step]
         "outcome": "three steps",
         "notes": (*notes, *fitted.notes),
     }
-    return ThreeStepFit(
-        **{**{f.name: getattr(fitted, f.name) for f in fields(Fit)}, **changed}, steps=tuple(steps)
-    )
+    kept = {f.name: getattr(fitted, f.name) for f in fields(Fit) if f.init}
+    return ThreeStepFit(**{**kept, **changed}, steps=tuple(steps))

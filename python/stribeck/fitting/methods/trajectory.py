@@ -1,4 +1,4 @@
-"""Sums of harmonics: trajectories that excite every inertial term of an arm."""
+"""Sums of harmonics: trajectories that excite all inertial terms of an arm."""
 
 from __future__ import annotations
 

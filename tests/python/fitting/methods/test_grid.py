@@ -166,7 +166,7 @@ def test_standard_errors_of_a_median() -> None:
     ("grid", "said"),
     [
         ({"stribeck_sped": Axis(1.0, 2.0, 5)}, "did you mean 'stribeck_velocity'"),
-        ({"viscous_friction": Axis(1.0, 2.0, 5)}, "no nonlinear parameter"),
+        ({"viscous_friction": Axis(1.0, 2.0, 5)}, "not a nonlinear parameter"),
         ({"a3": Axis(2.0, 1.0, 5)}, "empty"),
         ({"a3": Axis(1.0, 2.0, 1)}, "1 points"),
     ],
@@ -187,5 +187,5 @@ def test_too_few_points_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "few.csv"
     path.write_text("run,velocity,friction_torque\n1,1.0,2.0\n2,2.0,2.1\n3,-1.0,-2.0\n")
     recording = sb.read(path, average="run", joint_kind="revolute")
-    with pytest.raises(FitError, match="3 rows that move"):
+    with pytest.raises(FitError, match="3 moving samples"):
         grid_fit("bittencourt_a", recording)

@@ -130,7 +130,7 @@ def test_bad_input_is_one_line(folder: Path, tmp_path: Path) -> None:
     pl.read_csv(data).drop("position").with_columns(velocity=pl.lit(1.0)).write_csv(without)
     assert "no position column" in refused("points", without, "--method", "segments")
     assert "forward and" in refused("points", data, "--method", "averaging", "--where", "time < 16")
-    assert "no stretch of constant speed" in refused(
+    assert "no interval of constant speed" in refused(
         "points", data, "--method", "segments", "--shortest", 500
     )
     assert "--grid" in refused(

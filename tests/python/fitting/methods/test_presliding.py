@@ -75,5 +75,5 @@ def test_a_log_without_position_is_refused(tmp_path: Path) -> None:
 def test_torque_that_falls_with_position_is_no_presliding(tmp_path: Path) -> None:
     frame = indy.presliding_log(cycles=1.0).with_columns(-pl.col("position"))
     slow = bristle(read(tmp_path, frame))
-    with pytest.raises(FitError, match="no presliding"):
+    with pytest.raises(FitError, match="not presliding"):
         slow.fit(slow.model.values)

@@ -93,7 +93,7 @@ def test_bins_follow_a_load_that_changes_along_a_pass(tmp_path: Path) -> None:
     assert np.all(np.diff([p.load_torque for p in forward]) > 100.0)
     for point in points.points:
         assert point.friction_torque == pytest.approx(gantry.friction(point.velocity), rel=2e-3)
-    with pytest.raises(FitError, match="--bins 0"):
+    with pytest.raises(FitError, match="`bins=0`"):
         segment_points(read(tmp_path, frame), bins=0)
 
 
@@ -102,7 +102,7 @@ def test_motion_without_constant_speed_is_refused(tmp_path: Path) -> None:
     frame = pl.DataFrame(
         {"time": time, "position": 0.2 * np.sin(time) ** 3, "torque": np.cos(time)}
     )
-    with pytest.raises(FitError, match=r"no stretch of constant speed to 2 % over 1 s"):
+    with pytest.raises(FitError, match=r"no interval of constant speed to 2 % over 1 s"):
         segment_points(read(tmp_path, frame), search=Search(tolerance=0.02, shortest=1.0))
 
 
@@ -117,9 +117,9 @@ def test_a_log_without_position_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("search", "said"),
     [
-        (Search(tolerance=0.0), "--tolerance 0"),
-        (Search(shortest=-1.0), "--shortest -1"),
-        (Search(trim=0.5), "--trim 0.5"),
+        (Search(tolerance=0.0), "`tolerance=0`"),
+        (Search(shortest=-1.0), "`shortest=-1`"),
+        (Search(trim=0.5), "`trim=0.5`"),
     ],
 )
 def test_options_out_of_range_are_refused(log: sb.Recording, search: Search, said: str) -> None:

@@ -135,7 +135,7 @@ def test_too_few_points_are_refused(recordings: dict[str, sb.Recording], tmp_pat
     path = tmp_path / "few.csv"
     indy.no_load_points().filter(pl.col("temperature") == 20.0)[:8].write_csv(path)
     few = sb.read(path, average="run", joint_kind="revolute")
-    with pytest.raises(FitError, match="8 points that move, and 10 parameters"):
+    with pytest.raises(FitError, match="8 moving points for 10 parameters"):
         three_step_fit("tadese_full", few, recordings["loaded"], recordings["presliding"])
 
 
