@@ -1,7 +1,7 @@
-"""The folder of a run: every answer as it is given, then the tables and figures.
+"""The folder of a run: every answer, then the tables and figures.
 
-``manifest.json`` says which program answered. ``answers.jsonl`` gets one line as each case ends, so
-that nothing is lost when the run is stopped; the same command goes on from there.
+``manifest.json`` identifies the program. ``answers.jsonl`` gets one line when a case ends, so that
+nothing is lost when the run is stopped; the same command continues from there.
 """
 
 from __future__ import annotations
@@ -23,6 +23,36 @@ from stribeck.benchmark.judge import judge
 
 KIND = "diagnosis benchmark"
 MANIFEST, ANSWERS = "manifest.json", "answers.jsonl"
+_TEXTS, _NUMBERS = pl.List(pl.String), pl.List(pl.Float64)
+SCHEMA: dict[str, pl.DataType | type[pl.DataType]] = {
+    "case": pl.String,
+    "group": pl.String,
+    "generator": pl.String,
+    "effects": _TEXTS,
+    "size": pl.Float64,
+    "sizes": _NUMBERS,
+    "limit": pl.String,
+    "seed": pl.Int64,
+    "correlation": pl.Float64,
+    "right": pl.Boolean,
+    "exact": pl.Boolean,
+    "named": pl.String,
+    "problem": pl.String,
+    "found": _TEXTS,
+    "confidence": _NUMBERS,
+    "indistinguishable_from": pl.List(_TEXTS),
+    "verdict": pl.String,
+    "untestable": _TEXTS,
+    "rmse_held_out": pl.Float64,
+    "oracle_rmse": pl.Float64,
+    "noise_rms": pl.Float64,
+    "noise_floor": pl.Float64,
+    "covered": pl.List(pl.Boolean),
+    "covered_ordinary": pl.List(pl.Boolean),
+    "parameters": _TEXTS,
+    "seconds": pl.Float64,
+    "failure": pl.String,
+}
 
 
 class AnswerStore:
@@ -31,7 +61,7 @@ class AnswerStore:
     Parameters
     ----------
     folder
-        Made where it does not exist.
+        Created if it does not exist.
 
     Raises
     ------
@@ -78,18 +108,18 @@ class AnswerStore:
             )
 
     def add(self, answer: CaseAnswer) -> None:
-        """Keep an answer; it is on disk when this returns."""
+        """Write an answer to disk."""
         self.answers[answer.case.name] = answer
         self._log.write(_line(answer))
         self._log.flush()
 
     def close(self) -> None:
-        """No answer is added any more."""
+        """Close the file of answers."""
         self._log.close()
 
 
 def program_hash() -> str:
-    """SHA-256 of everything that the answers depend on: the package's code and its core."""
+    """Return the SHA-256 of the code of the package, on which the answers depend."""
     root = Path(__file__).resolve().parents[1]
     digest = hashlib.sha256()
     for path in sorted([*root.rglob("*.py"), *root.glob("_core*")]):
@@ -99,7 +129,7 @@ def program_hash() -> str:
 
 
 def frame(answers: Iterable[CaseAnswer]) -> pl.DataFrame:
-    """Every answer and what it is worth, one row each."""
+    """Return a table with one row for each answer and its judgement."""
     rows = []
     for a in answers:
         scored = a.case.group != "coverage"
@@ -135,37 +165,7 @@ def frame(answers: Iterable[CaseAnswer]) -> pl.DataFrame:
                 "failure": a.failure,
             }
         )
-    texts, numbers = pl.List(pl.String), pl.List(pl.Float64)
-    schema: dict[str, pl.DataType | type[pl.DataType]] = {
-        "case": pl.String,
-        "group": pl.String,
-        "generator": pl.String,
-        "effects": texts,
-        "size": pl.Float64,
-        "sizes": numbers,
-        "limit": pl.String,
-        "seed": pl.Int64,
-        "correlation": pl.Float64,
-        "right": pl.Boolean,
-        "exact": pl.Boolean,
-        "named": pl.String,
-        "problem": pl.String,
-        "found": texts,
-        "confidence": numbers,
-        "indistinguishable_from": pl.List(texts),
-        "verdict": pl.String,
-        "untestable": texts,
-        "rmse_held_out": pl.Float64,
-        "oracle_rmse": pl.Float64,
-        "noise_rms": pl.Float64,
-        "noise_floor": pl.Float64,
-        "covered": pl.List(pl.Boolean),
-        "covered_ordinary": pl.List(pl.Boolean),
-        "parameters": texts,
-        "seconds": pl.Float64,
-        "failure": pl.String,
-    }
-    return pl.DataFrame(rows, schema=schema)
+    return pl.DataFrame(rows, schema=SCHEMA)
 
 
 def _line(answer: CaseAnswer) -> str:
@@ -173,7 +173,7 @@ def _line(answer: CaseAnswer) -> str:
 
 
 def _finite(value: Any) -> Any:
-    """JSON has no NaN or infinity: they become null."""
+    """Replace NaN and infinity by None, because JSON has neither."""
     if isinstance(value, dict):
         return {key: _finite(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -182,7 +182,7 @@ def _finite(value: Any) -> Any:
 
 
 def _read(path: Path) -> list[CaseAnswer]:
-    """The answers given before; a line that was cut off in writing is left out."""
+    """Read earlier answers; an incomplete last line is ignored."""
     if not path.exists():
         return []
     text = path.read_text(encoding="utf-8")

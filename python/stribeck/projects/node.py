@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from stribeck.base.errors import SpecError
+from stribeck.models.formula_law import effect_terms, is_formula
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.kept import Kept
 
@@ -51,3 +53,21 @@ class Node:
         if self.found is None:
             return self.kept.model.spec
         return f"{'+' if self.change == 'add' else '-'} {self.found.effect}"
+
+    def check_formula(self, effect: str) -> None:
+        """Refuse an effect by formula that differs from the one of this node but has its name.
+
+        Raises
+        ------
+        SpecError
+            The formulas differ.
+        """
+        own = self.kept.model.formula(self.effect or "")
+        if own is None or not is_formula(effect):
+            return
+        text = effect_terms(effect).text
+        if text != own.text:
+            raise SpecError(
+                f"{own.name} = {own.text} was added here before (node {self.number}): give "
+                f"{text!r} another name"
+            )

@@ -1,4 +1,4 @@
-"""A project: one recording, a tree of models of it, and which of them is worked on."""
+"""A project: one recording, a tree of its models, and the current one."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import check_effect
-from stribeck.models.formula_law import effect_name, effect_terms, is_formula
+from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.kept import Kept
@@ -45,23 +45,23 @@ if TYPE_CHECKING:
 
 
 def _silent(sentence: str) -> None:
-    """Progress that nobody asked for."""
+    """Report no progress."""
 
 
 @dataclass(frozen=True, repr=False)
 class Project(Plotted):
-    """The loop driven by hand: every verb returns the next project, `save` writes it.
+    """The loop of diagnosis by hand: every method returns a new project, `save` writes it.
 
     Attributes
     ----------
     path
         The project file.
     source
-        The data, by content, and how they were read.
+        The recording, identified by its content, and the options that read it.
     tree
-        Every model that was made, each from its parent by one effect added or dropped.
+        All models; each has one effect more or fewer than its parent.
     current
-        Number of the node that the verbs work on.
+        Number of the node that the methods work on.
 
     Examples
     --------
@@ -88,7 +88,7 @@ class Project(Plotted):
         seed: int = 0,
         **reading: Unpack[ReadArguments],
     ) -> Project:
-        """A project of one recording; its first node is `base`, fitted.
+        """Make a project of one recording; its first node is the fitted `base`.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class Project(Plotted):
         Raises
         ------
         StribeckError
-            The data cannot be read, or `base` not fitted to them.
+            The recording cannot be read, or `base` cannot be fitted.
         """
         target = Path(path)
         source = Source.of(data, target.parent, reading)
@@ -109,12 +109,12 @@ class Project(Plotted):
 
     @classmethod
     def open(cls, path: str | os.PathLike[str]) -> Project:
-        """Read a project file, and check that its data are the same still.
+        """Read a project file, and check that its data have not changed.
 
         Raises
         ------
         ProjectError, ModelFileError
-            The file is no project, or its data have changed or are gone.
+            The file is not a project, or its data have changed or are missing.
         """
         from stribeck.projects.read import read_project
 
@@ -123,39 +123,39 @@ class Project(Plotted):
         return project
 
     def save(self, path: str | os.PathLike[str] | None = None) -> None:
-        """Write the project file whole or not at all; default: where it came from."""
+        """Write the project file atomically; default: to `path`."""
         from stribeck.projects.write import write_project
 
         write_project(self, self.path if path is None else Path(path))
 
     def save_model(self, path: str | os.PathLike[str]) -> None:
-        """Write the current model's file."""
+        """Write the model file of the current node."""
         file = self.node.kept.file
         data = str(self.source.file)
         replace(file, fitted_on={**file.fitted_on, "path": data}).write(path)
 
     @property
     def node(self) -> Node:
-        """The node that the verbs work on."""
+        """The current node."""
         return self.tree.node(self.current)
 
     @property
     def recording(self) -> Recording:
-        """The data."""
+        """The recording."""
         return self.source.recording
 
     @property
     def fit(self) -> Fit:
-        """The current model's fit."""
+        """The fit of the current node."""
         return self.fit_of(self.node)
 
     def fit_of(self, node: Node, seed: int = 0) -> Fit:
-        """A node's fit; one that is known from the file alone is fitted again from its values."""
+        """Return the fit of a node; a node read from a file is fitted again from its values."""
         return node.kept.fit(self.source, seed)
 
     @property
     def diagnosis(self) -> Diagnosis | None:
-        """The full diagnosis of the current node, if this session has made it."""
+        """The full diagnosis of the current node, if it was made in this session."""
         return self.node.diagnosis.full if self.node.diagnosis else None
 
     def diagnose(
@@ -165,9 +165,9 @@ class Project(Plotted):
         candidates: Collection[str] = (),
         seed: int = 0,
     ) -> Project:
-        """Ask what is missing at the current node, and remember the findings.
+        """Diagnose the current node, and keep the findings.
 
-        Parameters are those of `stribeck.diagnose`; rejected effects are not tried.
+        Parameters are those of `stribeck.diagnose`; rejected effects are not tested.
         """
         found = diagnose_fit(
             self.fit_of(self.node, seed),
@@ -179,7 +179,7 @@ class Project(Plotted):
         return self._remembering(self.current, found)
 
     def add(self, effect: str, *, starts: int = 20, seed: int = 0) -> Project:
-        """Add an effect to the current model: a new node, or the one that did so before.
+        """Add an effect to the current model: a new node, or the existing one.
 
         Parameters
         ----------
@@ -189,12 +189,12 @@ class Project(Plotted):
         Raises
         ------
         SpecError, FitError
-            The effect is unknown, in the model already, or needs a channel that is not there.
+            The effect is unknown, in the model already, or needs a missing channel.
         """
         name = effect_name(effect)
         known = self.tree.child(self.current, "add", name)
         if known is not None:
-            _check_same(known, effect)
+            known.check_formula(effect)
             return replace(self, current=known.number)
         before = self.fit_of(self.node, seed)
         after = add_to(before, effect, starts=starts, seed=seed)
@@ -210,20 +210,20 @@ class Project(Plotted):
         return self._with_node("add", found, after)
 
     def drop(self, effect: str, *, starts: int = 20, seed: int = 0) -> Project:
-        """Go on without an effect of the current model: a new node.
+        """Drop an effect of the current model: a new node, or the existing one.
 
         Raises
         ------
         SpecError
-            The model has no such effect, or its law has it by itself.
+            The model has no such effect, or the effect is part of its law.
         """
         model = self.node.kept.model
         has = (*model.own_effects, *model.effects)
         if effect not in has:
             if model.has(effect):
                 raise SpecError(
-                    f"{model.law} has {effect} by itself, so it cannot be dropped: make a project "
-                    f"with another base"
+                    f"{effect} is part of the law {model.law} and cannot be dropped: make a "
+                    f"project with another base"
                 )
             there = f"it has {', '.join(has)}" if has else "nothing was added to it"
             raise SpecError(
@@ -244,7 +244,7 @@ class Project(Plotted):
         return self._with_node("drop", found, after)
 
     def reject(self, effect: str, why: str = "") -> Project:
-        """Never try an effect at the current node, nor at those that come from it.
+        """Exclude an effect from tests at the current node and its descendants.
 
         Raises
         ------
@@ -258,12 +258,12 @@ class Project(Plotted):
         return self._rejecting(self.current, effect, why)
 
     def accept(self, effect: str) -> Project:
-        """Take back that an effect was rejected, wherever on the way to the current node.
+        """Revoke the rejection of an effect, at the current node or an ancestor.
 
         Raises
         ------
         ProjectError
-            It was not.
+            The effect is not rejected.
         """
         rejected = self.tree.rejected(self.current)
         if effect not in rejected:
@@ -276,21 +276,21 @@ class Project(Plotted):
         return replace(self, tree=tree)
 
     def back(self, node: str | int | None = None) -> Project:
-        """Work on another node, by number or name; default: the one before.
+        """Make another node the current one, by number or name; default: the parent.
 
         Raises
         ------
         ProjectError
-            There is no such node, or none before.
+            There is no such node, or the current one has no parent.
         """
         if node is not None:
             return replace(self, current=self.tree.find(node).number)
         if self.node.parent is None:
-            raise ProjectError(f"{self.path}: node {self.current} is the base, nothing is before")
+            raise ProjectError(f"{self.path}: node {self.current} is the base and has no parent")
         return replace(self, current=self.node.parent)
 
     def named(self, name: str) -> Project:
-        """Name the branch that begins at the current node; an empty name takes it away.
+        """Name the branch that begins at the current node; an empty name removes the name.
 
         Raises
         ------
@@ -299,7 +299,7 @@ class Project(Plotted):
         """
         word = name.strip()
         if word.isdecimal():
-            raise ProjectError(f"{word} would be taken for a node's number: give it a word")
+            raise ProjectError(f"{word} is a number, as nodes have: give a word")
         taken = [n.number for n in self.tree if n.name == word and word]
         if taken and taken != [self.current]:
             raise ProjectError(f"node {taken[0]} has the name {word!r} already: give another")
@@ -315,17 +315,17 @@ class Project(Plotted):
         progress: Callable[[str], None] = _silent,
         each: Callable[[Project], None] = lambda project: None,
     ) -> Project:
-        """Diagnose and add from the current node until nothing passes: every step a node.
+        """Diagnose and add effects from the current node until none passes; each step is a node.
 
-        An effect that a later one makes superfluous stays as a branch of its own; the way goes on
-        beside it, where it is rejected with the reason.
+        An effect that becomes superfluous stays as a branch. The search continues without it, where
+        it is rejected with the reason.
 
         Parameters
         ----------
         each : callable
-            Told the project after each change, to save it.
+            Called with the project after each change, to save it.
 
-        The others are those of `stribeck.improve`.
+        The other parameters are those of `stribeck.improve`.
         """
         start = self.current
         project = self
@@ -343,7 +343,7 @@ class Project(Plotted):
         return project
 
     def compare(self, one: str | int, other: str | int, *, seed: int = 0) -> Sides:
-        """Two nodes side by side, by number or name."""
+        """Compare two nodes, given by number or name."""
         first, second = self.tree.find(one), self.tree.find(other)
         return Sides.of(
             (first, second), (self.fit_of(first, seed), self.fit_of(second, seed)), self.recording
@@ -364,7 +364,7 @@ class Project(Plotted):
         return replace(self, tree=self.tree.with_changed(number, rejected=rejected))
 
     def _along(self, start: int, way: ImprovementPath) -> Project:
-        """The project with the nodes of a way that begins at `start`, at the way's end."""
+        """Return the project with the nodes of `way` from `start`."""
         project = replace(self, current=start)
         for gone in way.superfluous:
             node = project.tree.holding(gone.before)
@@ -377,13 +377,13 @@ class Project(Plotted):
         return project if asked is None else project._remembering(asked.number, way.last)
 
     def _with_step(self, step: ImprovementStep) -> Project:
-        """One step on from the current node, by a node that took it before or a new one."""
+        """Take a step from the current node, to an existing node or a new one."""
         known = self.tree.holding(step.after)
         if known is not None:
             return replace(self, current=known.number)
         found = Found.of(step.finding)
         known = self.tree.child(self.current, "add", found.effect)
-        # What was rejected there the loop has not heeded, so that its way is another branch.
+        # The search did not know what was rejected there, so its steps form another branch.
         if known is None or known.rejected:
             return self._with_node("add", found, step.after)
         kept = Kept.of(step.after, self.source)
@@ -391,27 +391,14 @@ class Project(Plotted):
         return replace(self, tree=tree, current=known.number)
 
     def to_dict(self) -> dict[str, object]:
-        """What the commands print as JSON."""
+        """Return what the commands print as JSON."""
         return project_dict(self)
 
     def to_frame(self) -> pl.DataFrame:
-        """One row a node."""
+        """Return a table with one row for each node."""
         return project_frame(self)
 
 
-def _check_same(known: Node, effect: str) -> None:
-    """Refuse another formula under a name that was added here before."""
-    own = known.kept.model.formula(known.effect or "")
-    if own is None or not is_formula(effect):
-        return
-    text = effect_terms(effect).text
-    if text != own.text:
-        raise SpecError(
-            f"{own.name} = {own.text} was added here before (node {known.number}): give "
-            f"{text!r} another name"
-        )
-
-
 def project(path: str | os.PathLike[str]) -> Project:
-    """Open a project file, and check that its data are the same still; see `Project`."""
+    """Open a project file, and check that its data have not changed; see `Project`."""
     return Project.open(path)

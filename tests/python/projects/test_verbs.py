@@ -46,7 +46,7 @@ def test_what_was_added_before_is_gone_to_and_not_made_again(branched: sb.Projec
 def test_back_goes_to_the_parent_a_number_or_a_name(branched: sb.Project) -> None:
     assert branched.back().current == 0
     assert branched.back(1).current == branched.back("guess").current == 1
-    with pytest.raises(ProjectError, match="nothing is before"):
+    with pytest.raises(ProjectError, match="has no parent"):
         branched.back(0).back()
     with pytest.raises(ProjectError, match="did you mean 'guess'"):
         branched.back("gues")
@@ -55,7 +55,7 @@ def test_back_goes_to_the_parent_a_number_or_a_name(branched: sb.Project) -> Non
 def test_names_are_words_and_nobody_elses(branched: sb.Project) -> None:
     with pytest.raises(ProjectError, match="has the name 'guess' already"):
         branched.named("guess")
-    with pytest.raises(ProjectError, match="taken for a node's number"):
+    with pytest.raises(ProjectError, match="is a number"):
         branched.named("7")
     assert branched.back(1).named("").tree.node(1).name == ""
 
@@ -84,7 +84,7 @@ def test_dropping_an_effect_gives_back_the_error_without_it(branched: sb.Project
 def test_what_a_law_has_by_itself_cannot_be_dropped(folder: Path) -> None:
     data = folder / "data" / "joint.csv"
     made = sb.Project.new(folder / "b.toml", data, "bittencourt_a", starts=1, joint_kind="revolute")
-    with pytest.raises(SpecError, match="has stribeck by itself"):
+    with pytest.raises(SpecError, match="stribeck is part of the law"):
         made.drop("stribeck")
 
 

@@ -1,4 +1,4 @@
-"""A joint in a loop with its friction compensated, step by step in the core."""
+"""A joint in closed loop with friction compensation."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Compensator:
-    """What cancels friction: ``alpha`` times the torque of a model.
+    """Friction compensation: ``alpha`` times the torque of a model.
 
     Attributes
     ----------
     model
-        With values for all parameters. It is given the joint's temperature, and gravity and
-        inertia of the desired motion as load; its memory is its own.
+        Model with values. Its inputs are the temperature of the joint and, as load, gravity and
+        inertia of the desired motion; its internal state is separate from that of the joint.
     factor
         ``alpha``, 0 to 1.
     feedback
-        From the measured velocity; else from the desired one (feedforward).
+        Evaluate the model at the measured velocity; else at the desired one (feedforward).
     name
-        In tables and pictures; the default is the model's spec.
+        Label in tables and figures; default: the spec of the model.
     """
 
     model: Model
@@ -47,24 +47,24 @@ class Compensator:
     def __post_init__(self) -> None:
         if not 0.0 <= self.factor <= 1.0:
             raise SpecError(
-                f"the compensation factor is {self.factor:g}: give 0 to 1, more would push the "
-                f"joint harder than friction holds it"
+                f"the compensation factor is {self.factor:g}: give 0 to 1; above 1 "
+                f"compensation exceeds friction"
             )
 
     @property
     def label(self) -> str:
-        """How it is called."""
+        """Name, or the spec of the model."""
         return self.name or self.model.spec
 
 
 @dataclass(frozen=True)
 class ClosedLoopMotion:
-    """A motion in the loop; instants are the ends of the steps.
+    """A motion in closed loop; instants are the ends of the steps.
 
     Attributes
     ----------
     compensator
-        None: without.
+        None: without compensation.
     position, velocity
         At the instants ``k step``, arrays [steps + 1].
     error
@@ -89,7 +89,7 @@ class ClosedLoopMotion:
 
     @property
     def name(self) -> str:
-        """How it was compensated."""
+        """Name of the compensation, or "without"."""
         return "without" if self.compensator is None else self.compensator.label
 
     @property
@@ -99,13 +99,13 @@ class ClosedLoopMotion:
 
     @property
     def largest_error(self) -> float:
-        """rad or m."""
+        """Largest tracking error, rad or m."""
         return float(np.abs(self.error).max())
 
 
 @dataclass(frozen=True)
 class Bench:
-    """A joint with its true friction, what is seen of it, and what it shall do."""
+    """A joint with its true friction, an encoder and a desired motion."""
 
     acting: Acting
     step: float
@@ -119,26 +119,25 @@ class Bench:
         friction: Model | ModelFile | Fit,
         joint: Joint | None,
         trajectory: Trajectory,
-        *,
         seconds: float | None,
         step: float,
         temperature: ArrayLike | None,
         encoder: float,
     ) -> Bench:
-        """Checked, with a row a step.
+        """Check the arguments, and sample the desired motion at each step.
 
         Raises
         ------
         SpecError
-            Something is missing, or cannot be.
+            An argument is missing or invalid.
         """
         asked = friction if isinstance(friction, Model) else friction.model
         acting = take_apart(asked, joint)
         if acting.joint.transmission is not None:
-            raise SpecError("compensation is of a joint of one inertia: leave the transmission out")
+            raise SpecError("compensation needs a joint of one inertia: leave the transmission out")
         check_positive("step", step)
         if not (math.isfinite(encoder) and encoder >= 0.0):
-            raise SpecError(f"the encoder's step is {encoder:g}: give 0 or more")
+            raise SpecError(f"the resolution of the encoder is {encoder:g}: give 0 or more")
         duration = trajectory.duration if seconds is None else seconds
         check_positive("seconds", duration)
         steps = duration / step
@@ -160,54 +159,39 @@ class Bench:
         bandwidth: float | None = None,
         guided: bool = False,
     ) -> ClosedLoopMotion:
-        """One motion.
+        """Simulate one motion.
 
         Parameters
         ----------
         controller : Controller
-            Beside inertia and gravity; `guided`: the hand that pulls the joint.
+            Feedback controller, added to inertia and gravity; if `guided`, the hand that pulls.
         compensator : Compensator, optional
         bandwidth : float, optional
-            Of an observer for the friction that is left, 1/s.
+            Bandwidth of an observer of the remaining friction, 1/s.
         """
         position, velocity, acceleration = self.desired
-        joint, friction = self.acting.joint, self.acting.friction
+        friction = self.acting.friction
         given = {
             "position": position,
             "velocity": velocity,
             "acceleration": acceleration,
             "temperature": self.temperature,
         }
-        sizes = {
-            "inertia": joint.inertia,
-            "gravity": joint.gravity,
-            "gravity_cos": joint.gravity_cos,
-            "gravity_sin": joint.gravity_sin,
-            "stiffness": 0.0,
-            "damping": 0.0,
-        }
-        gains = {
-            "proportional": controller.proportional,
-            "integral": controller.integral,
-            "derivative": controller.derivative,
-            "velocity_weight": controller.velocity_weight,
-            "limit": controller.limit,
-        }
         try:
             answer = _core.compensate(
                 friction.core,
                 friction.values,
-                sizes,
+                _sizes(self.acting.joint),
                 given,
                 self.step,
-                gains,
+                _gains(controller),
                 None if compensator is None else self._cancels(compensator),
                 bandwidth,
                 guided,
                 self.encoder,
             )
         except _core.ModelError as error:
-            raise SpecError(f"{friction.spec} cannot be moved: {error}") from None
+            raise SpecError(f"{friction.spec} cannot be simulated: {error}") from None
         return ClosedLoopMotion(
             compensator=compensator,
             position=answer["position"],
@@ -236,8 +220,29 @@ class Bench:
         }
 
 
+def _sizes(joint: Joint) -> dict[str, float]:
+    return {
+        "inertia": joint.inertia,
+        "gravity": joint.gravity,
+        "gravity_cos": joint.gravity_cos,
+        "gravity_sin": joint.gravity_sin,
+        "stiffness": 0.0,
+        "damping": 0.0,
+    }
+
+
+def _gains(controller: Controller) -> dict[str, float]:
+    return {
+        "proportional": controller.proportional,
+        "integral": controller.integral,
+        "derivative": controller.derivative,
+        "velocity_weight": controller.velocity_weight,
+        "limit": controller.limit,
+    }
+
+
 def default_temperature(friction: Model, temperature: ArrayLike | None) -> ArrayLike:
-    """The joint's temperature, degC: as given, else the middle of the friction's box."""
+    """Return the temperature as given, or the middle of the operating box, degC."""
     if temperature is not None:
         return temperature
     if "temperature" in friction.box:

@@ -138,17 +138,17 @@ def teach(
     for compensator in compensators:
         if not compensator.feedback:
             raise SpecError(
-                f"{compensator.label} compensates the desired motion, which only the hand knows: "
-                f"use feedback"
+                f"{compensator.label} compensates the desired motion, which is unknown in direct "
+                f"teaching: use feedback"
             )
     bench = Bench.of(
         friction,
         joint,
         guidance.trajectory,
-        seconds=seconds,
-        step=step,
-        temperature=temperature,
-        encoder=encoder,
+        seconds,
+        step,
+        temperature,
+        encoder,
     )
     hand = Controller(guidance.stiffness, guidance.damping)
     return Teaching(

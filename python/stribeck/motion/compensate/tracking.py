@@ -1,4 +1,4 @@
-"""A joint follows a trajectory without friction compensation, and with it."""
+"""Tracking of a trajectory without and with friction compensation."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from stribeck.motion.simulate.trajectory import Trajectory
 
 @dataclass(frozen=True, repr=False)
 class Tracking(Plotted):
-    """The same trajectory followed several times.
+    """The same trajectory, tracked with several compensations.
 
     Attributes
     ----------
     friction
-        What really resists.
+        True friction of the joint.
     joint, controller, step
-        What is moved, and by whom: step in s.
+        The joint, its feedback controller, and the time step, s.
     motions
         The first is without compensation.
     desired_position
@@ -47,7 +47,7 @@ class Tracking(Plotted):
     observer: float | None
 
     def reduction(self, motion: ClosedLoopMotion) -> float:
-        """By which share the RMSE is below that without compensation."""
+        """Return the relative reduction of the RMSE compared with no compensation."""
         without = self.motions[0].rmse
         return 1.0 - motion.rmse / without if without > 0.0 else 0.0
 
@@ -93,55 +93,35 @@ def compensate(
     observer: float | None = None,
     encoder: float = 0.0,
 ) -> Tracking:
-    """Follow a trajectory without compensation, then with each compensator.
+    """Track a trajectory without compensation, then with each compensator.
 
     Parameters
     ----------
     friction : Model, ModelFile or Fit
-        What really resists.
+        True friction of the joint.
     joint : Joint, optional
-        None: the inertia and gravity identified with the friction.
+        The joint; None: with the inertia and gravity identified together with the friction.
     trajectory : Trajectory
     compensators : sequence of Compensator
     controller : HInfinity, optional
-        The same for all; the default has three poles at 5 Hz.
+        The same for all motions; default: three poles at 5 Hz.
     seconds : float, optional
-        Default: as long as the trajectory.
+        Duration; default: that of the trajectory.
     step : float
-        s; the controller's sampling time too.
+        Time step, s; also the sampling time of the controller.
     temperature : float or array [steps], optional
-        degC; the default is the middle of the friction's operating box.
+        degC; default: the middle of the operating box of the friction.
     observer : float, optional
-        Bandwidth, Hz, of an observer whose estimate of the friction that is left is compensated
-        too, in all motions.
+        Bandwidth, Hz, of an observer. Its estimate of the remaining friction is compensated too.
     encoder : float
-        Resolution of the encoder, rad or m: position in these steps and velocity by their
-        differences are all that is measured; 0 measures both exactly.
+        Resolution, rad or m. Velocity is the difference of positions; 0 measures both exactly.
 
     Raises
     ------
     SpecError
-        Something is missing, or cannot be.
-
-    Examples
-    --------
-    >>> from stribeck.models.build import model
-    >>> from stribeck.motion.simulate import Quintic
-    >>> friction = model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
-    >>> ahead = Compensator(friction, feedback=False)
-    >>> moved = compensate(friction, Joint.revolute(0.1), Quintic(0.0, 1.0, 2.0), [ahead])
-    >>> moved.motions[1].rmse < 0.1 * moved.motions[0].rmse
-    True
+        An argument is missing or invalid.
     """
-    bench = Bench.of(
-        friction,
-        joint,
-        trajectory,
-        seconds=seconds,
-        step=step,
-        temperature=temperature,
-        encoder=encoder,
-    )
+    bench = Bench.of(friction, joint, trajectory, seconds, step, temperature, encoder)
     inertia = bench.acting.joint.inertia
     gains = HInfinity.with_bandwidth(inertia) if controller is None else controller
     if observer is not None and not (math.isfinite(observer) and observer > 0.0):

@@ -1,4 +1,8 @@
-"""A motion that shows effects which the data at hand cannot show, or cannot tell apart."""
+"""Find a motion that shows effects which the present data cannot show or separate.
+
+The search covers Fourier series and point-to-point motions. It maximises the visibility of the
+least visible effect, each after a refit of the model.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +18,7 @@ from stribeck.diagnosis.visibility.visibility import problem_of
 from stribeck.effect.registry import of_catalog
 from stribeck.effect.thermal import WARMING
 from stribeck.fitting.result import Fit
+from stribeck.identify.problem import Problem
 from stribeck.models.catalog import catalog, check_effect, effect_ids
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -26,10 +31,10 @@ from stribeck.motion.design.search import search
 from stribeck.motion.design.setting import Setting, setting_of_file, setting_of_fit
 from stribeck.recording.recording import Recording
 
-#: Samples a second of a motion for a joint of which no recording is given.
+#: Sampling rate of a planned motion if there is no recording, Hz.
 RATE = 100.0
 SHORTEST, LONGEST = 5.0, 3600.0
-#: A motion is at least so many times faster than the noise of the velocity.
+#: Smallest ratio of the largest speed to the noise of the velocity.
 FASTER = 5.0
 
 
@@ -46,61 +51,40 @@ def plan(
     noise: float | None = None,
     seed: int = 0,
 ) -> Plan:
-    """Find a motion within limits that shows effects best which a model lacks.
-
-    The motion is searched among Fourier series and point-to-point moves; of all wanted effects
-    the least visible one counts, each beside what a refit of the model takes up.
+    """Find a motion within limits that best shows effects which a model lacks.
 
     Parameters
     ----------
-    of : Fit or ModelFile
-        A fit to the data at hand, or a model of the joint without data (`read_model_file`).
+    of
+        A fit to the present data, or a model without data (`read_model_file`).
     position, speed, acceleration
-        Limits that every sample keeps to, in rad or m and s.
+        Limits of every sample, rad or m and s.
     separate, show : sequences of str
-        Effects to be told from each other, and effects to be seen.
-    duration, rate : float
-        Seconds, and samples a second; default: the rate of the data, else 100 Hz.
-    noise : float
-        RMS of the torque noise, for a model file that does not say it.
-    seed : int
-        Of the search; the same seed gives the same motion.
+        Effects to separate from each other; effects to show.
+    duration, rate, noise, seed
+        Duration, s; sampling rate, Hz (default: that of the data, else 100 Hz); RMS of the torque
+        noise, if a model file does not state it; seed of the search.
 
     Raises
     ------
     SpecError, FitError
-        Effects that the model has already or that cannot be planned for; limits that are none.
+        An effect is in the model already or cannot be planned for; a limit is invalid.
     """
-    limits = Limits(float(position[0]), float(position[1]), float(speed), float(acceleration))
+    limits = Limits(*map(float, (*position, speed, acceleration)))
     fitted = of if isinstance(of, Fit) else None
-    separate = tuple(dict.fromkeys(separate))
     effects = _checked(of.model, separate, show)
-    setting = setting_of_fit(of) if isinstance(of, Fit) else setting_of_file(of, limits, noise)
-    if any("temperature" in catalog()["effects"][e]["channels"] for e in effects):
-        # No motion at one temperature shows such an effect.
-        (usual,) = setting.temperatures
-        setting = replace(setting, temperatures=(usual - WARMING / 2, usual + WARMING / 2))
-    _check_load(effects, setting)
-    _check_speed(limits, setting)
+    setting = _setting(of, limits, noise, effects)
     samples = _rate(rate, fitted)
     _check_size(duration, samples)
-    families: tuple[Family, ...] = (
-        FourierMotions(limits, duration, samples),
-        PassMotions(limits, duration),
-    )
-    at_hand = problem_of(fitted) if fitted is not None else None
-    reference = at_hand or setting.problem(
-        setting.recording(families[1].motion(families[1].start, samples), samples)
-    )
+    moves = PassMotions(limits, duration)
+    families: tuple[Family, ...] = (FourierMotions(limits, duration, samples), moves)
+    present = None if fitted is None else problem_of(fitted)
+    reference = present or _reference(setting, moves, samples)
     residual = None if fitted is None else fitted.residual
-    wanted = Wanted.of(reference, residual, show, separate)
+    wanted = Wanted.of(reference, residual, show, tuple(dict.fromkeys(separate)))
     kind, motion = search(families, wanted, setting, duration, samples, seed)
-    demand = Demand(SIGNIFICANCE / len(effect_ids()), LEAST_FALL)
     planned = setting.recording(motion, samples)
-    after = sight(wanted, setting.problem(planned), setting.expected_noise(planned), demand)
-    before = None
-    if fitted is not None and at_hand is not None:
-        before = sight(wanted, at_hand, Noise.of(fitted.residual[fitted.rows]), demand)
+    before, after = _sights(wanted, setting, planned, fitted, present)
     return Plan(
         model=of.model,
         motion=motion,
@@ -108,28 +92,59 @@ def plan(
         kind=kind,
         limits=limits,
         prospects=tuple(_prospect(e, wanted, before, after) for e in effects),
-        cosines={
-            pair: (None if before is None else before.cosines[pair], cosine)
-            for pair, cosine in after.cosines.items()
-        },
+        cosines=_cosines(before, after),
         source=None if fitted is None else fitted.recording.path,
         seed=seed,
         notes=(*setting.notes, *_still_hidden(effects, setting, planned)),
     )
 
 
+def _setting(
+    of: Fit | ModelFile, limits: Limits, noise: float | None, effects: Sequence[str]
+) -> Setting:
+    """Return the conditions of the planned recording, checked for the wanted effects."""
+    setting = setting_of_fit(of) if isinstance(of, Fit) else setting_of_file(of, limits, noise)
+    if any("temperature" in catalog()["effects"][e]["channels"] for e in effects):
+        # No motion at one temperature shows such an effect.
+        (usual,) = setting.temperatures
+        setting = replace(setting, temperatures=(usual - WARMING / 2, usual + WARMING / 2))
+    _check_load(effects, setting)
+    _check_speed(limits, setting)
+    return setting
+
+
+def _reference(setting: Setting, moves: PassMotions, rate: float) -> Problem:
+    """Return the model on a first motion, where there are no data."""
+    return setting.problem(setting.recording(moves.motion(moves.start, rate), rate))
+
+
+def _sights(
+    wanted: Wanted,
+    setting: Setting,
+    planned: Recording,
+    fitted: Fit | None,
+    present: Problem | None,
+) -> tuple[Sight | None, Sight]:
+    """Return what the present data and the planned recording show of the wanted effects."""
+    demand = Demand(SIGNIFICANCE / len(effect_ids()), LEAST_FALL)
+    after = sight(wanted, setting.problem(planned), setting.expected_noise(planned), demand)
+    if fitted is None or present is None:
+        return None, after
+    return sight(wanted, present, Noise.of(fitted.residual[fitted.rows]), demand), after
+
+
 def _still_hidden(effects: Sequence[str], setting: Setting, planned: Recording) -> tuple[str, ...]:
-    """What the motion leaves undone by the rules that a diagnosis goes by."""
+    """Return the effects that a diagnosis would not test on this motion, and why."""
     cannot = untestable(planned, setting.problem(planned).load)
     return tuple(
-        f"a diagnosis would not look for {e} on this motion ({cannot[e].why}): {cannot[e].do}"
+        f"a diagnosis would not test {e} on this motion ({cannot[e].why}): {cannot[e].do}"
         for e in effects
         if e in cannot
     )
 
 
 def _checked(model: Model, separate: Sequence[str], show: Sequence[str]) -> tuple[str, ...]:
-    """The wanted effects, each of which the model must lack."""
+    """Return the wanted effects; the model must lack each of them."""
     effects = tuple(dict.fromkeys((*separate, *show)))
     if not effects:
         raise SpecError(f"no effect is given: give {option('separate')} or {option('show')}")
@@ -153,8 +168,8 @@ def _check_load(effects: Sequence[str], setting: Setting) -> None:
     for effect in effects:
         if "load_torque" in catalog()["effects"][effect]["channels"]:
             raise SpecError(
-                f"{effect} depends on the load, and nothing says what load a motion has here: "
-                f"give data with load_torque, or a model with identified inertia and gravity"
+                f"{effect} depends on the load torque, which is unknown for a new motion: give "
+                f"data with load_torque, or a model with identified inertia and gravity"
             )
 
 
@@ -169,7 +184,7 @@ def _check_speed(limits: Limits, setting: Setting) -> None:
 
 def _rate(rate: float | None, fitted: Fit | None) -> float:
     if rate is None:
-        # A clock's rate to four digits is the one that it was set to.
+        # Four digits of a measured rate are those of the nominal rate.
         return RATE if fitted is None else float(f"{fitted.recording.rate_hz:.4g}")
     return float(rate)
 
@@ -181,6 +196,15 @@ def _check_size(duration: float, rate: float) -> None:
         )
     if not 10.0 <= rate <= 1e4:
         raise SpecError(f"a rate of {rate:g} Hz is out of range: give 10 Hz to 10000 Hz")
+
+
+def _cosines(
+    before: Sight | None, after: Sight
+) -> dict[tuple[str, str], tuple[float | None, float]]:
+    return {
+        pair: (None if before is None else before.cosines[pair], cosine)
+        for pair, cosine in after.cosines.items()
+    }
 
 
 def _prospect(effect: str, wanted: Wanted, before: Sight | None, after: Sight) -> Prospect:

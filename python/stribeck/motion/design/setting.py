@@ -1,6 +1,6 @@
-"""What a planned motion is run on: a model, its noise, the load and the temperature of a joint.
+"""Conditions of a planned motion: the model, noise, load and temperature of a joint.
 
-From these and a motion follows the recording that would be made, without its torque noise.
+With a motion they give the recording that would be made, without torque noise.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from stribeck.recording.rows import held_out_blocks
 
 Array = NDArray[np.float64]
 
-#: Temperature of a joint of which none is known, degC.
+#: Temperature if none is known, degC.
 ROOM = 25.0
-#: Share of the largest speed below which a motion counts as rest, where no noise is known.
+#: Share of the largest speed below which a joint counts as at rest, if no noise is known.
 STANDSTILL = 1e-3
 #: Share of a recorded load torque that inertia and gravity of one payload must explain.
 EXPLAINED = 0.95
@@ -35,20 +35,21 @@ EXPLAINED = 0.95
 
 @dataclass(frozen=True)
 class Setting:
-    """A joint as a plan sees it.
+    """Conditions of a planned recording.
 
     Attributes
     ----------
     model
-        With values.
+        Model with values.
     noise, memory
-        RMS of the torque noise, and for how long it remembers itself, s.
+        RMS of the torque noise, and its correlation time, s.
     load : array [4] or None
-        Load torque on ``(a, 1, cos q, sin q)``; None: identified with the friction, or unknown.
+        Coefficients of the load torque on ``(a, 1, cos q, sin q)``; None: identified with the
+        friction, or unknown.
     temperatures
-        Temperatures in degC at each of which the motion is run.
+        The motion is recorded once at each of these temperatures, degC.
     slowest
-        Speed below which a row counts as rest.
+        Speed below which a sample counts as at rest.
     """
 
     model: Model
@@ -61,9 +62,17 @@ class Setting:
     notes: tuple[str, ...] = ()
 
     def recording(self, motion: SampledMotion, rate: float) -> Recording:
-        """The recording that `motion` would make, one run a temperature; its torque is friction
-        by the model and the load.
-        """
+        """Return the noise-free recording of `motion`, one run for each temperature."""
+        made = self._moved(motion, rate)
+        if not made.moving.any():
+            return made
+        # Some laws read the sign of the motor torque, which follows from friction without it.
+        for _ in range(2 if "motor_torque" in self.model.core.needs else 1):
+            made = replace(made, torque=self.problem(made).predict(self.model.values))
+        return made
+
+    def _moved(self, motion: SampledMotion, rate: float) -> Recording:
+        """Return a recording of `motion` with torque 0."""
         runs = len(self.temperatures)
         n = motion.time.size
         q, v, a = (
@@ -79,7 +88,7 @@ class Setting:
         time = np.tile(motion.time, runs) + run * (motion.time[-1] + 1.0 / rate)
         block, blocks = held_out_blocks(dt, run, run, 1.0 / rate)
         unit, position_unit = self.model.torque_unit, self.model.position_unit
-        made = Recording(
+        return Recording(
             path="planned motion",
             sha256="",
             joint=None,
@@ -115,33 +124,27 @@ class Setting:
             cutoff_hz=None,
             external_torque=external,
         )
-        if not made.moving.any():
-            return made
-        # The sign of the motor torque, which some laws read, follows from friction without it.
-        for _ in range(2 if "motor_torque" in self.model.core.needs else 1):
-            made = replace(made, torque=self.problem(made).predict(self.model.values))
-        return made
 
     def problem(self, recording: Recording) -> Problem:
-        """The model on the rows of a planned recording that move."""
+        """Return the model on the moving samples of a planned recording."""
         return Problem(
             recording, self.model, np.flatnonzero(recording.moving), own_load(self.model, recording)
         )
 
     def expected_noise(self, recording: Recording) -> ExpectedNoise:
-        """The noise that the rows of a planned recording that move would have."""
+        """Return the expected noise of the moving samples of a planned recording."""
         memory = max(1.0, self.memory * recording.rate_hz)
         return ExpectedNoise(self.noise, memory, int(recording.moving.sum()))
 
 
 def setting_of_fit(fitted: Fit) -> Setting:
-    """The joint of a recording, by a model that was fitted to it."""
+    """Return the conditions of a recording and of the model fitted to it."""
     r = fitted.recording
     _refuse_drive(fitted.model)
     residual = fitted.residual[fitted.rows]
     if r.averaged or r.rate_hz <= 0:
         raise FitError(
-            f"{r.path} holds steady-state points, which do not say how the noise of a motion is: "
+            f"{r.path} holds steady-state points, which do not show the noise of a motion: "
             f"give a recording of a motion, or a model file alone"
         )
     load, notes = _load_of(r)
@@ -159,7 +162,7 @@ def setting_of_fit(fitted: Fit) -> Setting:
 
 
 def setting_of_file(stored: ModelFile, limits: Limits, noise: float | None) -> Setting:
-    """The joint of a model file, without a recording.
+    """Return the conditions that a model file states, without a recording.
 
     Parameters
     ----------
@@ -186,24 +189,24 @@ def setting_of_file(stored: ModelFile, limits: Limits, noise: float | None) -> S
 def _refuse_drive(model: Model) -> None:
     if model.drive is not None:
         raise SpecError(
-            f"{model.spec} predicts the {model.drive} on a motor, which a motion alone does not "
-            f"set: plan with a model of the torque"
+            f"{model.spec} predicts the {model.drive} on a motor, which a motion does not "
+            f"determine: plan with a model of the torque"
         )
 
 
 def _regressors(joint_kind: str, position: Array, acceleration: Array) -> Array:
-    """What inertia and gravity make a load torque of, array [n, 4]."""
+    """Return the regressors of inertia and gravity for a load torque, array [n, 4]."""
     one = np.ones_like(position)
     turn = 1.0 if joint_kind == "revolute" else 0.0
     return np.column_stack([acceleration, one, turn * np.cos(position), turn * np.sin(position)])
 
 
 def _load_of(r: Recording) -> tuple[Array | None, tuple[str, ...]]:
-    """Inertia and gravity that make up a recorded load torque, on `_regressors`."""
+    """Return the coefficients of a recorded load torque on `_regressors`, and notes."""
     if r.load_torque is None:
         return None, ()
     if r.position is None:
-        raise FitError(f"{r.path} has no position, so the load of a new motion is not known")
+        raise FitError(f"{r.path} has no position, so the load of a new motion is unknown")
     columns = _regressors(r.joint_kind, r.position, r.acceleration)
     shares: Array = np.asarray(np.linalg.lstsq(columns, r.load_torque, rcond=1e-9)[0], dtype=float)
     left = rms(r.load_torque - columns @ shares)
@@ -211,7 +214,7 @@ def _load_of(r: Recording) -> tuple[Array | None, tuple[str, ...]]:
     if explained >= EXPLAINED:
         return shares, ()
     note = (
-        f"inertia and gravity of one payload make up {explained:.0%} of the recorded load torque; "
-        f"the plan reckons with these alone"
+        f"inertia and gravity of one payload explain {explained:.0%} of the recorded load torque; "
+        f"the plan uses these alone"
     )
     return shares, (note,)

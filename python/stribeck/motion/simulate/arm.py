@@ -1,4 +1,4 @@
-"""A planar arm of two joints in motion (Indri et al., eq 4), friction in both."""
+"""Simulation of a planar arm of two joints with friction in both (Indri et al., eq 4)."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PlanarArm:
-    """The inertial parameters of eq 12; the second angle is relative to the first link.
+    """Inertial parameters (eq 12); the second angle is relative to the first link.
 
     Attributes
     ----------
@@ -48,25 +48,25 @@ class PlanarArm:
 
     def __post_init__(self) -> None:
         if not all(math.isfinite(x) for x in asdict(self).values()):
-            raise SpecError("the arm's parameters must be numbers")
+            raise SpecError("the parameters of the arm must be finite numbers")
         coupling = self.first_link_length * math.hypot(self.moment_2x, self.moment_2y)
         if not (self.inertia_2 > 0.0 and self.inertia_1 * self.inertia_2 > coupling**2):
             raise SpecError(
-                f"the arm's inertia would not be positive in every posture: inertia_1 times "
+                f"the inertia of the arm is not positive in every posture: inertia_1 times "
                 f"inertia_2 is {self.inertia_1 * self.inertia_2:g}, and must exceed "
                 f"(l1 moment_2)^2, {coupling**2:g}"
             )
 
     @classmethod
     def identified(cls, fit: ArmFit) -> PlanarArm:
-        """The arm of `stribeck arm`."""
+        """Return the arm that `stribeck arm` identified."""
         first, along, across, second = (float(x) for x in fit.values[:4])
         return cls(first, along, across, second, fit.first_link_length)
 
 
 @dataclass(frozen=True)
 class ArmMotion:
-    """A motion of the arm: postures between steps, means over steps; a column a joint.
+    """A motion of the arm: states between steps, means over steps; one column for each joint.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class ArmMotion:
     friction_work: Array
 
     def to_frame(self) -> pl.DataFrame:
-        """Both joints as recordings, a row a step and joint: all columns at the step's middle."""
+        """Return recordings of both joints, one sample for each step, at its middle."""
         time = self.step * (np.arange(self.torque.shape[0], dtype=np.float64) + 0.5)
         joints = [
             pl.DataFrame(
@@ -119,77 +119,63 @@ def simulate_arm(
     velocity: Sequence[float] = (0.0, 0.0),
     temperature: ArrayLike = 25.0,
 ) -> ArmMotion:
-    """Move a planar arm with friction in both joints.
+    """Simulate the motion of a planar arm, as `simulate` does for one joint.
 
     Parameters
     ----------
-    friction : two Models
-        With values for all parameters.
+    friction, drives : two Models, two of Torque or Follow
+        For each joint: the model with values, and the drive. The controllers are independent.
     arm : PlanarArm
-    drives : two of Torque or Follow
-        Of each joint; controllers know nothing of each other.
-    seconds : float, optional
-        Default: as long as the longer trajectory.
-    step : float
-        s.
+    seconds, step : float
+        Duration, s (default: that of the longer trajectory), and time step, s.
     position, velocity : two floats, optional
-        At the start, rad and rad/s; default: where trajectories begin.
+        Initial state, rad and rad/s; default: that of the trajectories.
     temperature : float or array [steps]
         degC.
 
     Raises
     ------
     SpecError
-        Something is missing, or cannot be.
-
-    Notes
-    -----
-    As `simulate`, with both equations of friction solved within each other.
+        An argument is missing or invalid.
     """
     if len(friction) != 2 or len(drives) != 2:
         raise SpecError("a planar arm has two joints: give two models and two drives")
     check_positive("step", step)
     count = max(steps_of(drive, seconds, step) for drive in drives)
     models = [friction_of(model)[0] for model in friction]
-    begun = step * np.arange(count, dtype=np.float64)
-    acting = {
-        "torque": np.zeros((count, 2)),
-        "temperature": np.column_stack([column("temperature", temperature, count)] * 2),
-        "desired_position": np.zeros((count, 2)),
-        "desired_velocity": np.zeros((count, 2)),
-    }
-    for joint, drive in enumerate(drives):
-        if isinstance(drive, Torque):
-            acting["torque"][:, joint] = column("torque", drive.torque, count)
-            continue
-        if drive.feedforward:
-            raise SpecError("feedforward knows one inertia, not an arm's: leave it out")
-        at, speed, _ = drive.trajectory(begun)
-        acting["desired_position"][:, joint], acting["desired_velocity"][:, joint] = at, speed
-    place = acting["desired_position"][0] if position is None else np.asarray(position)
+    columns = _columns(drives, step * np.arange(count, dtype=np.float64))
+    columns["temperature"] = np.column_stack([column("temperature", temperature, count)] * 2)
+    place = columns["desired_position"][0] if position is None else np.asarray(position)
     try:
         answer = _core.simulate_arm(
             (models[0].core, models[1].core),
             (models[0].values, models[1].values),
             _sizes(arm),
-            acting,
+            columns,
             step,
             (place.tolist(), list(velocity)),
             (_gains(drives[0]), _gains(drives[1])),
         )
     except _core.ModelError as error:
         raise SpecError(f"the arm cannot be simulated: {error}") from None
-    return ArmMotion(
-        arm=arm,
-        step=step,
-        instant_position=answer["position"],
-        instant_velocity=answer["velocity"],
-        torque=answer["torque"],
-        load_torque=answer["load_torque"],
-        friction_torque=answer["friction_torque"],
-        motor_work=answer["motor_work"],
-        friction_work=answer["friction_work"],
-    )
+    names = ("torque", "load_torque", "friction_torque", "motor_work", "friction_work")
+    means = {name: answer[name] for name in names}
+    return ArmMotion(arm, step, answer["position"], answer["velocity"], **means)
+
+
+def _columns(drives: Sequence[Torque | Follow], time: Array) -> dict[str, Array]:
+    """Return the inputs of both joints in each step, arrays [steps, 2]."""
+    names = ("torque", "desired_position", "desired_velocity")
+    columns = {name: np.zeros((time.size, 2)) for name in names}
+    for joint, drive in enumerate(drives):
+        if isinstance(drive, Torque):
+            columns["torque"][:, joint] = column("torque", drive.torque, time.size)
+            continue
+        if drive.feedforward:
+            raise SpecError("feedforward needs a joint of one inertia: leave it out for an arm")
+        at, speed, _ = drive.trajectory(time)
+        columns["desired_position"][:, joint], columns["desired_velocity"][:, joint] = at, speed
+    return columns
 
 
 def _sizes(arm: PlanarArm) -> dict[str, float]:

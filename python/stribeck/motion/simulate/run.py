@@ -12,14 +12,14 @@ from stribeck.base.errors import SpecError
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
-from stribeck.motion.simulate.acting import take_apart
+from stribeck.motion.simulate.acting import Acting, take_apart
 from stribeck.motion.simulate.drive import Drive, Follow, Pull, Torque
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.result import Simulation
 
 Array = NDArray[np.float64]
 
-#: Steps of one simulation: 2 GB of numbers.
+#: Largest number of steps of one simulation; its arrays take 2 GB.
 MOST_STEPS = 10_000_000
 
 
@@ -36,44 +36,35 @@ def simulate(
     temperature: ArrayLike | None = None,
     external_torque: ArrayLike = 0.0,
 ) -> Simulation:
-    """Move a joint with friction, step by step.
+    """Simulate the motion of a joint with friction.
+
+    Uses the implicit midpoint rule with the exact mean of the friction over each step. It is stable
+    for any step, and energy is conserved to rounding. A static law holds the joint exactly at rest.
 
     Parameters
     ----------
     model : Model, ModelFile or Fit
-        With values for all parameters. What it says of the measurement (delay, gain, saturation)
-        is left out.
+        Model with values. Its effects on the measurement (delay, gain, saturation) are ignored.
     joint : Joint, optional
-        What friction acts on; None: the inertia and gravity identified with the friction.
+        The joint; None: with the inertia and gravity identified together with the friction.
     drive : Torque, Follow or Pull
         What moves the joint.
     seconds : float, optional
-        How long. The default is the trajectory's, or as long as the torque is given.
+        Duration; default: that of the trajectory or of the given torques.
     step : float or array [steps]
-        s; the controller's sampling time too.
-    position, velocity : float, optional
-        At the start, rad or m; the default is where the trajectory begins, else 0.
-    deflection : float
-        Of the bristle at the start, rad or m.
+        Time step, s; also the sampling time of the controller.
+    position, velocity, deflection : float, optional
+        Initial state, rad or m and s; default: that of the trajectory, else 0. The deflection is
+        that of the bristle.
     temperature : float or array [steps], optional
-        degC; the default is the middle of the model's operating box.
+        degC; default: the middle of the operating box of the model.
     external_torque : float or array [steps]
-        Along positive motion, N m or N.
-
-    Returns
-    -------
-    Simulation
+        Positive in the direction of positive motion, N m or N.
 
     Raises
     ------
     SpecError
-        Something is missing, or cannot be.
-
-    Notes
-    -----
-    The implicit midpoint rule with the exact mean of the friction over the step: stable for any
-    step, and energy balances to rounding. A model without a memory holds the joint at rest by any
-    torque up to its level: such a joint stands exactly still.
+        An argument is missing or invalid.
 
     Examples
     --------
@@ -83,31 +74,41 @@ def simulate(
     >>> float(pushed.position_end)
     0.0
     """
-    asked = model if isinstance(model, Model) else model.model
-    acting = take_apart(asked, joint)
+    given = model if isinstance(model, Model) else model.model
+    acting = take_apart(given, joint)
     instants = _instants(drive, seconds, step)
     count = instants.size - 1
-    start = _start(drive, position, velocity)
-    if not math.isfinite(deflection):
-        raise SpecError(f"deflection {deflection} at the start cannot be: give a number")
+    start = _start(drive, position, velocity, deflection)
     columns = _columns(drive, acting.joint, instants, start[0])
-    columns["temperature"] = column("temperature", _warmth(asked, temperature), count)
+    columns["temperature"] = column("temperature", _temperature(given, temperature), count)
     columns["external"] = column("external torque", external_torque, count)
+    return _simulated(given, acting, drive, instants, columns, start)
+
+
+def _simulated(
+    model: Model,
+    acting: Acting,
+    drive: Drive,
+    instants: Array,
+    columns: dict[str, Array],
+    start: tuple[float, float, float],
+) -> Simulation:
+    """Run the steps in the core; `start` is position, velocity and deflection."""
     try:
         answer = _core.simulate(
             acting.friction.core,
             acting.friction.values,
             _sizes(acting.joint, drive),
             columns,
-            start,
-            deflection,
+            start[:2],
+            start[2],
             _gains(drive),
-            _apart(acting.joint),
+            _transmission(acting.joint),
         )
     except _core.ModelError as error:
-        raise SpecError(f"{asked.spec} cannot be simulated: {error}") from None
+        raise SpecError(f"{model.spec} cannot be simulated: {error}") from None
     return Simulation(
-        model=asked,
+        model=model,
         joint=acting.joint,
         drive=drive,
         instants=instants,
@@ -128,16 +129,16 @@ def simulate(
 
 
 def check_positive(name: str, value: float) -> None:
-    """Refuse what is not above 0."""
+    """Raise SpecError if `value` is not finite and positive."""
     if not (math.isfinite(value) and value > 0.0):
-        raise SpecError(f"{name} {value:g} cannot be: give a number above 0")
+        raise SpecError(f"{name} {value:g} is invalid: give a number above 0")
 
 
 def _instants(drive: Drive, seconds: float | None, step: float | Array) -> Array:
-    """The times between steps, array [steps + 1]."""
+    """Return the times between the steps, array [steps + 1]."""
     if isinstance(step, np.ndarray):
         if seconds is not None or step.ndim != 1 or not step.size:
-            raise SpecError("with one step after the other given, the seconds follow from them")
+            raise SpecError("each step is given: leave the seconds out")
         check_positive("step", float(step.min()))
         return np.concatenate([[0.0], np.cumsum(step, dtype=np.float64)])
     check_positive("step", step)
@@ -145,12 +146,12 @@ def _instants(drive: Drive, seconds: float | None, step: float | Array) -> Array
 
 
 def steps_of(drive: Drive, seconds: float | None, step: float) -> int:
-    """How many steps."""
+    """Return the number of steps."""
     if seconds is None:
         if isinstance(drive, Torque) and np.ndim(drive.torque) == 1:
             return np.size(drive.torque)
         if not isinstance(drive, Follow):
-            raise SpecError("how long? Give the seconds")
+            raise SpecError("the duration is unknown: give the seconds")
         seconds = drive.trajectory.duration
     check_positive("seconds", seconds)
     count = seconds / step
@@ -161,19 +162,24 @@ def steps_of(drive: Drive, seconds: float | None, step: float) -> int:
     return round(count)
 
 
-def _start(drive: Drive, position: float | None, velocity: float | None) -> tuple[float, float]:
+def _start(
+    drive: Drive, position: float | None, velocity: float | None, deflection: float
+) -> tuple[float, float, float]:
+    """Return initial position, velocity and deflection."""
     begin = (0.0, 0.0)
     if isinstance(drive, Follow):
         at, speed, _ = drive.trajectory(np.zeros(1))
         begin = (float(at[0]), float(speed[0]))
     start = (begin[0] if position is None else position, begin[1] if velocity is None else velocity)
     if not all(map(math.isfinite, start)):
-        raise SpecError("position and velocity at the start must be numbers")
-    return start
+        raise SpecError("initial position and velocity must be finite numbers")
+    if not math.isfinite(deflection):
+        raise SpecError(f"the initial deflection is {deflection}: give a finite number")
+    return (*start, deflection)
 
 
 def _columns(drive: Drive, joint: Joint, instants: Array, start: float) -> dict[str, Array]:
-    """What the drive does in each step."""
+    """Return the inputs of the drive in each step."""
     begun, length = instants[:-1], np.diff(instants)
     count = begun.size
     names = ("torque", "support", "support_velocity", "desired_position", "desired_velocity")
@@ -193,24 +199,24 @@ def _columns(drive: Drive, joint: Joint, instants: Array, start: float) -> dict[
 
 
 def _rigid_body(drive: Follow, joint: Joint, time: Array) -> Array:
-    """Torque that inertia and gravity of the desired motion need."""
+    """Return the torque for inertia and gravity of the desired motion."""
     at, _, acceleration = drive.trajectory(time)
     gravity = joint.gravity_cos * np.cos(at) + joint.gravity_sin * np.sin(at)
     return joint.total_inertia * acceleration + joint.gravity + gravity
 
 
 def column(name: str, values: ArrayLike, count: int) -> Array:
-    """One number a step, from one or from as many."""
+    """Return an array with one value for each step, from a single value or as many as steps."""
     given = np.asarray(values, dtype=np.float64)
     if given.ndim > 1 or (given.ndim == 1 and given.size != count):
-        raise SpecError(f"{name} has {given.size} values for {count} steps: give one a step")
+        raise SpecError(f"{name} has {given.size} values for {count} steps: give one for each step")
     if not np.isfinite(given).all():
-        raise SpecError(f"{name} is not a number everywhere")
+        raise SpecError(f"{name} has values that are not finite")
     return np.full(count, given) if given.ndim == 0 else np.ascontiguousarray(given)
 
 
-def _warmth(model: Model, temperature: ArrayLike | None) -> ArrayLike:
-    """The temperature, as given or as the model's box has it."""
+def _temperature(model: Model, temperature: ArrayLike | None) -> ArrayLike:
+    """Return the temperature as given, or the middle of the operating box of the model."""
     if temperature is not None:
         return temperature
     if "temperature" not in model.core.needs:
@@ -232,7 +238,7 @@ def _sizes(joint: Joint, drive: Drive) -> dict[str, float]:
     }
 
 
-def _apart(joint: Joint) -> dict[str, float] | None:
+def _transmission(joint: Joint) -> dict[str, float] | None:
     return None if joint.transmission is None else vars(joint.transmission)
 
 

@@ -58,31 +58,25 @@ def fleet(
     note: Callable[[str], None] = lambda sentence: None,
     **reading: Unpack[ReadArguments],
 ) -> Fleet:
-    """Identify every joint of many files, and find the joints that changed or stand out.
+    """Identify every joint of many files; find joints that changed or stand out.
 
     Parameters
     ----------
     files
         Paths, or patterns such as ``"logs/*/2026-03-*.parquet"``.
     output
-        Folder of the data set. Unchanged files that it covers are not identified again; the
-        result is about all of its rows.
+        Folder of the data set. Files that it covers already are not identified again.
     model, base
         The model fitted to every joint, or ``"improve"``: find the effects that `base` lacks.
     name, day
         Pattern of the paths, ``"{robot}/{day}.parquet"`` (see `Naming`); column of the date.
-    question
-        Which days are new, and how large a change must be.
     executor, scheduler, workers
-        Any executor, which stays open; or the address of a Dask scheduler; or a number of processes
-        of this machine (default: one for each core). The result does not depend on them.
-    straggler
-        Run a task again that takes this many times the median; None: never.
-    retry_failed
-        Run tasks again that failed before.
+        An executor, which stays open; or the address of a Dask scheduler; or a number of processes
+        (default: one for each core). The result does not depend on them.
+    straggler, retry_failed
+        Run a task again that takes this many times the median, or that failed before.
     progress, note
-        Called after each task with the numbers of tasks done and in all; called with a sentence
-        about each incident.
+        Called with the numbers of tasks done and in all; called with a sentence on each incident.
     **reading
         Options of `stribeck.read`.
 

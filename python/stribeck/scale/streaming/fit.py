@@ -1,4 +1,4 @@
-"""Least squares over all rows of a data set, from a start found on stretches in memory."""
+"""Least squares over all samples of a data set, started from a fit to a part in memory."""
 
 from __future__ import annotations
 
@@ -28,17 +28,18 @@ __all__ = ["streamed_fit"]
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Most passes of a search.
+#: Largest number of passes of a search.
 MOST_PASSES = 40
-#: The search ends when its next step foresees a fall of the squared error by less than this share
-#: of that of one independent row: a step of a hundredth of the standard error.
+#: The search ends when the predicted relative decrease of the squared error is below this share of
+#: that of one independent sample: the step is then a hundredth of the standard error.
 SETTLED = 1e-4
-#: Most rounds in which the load of an identified rigid body is renewed, and the relative change
-#: below which it stays.
+#: Largest number of updates of the load of an identified rigid body, and the relative change of the
+#: parameters that ends them.
 LOAD_ROUNDS, LOAD_STAYS = 4, 1e-5
-#: Groups of rows in each held-out block, at most; standard errors take them for independent.
+#: Largest number of groups of samples in a held-out block; standard errors treat groups as
+#: independent.
 MOST_GROUPS = 20
-#: A group is so many correlation lengths of the residual long, at least.
+#: Smallest length of a group, in correlation lengths of the residual.
 LENGTHS = 4.0
 
 
@@ -51,30 +52,29 @@ def streamed_fit(
     window_rows: int = WINDOW_ROWS,
     tolerance: float | None = None,
 ) -> StreamedFit:
-    """Identify the model of `start` on all rows.
+    """Identify the model of `start` on all samples.
 
-    Linear parameters alone take one pass, others one for each step from the start. The held-out
-    error and the standard errors come out of the last one too.
+    A model that is linear in its parameters takes one pass, others one pass for each step of the
+    search. Held-out error and standard errors come from the last pass.
 
     Parameters
     ----------
     start : Fit
-        To `sample`, which is of `data`.
+        A fit to `sample`, which is a part of `data`.
     told
-        Told after each window: rows done, rows in all, and which pass it is.
+        Called after each window with samples done, samples in all, and the number of the pass.
     tolerance
-        The search ends when its next step foresees a smaller relative fall of the squared error;
-        default: one that moves no parameter by more than a hundredth of its standard error.
+        The search ends when the predicted relative decrease of the squared error is smaller.
+        Default: no parameter would move by more than a hundredth of its standard error.
 
     Raises
     ------
     FitError
-        The model is not finite on some row.
+        The predicted torque is not finite at some sample.
     """
     began = time.perf_counter()
     model = start.model
     bounds = np.array([model.bounds[name] for name in model.names])
-    free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
     length = correlation_length(start.residual[start.rows])
     edges = group_edges(sample.edges, _groups(start, sample, length))
     windows = Windows(data, sample, model, window_rows)
@@ -82,6 +82,19 @@ def streamed_fit(
     if tolerance is None:
         tolerance = SETTLED * length / int(sample.edges[-1])
     found = _searched(problem, model.values, bounds, tolerance)
+    return _result(problem, sample, start, bounds, found, began)
+
+
+def _result(
+    problem: StreamedProblem,
+    sample: Sample,
+    start: Fit,
+    bounds: Array,
+    found: Search,
+    began: float,
+) -> StreamedFit:
+    """Compute errors and standard errors at the values found, in one more pass if needed."""
+    edges, model = problem.edges, start.model
     groups = _at(problem, found.values)
     parts = _in_order(groups, found.values)
     block = np.searchsorted(sample.edges, edges[groups.number], side="right") - 1
@@ -89,11 +102,11 @@ def streamed_fit(
     held_out = _held_out(found.values, bounds, blocks)
     moving = int(groups.rows.sum())
     square = Triangle.joined(parts).square
-    made = replace(model, box=groups.ranges).with_values(found.values)
+    free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
     seconds = time.perf_counter() - began
     return StreamedFit(
-        model=made,
-        data=data,
+        model=replace(model, box=groups.ranges).with_values(found.values),
+        data=problem.windows.data,
         start=start,
         estimates=_estimates(model, found.values, bounds, parts, free),
         rmse=float(np.sqrt(square / moving)),
@@ -113,15 +126,17 @@ def streamed_fit(
 
 
 def _groups(start: Fit, sample: Sample, length: float) -> int:
-    """Groups of rows in each block, each well longer than the residual's correlation `length`."""
+    """Return the number of groups in a block; each is much longer than the correlation `length`."""
     share = start.rows.size / sample.recording.rows
     moving = share * int(sample.edges[-1]) / (sample.edges.size - 1)
     return int(np.clip(moving / (LENGTHS * length), 1, MOST_GROUPS))
 
 
 def _searched(problem: StreamedProblem, values: Array, bounds: Array, tolerance: float) -> Search:
-    """The minimum that `values` lead to; where friction depends on the identified rigid body, in
-    rounds in which its load is renewed.
+    """Search the minimum from `values`.
+
+    If friction depends on the load of an identified rigid body, the load is updated and the search
+    repeated until the parameters stay.
     """
     if all(p.linear for p in problem.model.parameters) and not needs_own_load(problem.model):
         return _solved(problem, values, bounds)
@@ -143,7 +158,7 @@ def _searched(problem: StreamedProblem, values: Array, bounds: Array, tolerance:
 
 
 def _solved(problem: StreamedProblem, values: Array, bounds: Array) -> Search:
-    """The best linear parameters, in one pass."""
+    """Return the best linear parameters, in one pass."""
     free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
     groups = problem.groups(values, free)
     if groups is None:

@@ -1,4 +1,4 @@
-"""What a study consists of: which laws, on which joints, from how many starts."""
+"""The fits of a study: which laws, on which joints, from how many starts."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from stribeck.recording.recording import Recording
 from stribeck.recording.scan import scan_with
 from stribeck.recording.sidecar import sidecar_hash
 
-#: The 25 laws that the review compares, in the order of its tables 1, 2 and 3.
+#: The 25 laws of the review, in the order of its tables 1, 2 and 3.
 REVIEW = (
     "bittencourt_a",
     "clochiatti",
@@ -46,15 +46,15 @@ REVIEW = (
     "lugre",
     "tadese_t",
 )
-#: Starts of each law on each joint (review, section 4).
+#: Number of starts of each law on each joint (review, section 4).
 STARTS = 20
-#: What the tables call low speed: rad/s as in the review, and m/s for a joint that slides.
+#: Largest low speed of the tables: in rad/s as in the review, in m/s for a prismatic joint.
 LOW_SPEED = {"revolute": 0.1, "prismatic": 0.01}
 
 
 @dataclass(frozen=True)
 class LawGroup:
-    """Laws that stand in one table."""
+    """Laws that are compared in one table."""
 
     id: str
     title: str
@@ -67,7 +67,7 @@ GROUPS = (STATIC, THERMAL, DYNAMIC)
 
 
 def group_of(model: Model) -> LawGroup:
-    """The table in which a model stands, by what its friction depends on."""
+    """Return the table of a model, by the inputs of its friction."""
     if model.has_state:
         return DYNAMIC
     if {"temperature", "load_torque", "external_torque"} & set(model.core.needs):
@@ -77,7 +77,7 @@ def group_of(model: Model) -> LawGroup:
 
 @dataclass(frozen=True)
 class Job:
-    """One fit: a law on a joint from one start."""
+    """One fit: a law, a joint and a start."""
 
     joint: str | None
     law: str
@@ -86,7 +86,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Skipped:
-    """A law that a joint's recording cannot be fitted with, and why."""
+    """A law that cannot be fitted to the recording of a joint, and why."""
 
     joint: str | None
     law: str
@@ -104,18 +104,18 @@ class StudyPlan:
     data
         SHA-256 of the file, and of the sidecar where there is one.
     joints
-        In the order of the file; ``(None,)`` where they have no names.
+        In the order of the file; ``(None,)`` if they have no names.
     laws
         Specs, in the order given.
     starts, seed
-        Starts of each law, and the seed of the random ones.
+        Number of starts of each law, and the seed of the random starts.
     jobs
-        Every fit that can be made, law by law of each joint, dynamic ones first. A law without
-        nonlinear parameters has one start: its parameters follow from linear equations.
+        Every possible fit, by joint and law, dynamic laws first. A law without nonlinear parameters
+        has one start: its parameters follow from linear equations.
     skipped
-        Laws that a recording lacks a channel for.
+        Laws that need a channel which a recording lacks.
     notes
-        How the recordings were understood.
+        How the recordings were read.
     """
 
     path: str
@@ -130,14 +130,14 @@ class StudyPlan:
     notes: tuple[str, ...]
 
     def pieces(self, todo: Collection[Job]) -> list[tuple[Job, ...]]:
-        """The fits that are made together: all starts of a law on a joint, if one is to do."""
+        """Return groups of fits: all starts of a law on a joint, if at least one is in `todo`."""
         together = groupby(self.jobs, key=lambda job: (job.joint, job.law))
         pieces = [tuple(jobs) for _, jobs in together]
         wanted = set(todo)
         return [piece for piece in pieces if not wanted.isdisjoint(piece)]
 
     def read(self, joint: str | None) -> Recording:
-        """The recording of one joint."""
+        """Read the recording of one joint."""
         return read_with(self.path, replace(self.reading, joint=joint))
 
 
@@ -149,27 +149,18 @@ def make_plan(
     starts: int = STARTS,
     seed: int = 0,
 ) -> StudyPlan:
-    """Look at a recording and plan the fits of `laws` on each of its joints.
+    """Plan the fits of `laws` to each joint of a recording.
 
     Raises
     ------
     SpecError
-        A law that does not exist or is given twice; no starts; a negative seed.
+        A law is unknown or given twice; the number of starts or the seed is invalid.
     RecordingError
-        A recording that cannot be read.
+        The recording cannot be read.
     FitError
         No law can be fitted to it.
     """
-    if not laws:
-        raise SpecError("a study needs at least one law: name one")
-    if starts < 1:
-        raise SpecError(f"{starts} starts are none: give 1 or more")
-    if seed < 0:
-        raise SpecError(f"seed {seed} is negative: give 0 or more")
-    for law in laws:
-        parse_spec(law)
-        if laws.count(law) > 1:
-            raise SpecError(f"law {law!r} is given twice: leave one out")
+    _check(laws, starts, seed)
     joints = _joints(path, reading)
     jobs: list[Job] = []
     skipped: list[Skipped] = []
@@ -185,7 +176,7 @@ def make_plan(
                 counts[law] = _useful_starts(law, recording, starts)
             except FitError as error:
                 skipped.append(Skipped(joint, law, str(error)))
-        # What takes longest begins: no process waits for the last of them.
+        # The slowest fits start first, so that no worker waits for the last of them.
         in_turn = sorted(counts, key=lambda law: not model_for(law, recording).has_state)
         jobs += [Job(joint, law, k) for law in in_turn for k in range(counts[law])]
     if not jobs:
@@ -204,19 +195,32 @@ def make_plan(
     )
 
 
+def _check(laws: Sequence[str], starts: int, seed: int) -> None:
+    if not laws:
+        raise SpecError("a study needs at least one law: name one")
+    if starts < 1:
+        raise SpecError(f"{starts} starts: give 1 or more")
+    if seed < 0:
+        raise SpecError(f"seed {seed} is negative: give 0 or more")
+    for law in laws:
+        parse_spec(law)
+        if laws.count(law) > 1:
+            raise SpecError(f"law {law!r} is given twice: leave one out")
+
+
 def _joints(path: str, reading: ReadOptions) -> tuple[str | None, ...]:
-    """The joint that was named, or every joint of the file."""
+    """Return the selected joint, or every joint of the file."""
     if reading.joint is not None:
         return (str(reading.joint),)
     return scan_with(path, reading).joints or (None,)
 
 
 def _useful_starts(law: str, recording: Recording, starts: int) -> int:
-    """How many starts can end in different places; refuses what the recording cannot be asked."""
+    """Return the number of starts: one for a linear model; raise FitError if data are too few."""
     model = model_for(law, recording)
     fewest = len(model.names) + 2
     if int(np.count_nonzero(recording.moving)) < fewest:
         raise FitError(
-            f"{recording.path} has fewer than {fewest} rows that move, which {law} needs at least"
+            f"{recording.path} has fewer than {fewest} moving samples, which {law} needs at least"
         )
     return 1 if all(p.linear for p in model.parameters) else starts
