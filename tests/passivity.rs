@@ -458,6 +458,16 @@ fn invalid_boxes_are_refused() {
         refused("li", &common::values(&spec), &sides),
         "the box contains 0 degC, where the law is singular"
     );
+    // An empty box would prove everything: friction here generates energy at every speed.
+    let driving = [-5.0, 2.0];
+    for (lower, upper) in [(2.0, -2.0), (f64::NAN, 1.0), (0.0, f64::NAN), (0.0, f64::INFINITY)] {
+        let sentence = refused("coulomb", &driving, &[side(Channel::Velocity, lower, upper)]);
+        assert!(sentence.ends_with("is not two finite numbers in order"), "{sentence}");
+    }
+    for (lower, upper) in [(0.0, 0.0), (-1e-40, 1e-40)] {
+        let sentence = refused("coulomb", &driving, &[side(Channel::Velocity, lower, upper)]);
+        assert_eq!(sentence, "the box contains no motion");
+    }
     let weak = refused("lugre", &[1e4, 1.0, 0.1, 1.0, -0.5, 0.1, 2.0], &speed(1.0));
     assert!(weak.starts_with("a bristle needs dry friction above zero"), "{weak}");
 }

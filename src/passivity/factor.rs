@@ -11,15 +11,14 @@
 
 use std::vec::Vec;
 
-use super::PassivityError;
+use super::{PassivityError, regions_of};
 use super::enclosure::Enclosure;
 use super::friction::sliding;
-use super::region::{Point, Region, Side, pieces};
+use super::region::{Point, Region, Side};
 use super::search::Search;
 use crate::composed::{Composed, Spec};
 use crate::error::ModelError;
 use crate::scalar::Dual;
-use crate::table::Channel;
 
 /// Relative distance of the bounds at which the search ends.
 const TOLERANCE: f64 = 5e-3;
@@ -49,9 +48,7 @@ pub fn largest_factor(
     sides: &[Side],
     budget: usize,
 ) -> Result<Factor, PassivityError> {
-    for spec in [compensator, friction] {
-        check_sides(spec, sides)?;
-    }
+    let regions = regions_of(&[compensator, friction], sides)?;
     let bounds: Vec<_> =
         bounds.iter().map(|&[lower, upper]| Enclosure::new(lower, upper)).collect();
     let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
@@ -66,7 +63,6 @@ pub fn largest_factor(
     };
     let share = |region: &Region| pair.share(region);
     let channels: Vec<_> = sides.iter().map(|side| side.channel).collect();
-    let regions = pieces(sides);
     let mut search = Search::over(&regions, &channels, &share);
     search.run(budget, |s| s.upper() - s.lower() <= TOLERANCE * s.upper().abs());
     let (at_point, point) = search.best.map_or((f64::INFINITY, None), |(x, at)| (x, Some(at)));
@@ -132,18 +128,4 @@ impl Spread {
         }
         sum
     }
-}
-
-/// Checks that every channel the model reads has a side, and that none contains the law's pole.
-fn check_sides(spec: &Spec, sides: &[Side]) -> Result<(), PassivityError> {
-    for channel in spec.channels() {
-        let side = sides.iter().find(|side| side.channel == channel);
-        let side = side.ok_or(PassivityError::Missing(channel))?;
-        if let (Channel::Temperature, Some(pole)) = (channel, spec.pole())
-            && (side.lower..=side.upper).contains(&pole)
-        {
-            return Err(PassivityError::Pole(pole));
-        }
-    }
-    Ok(())
 }

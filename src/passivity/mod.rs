@@ -123,6 +123,10 @@ pub enum PassivityError {
     Model(ModelError<'static>),
     /// The box gives no range for a channel that the model reads.
     Missing(Channel),
+    /// The range of a channel is empty, reversed or not finite.
+    Range(Side),
+    /// The box contains no motion.
+    NoMotion,
     /// The box contains the pole of the law (degC).
     Pole(f64),
     /// A point and its dry friction, which is not positive there: a bristle needs a strength.
@@ -134,6 +138,12 @@ impl fmt::Display for PassivityError {
         match self {
             Self::Model(error) => error.fmt(f),
             Self::Missing(channel) => write!(f, "the box gives no range for {channel}"),
+            Self::Range(side) => write!(
+                f,
+                "the range {} to {} of {} is not two finite numbers in order",
+                side.lower, side.upper, side.channel
+            ),
+            Self::NoMotion => f.write_str("the box contains no motion"),
             Self::Pole(at) => write!(f, "the box contains {at} degC, where the law is singular"),
             Self::NoBristle(point, dry) => write!(
                 f,
@@ -192,6 +202,34 @@ pub fn requirements(
     })
 }
 
+/// The box of the channels that any of the models reads, in pieces.
+///
+/// # Errors
+/// A range that is missing, empty, reversed or not finite, a box without motion, or one that
+/// contains the pole of a law. An empty box would prove everything.
+fn regions_of(specs: &[&Spec], sides: &[Side]) -> Result<Vec<Region>, PassivityError> {
+    for spec in specs {
+        for channel in spec.channels() {
+            let side = sides.iter().find(|side| side.channel == channel);
+            let side = side.ok_or(PassivityError::Missing(channel))?;
+            if let (Channel::Temperature, Some(pole)) = (channel, spec.pole())
+                && (side.lower..=side.upper).contains(&pole)
+            {
+                return Err(PassivityError::Pole(pole));
+            }
+        }
+    }
+    let is_read = |side: &&Side| specs.iter().any(|spec| spec.channels().any(|c| c == side.channel));
+    let read: Vec<_> = sides.iter().filter(is_read).copied().collect();
+    for &side in &read {
+        if !(side.lower.is_finite() && side.upper.is_finite() && side.lower <= side.upper) {
+            return Err(PassivityError::Range(side));
+        }
+    }
+    let regions = pieces(&read);
+    if regions.is_empty() { Err(PassivityError::NoMotion) } else { Ok(regions) }
+}
+
 struct Task<'a> {
     spec: &'a Spec,
     bounded: Composed<Enclosure>,
@@ -211,18 +249,7 @@ impl<'a> Task<'a> {
         let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
         let (bounded, exact) = (spec.with(&numbers)?, spec.with(values)?);
         let channels: Vec<_> = spec.channels().collect();
-        for &channel in &channels {
-            let side = sides.iter().find(|side| side.channel == channel);
-            let side = side.ok_or(PassivityError::Missing(channel))?;
-            if let (Channel::Temperature, Some(pole)) = (channel, spec.pole())
-                && (side.lower..=side.upper).contains(&pole)
-            {
-                return Err(PassivityError::Pole(pole));
-            }
-        }
-        let read: Vec<_> =
-            sides.iter().copied().filter(|side| channels.contains(&side.channel)).collect();
-        let regions = pieces(&read);
+        let regions = regions_of(&[spec], sides)?;
         Ok(Self { spec, bounded, exact, channels, regions, budget })
     }
 

@@ -157,7 +157,7 @@ class _Reader:
             torque_unit=self._choice(data, "torque_unit", ("N m", "N", "V", "%")),
             position_unit=self._choice(data, "position_unit", ("rad", "m")),
             drive=self._choice(data, "drive", ("voltage",)) if "drive" in data else None,
-            box={name: self._pair(pair, "box", name) for name, pair in tables["box"].items()},
+            box={name: self._range(pair, "box]", name) for name, pair in tables["box"].items()},
         )
 
     def _formulas(
@@ -275,6 +275,12 @@ class _Reader:
         if not isinstance(value, list) or len(value) != 2:
             raise self.stop(f"{where[-1]} is {value!r}, two numbers are needed", *where)
         return self._number(value[0], *where), self._number(value[1], *where)
+
+    def _range(self, value: object, *where: str) -> tuple[float, float]:
+        low, high = self._pair(value, *where)
+        if low > high:
+            raise self.stop(f"{where[-1]} is {value!r}: give the lower end first", *where)
+        return low, high
 
     def _bounds(self, value: object, *where: str) -> tuple[float, float]:
         """Two numbers in order; an infinite one is no bound."""

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 import stribeck as sb
@@ -159,3 +163,25 @@ def test_bristle_without_strength_is_refused_with_the_point() -> None:
     values = LUGRE_1995 | {"static_friction": -0.5}
     with pytest.raises(SpecError, match=r"bristle needs dry friction above zero.* at velocity"):
         sb.check(sb.model("lugre", **values), {"velocity": (-1.0, 1.0)})
+
+
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [(2.0, -2.0), (math.nan, 1.0), (-1.0, math.nan), (-math.inf, 1.0), (0.0, 0.0), (-1e-40, 1e-40)],
+)
+def test_an_empty_box_proves_nothing(low: float, high: float) -> None:
+    """A friction that drives, so that only an empty box could pass for a proof."""
+    driving = sb.model("coulomb", viscous_friction=-5.0, coulomb_friction=0.0)
+    with pytest.raises(sb.SpecError):
+        sb.check(driving, {"velocity": (low, high)})
+    with pytest.raises(sb.SpecError):
+        sb.check(replace(driving, box={"velocity": (low, high)}))
+
+
+def test_a_reversed_box_in_a_model_file_is_refused_with_its_line(tmp_path: Path) -> None:
+    path = tmp_path / "model.toml"
+    model = sb.model("coulomb", viscous_friction=-5.0, coulomb_friction=0.0)
+    replace(model, box={"velocity": (-2.0, 2.0)}).save(path)
+    path.write_text(path.read_text().replace("[-2.0, 2.0]", "[2.0, -2.0]"))
+    with pytest.raises(sb.ModelFileError, match=r"line \d+: velocity is \[2.0, -2.0\]"):
+        sb.load(path)
