@@ -1,4 +1,4 @@
-"""`stribeck benchmark`: how far the program can be trusted, on recordings with a known truth."""
+"""`stribeck benchmark`: how often the diagnosis is right, on recordings with a known truth."""
 
 from __future__ import annotations
 
@@ -14,43 +14,60 @@ from stribeck.cli.progress import Progress
 
 @click.group()
 def benchmark() -> None:
-    """How far the program can be trusted, on recordings with a known truth."""
+    """Measure the reliability of the program on recordings with a known truth."""
 
 
 @benchmark.command()
 @click.option(
-    "--seeds", type=click.IntRange(min=1), default=10, show_default=True,
-    help="Recordings of each kind; 10 is the full bar and takes hours.",
-)  # fmt: skip
+    "--seeds",
+    type=click.IntRange(min=1),
+    default=10,
+    show_default=True,
+    help="Recordings of each kind; 10 is the full benchmark and takes hours.",
+)
 @click.option(
-    "--generator", "generators", multiple=True, metavar="NAME",
+    "--generator",
+    "generators",
+    multiple=True,
+    metavar="NAME",
     help="open_loop or closed_loop; may be repeated. [default: both]",
-)  # fmt: skip
+)
 @click.option(
-    "--only", default=None, metavar="WORD",
-    help="A group, an effect, a limit of the motion, or part of a case's name.",
-)  # fmt: skip
-@click.option("--quick", is_flag=True, help="One recording of most kinds: some minutes.")
+    "--only",
+    default=None,
+    metavar="WORD",
+    help="Only cases with this group, effect, or part of the name.",
+)
+@click.option("--quick", is_flag=True, help="One recording of most kinds; takes minutes.")
 @click.option(
-    "--workers", type=click.IntRange(min=1), default=None,
-    help="Processes. [default: one for each core]",
-)  # fmt: skip
+    "--workers",
+    type=click.IntRange(min=1),
+    default=None,
+    help="Number of processes. [default: one per core]",
+)
 @click.option(
-    "-o", "--output", type=click.Path(file_okay=False), default=None,
-    help="Folder for all answers, the confusion matrix and the figures.",
-)  # fmt: skip
+    "-o",
+    "--output",
+    type=click.Path(file_okay=False),
+    default=None,
+    help="Folder of the answers, the confusion matrix and the figures.",
+)
 @seed_option
 @json_option
 def diagnosis(
-    seeds: int, generators: tuple[str, ...], only: str | None, quick: bool, workers: int | None,
-    output: str | None, seed: int, as_json: bool,
-) -> None:  # fmt: skip
-    """Hide effects in simulated recordings, ask what is missing, and count the right answers.
+    seeds: int,
+    generators: tuple[str, ...],
+    only: str | None,
+    quick: bool,
+    workers: int | None,
+    output: str | None,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Hide effects in simulated recordings, diagnose them, and count the right answers.
 
-    With --output every answer is kept as it is given: Ctrl-C stops, and the same command goes on
-    from there.
+    With --output every answer is saved at once: Ctrl-C stops, and the same command continues.
     """
-    # Not at the top: generators and figures would slow the start of every other command.
     from stribeck.benchmark.cases import cases
     from stribeck.benchmark.generators import GENERATORS
     from stribeck.benchmark.run import run
@@ -66,9 +83,9 @@ def diagnosis(
         except (Stopped, KeyboardInterrupt):
             bar.close()
             kept = (
-                f"what is done is in {folder}, and the same command goes on from there"
+                f"the finished part is in {folder}, and the same command continues it"
                 if folder is not None
-                else "nothing was kept: --output FOLDER keeps every answer"
+                else "nothing was saved: --output FOLDER saves every answer"
             )
             say(f"stribeck: stopped after {bar.done or 'no'} of {len(chosen)} cases; {kept}")
             sys.exit(130)

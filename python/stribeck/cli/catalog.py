@@ -1,4 +1,4 @@
-"""What there is to choose from: `models`, `effects`, and what a file holds: `inspect`."""
+"""`stribeck models`, `stribeck effects` and `stribeck inspect`."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from stribeck.report.inspection import inspection_text
 @seed_option
 @json_option
 def models(seed: int, as_json: bool) -> None:
-    """List the friction laws: formula, source, parameters, the effects each captures."""
+    """List the friction laws: formula, source, parameters, and the effects that each contains."""
     rows = list(catalog()["laws"].values())
     if as_json:
         echo_json({"models": rows})
@@ -28,7 +28,7 @@ def models(seed: int, as_json: bool) -> None:
 @seed_option
 @json_option
 def effects(seed: int, as_json: bool) -> None:
-    """List the effects that can be missing, and what each needs in the data."""
+    """List the effects that can be missing, and the data that each needs."""
     rows = list(catalog()["effects"].values())
     if as_json:
         echo_json({"effects": rows})
@@ -42,7 +42,7 @@ def effects(seed: int, as_json: bool) -> None:
 @seed_option
 @json_option
 def inspect(data: str, reading: ReadOptions, seed: int, as_json: bool) -> None:
-    """Show what DATA holds, and which effects it can and cannot show."""
+    """Show what DATA contains, and which effects it can and cannot show."""
     inspection = inspect_file(data, **reading.given())
     for note in inspection.notes:
         say(f"note: {note}")

@@ -16,15 +16,18 @@ from stribeck.passivity.operating_box import parse_sides
 @click.command()
 @click.argument("model")
 @click.option(
-    "--box", "sides", multiple=True, metavar="CHANNEL=LOW:HIGH",
-    help="Operating box, as in velocity=-3.14:3.14. [default: the model file's]",
-)  # fmt: skip
+    "--box",
+    "sides",
+    multiple=True,
+    metavar="CHANNEL=LOW:HIGH",
+    help="Operating box, as in velocity=-3.14:3.14. [default: that of the model file]",
+)
 @seed_option
 @json_option
 def check(model: str, sides: tuple[str, ...], seed: int, as_json: bool) -> None:
-    """Prove that MODEL gives off no energy over its operating box, or show a motion where it does.
+    """Prove that MODEL is passive over its operating box, or show a motion that generates energy.
 
-    Exit code 0: proved; 1: not proved. Nothing in it is random.
+    Exit code 0: proved passive; 1: not proved. The check is deterministic.
     """
     asked = load(model) if is_model_file(model) else named(model)
     certificate = certify(asked, parse_sides(sides))

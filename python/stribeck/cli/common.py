@@ -1,4 +1,4 @@
-"""What all commands share: options, output, errors."""
+"""Options and output that the commands share."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def finite(value: Any) -> Any:
-    """JSON has no NaN or infinity: they become null."""
+    """Replace NaN and infinity, which JSON lacks, by null."""
     if isinstance(value, dict):
         return {key: finite(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -44,17 +44,19 @@ def echo_json(value: dict[str, Any]) -> None:
 
 
 def say(sentence: str) -> None:
-    """Progress and warnings go to stderr."""
+    """Print progress or a warning on stderr."""
     click.echo(with_flags(sentence), err=True)
 
 
-json_option = click.option("--json", "as_json", is_flag=True, help="One JSON object on stdout.")
+json_option = click.option(
+    "--json", "as_json", is_flag=True, help="Print one JSON object on stdout."
+)
 seed_option = click.option(
     "--seed",
     type=click.IntRange(min=0),
     default=0,
     show_default=True,
-    help="Seed of everything random.",
+    help="Seed of the random numbers.",
 )
 output_option = click.option(
     "-o",
@@ -75,7 +77,7 @@ least_fall_option = click.option(
     type=click.FloatRange(0.0, 1.0),
     default=0.01,
     show_default=True,
-    help="Least relative fall of the held-out RMSE that counts.",
+    help="Smallest relative decrease of the held-out RMSE that counts as a finding.",
 )
 
 report_option = click.option(
@@ -105,7 +107,7 @@ def _click_option(entry: Entry) -> Callable[[F], F]:
 
 
 def recording_options(command: F) -> F:
-    """Add the options that say how a file is read; the command gets them as `reading`."""
+    """Add the reading options; the command receives them as `reading`."""
     table = [entry for entry in TABLE if entry.command_line]
 
     @functools.wraps(command)
@@ -120,7 +122,7 @@ def recording_options(command: F) -> F:
 
 
 def read_recording(path: str, reading: ReadOptions) -> Recording:
-    """Read one joint's recording; its notes go to stderr."""
+    """Read the recording of one joint, and print its notes on stderr."""
     recording = read_with(path, reading)
     for note in recording.notes:
         say(f"note: {note}")
@@ -133,15 +135,15 @@ def is_model_file(argument: str) -> bool:
 
 
 def model_fit(argument: str, recording: Recording, *, starts: int, seed: int, refit: bool) -> Fit:
-    """The fit that a model argument means on a recording.
+    """The fit of a model argument on a recording.
 
-    A spec is fitted. A model file is evaluated as it is, or, with `refit`, taken as the start.
+    A spec is fitted. A model file is evaluated unchanged, or refitted from its values if `refit`.
     """
     if not is_model_file(argument):
         return fit(argument, recording, starts=starts, seed=seed)
     stored = read_model_file(argument)
     if refit:
-        say(f"note: the parameters of {argument} are fitted again to {recording.path}")
+        say(f"note: the parameters of {argument} are refitted to {recording.path}")
         return fit(stored.model, recording, starts=starts, seed=seed)
     return evaluate(
         stored.model,
@@ -152,19 +154,19 @@ def model_fit(argument: str, recording: Recording, *, starts: int, seed: int, re
 
 
 def save_fit(fitted: Fit, path: str) -> None:
-    """Write a fit's model file with its standard errors and provenance."""
+    """Write the model file of a fit, with standard errors and provenance."""
     ModelFile.of(fitted).write(path)
     say(f"wrote {path}")
 
 
 def save_findings(findings: Sequence[Finding], folder: str | None) -> None:
-    """Write the figure behind each finding, named by its effect; None: nowhere."""
+    """Write one figure per finding, named by its effect; nothing if `folder` is None."""
     from stribeck.base.files import save_figure
 
     if folder is None:
         return
     if not findings:
-        say(f"note: nothing was found, so {folder} is not written")
+        say(f"note: there is no finding, so {folder} is not written")
         return
     Path(folder).mkdir(exist_ok=True)
     for finding in findings:
@@ -174,13 +176,13 @@ def save_findings(findings: Sequence[Finding], folder: str | None) -> None:
 
 
 def save_page(page: str, path: str) -> None:
-    """Write a page whole or not at all."""
+    """Write a page, all of it or nothing."""
     write_whole(path, page)
     say(f"wrote {path}")
 
 
 def check_output(path: str | None) -> None:
-    """Refuse an output that cannot be written before work is done for it."""
+    """Refuse an output in a folder that does not exist, before any work is done."""
     if path is None:
         return
     folder = Path(path).resolve().parent

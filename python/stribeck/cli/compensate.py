@@ -1,4 +1,4 @@
-"""`stribeck compensate`: a joint with its friction compensated."""
+"""`stribeck compensate`: friction compensation of a joint."""
 
 from __future__ import annotations
 
@@ -43,49 +43,88 @@ LARGEST = "largest"
 @click.command()
 @click.argument("model")
 @value_option
-@click.option("--with", "others", multiple=True, metavar="FILE", help="Compare with this model.")
-@click.option("--plant", metavar="FILE", help="What really resists. [default: MODEL]")
 @click.option(
-    "--factor", "share", default="1", show_default=True,
-    help="Share that is compensated, 0 to 1; 'largest': proved not to overcompensate.",
-)  # fmt: skip
+    "--with",
+    "others",
+    multiple=True,
+    metavar="FILE",
+    help="Also compensate with this model, for comparison.",
+)
+@click.option("--plant", metavar="FILE", help="Friction of the simulated joint. [default: MODEL]")
 @click.option(
-    "--box", "sides", multiple=True, metavar="CHANNEL=LOW:HIGH",
-    help="Where 'largest' is proved. [default: the model file's box]",
-)  # fmt: skip
-@click.option("--feedforward", is_flag=True, help="From the desired velocity, not the measured.")
-@click.option("--guided", is_flag=True, help="A hand leads the joint, its motor only compensates.")
-@click.option("--observer", type=float, help="Also observe the friction left, this bandwidth, Hz.")
+    "--factor",
+    "share",
+    default="1",
+    show_default=True,
+    help="Compensated share of the friction, 0 to 1; 'largest': proved not to overcompensate.",
+)
 @click.option(
-    "--encoder", type=float, default=0.0, show_default=True,
-    help="Resolution of the encoder, rad or m; 0 is exact.",
-)  # fmt: skip
+    "--box",
+    "sides",
+    multiple=True,
+    metavar="CHANNEL=LOW:HIGH",
+    help="Box in which 'largest' is proved. [default: that of the model file]",
+)
+@click.option(
+    "--feedforward",
+    is_flag=True,
+    help="Compensate from the desired velocity, not the measured one.",
+)
+@click.option("--guided", is_flag=True, help="A hand leads the joint; the motor only compensates.")
+@click.option(
+    "--observer", type=float, help="Bandwidth of a friction observer, Hz. [default: none]"
+)
+@click.option(
+    "--encoder",
+    type=float,
+    default=0.0,
+    show_default=True,
+    help="Resolution of the encoder, rad or m; 0: exact.",
+)
 @joint_options
 @trajectory_options
 @click.option(
-    "--bandwidth", type=float, default=BANDWIDTH, show_default=True,
-    help="Of the H-infinity PID where gains are not given, Hz.",
-)  # fmt: skip
+    "--bandwidth",
+    type=float,
+    default=BANDWIDTH,
+    show_default=True,
+    help="Bandwidth of the H-infinity PID if no gains are given, Hz.",
+)
 @click.option("--kp", type=float, help="Gain Kp of the H-infinity PID, 1/s.")
 @click.option("--ki", type=float, help="Gain KI, 1/s2, with Kp^2 > 2 KI.")
 @click.option("--gain", type=float, help="Gain K + 1/gamma^2, N m s/rad or N s/m.")
-@click.option("--seconds", type=float, help="How long. [default: there and back]")
-@click.option("--step", type=float, default=1e-3, show_default=True, help="s.")
-@click.option("--temperature", type=float, help="degC. [default: middle of the plant's box]")
-@click.option("--plot", "picture", help="Write the errors' picture (PNG, SVG, PDF).")
+@click.option("--seconds", type=float, help="Duration, s. [default: there and back]")
+@click.option("--step", type=float, default=1e-3, show_default=True, help="Time step, s.")
+@click.option(
+    "--temperature", type=float, help="Temperature, degC. [default: middle of the plant's box]"
+)
+@click.option("--plot", "picture", help="Write a figure of the errors (PNG, SVG, PDF).")
 @seed_option
 @json_option
 def compensate(
-    model: str, values: tuple[str, ...], others: tuple[str, ...], plant: str | None, share: str,
-    sides: tuple[str, ...], feedforward: bool, guided: bool, observer: float | None, encoder: float,
-    seconds: float | None, step: float, temperature: float | None, picture: str | None, seed: int,
-    as_json: bool, **sizes: Any,
-) -> None:  # fmt: skip
-    """Follow a trajectory without friction compensation, then with that of MODEL.
+    model: str,
+    values: tuple[str, ...],
+    others: tuple[str, ...],
+    plant: str | None,
+    share: str,
+    sides: tuple[str, ...],
+    feedforward: bool,
+    guided: bool,
+    observer: float | None,
+    encoder: float,
+    seconds: float | None,
+    step: float,
+    temperature: float | None,
+    picture: str | None,
+    seed: int,
+    as_json: bool,
+    **sizes: Any,
+) -> None:
+    """Track a trajectory without friction compensation, and with that of MODEL.
 
     The controller is the H-infinity PID of Tadese et al. 2021, or a hand (direct teaching). The
-    joint really has the friction of --plant. Without --inertia or --mass it is the one that was
-    identified with the friction.
+    simulated joint has the friction of --plant. Without --inertia or --mass, the rigid body is the
+    one that was identified with the friction.
     """
     check_output(picture)
     asked = _known(model, values)
@@ -100,12 +139,15 @@ def compensate(
     ]
     path = trajectory_of(sizes, moved, seed)
     course: dict[str, Any] = {
-        "seconds": seconds, "step": step, "temperature": temperature, "encoder": encoder,
-    }  # fmt: skip
+        "seconds": seconds,
+        "step": step,
+        "temperature": temperature,
+        "encoder": encoder,
+    }
     result: Tracking | Teaching
     if guided:
         if observer is not None or picture is not None:
-            raise SpecError("--observer and --plot are of tracking errors: leave out --guided")
+            raise SpecError("--observer and --plot need a tracking error: omit --guided")
         hand = Guidance.with_bandwidth(path, moved.inertia)
         result = teach(friction, joint, hand, compensators, **course)
     else:
@@ -124,7 +166,7 @@ def compensate(
 
 
 def _known(argument: str, values: tuple[str, ...] = ()) -> Model | ModelFile:
-    """A model with its values; a file keeps its standard errors."""
+    """A model with its values, or a model file with its standard errors."""
     if is_model_file(argument) and not values:
         return read_model_file(argument)
     return model_of(argument, values)
@@ -141,11 +183,11 @@ def _share(factor: Factor | float) -> float:
 def _factor(
     text: str, compensator: Model | ModelFile, friction: Model | ModelFile, sides: tuple[str, ...]
 ) -> Factor | float:
-    """The share, as it was said or as it is proved."""
+    """The factor, as given or as proved."""
     if text == LARGEST:
         return largest_factor(compensator, friction, parse_sides(sides))
     if sides:
-        raise SpecError("--box is where --factor largest is proved: give both or none")
+        raise SpecError("--box belongs to --factor largest: give both or neither")
     try:
         return float(text)
     except ValueError:
@@ -153,7 +195,7 @@ def _factor(
 
 
 def _gains(sizes: dict[str, Any], inertia: float) -> HInfinity:
-    """The gains given; others follow from the bandwidth."""
+    """The given gains; the others follow from the bandwidth."""
     usual = HInfinity.with_bandwidth(inertia, sizes["bandwidth"])
     given = {"proportional": sizes["kp"], "integral": sizes["ki"], "gain": sizes["gain"]}
     return replace(usual, **{name: gain for name, gain in given.items() if gain is not None})

@@ -1,4 +1,4 @@
-"""`stribeck demo`: the whole loop on the shipped recording."""
+"""`stribeck demo`: the whole loop on a shipped recording."""
 
 from __future__ import annotations
 
@@ -31,9 +31,12 @@ BASE = "coulomb"
 
 @click.command()
 @click.option(
-    "--output", type=click.Path(file_okay=False), default="stribeck-demo", show_default=True,
+    "--output",
+    type=click.Path(file_okay=False),
+    default="stribeck-demo",
+    show_default=True,
     help="Folder for report.html, report.png and model.toml.",
-)  # fmt: skip
+)
 @seed_option
 @json_option
 def demo(output: str, seed: int, as_json: bool) -> None:
@@ -73,14 +76,14 @@ def _make_folder(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise StribeckError(
-            f"cannot make the folder {folder}: {error.strerror or error}; choose another with "
+            f"cannot create the folder {folder}: {error.strerror or error}; choose another with "
             f"--output"
         ) from None
 
 
 def write_report(improvement: Improvement, folder: Path) -> dict[str, str]:
-    """Write page, picture and model file; return where they are."""
-    # Drawing is slow to import, and the commands above it must not wait for it.
+    """Write report, figure and model file; return their paths."""
+    # matplotlib is slow to import.
     from stribeck.base.files import save_figure
     from stribeck.report.improvement_figure import improvement_figure
     from stribeck.report.page import improvement_page

@@ -1,4 +1,4 @@
-"""`stribeck export`: a model as a program for the joint's controller."""
+"""`stribeck export`: a model as a program for a controller."""
 
 from __future__ import annotations
 
@@ -16,20 +16,29 @@ from stribeck.passivity.operating_box import parse_sides
 @click.command()
 @click.argument("model")
 @click.option(
-    "--to", "language", required=True, metavar="FORMAT",
-    help="c: C99 that needs no library; rust: a module for the crate; json: the step as data.",
-)  # fmt: skip
+    "--to",
+    "language",
+    required=True,
+    metavar="FORMAT",
+    help="c: C99 without libraries; rust: a module for the crate; json: the step as data.",
+)
 @click.argument("folder", metavar="DIR", type=click.Path(file_okay=False))
-@click.option("--name", default=None, help="What files, types and functions begin with.")
+@click.option("--name", default=None, help="Prefix of files, types and functions.")
 @click.option(
-    "--precision", default="f64", show_default=True, metavar="f64|f32|q31|q15",
-    help="Format of all numbers; q31 and q15 are fixed point.",
-)  # fmt: skip
-@click.option("--libm", is_flag=True, help="In C, use math.h in place of own functions.")
+    "--precision",
+    default="f64",
+    show_default=True,
+    metavar="f64|f32|q31|q15",
+    help="Number format; q31 and q15 are fixed point.",
+)
+@click.option("--libm", is_flag=True, help="In C, use math.h instead of own functions.")
 @click.option(
-    "--box", "sides", multiple=True, metavar="CHANNEL=LOW:HIGH",
-    help="Operating box, as in velocity=-3.14:3.14. [default: the model file's]",
-)  # fmt: skip
+    "--box",
+    "sides",
+    multiple=True,
+    metavar="CHANNEL=LOW:HIGH",
+    help="Operating box, as in velocity=-3.14:3.14. [default: that of the model file]",
+)
 @seed_option
 @json_option
 def export(
@@ -45,17 +54,23 @@ def export(
 ) -> None:
     """Write MODEL into DIR as a program for a controller, with test vectors and a self-test.
 
-    Written code, crate and Python give the same bits. MODEL is a model file, which says what it was
-    fitted on and where it holds.
+    Exported code, crate and Python give the same bits. A model file also provides the operating box
+    and what the model was fitted on.
     """
     asked = read_model_file(model) if is_model_file(model) else named(model)
     called = name or (Path(model).stem if is_model_file(model) else None)
     written = write(
-        asked, language, folder, name=called, precision=precision, libm=libm,
-        box=parse_sides(sides), seed=seed,
-    )  # fmt: skip
+        asked,
+        language,
+        folder,
+        name=called,
+        precision=precision,
+        libm=libm,
+        box=parse_sides(sides),
+        seed=seed,
+    )
     if "delay" in written.model.effects:
-        say("note: the delay belongs to the recording, not to the joint: it is left out")
+        say("note: the delay belongs to the recording, not to the joint: it is not exported")
     if as_json:
         echo_json(written.to_dict())
     else:

@@ -1,4 +1,4 @@
-"""`stribeck fleet`: the same work on many robots, joints and days."""
+"""`stribeck fleet`: identify many robots, joints and days."""
 
 from __future__ import annotations
 
@@ -30,74 +30,120 @@ from stribeck.scale.fleet.result import Fleet
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar=f"FILES... [{IMPROVE}]")
 @click.option(
-    "--model", default=None, metavar=f"SPEC|M.toml|{IMPROVE}",
-    help=f"What is fitted to every joint; {IMPROVE}: find what is missing from --base.  "
-    f"[default: {IMPROVE}]",
-)  # fmt: skip
-@click.option("--base", default="coulomb", show_default=True, help="Where improve begins.")
+    "--model",
+    default=None,
+    metavar=f"SPEC|M.toml|{IMPROVE}",
+    help=f"Model fitted to every joint; {IMPROVE}: improve from --base.  [default: {IMPROVE}]",
+)
+@click.option("--base", default="coulomb", show_default=True, help="Base model of improve.")
 @click.option(
-    "-o", "--output", type=click.Path(file_okay=False), default="stribeck-fleet",
-    show_default=True, help="Folder of the data set; what it holds already is not done again.",
-)  # fmt: skip
+    "-o",
+    "--output",
+    type=click.Path(file_okay=False),
+    default="stribeck-fleet",
+    show_default=True,
+    help="Folder of the results; finished tasks in it are not repeated.",
+)
 @click.option(
-    "--name", default=None, metavar="PATTERN",
-    help='How paths end: "{robot}/{day}.parquet", with {joint} and * too. [default: the robot is '
-    "the folder, the day the last date in the path]",
-)  # fmt: skip
-@click.option("--day", default=None, metavar="COLUMN", help="Column that holds the date.")
+    "--name",
+    default=None,
+    metavar="PATTERN",
+    help='Pattern of the end of paths: "{robot}/{day}.parquet", also with {joint} and *. '
+    "[default: the robot is the folder, the day the last date in the path]",
+)
+@click.option("--day", default=None, metavar="COLUMN", help="Column with the date.")
 @click.option(
-    "--since", type=click.DateTime(["%Y-%m-%d"]), default=None,
-    help="First of the new days. [default: the newest --window days]",
-)  # fmt: skip
+    "--since",
+    type=click.DateTime(["%Y-%m-%d"]),
+    default=None,
+    help="First of the new days. [default: first of the newest --window days]",
+)
 @click.option(
-    "--window", type=click.IntRange(min=1), default=7, show_default=True, metavar="DAYS",
-    help="How many of the newest days are looked at for changes.",
-)  # fmt: skip
+    "--window",
+    type=click.IntRange(min=1),
+    default=7,
+    show_default=True,
+    metavar="DAYS",
+    help="Number of newest days that are examined for changes.",
+)
 @click.option(
-    "--history", type=click.IntRange(min=1), default=28, show_default=True, metavar="DAYS",
-    help="How many days before them they are compared with.",
-)  # fmt: skip
+    "--history",
+    type=click.IntRange(min=1),
+    default=28,
+    show_default=True,
+    metavar="DAYS",
+    help="Number of days before them for comparison.",
+)
 @click.option(
-    "--false-discovery", type=click.FloatRange(0.0, 1.0, min_open=True), default=0.05,
-    show_default=True, help="Largest share of the changed joints that may be there by chance.",
-)  # fmt: skip
+    "--false-discovery",
+    type=click.FloatRange(0.0, 1.0, min_open=True),
+    default=0.05,
+    show_default=True,
+    help="Largest expected share of false positives among the changed joints.",
+)
 @click.option(
-    "--least-change", type=click.FloatRange(0.0), default=0.02, show_default=True,
-    help="Smallest relative change that counts.",
-)  # fmt: skip
+    "--least-change",
+    type=click.FloatRange(0.0),
+    default=0.02,
+    show_default=True,
+    help="Smallest relative change that is reported.",
+)
 @click.option(
-    "--scheduler", default=None, metavar="ADDRESS",
-    help="Work on the Dask cluster of this scheduler (pip install stribeck[fleet]).",
-)  # fmt: skip
+    "--scheduler",
+    default=None,
+    metavar="ADDRESS",
+    help="Use the Dask cluster of this scheduler (pip install stribeck[fleet]).",
+)
 @click.option(
-    "--workers", type=click.IntRange(min=1), default=None,
-    help="Processes of this machine. [default: one for each core]",
-)  # fmt: skip
+    "--workers",
+    type=click.IntRange(min=1),
+    default=None,
+    help="Number of local processes. [default: one per core]",
+)
 @click.option(
-    "--straggler", type=click.FloatRange(1.0, min_open=True), default=STRAGGLER,
-    show_default=True, metavar="TIMES",
-    help="Hand a task out again that takes so many times the median.",
-)  # fmt: skip
-@click.option("--retry-failed", is_flag=True, help="Do again what failed before.")
-@click.option("--plot", "picture", default=None, metavar="FILE", help="Write the picture (PNG).")
+    "--straggler",
+    type=click.FloatRange(1.0, min_open=True),
+    default=STRAGGLER,
+    show_default=True,
+    metavar="TIMES",
+    help="Start a task a second time after this multiple of the median time.",
+)
+@click.option("--retry-failed", is_flag=True, help="Repeat failed tasks.")
+@click.option("--plot", "picture", default=None, metavar="FILE", help="Write the figure (PNG).")
 @click.option("--report", default=None, metavar="FILE", help="Write a self-contained page (HTML).")
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def fleet(
-    files: tuple[str, ...], model: str | None, base: str, output: str, name: str | None,
-    day: str | None, since: datetime | None, window: int, history: int,
-    false_discovery: float, least_change: float, scheduler: str | None, workers: int | None,
-    straggler: float, retry_failed: bool, picture: str | None, report: str | None, starts: int,
-    reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
-    """Identify every joint of FILES: which have changed, which have an effect the others lack.
+    files: tuple[str, ...],
+    model: str | None,
+    base: str,
+    output: str,
+    name: str | None,
+    day: str | None,
+    since: datetime | None,
+    window: int,
+    history: int,
+    false_discovery: float,
+    least_change: float,
+    scheduler: str | None,
+    workers: int | None,
+    straggler: float,
+    retry_failed: bool,
+    picture: str | None,
+    report: str | None,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Identify every joint of FILES; find joints that changed or have an effect that others lack.
 
-    FILES are recordings or quoted patterns ("logs/*/*.parquet"), one or more joints in each. All
-    results land in the Parquet data set OUTPUT/results. Ctrl-C stops; the same command goes on,
-    and more files add to it. A file that cannot be used is reported and skipped; the exit code is
-    2 only where none could.
+    FILES are recordings or quoted patterns ("logs/*/*.parquet") with one or more joints each. The
+    results are kept in the Parquet data set OUTPUT/results. Ctrl-C stops; the same command
+    continues, and more files add to it. A file that cannot be used is reported and skipped; the
+    exit code is 2 only if none can.
     """
     for path in (picture, report):
         check_output(path)
@@ -107,12 +153,23 @@ def fleet(
     with Progress("tasks") as bar:
         try:
             result = run_fleet(
-                files, output, model or IMPROVE, base=base, name=name, day=day, starts=starts,
-                seed=seed, question=Question(first, window, history, false_discovery, least_change),
-                workers=workers, scheduler=scheduler, straggler=straggler,
-                retry_failed=retry_failed, progress=bar.show,
-                note=lambda text: say(f"note: {text}"), **reading.given(),
-            )  # fmt: skip
+                files,
+                output,
+                model or IMPROVE,
+                base=base,
+                name=name,
+                day=day,
+                starts=starts,
+                seed=seed,
+                question=Question(first, window, history, false_discovery, least_change),
+                workers=workers,
+                scheduler=scheduler,
+                straggler=straggler,
+                retry_failed=retry_failed,
+                progress=bar.show,
+                note=lambda text: say(f"note: {text}"),
+                **reading.given(),
+            )
         except (Stopped, KeyboardInterrupt):
             bar.close()
             say(

@@ -1,4 +1,4 @@
-"""Models that a command line writes out: by formula, with starts, bounds and held values."""
+"""Model options: laws and effects by formula, start values, bounds and fixed values."""
 
 from __future__ import annotations
 
@@ -30,42 +30,58 @@ from stribeck.recording.recording import Recording
 F = TypeVar("F", bound=Callable[..., Any])
 
 _LAW = click.option(
-    "--law", "laws", multiple=True, metavar="FORMULA",
+    "--law",
+    "laws",
+    multiple=True,
+    metavar="FORMULA",
     help="A law by formula: 'c1*v + c2*tanh(v/c3)*abs(load)'.",
-)  # fmt: skip
+)
 _EFFECT = click.option(
-    "--effect", "effects", multiple=True, metavar="EFFECT",
+    "--effect",
+    "effects",
+    multiple=True,
+    metavar="EFFECT",
     help="Add an effect to the model: its id, or 'NAME = FORMULA'.",
-)  # fmt: skip
+)
 _PARAMETER = click.option(
-    "--parameter", "parameters", multiple=True, metavar="TEXT",
-    help="Unit, bounds, start of a formula's parameter: 'c3: rad/s, 0.001..10, start 0.1'.",
-)  # fmt: skip
+    "--parameter",
+    "parameters",
+    multiple=True,
+    metavar="TEXT",
+    help="Unit, bounds and start of a formula's parameter: 'c3: rad/s, 0.001..10, start 0.1'.",
+)
 _CHOICES = [
-    click.option("--start", multiple=True, metavar="NAME=VALUE", help="Where a parameter starts."),
     click.option(
-        "--bound", multiple=True, metavar="NAME=LOW:HIGH",
-        help="Bounds of a parameter; an end that is left out is open.",
+        "--start", multiple=True, metavar="NAME=VALUE", help="Start value of a parameter."
     ),
-    click.option("--fix", multiple=True, metavar="NAME=VALUE", help="Hold a parameter."),
-]  # fmt: skip
+    click.option(
+        "--bound",
+        multiple=True,
+        metavar="NAME=LOW:HIGH",
+        help="Bounds of a parameter; an omitted end is unbounded.",
+    ),
+    click.option("--fix", multiple=True, metavar="NAME=VALUE", help="Fix a parameter."),
+]
 
 
 candidate_option = click.option(
-    "--candidate", "candidates", multiple=True, metavar="'NAME = FORMULA'",
-    help="An effect by formula that may be missing too.",
-)  # fmt: skip
+    "--candidate",
+    "candidates",
+    multiple=True,
+    metavar="'NAME = FORMULA'",
+    help="An effect by formula, as a further candidate.",
+)
 
 
 def check_candidates(texts: tuple[str, ...]) -> None:
-    """Refuse candidates that are no effects by formula."""
+    """Refuse candidates that are not effects by formula."""
     for text in texts:
         check_terms(effect_terms(text))
 
 
 @dataclass(frozen=True)
 class Written:
-    """What a command line says about its models."""
+    """The model options of a command."""
 
     laws: tuple[str, ...] = ()
     effects: tuple[str, ...] = ()
@@ -73,8 +89,9 @@ class Written:
     choices: Choices = field(default_factory=Choices)
 
     def model(self, argument: str | None) -> Model:
-        """The model that a command is about: a spec, a model file or a formula, or that of `--law`,
-        with the effects that are added and what is said about its formulas' parameters.
+        """The model of a command: a spec, a model file, a formula, or the law of `--law`.
+
+        It has the added effects and the declared parameters of its formulas.
         """
         given = [text for text in (argument, *self.laws) if text is not None]
         if not given:
@@ -90,7 +107,7 @@ class Written:
         return self._declared([made])[0]
 
     def by_formula(self) -> list[Model]:
-        """The models of all `--law`; those without a name are numbered from the second on."""
+        """The models of all `--law`; unnamed ones are numbered from the second on."""
         named: list[str] = []
         for text in self.laws:
             taken = [text.partition("=")[0].strip() for text in named]
@@ -100,7 +117,7 @@ class Written:
         return self._declared([law(text) for text in named])
 
     def _declared(self, models: list[Model]) -> list[Model]:
-        """The models with what is said about their formulas' parameters."""
+        """The models with the declared parameters of their formulas."""
         said = declarations(self.parameters)
         known = {symbol for made in models for terms in made.own for symbol in terms.symbols}
         for symbol, _ in said:
@@ -127,21 +144,21 @@ def _model(argument: str) -> Model:
 def written_fit(
     argument: str | None, written: Written, recording: Recording, **options: Any
 ) -> Fit:
-    """Fit the model that a command is about; a model file is the start."""
+    """Fit the model of a command; a model file gives the start values."""
     made = written.model(argument)
     if argument is not None and is_model_file(argument):
-        say(f"note: the parameters of {argument} are fitted again to {recording.path}")
+        say(f"note: the parameters of {argument} are refitted to {recording.path}")
     said = written.choices
     return fit(made, recording, start=said.start, bounds=said.bounds, fix=said.fix, **options)
 
 
 def formula_options(command: F) -> F:
-    """Add `--law` and `--parameter`; the command gets them as `written`."""
+    """Add `--law` and `--parameter`; the command receives them as `written`."""
     return _gathered(command, [_LAW, _PARAMETER])
 
 
 def model_options(command: F) -> F:
-    """Add all options about one model; the command gets them as `written`."""
+    """Add all model options; the command receives them as `written`."""
     return _gathered(command, [_LAW, _EFFECT, _PARAMETER, *_CHOICES])
 
 

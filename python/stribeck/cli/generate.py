@@ -26,51 +26,77 @@ OF_A_ROBOT = ("test", "repeats", "every")
 
 @click.command()
 @click.option(
-    "-o", "--output", required=True, type=click.Path(dir_okay=False),
-    help="The recording: .parquet or .csv.",
-)  # fmt: skip
+    "-o",
+    "--output",
+    required=True,
+    type=click.Path(dir_okay=False),
+    help="Recording to write: .parquet or .csv.",
+)
 @click.option(
-    "--effect", "effects", multiple=True, metavar="EFFECT",
-    help="Hide this effect; may be given several times (`stribeck effects` lists them).",
-)  # fmt: skip
-@click.option("--law", default="coulomb", show_default=True, help="The friction law beneath.")
+    "--effect",
+    "effects",
+    multiple=True,
+    metavar="EFFECT",
+    help="Hide this effect; may be repeated (`stribeck effects` lists them).",
+)
+@click.option("--law", default="coulomb", show_default=True, help="Friction law.")
 @click.option("--seconds", default=120.0, show_default=True, help="Duration, s.")
 @click.option(
-    "--rate", type=float, default=None,
-    help=f"Samples a second, Hz. [default: 200; {RATE:g} with --robot]",
-)  # fmt: skip
+    "--rate",
+    type=float,
+    default=None,
+    help=f"Sampling rate, Hz. [default: 200; {RATE:g} with --robot]",
+)
 @click.option(
-    "--noise", default=0.02, show_default=True,
-    help="RMS of the torque noise as a share of Coulomb friction.",
-)  # fmt: skip
+    "--noise",
+    default=0.02,
+    show_default=True,
+    help="RMS of the torque noise, as a share of Coulomb friction.",
+)
 @click.option("--warming", default=20.0, show_default=True, help="Warm-up of the joint, K.")
 @click.option("--joint-kind", default="revolute", show_default=True, type=click.Choice([*JOINTS]))
 @click.option(
-    "--robot", type=click.Choice(["ur5e"]), default=None,
-    help="An arm of six joints whose friction is none of the laws.",
-)  # fmt: skip
+    "--robot",
+    type=click.Choice(["ur5e"]),
+    default=None,
+    help="An arm of six joints; its friction is none of the laws.",
+)
 @click.option(
-    "--test", type=click.Choice([str(t) for t in TESTS]), default="2", show_default=True,
-    help="The robot's motion: 1 trapezoidal speed, 2 quintic polynomials.",
-)  # fmt: skip
+    "--test",
+    type=click.Choice([str(t) for t in TESTS]),
+    default="2",
+    show_default=True,
+    help="Motion of the robot: 1 trapezoidal speed, 2 quintic polynomials.",
+)
 @click.option(
-    "--repeats", type=int, default=None,
-    help=f"Cycles that the robot makes. [default: 1 of test 1, {REPEATS} of test 2]",
-)  # fmt: skip
+    "--repeats",
+    type=int,
+    default=None,
+    help=f"Cycles of the motion. [default: 1 in test 1, {REPEATS} in test 2]",
+)
 @click.option(
-    "--every", type=int, default=1, show_default=True,
-    help="Record one of so many cycles; the robot warms up in the others too.",
-)  # fmt: skip
+    "--every",
+    type=int,
+    default=1,
+    show_default=True,
+    help="Record every n-th cycle; the robot warms up in all of them.",
+)
 @seed_option
 @json_option
 @click.pass_context
 def generate(
-    context: click.Context, /, output: str, robot: str | None, rate: float | None, seed: int,
-    as_json: bool, **sizes: Any,
-) -> None:  # fmt: skip
+    context: click.Context,
+    /,
+    output: str,
+    robot: str | None,
+    rate: float | None,
+    seed: int,
+    as_json: bool,
+    **sizes: Any,
+) -> None:
     """Make a synthetic recording: a joint with hidden effects, or a robot arm.
 
-    Beside the recording stand its sidecar and what is hidden in it (.truth.json).
+    The sidecar and the hidden truth (.truth.json) are written beside the recording.
     """
     target = Path(output)
     if target.suffix.lower() not in (".parquet", ".csv"):
@@ -84,16 +110,16 @@ def generate(
 
 
 def _refuse_strangers(context: click.Context, robot: str | None) -> None:
-    """Refuse an option that the other kind of recording has."""
+    """Refuse an option of the other kind of recording."""
     strangers = OF_A_ROBOT if robot is None else OF_A_JOINT
     for option in context.command.params:
         source = context.get_parameter_source(option.name or "")
         if option.name in strangers and source is click.core.ParameterSource.COMMANDLINE:
             flag = option.opts[0]
             raise SpecError(
-                f"{flag} says nothing without --robot: add --robot ur5e or leave {flag} out"
+                f"{flag} needs --robot: add --robot ur5e, or omit {flag}"
                 if robot is None
-                else f"{flag} is for one joint, not for --robot {robot}: leave one of them out"
+                else f"{flag} is for a single joint, not for --robot {robot}: omit one of them"
             )
 
 
@@ -129,7 +155,7 @@ def _generate_robot(
 
 
 def _write_beside(target: Path, truth: dict[str, Any], sidecar: str) -> dict[str, str]:
-    """Write truth and sidecar beside the recording; their paths."""
+    """Write truth and sidecar beside the recording, and return their paths."""
     truth_path = target.with_name(f"{target.name}.truth.json")
     sidecar_path = target.with_name(f"{target.name}.sidecar.toml")
     write_whole(truth_path, json.dumps(truth, indent=2) + "\n")
@@ -147,15 +173,15 @@ def _joint_text(path: Path, truth_path: str, frame: pl.DataFrame, truth: dict[st
     hidden = ", ".join(truth["hidden"]) or "nothing"
     return "\n".join(
         [
-            f"wrote {path}: {frame.height} rows, {plain(truth['seconds'])} s at "
+            f"wrote {path}: {frame.height} samples, {plain(truth['seconds'])} s at "
             f"{plain(truth['rate_hz'])} Hz, {truth['joint_kind']} joint",
             "",
-            f"  hidden in it: {hidden} (friction is {truth['spec']})",
+            f"  hidden: {hidden} (model {truth['spec']})",
             f"  torque noise: {plain(truth['noise_rms'])} {unit} RMS, seed {truth['seed']}",
             "",
             table(rows, right=(1,)),
             "",
-            f"The truth is in {truth_path}. Now try:",
+            f"The truth is in {truth_path}. Next:",
             f"  stribeck improve {path} --base {truth['law']}",
         ]
     )
@@ -167,13 +193,13 @@ def _robot_text(path: Path, truth_path: str, truth: dict[str, Any]) -> str:
     motion = f"{truth['motion']}, {made} of {plain(truth['cycle_s'])} s, {cycles} recorded"
     return "\n".join(
         [
-            f"wrote {path}: {thousands(truth['rows'])} rows at {plain(truth['rate_hz'])} Hz",
+            f"wrote {path}: {thousands(truth['rows'])} samples at {plain(truth['rate_hz'])} Hz",
             "",
             f"  joints: {listed(list(truth['joints']))}",
             f"  motion: {motion}",
-            f"  friction: none of the laws; sizes, noise and motors are in {truth_path}",
+            f"  friction: none of the laws; parameters, noise and motors are in {truth_path}",
             "",
-            "Now try:",
+            "Next:",
             f"  stribeck study {path} --output study",
         ]
     )

@@ -51,19 +51,21 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 
 @click.command()
 @click.argument("data")
-@click.option("--model", "spec", default=None, help="LAW[+effect...] or a model file to start.")
+@click.option(
+    "--model", "spec", default=None, help="LAW[+effect...], or a model file to start from."
+)
 @model_options
 @click.option(
     "--errors",
     type=click.Choice(["robust", "independent"]),
     default="robust",
     show_default=True,
-    help="Standard errors: robust for a sampled motion, independent for separate points.",
+    help="Standard errors: robust for sampled motion, independent for separate points.",
 )
 @click.option(
     "--passive",
     is_flag=True,
-    help="Identify under conditions of passivity: `stribeck check` proves the result.",
+    help="Identify under passivity conditions; `stribeck check` proves the result.",
 )
 @output_option
 @method_options
@@ -73,14 +75,23 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 @seed_option
 @json_option
 def fit(
-    data: str, spec: str | None, written: Written, errors: Errors, passive: bool,
-    output: str | None, method: Method, starts: int, streaming: Streaming,
-    reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
+    data: str,
+    spec: str | None,
+    written: Written,
+    errors: Errors,
+    passive: bool,
+    output: str | None,
+    method: Method,
+    starts: int,
+    streaming: Streaming,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Identify a model's parameters on DATA.
 
-    A folder of Parquet files, or a pattern, is one recording, of which all rows are fitted to but
-    only some are in memory (--stream for a single file).
+    A folder of Parquet files, or a pattern, is one recording that is read in passes (--stream does
+    so for a single file): all samples are fitted, few are in memory.
     """
     check_output(output)
     if streaming.wanted(data):
@@ -94,7 +105,7 @@ def fit(
         show(streamed, as_json)
         return
     if passive and method.name != "rms":
-        raise SpecError(f"--passive goes with --method rms, not {method.name}: leave one out")
+        raise SpecError(f"--passive goes with --method rms, not {method.name}: omit one")
     recording = read_recording(data, reading)
     if method.name == "rms":
         fitted = written_fit(
@@ -115,20 +126,26 @@ def fit(
 @click.argument("data")
 @click.argument("models", nargs=-1)
 @formula_options
-@click.option("--plot", "picture", default=None, help="Write the residuals' picture (PNG).")
+@click.option("--plot", "picture", default=None, help="Write a figure of the residuals (PNG).")
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def compare(
-    data: str, models: tuple[str, ...], written: Written, picture: str | None, starts: int,
-    reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
+    data: str,
+    models: tuple[str, ...],
+    written: Written,
+    picture: str | None,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Compare MODELS (specs, model files or formulas) with DATA, and show where each fails."""
     check_output(picture)
     own = written.by_formula()
     if not (models or own):
-        raise SpecError("no model is given: name laws or model files, or write laws with --law")
+        raise SpecError("no model is given: name laws or model files, or write laws by --law")
     recording = read_recording(data, reading)
     fits = []
     for argument in models:
@@ -163,13 +180,22 @@ def compare(
 @seed_option
 @json_option
 def diagnose(
-    data: str, model: str | None, written: Written, report: str | None, figures: str | None,
-    candidates: tuple[str, ...], least_fall: float, starts: int, streaming: Streaming,
-    reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
-    """Find which physical effect MODEL (or the law of --law) is missing on DATA.
+    data: str,
+    model: str | None,
+    written: Written,
+    report: str | None,
+    figures: str | None,
+    candidates: tuple[str, ...],
+    least_fall: float,
+    starts: int,
+    streaming: Streaming,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Find which physical effect MODEL (or the law of --law) lacks on DATA.
 
-    Of a folder of Parquet files, or with --stream, causes are looked for on stretches of it.
+    For a folder of Parquet files, or with --stream, effects are searched on stretches of the data.
     """
     for path in (report, figures):
         check_output(path)
@@ -180,17 +206,25 @@ def diagnose(
         opened = streaming.open(data, reading, seed)
         with RowProgress() as bar:
             streamed = opened.diagnose(
-                made, starts=starts, seed=seed, least_fall=least_fall, candidates=candidates,
+                made,
+                starts=starts,
+                seed=seed,
+                least_fall=least_fall,
+                candidates=candidates,
                 told=bar.show_pass,
-            )  # fmt: skip
+            )
         diagnosis = streamed.found
     else:
         recording = read_recording(data, reading)
         fitted = written_fit(model, written, recording, starts=starts, seed=seed)
         diagnosis = diagnose_fit(
-            fitted, recording, least_fall=least_fall, candidates=candidates, seed=seed,
+            fitted,
+            recording,
+            least_fall=least_fall,
+            candidates=candidates,
+            seed=seed,
             sample_rows=streaming.sample_rows,
-        )  # fmt: skip
+        )
     save_findings(diagnosis.findings, figures)
     if report is not None:
         from stribeck.report.page import diagnosis_page
@@ -215,12 +249,19 @@ def diagnose(
 @seed_option
 @json_option
 def add(
-    model: str, effect: str, data: str, written: Written, output: str | None, starts: int,
-    reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
+    model: str,
+    effect: str,
+    data: str,
+    written: Written,
+    output: str | None,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Add EFFECT to MODEL, refit on DATA, and show the error before and after.
 
-    Both may be formulas: MODEL a law, EFFECT 'NAME = FORMULA'.
+    MODEL may be a law by formula, EFFECT an effect by formula, 'NAME = FORMULA'.
     """
     check_output(output)
     recording = read_recording(data, reading)
@@ -237,17 +278,20 @@ def add(
 
 @click.command()
 @click.argument("data")
-@click.option("--base", default=None, help="Spec, model file or formula; default: coulomb.")
+@click.option("--base", default=None, help="Spec, model file or formula. [default: coulomb]")
 @model_options
 @output_option
 @report_option
-@click.option("--plot", "picture", default=None, help="Write the picture (PNG).")
+@click.option("--plot", "picture", default=None, help="Write the figure (PNG).")
 @figures_option
 @least_fall_option
 @click.option(
-    "--max-steps", type=click.IntRange(min=0), default=8, show_default=True,
-    help="Most effects to add.",
-)  # fmt: skip
+    "--max-steps",
+    type=click.IntRange(min=0),
+    default=8,
+    show_default=True,
+    help="Largest number of effects to add.",
+)
 @candidate_option
 @click.option("--reject", multiple=True, metavar="EFFECT", help="Never add this effect.")
 @starts_option
@@ -256,14 +300,26 @@ def add(
 @seed_option
 @json_option
 def improve(
-    data: str, base: str | None, written: Written, output: str | None, report: str | None,
-    picture: str | None, figures: str | None, least_fall: float, max_steps: int,
-    candidates: tuple[str, ...], reject: tuple[str, ...], starts: int, streaming: Streaming,
-    reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
-    """Diagnose and add effects to a base model until what is left is noise.
+    data: str,
+    base: str | None,
+    written: Written,
+    output: str | None,
+    report: str | None,
+    picture: str | None,
+    figures: str | None,
+    least_fall: float,
+    max_steps: int,
+    candidates: tuple[str, ...],
+    reject: tuple[str, ...],
+    starts: int,
+    streaming: Streaming,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Diagnose and add effects to a base model until the residual is noise.
 
-    Of a folder of Parquet files, or with --stream, causes are looked for on stretches of it.
+    For a folder of Parquet files, or with --stream, effects are searched on stretches of the data.
     """
     from stribeck.models.catalog import check_effect
 
@@ -276,9 +332,14 @@ def improve(
         base = "coulomb"
     start = written.choices.applied(written.model(base))
     options: dict[str, Any] = {
-        "starts": starts, "seed": seed, "least_fall": least_fall, "most_steps": max_steps,
-        "rejected": reject, "candidates": candidates, "progress": say,
-    }  # fmt: skip
+        "starts": starts,
+        "seed": seed,
+        "least_fall": least_fall,
+        "most_steps": max_steps,
+        "rejected": reject,
+        "candidates": candidates,
+        "progress": say,
+    }
     streamed: StreamedImprovement | None = None
     if streaming.wanted(data):
         opened = streaming.open(data, reading, seed)

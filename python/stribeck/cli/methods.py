@@ -1,4 +1,4 @@
-"""Identification as in the papers: `points`, `arm`, and the ways in which `fit` identifies."""
+"""Identification methods of the papers: `points`, `arm`, and the methods of `fit`."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Method:
-    """How `stribeck fit` identifies; `rms` is the fit of every other command too."""
+    """The method of `stribeck fit`; all other commands use `rms`."""
 
     name: str
     grid: Mapping[str, Axis]
@@ -44,10 +44,12 @@ class Method:
 
     def __post_init__(self) -> None:
         if self.grid and self.name != "grid":
-            raise SpecError("--grid says where --method grid looks: give both, or neither")
+            raise SpecError("--grid belongs to --method grid: give both or neither")
         given = [self.loaded is not None, self.presliding is not None]
         if any(given) and self.name != "three_step":
-            raise SpecError("--loaded and --presliding go with --method three_step: give it too")
+            raise SpecError(
+                "--loaded and --presliding belong to --method three_step: give it as well"
+            )
         if not all(given) and self.name == "three_step":
             raise SpecError(
                 "--method three_step needs three recordings: DATA without load, --loaded FILE and "
@@ -67,7 +69,7 @@ class Method:
 
 
 def method_options(command: F) -> F:
-    """Add the options that say how a model is identified; the command gets them as `method`."""
+    """Add the method options; the command receives them as `method`."""
 
     @functools.wraps(command)
     def wrapper(**given: Any) -> Any:
@@ -87,26 +89,34 @@ def method_options(command: F) -> F:
 
 _METHOD_OPTIONS = [
     click.option(
-        "--method", type=click.Choice(["rms", "grid", "three_step"]), default="rms",
+        "--method",
+        type=click.Choice(["rms", "grid", "three_step"]),
+        default="rms",
         show_default=True,
-        help="rms: least RMS error in bounds from random starts (UR5e review, eqs 4-5). grid: "
-        "linear regression in a grid of the nonlinear parameters, least absolute error "
+        help="rms: least RMS error within bounds from random starts (UR5e review, eqs 4-5). grid: "
+        "linear regression on a grid of the nonlinear parameters, least absolute error "
         "(Bittencourt 2010, eqs 5-6). three_step: temperature from DATA, then load, then "
         "presliding (Tadese 2021, section V).",
     ),
     click.option(
-        "--grid", multiple=True, metavar="NAME=FROM:TO:COUNT",
+        "--grid",
+        multiple=True,
+        metavar="NAME=FROM:TO:COUNT",
         help="grid: values of a nonlinear parameter; default: its bounds.",
     ),
     click.option(
-        "--loaded", default=None, metavar="FILE",
-        help="three_step: steady-state points under load; DATA holds those without.",
+        "--loaded",
+        default=None,
+        metavar="FILE",
+        help="three_step: steady-state points under load; DATA are those without load.",
     ),
     click.option(
-        "--presliding", default=None, metavar="FILE",
+        "--presliding",
+        default=None,
+        metavar="FILE",
         help="three_step: position under a slow torque below the Coulomb friction.",
     ),
-]  # fmt: skip
+]
 
 
 def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
@@ -125,41 +135,61 @@ def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
 @click.command()
 @click.argument("data")
 @click.option(
-    "--method", type=click.Choice(["averaging", "segments"]), required=True,
-    help="Half the difference of passes in both directions, or the mean of every pass.",
-)  # fmt: skip
+    "--method",
+    type=click.Choice(["averaging", "segments"]),
+    required=True,
+    help="averaging: half the difference of both directions; segments: mean of each pass.",
+)
 @click.option(
-    "-o", "--output", type=click.Path(dir_okay=False), default=None,
-    help="Write the points (CSV) and the sidecar that says how to read them.",
-)  # fmt: skip
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False),
+    default=None,
+    help="Write the points (CSV) and their sidecar.",
+)
 @click.option(
-    "--bins", default=1, show_default=True,
-    help="Points a pass (or pair of them), each over an equal share of it.",
-)  # fmt: skip
+    "--bins",
+    default=1,
+    show_default=True,
+    help="Points per pass (or pair of passes), each over an equal share of it.",
+)
 @click.option(
-    "--tolerance", default=Search.tolerance, show_default=True,
+    "--tolerance",
+    default=Search.tolerance,
+    show_default=True,
     help="Largest relative difference of speed within a pass.",
-)  # fmt: skip
+)
 @click.option(
-    "--shortest", default=Search.shortest, show_default=True, help="Shortest pass, s.",
-)  # fmt: skip
+    "--shortest",
+    default=Search.shortest,
+    show_default=True,
+    help="Shortest pass, s.",
+)
 @click.option(
-    "--trim", default=Search.trim, show_default=True, help="Share left out at each end of a pass."
-)  # fmt: skip
+    "--trim", default=Search.trim, show_default=True, help="Share excluded at each end of a pass."
+)
 @recording_options
 @seed_option
 @json_option
 def points(
-    data: str, method: str, output: str | None, bins: int, tolerance: float, shortest: float,
-    trim: float, reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
-    """Turn passes at constant speed in DATA into steady-state friction points.
+    data: str,
+    method: str,
+    output: str | None,
+    bins: int,
+    tolerance: float,
+    shortest: float,
+    trim: float,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Reduce passes at constant speed in DATA to steady-state friction points.
 
-    averaging needs no gravity model (Bittencourt et al. 2010, eq 4); segments takes the mean
-    torque of each pass (Gantry, section 3). `stribeck fit POINTS` then identifies a static law.
+    averaging needs no gravity model (Bittencourt et al. 2010, eq 4); segments takes the mean torque
+    of each pass (Gantry, section 3). `stribeck fit POINTS` then identifies a static law.
     """
     check_output(output)
-    # A line through many samples shows passes that no single row's velocity does.
+    # A pass below the velocity threshold still shows in a line through many samples.
     recording = read_recording(data, replace(reading, standstill=True))
     search = Search(tolerance=tolerance, shortest=shortest, trim=trim)
     if method == "averaging":
@@ -178,37 +208,58 @@ def points(
 @click.command()
 @click.argument("data")
 @click.option(
-    "--first-link-length", required=True, type=float,
-    help="From the first joint's axis to the second's, m.",
-)  # fmt: skip
+    "--first-link-length",
+    required=True,
+    type=float,
+    help="Distance between the axes of the two joints, m.",
+)
 @click.option(
-    "--joints", nargs=2, default=("1", "2"), show_default=True, metavar="FIRST SECOND",
+    "--joints",
+    nargs=2,
+    default=("1", "2"),
+    show_default=True,
+    metavar="FIRST SECOND",
     help="Names of the joints in DATA.",
-)  # fmt: skip
+)
 @click.option(
-    "--slowest", default=0.05, show_default=True,
-    help="Share of the top speed below which a joint's rows are left out.",
-)  # fmt: skip
+    "--slowest",
+    default=0.05,
+    show_default=True,
+    help="Share of the largest speed below which the samples of a joint are excluded.",
+)
 @click.option("--plain", is_flag=True, help="Do not weight the joints by their errors.")
 @click.option(
-    "-o", "--output", default=None, metavar="NAME",
-    help="Write both joints' friction to NAME_joint_1.toml and NAME_joint_2.toml.",
-)  # fmt: skip
+    "-o",
+    "--output",
+    default=None,
+    metavar="NAME",
+    help="Write the friction of both joints to NAME_joint_1.toml and NAME_joint_2.toml.",
+)
 @recording_options
 @seed_option
 @json_option
 def arm(
-    data: str, first_link_length: float, joints: tuple[str, str], slowest: float, plain: bool,
-    output: str | None, reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
+    data: str,
+    first_link_length: float,
+    joints: tuple[str, str],
+    slowest: float,
+    plain: bool,
+    output: str | None,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Identify inertia and friction of a planar two-joint arm together.
 
-    DATA holds angles and torques of both joints side by side (q_1, torque_1, q_2, torque_2), the
-    second angle relative to the first link. Indri et al., section 4.2: four inertial parameters,
-    and a cubic friction polynomial a joint; `--slowest 0 --plain` is the paper's least squares.
+    DATA contains angles and torques of both joints (q_1, torque_1, q_2, torque_2), the second angle
+    relative to the first link. Indri et al., section 4.2: four inertial parameters,
+    and a cubic friction polynomial per joint. `--slowest 0 --plain` is the least squares of the
+    paper.
     """
     if reading.joint is not None:
-        raise RecordingError(f"--joint {reading.joint}: an arm has two, name them with --joints")
+        raise RecordingError(
+            f"--joint {reading.joint}: an arm has two joints, name them by --joints"
+        )
     check_output(output)
     first, second = (read_recording(data, replace(reading, joint=name)) for name in joints)
     made = arm_fit(

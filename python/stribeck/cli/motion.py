@@ -1,4 +1,4 @@
-"""What is moved and how it shall move: options that commands share, and what they say."""
+"""Options of a joint and its trajectory, and how they are read."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Usual:
-    """What is taken where nothing is said, for a kind of joint: rad or m, and per s, s2."""
+    """Defaults for a kind of joint: rad or m, and per s, s2."""
 
     stroke: float
     speed: float
@@ -33,16 +33,16 @@ USUAL = {"revolute": Usual(1.0, 1.0, 5.0), "prismatic": Usual(0.2, 0.1, 0.5)}
 # fmt: off
 value_option = click.option(
     "--value", "values", multiple=True, metavar="NAME=NUMBER",
-    help="A parameter's value, where MODEL is no file.",
+    help="Value of a parameter, if MODEL is not a file.",
 )
 _JOINT = (
     click.option("--inertia", type=float, help="Inertia of a revolute joint, kg m2."),
     click.option("--gravity-cos", type=float, default=0.0, help="Gravity torque at 0 rad, N m."),
     click.option("--gravity-sin", type=float, default=0.0, help="Gravity torque at pi/2, N m."),
     click.option("--mass", type=float, help="Mass of a prismatic joint, kg."),
-    click.option("--gravity", type=float, default=0.0, help="Force of gravity along it, N."),
-    click.option("--rotor-inertia", type=float, help="Of motor and ball screw, kg m2."),
-    click.option("--pitch", type=float, help="Travel a turn of the ball screw, m."),
+    click.option("--gravity", type=float, default=0.0, help="Gravity force along the axis, N."),
+    click.option("--rotor-inertia", type=float, help="Inertia of motor and ball screw, kg m2."),
+    click.option("--pitch", type=float, help="Travel per turn of the ball screw, m."),
 )
 _TRAJECTORY = (
     click.option(
@@ -50,41 +50,41 @@ _TRAJECTORY = (
         default="quintic", show_default=True, help="The desired motion.",
     ),
     click.option(
-        "--from", "start", type=float, default=0.0, help="Where a stroke starts, rad or m.",
+        "--from", "start", type=float, default=0.0, help="Start of a stroke, rad or m.",
     ),
-    click.option("--to", "end", type=float, help="Where it turns; a Fourier series' reach."),
+    click.option("--to", "end", type=float, help="End of a stroke; reach of a Fourier series."),
     click.option("--speed", type=float, help="Largest speed of a stroke, rad/s or m/s."),
-    click.option("--acceleration", type=float, help="Of a trapezoid, rad/s2 or m/s2."),
+    click.option("--acceleration", type=float, help="Acceleration of a trapezoid, rad/s2 or m/s2."),
     click.option(
-        "--dwell", type=float, default=0.5, show_default=True, help="Rest at its ends, s.",
+        "--dwell", type=float, default=0.5, show_default=True, help="Rest at the ends, s.",
     ),
-    click.option("--period", type=float, default=10.0, help="Of a Fourier series, s."),
+    click.option("--period", type=float, default=10.0, help="Period of a Fourier series, s."),
 )
 # fmt: on
 
 
 def joint_options(command: Command) -> Command:
-    """The options that `joint_of` reads."""
+    """Add the options that `joint_of` reads."""
     return _all(_JOINT, command)
 
 
 def trajectory_options(command: Command) -> Command:
-    """The options that `trajectory_of` reads."""
+    """Add the options that `trajectory_of` reads."""
     return _all(_TRAJECTORY, command)
 
 
 def _all(options: Sequence[Callable[[Command], Command]], command: Command) -> Command:
-    # The last one applied is the first one shown.
+    # The help shows the options in the reverse order of their application.
     for option in reversed(options):
         command = option(command)
     return command
 
 
 def model_of(argument: str, values: tuple[str, ...]) -> Model:
-    """The model, with its values."""
+    """The model of an argument, with the values of --value."""
     if is_model_file(argument):
         if values:
-            raise SpecError(f"--value {values[0]}: {argument} has its values, leave it out")
+            raise SpecError(f"--value {values[0]}: {argument} has values already, omit it")
         return load(argument)
     given: dict[str, Any] = {}
     for text in values:
@@ -97,14 +97,14 @@ def model_of(argument: str, values: tuple[str, ...]) -> Model:
 
 
 def joint_of(sizes: dict[str, Any]) -> Joint | None:
-    """The joint that was described, if one was."""
+    """The joint that the options describe; None if they describe none."""
     inertia, mass = sizes["inertia"], sizes["mass"]
     screw = (sizes["rotor_inertia"], sizes["pitch"])
     if inertia is not None and mass is not None:
         raise SpecError("--inertia is for a revolute joint, --mass for a prismatic one: give one")
     if mass is None:
         if screw != (None, None) or sizes["gravity"] != 0.0:
-            raise SpecError("--rotor-inertia, --pitch and --gravity belong to a joint with --mass")
+            raise SpecError("--rotor-inertia, --pitch and --gravity need --mass")
         if inertia is None:
             return None
         return Joint.revolute(
@@ -126,7 +126,7 @@ def trajectory_of(sizes: dict[str, Any], joint: Joint, seed: int) -> Trajectory:
     speed = usual.speed if sizes["speed"] is None else sizes["speed"]
     if sizes["path"] == "quintic":
         if not speed > 0.0:
-            raise SpecError(f"--speed {speed:g}: give one above 0")
+            raise SpecError(f"--speed {speed:g}: give a speed above 0")
         # The largest speed of the polynomial is 15/8 of the mean.
         return Quintic(start, end, 1.875 * abs(end - start) / speed, sizes["dwell"])
     acceleration = usual.acceleration if sizes["acceleration"] is None else sizes["acceleration"]

@@ -1,4 +1,4 @@
-"""`stribeck plan`: a motion that shows or separates effects."""
+"""`stribeck plan`: plan a motion that shows or separates effects."""
 
 from __future__ import annotations
 
@@ -34,34 +34,63 @@ FORMATS = (".csv", ".parquet")
 @click.argument("data")
 @click.argument("model", required=False)
 @click.option(
-    "--separate", "separate", multiple=True, metavar="EFFECT,EFFECT",
-    help="Effects to be told apart.",
-)  # fmt: skip
-@click.option("--show", "show", multiple=True, metavar="EFFECT", help="Effects to be seen.")
-@click.option("--position", required=True, metavar="LOW:HIGH", help="Range, rad or m.")
+    "--separate",
+    "separate",
+    multiple=True,
+    metavar="EFFECT,EFFECT",
+    help="Effects to distinguish.",
+)
+@click.option(
+    "--show", "show", multiple=True, metavar="EFFECT", help="Effect to show; may be repeated."
+)
+@click.option(
+    "--position", required=True, metavar="LOW:HIGH", help="Range of the position, rad or m."
+)
 @click.option("--speed", type=float, required=True, help="Largest speed, rad/s or m/s.")
-@click.option("--acceleration", type=float, required=True, help="Largest, rad/s2 or m/s2.")
-@click.option("--duration", type=float, default=60.0, show_default=True, help="Seconds.")
 @click.option(
-    "--rate", "samples", type=float, default=None,
-    help="Samples a second, Hz. [default: those of DATA, else 100]",
-)  # fmt: skip
-@click.option("--noise", type=float, default=None, help="RMS of the torque noise, without DATA.")
+    "--acceleration", type=float, required=True, help="Largest acceleration, rad/s2 or m/s2."
+)
+@click.option("--duration", type=float, default=60.0, show_default=True, help="Duration, s.")
 @click.option(
-    "-o", "--output", type=click.Path(dir_okay=False), default=None,
+    "--rate",
+    "samples",
+    type=float,
+    default=None,
+    help="Sampling rate, Hz. [default: that of DATA, else 100]",
+)
+@click.option(
+    "--noise", type=float, default=None, help="RMS of the torque noise, if there is no DATA."
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False),
+    default=None,
     help="Write the motion (.csv or .parquet).",
-)  # fmt: skip
-@click.option("--plot", "picture", default=None, help="Write the motion's picture (PNG).")
+)
+@click.option("--plot", "picture", default=None, help="Write a figure of the motion (PNG).")
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def plan(
-    data: str, model: str | None, separate: tuple[str, ...], show: tuple[str, ...], position: str,
-    speed: float, acceleration: float, duration: float, samples: float | None,
-    noise: float | None, output: str | None, picture: str | None, starts: int,
-    reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
+    data: str,
+    model: str | None,
+    separate: tuple[str, ...],
+    show: tuple[str, ...],
+    position: str,
+    speed: float,
+    acceleration: float,
+    duration: float,
+    samples: float | None,
+    noise: float | None,
+    output: str | None,
+    picture: str | None,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Plan a motion that shows effects which MODEL lacks on DATA, or tells them apart.
 
     Without data: stribeck plan MODEL.toml.
@@ -74,9 +103,17 @@ def plan(
     joint = _joint(data, model, noise, starts=starts, seed=seed, reading=reading)
     say("note: searching for a motion, some seconds to a minute ...")
     planned = make(
-        joint, position=limits, speed=speed, acceleration=acceleration, separate=_ids(separate),
-        show=_ids(show), duration=duration, rate=samples, noise=noise, seed=seed,
-    )  # fmt: skip
+        joint,
+        position=limits,
+        speed=speed,
+        acceleration=acceleration,
+        separate=_ids(separate),
+        show=_ids(show),
+        duration=duration,
+        rate=samples,
+        noise=noise,
+        seed=seed,
+    )
     if output is not None:
         write_bytes_whole(Path(output), file_bytes(planned.to_frame(), Path(output).suffix.lower()))
         say(f"wrote {output}")

@@ -92,9 +92,14 @@ def show(path: str, as_json: bool) -> None:
 @seed_option
 @json_option
 def diagnose(
-    path: str, report: str | None, figures: str | None, candidates: tuple[str, ...],
-    least_fall: float, seed: int, as_json: bool,
-) -> None:  # fmt: skip
+    path: str,
+    report: str | None,
+    figures: str | None,
+    candidates: tuple[str, ...],
+    least_fall: float,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Find what is missing at the current node, and remember it.
 
     Effects that were rejected on the way to it are not tried.
@@ -125,9 +130,9 @@ def diagnose(
 @seed_option
 @json_option
 def add(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
-    """Add EFFECT to the current model: a new node, which becomes the current one.
+    """Add EFFECT to the current model. The result is a new, current node.
 
-    EFFECT is an id, or 'NAME = FORMULA'.
+    EFFECT is an id or 'NAME = FORMULA'.
     """
     _written(Project.open(path).add(effect, starts=starts, seed=seed), as_json)
 
@@ -139,18 +144,18 @@ def add(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
 @seed_option
 @json_option
 def drop(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
-    """Take EFFECT out of the current model: a new node, which becomes the current one."""
+    """Remove EFFECT from the current model. The result is a new, current node."""
     _written(Project.open(path).drop(effect, starts=starts, seed=seed), as_json)
 
 
 @project.command()
 @click.argument("path", metavar="PROJECT")
 @click.argument("effect")
-@click.option("--because", default="", metavar="TEXT", help="The reason, kept in the file.")
-@click.option("--undo", is_flag=True, help="Take it back.")
+@click.option("--because", default="", metavar="TEXT", help="The reason; it is kept in the file.")
+@click.option("--undo", is_flag=True, help="Undo the rejection.")
 @json_option
 def reject(path: str, effect: str, because: str, undo: bool, as_json: bool) -> None:
-    """Never try EFFECT at the current node, nor at those that come from it."""
+    """Exclude EFFECT at the current node and at all nodes below it."""
     made = Project.open(path)
     _written(made.accept(effect) if undo else made.reject(effect, because), as_json)
 
@@ -160,7 +165,7 @@ def reject(path: str, effect: str, because: str, undo: bool, as_json: bool) -> N
 @click.argument("node", required=False)
 @json_option
 def back(path: str, node: str | None, as_json: bool) -> None:
-    """Go back to NODE, or to the node before the current one; nothing is lost."""
+    """Go back to NODE, or to the parent of the current node; no node is deleted."""
     _written(Project.open(path).back(node), as_json)
 
 
@@ -169,33 +174,44 @@ def back(path: str, node: str | None, as_json: bool) -> None:
 @click.argument("name")
 @json_option
 def name(path: str, name: str, as_json: bool) -> None:
-    """Give the branch that begins at the current node a NAME ('' takes it away)."""
+    """Name the branch that begins at the current node ('' removes the name)."""
     _written(Project.open(path).named(name), as_json)
 
 
 @project.command()
 @click.argument("path", metavar="PROJECT")
 @click.option(
-    "--max-steps", type=click.IntRange(min=0), default=8, show_default=True,
-    help="Most effects to add.",
-)  # fmt: skip
+    "--max-steps",
+    type=click.IntRange(min=0),
+    default=8,
+    show_default=True,
+    help="Largest number of effects to add.",
+)
 @candidate_option
 @least_fall_option
 @seed_option
 @json_option
 def improve(
-    path: str, max_steps: int, candidates: tuple[str, ...], least_fall: float, seed: int,
+    path: str,
+    max_steps: int,
+    candidates: tuple[str, ...],
+    least_fall: float,
+    seed: int,
     as_json: bool,
-) -> None:  # fmt: skip
-    """Diagnose and add from the current node until what is left is noise: each step a node.
+) -> None:
+    """Diagnose and add from the current node until the residual is noise; each step is a node.
 
-    Every step is saved as it is made.
+    Every step is saved at once.
     """
     check_candidates(candidates)
     made = Project.open(path).improve(
-        least_fall=least_fall, most_steps=max_steps, candidates=candidates, seed=seed,
-        progress=say, each=Project.save,
-    )  # fmt: skip
+        least_fall=least_fall,
+        most_steps=max_steps,
+        candidates=candidates,
+        seed=seed,
+        progress=say,
+        each=Project.save,
+    )
     _written(made, as_json)
 
 
@@ -205,7 +221,7 @@ def improve(
 @seed_option
 @json_option
 def compare(path: str, nodes: tuple[str, str], seed: int, as_json: bool) -> None:
-    """Two nodes side by side: errors, where each fails, parameters."""
+    """Compare two nodes: errors, where each fails, parameters."""
     sides = Project.open(path).compare(*nodes, seed=seed)
     if as_json:
         echo_json(sides.to_dict())

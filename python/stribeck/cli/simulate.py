@@ -1,4 +1,4 @@
-"""`stribeck simulate`: a joint with a friction model in motion."""
+"""`stribeck simulate`: simulate a joint with friction."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ from stribeck.motion.simulate.joint import Joint, Transmission
 from stribeck.motion.simulate.run import simulate as move
 
 FORMATS = (".csv", ".parquet")
-#: Of the closed loop of inertia and controller, Hz.
+#: Bandwidth of the closed loop of inertia and controller, Hz.
 BANDWIDTH = 5.0
-#: How long a joint is pushed or pulled where nothing is said, s.
+#: Default duration of a push or pull, s.
 SECONDS = 10.0
 
 
@@ -43,42 +43,71 @@ SECONDS = 10.0
 @click.argument("model")
 @value_option
 @joint_options
-@click.option("--motor-inertia", type=float, help="Of a motor apart from its load, kg m2 or kg.")
-@click.option("--transmission", type=float, help="Stiffness between motor and load.")
-@click.option("--transmission-damping", type=float, default=0.0, help="Damping between them.")
-@click.option("--backlash", type=float, default=0.0, help="Play between them, rad or m.")
+@click.option(
+    "--motor-inertia",
+    type=float,
+    help="Inertia of a motor that is separate from its load, kg m2 or kg.",
+)
+@click.option(
+    "--transmission", type=float, help="Stiffness between motor and load, N m/rad or N/m."
+)
+@click.option(
+    "--transmission-damping", type=float, default=0.0, help="Damping between motor and load."
+)
+@click.option(
+    "--backlash", type=float, default=0.0, help="Backlash between motor and load, rad or m."
+)
 @trajectory_options
 @click.option("--kp", type=float, help="Proportional gain of the controller.")
 @click.option("--ki", type=float, default=0.0, help="Integral gain.")
 @click.option("--kd", type=float, help="Derivative gain.")
 @click.option(
-    "--bandwidth", type=float, default=BANDWIDTH, show_default=True,
-    help="Where gains are not given, Hz.",
-)  # fmt: skip
+    "--bandwidth",
+    type=float,
+    default=BANDWIDTH,
+    show_default=True,
+    help="Bandwidth of the closed loop if no gains are given, Hz.",
+)
 @click.option("--limit", type=float, default=math.inf, help="Largest motor torque, N m or N.")
-@click.option("--feedforward", is_flag=True, help="Inertia and gravity are compensated beforehand.")
-@click.option("--torque", type=float, help="Open loop: this motor torque instead, N m or N.")
-@click.option("--spring", type=float, help="Open loop: pulled by a spring of this stiffness.")
-@click.option("--pull-speed", type=float, help="How fast the spring's far end moves.")
-@click.option("--seconds", type=float, help="How long. [default: there and back, or 10]")
-@click.option("--step", type=float, default=1e-3, show_default=True, help="s.")
-@click.option("--position", type=float, help="At the start, rad or m.")
-@click.option("--temperature", type=float, help="degC. [default: middle of the model's box]")
 @click.option(
-    "-o", "--output", type=click.Path(dir_okay=False),
+    "--feedforward",
+    is_flag=True,
+    help="Add the torque of inertia and gravity of the desired motion.",
+)
+@click.option("--torque", type=float, help="Open loop: constant motor torque, N m or N.")
+@click.option("--spring", type=float, help="Open loop: stiffness of a spring that pulls the joint.")
+@click.option("--pull-speed", type=float, help="Speed of the far end of the spring.")
+@click.option("--seconds", type=float, help="Duration, s. [default: there and back, or 10]")
+@click.option("--step", type=float, default=1e-3, show_default=True, help="Time step, s.")
+@click.option("--position", type=float, help="Position at the start, rad or m.")
+@click.option(
+    "--temperature", type=float, help="Temperature, degC. [default: middle of the model's box]"
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(dir_okay=False),
     help="Write the motion as a recording (.csv or .parquet), and its sidecar.",
-)  # fmt: skip
-@click.option("--plot", "picture", help="Write the motion's picture (PNG, SVG, PDF).")
+)
+@click.option("--plot", "picture", help="Write a figure of the motion (PNG, SVG, PDF).")
 @seed_option
 @json_option
 def simulate(
-    model: str, values: tuple[str, ...], step: float, seconds: float | None,
-    position: float | None, temperature: float | None, output: str | None, picture: str | None,
-    seed: int, as_json: bool, **sizes: Any,
-) -> None:  # fmt: skip
-    """Move a joint with the friction of MODEL: in closed loop, pushed, or pulled by a spring.
+    model: str,
+    values: tuple[str, ...],
+    step: float,
+    seconds: float | None,
+    position: float | None,
+    temperature: float | None,
+    output: str | None,
+    picture: str | None,
+    seed: int,
+    as_json: bool,
+    **sizes: Any,
+) -> None:
+    """Simulate a joint with the friction of MODEL: in closed loop, pushed, or pulled by a spring.
 
-    Without --inertia or --mass the joint is the one that was identified with the friction.
+    Without --inertia or --mass, the rigid body is the one that was identified with the friction.
     """
     for path in (output, picture):
         check_output(path)
@@ -90,9 +119,14 @@ def simulate(
     if seconds is None and not isinstance(drive, Follow):
         seconds = SECONDS
     simulation = move(
-        asked, joint, drive, seconds=seconds, step=step, position=position,
+        asked,
+        joint,
+        drive,
+        seconds=seconds,
+        step=step,
+        position=position,
         temperature=temperature,
-    )  # fmt: skip
+    )
     if output is not None:
         write_bytes_whole(
             Path(output), file_bytes(simulation.to_frame(), Path(output).suffix.lower())
@@ -112,7 +146,7 @@ def simulate(
 
 
 def _with_transmission(joint: Joint | None, sizes: dict[str, Any]) -> Joint | None:
-    """The joint with its motor apart, where that was said."""
+    """The joint with a separate motor, if the options describe one."""
     motor, stiffness = sizes["motor_inertia"], sizes["transmission"]
     if motor is None and stiffness is None:
         if sizes["backlash"] or sizes["transmission_damping"]:
@@ -120,23 +154,23 @@ def _with_transmission(joint: Joint | None, sizes: dict[str, Any]) -> Joint | No
         return joint
     if motor is None or stiffness is None or joint is None:
         raise SpecError(
-            "a motor apart from its load needs --motor-inertia, --transmission and the load's "
-            "--inertia or --mass"
+            "a separate motor needs --motor-inertia, --transmission, and --inertia or --mass of "
+            "the load"
         )
     apart = Transmission(motor, stiffness, sizes["transmission_damping"], sizes["backlash"])
     return replace(joint, transmission=apart)
 
 
 def _drive(sizes: dict[str, Any], joint: Joint, seed: int) -> Drive:
-    """What moves the joint."""
+    """The drive of the joint."""
     torque, spring, speed = sizes["torque"], sizes["spring"], sizes["pull_speed"]
     if torque is not None and spring is not None:
-        raise SpecError("--torque pushes, --spring pulls: give one of them")
+        raise SpecError("--torque and --spring exclude each other: give one of them")
     if torque is not None:
         return Torque(torque)
     if spring is not None:
         if speed is None:
-            raise SpecError("--spring needs --pull-speed, how fast its far end moves")
+            raise SpecError("--spring needs --pull-speed, the speed of its far end")
         return Pull(spring, speed)
     if speed is not None:
         raise SpecError("--pull-speed needs --spring, the stiffness")
@@ -145,7 +179,7 @@ def _drive(sizes: dict[str, Any], joint: Joint, seed: int) -> Drive:
 
 
 def _controller(sizes: dict[str, Any], joint: Joint) -> Controller:
-    """The gains given; others place both poles of the joint at the bandwidth."""
+    """The given gains; the others place both poles of the joint at the bandwidth."""
     frequency = math.tau * sizes["bandwidth"]
     kp, kd = sizes["kp"], sizes["kd"]
     return Controller(

@@ -1,4 +1,4 @@
-"""Options of the commands that take data larger than memory."""
+"""Options for data larger than memory."""
 
 from __future__ import annotations
 
@@ -24,26 +24,26 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 @dataclass(frozen=True)
 class Streaming:
-    """Whether all of the data is read into memory, and if not, how much of it."""
+    """Whether the data is read in passes, and how many samples are kept in memory."""
 
     asked: bool
     sample_rows: int
 
     def wanted(self, data: str) -> bool:
-        """Whether `data` is read in passes: as asked, and where it stands for several files."""
+        """Whether `data` is read in passes: on request, or if it is several files."""
         return self.asked or is_data_set(data)
 
     def refuse(self, **given: bool) -> None:
-        """Refuse options that need all rows in memory."""
+        """Refuse options that need all samples in memory."""
         for flag, is_given in given.items():
             if is_given:
                 raise SpecError(
-                    f"--{flag} needs all rows in memory: leave it out, or give one file without "
+                    f"--{flag} needs all samples in memory: omit it, or give one file without "
                     "--stream"
                 )
 
     def open(self, data: str, reading: ReadOptions, seed: int) -> Stream:
-        """Open `data`; what is noted of it goes to stderr."""
+        """Open `data`, and print its notes on stderr."""
         opened = stream(data, sample_rows=self.sample_rows, seed=seed, **reading.given())
         for note in opened.sample.recording.notes:
             say(f"note: {note}")
@@ -65,7 +65,7 @@ def show(result: StreamedFit | StreamedDiagnosis | StreamedImprovement, as_json:
 
 
 def stream_options(command: F) -> F:
-    """Add the options of data larger than memory; the command gets them as `streaming`."""
+    """Add the streaming options; the command receives them as `streaming`."""
 
     @functools.wraps(command)
     def wrapper(**given: Any) -> Any:
@@ -80,12 +80,16 @@ def stream_options(command: F) -> F:
 
 _STREAM_OPTIONS = [
     click.option(
-        "--stream", is_flag=True,
-        help="Read DATA (Parquet) in passes, a window at a time; a folder or pattern always is.",
+        "--stream",
+        is_flag=True,
+        help="Read DATA (Parquet) in passes, window by window; folders and patterns always are.",
     ),
     click.option(
-        "--sample-rows", type=click.IntRange(min=1000), default=SAMPLE_ROWS, show_default=True,
-        help="Rows on which causes are looked for, in stretches spread over longer data; of data "
-        "read in passes, those in memory.",
+        "--sample-rows",
+        type=click.IntRange(min=1000),
+        default=SAMPLE_ROWS,
+        show_default=True,
+        help="Samples on which effects are searched, in stretches spread over longer data; for "
+        "data read in passes, the samples in memory.",
     ),
-]  # fmt: skip
+]

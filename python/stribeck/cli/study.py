@@ -1,4 +1,4 @@
-"""`stribeck study`: many laws on every joint of a recording, from many starts."""
+"""`stribeck study`: fit many laws to every joint of a recording, from many starts."""
 
 from __future__ import annotations
 
@@ -25,46 +25,70 @@ from stribeck.scale.study.study import study as make_study
 @click.command()
 @click.argument("data")
 @click.option(
-    "--law", "laws", multiple=True, metavar="SPEC",
-    help="A law to fit; may be given several times. [default: the 25 of the review]",
-)  # fmt: skip
+    "--law",
+    "laws",
+    multiple=True,
+    metavar="SPEC",
+    help="A law to fit; may be repeated. [default: the 25 laws of the review]",
+)
 @click.option(
-    "-o", "--output", type=click.Path(file_okay=False), default=None,
-    help="Folder of the study. [default: DATA's name with .study]",
-)  # fmt: skip
+    "-o",
+    "--output",
+    type=click.Path(file_okay=False),
+    default=None,
+    help="Folder of the study. [default: name of DATA with .study]",
+)
 @starts_option
 @click.option(
-    "--low-speed", type=float, default=None,
-    help="What the tables call low speed. [default: 0.1 rad/s, or 0.01 m/s]",
-)  # fmt: skip
+    "--low-speed",
+    type=float,
+    default=None,
+    help="Limit of low speed in the tables. [default: 0.1 rad/s, or 0.01 m/s]",
+)
 @click.option(
-    "--workers", type=click.IntRange(min=1), default=None,
-    help="Processes. [default: one for each core]",
-)  # fmt: skip
+    "--workers",
+    type=click.IntRange(min=1),
+    default=None,
+    help="Number of processes. [default: one per core]",
+)
 @recording_options
 @seed_option
 @json_option
 def study(
-    data: str, laws: tuple[str, ...], output: str | None, starts: int, low_speed: float | None,
-    workers: int | None, reading: ReadOptions, seed: int, as_json: bool,
-) -> None:  # fmt: skip
+    data: str,
+    laws: tuple[str, ...],
+    output: str | None,
+    starts: int,
+    low_speed: float | None,
+    workers: int | None,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
     """Fit many laws to every joint of DATA and compare them, as the UR5e review does.
 
-    Every fit is saved as it ends. Ctrl-C stops; the same command goes on from there.
+    Every fit is saved at once. Ctrl-C stops; the same command continues.
     """
     folder = output if output is not None else f"{Path(data).stem}.study"
     with Progress() as bar:
         try:
             result = make_study(
-                data, folder, laws or REVIEW, starts=starts, seed=seed, low_speed=low_speed,
-                workers=workers, progress=bar.show, note=lambda text: say(f"note: {text}"),
+                data,
+                folder,
+                laws or REVIEW,
+                starts=starts,
+                seed=seed,
+                low_speed=low_speed,
+                workers=workers,
+                progress=bar.show,
+                note=lambda text: say(f"note: {text}"),
                 **reading.given(),
-            )  # fmt: skip
+            )
         except (Stopped, KeyboardInterrupt):
             bar.close()
             say(
                 f"stribeck: stopped after {bar.done or 'no'} fits of {bar.total or 'the study'}; "
-                f"what is done is in {folder}, and the same command goes on from there"
+                f"the finished part is in {folder}, and the same command continues it"
             )
             sys.exit(130)
     if as_json:

@@ -1,4 +1,4 @@
-"""`stribeck validate`: a model driven by the measured torque, against the measured motion."""
+"""`stribeck validate`: simulate a model under the measured torque; compare the motion."""
 
 from __future__ import annotations
 
@@ -24,18 +24,23 @@ from stribeck.recording.options import ReadOptions
 @click.command()
 @click.argument("data")
 @click.argument("model")
-@click.option("--plot", "picture", help="Write both motions' picture (PNG, SVG, PDF).")
+@click.option("--plot", "picture", help="Write a figure of both motions (PNG, SVG, PDF).")
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def validate(
-    data: str, model: str, picture: str | None, starts: int, reading: ReadOptions, seed: int,
+    data: str,
+    model: str,
+    picture: str | None,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
     as_json: bool,
-) -> None:  # fmt: skip
-    """Simulate MODEL, driven by the torque of DATA alone, and compare the motion.
+) -> None:
+    """Simulate MODEL under the torque of DATA alone, and compare the motion.
 
-    A spec is fitted to DATA first. Without --inertia the joint is the one that was identified.
+    A spec is fitted to DATA first. Without --inertia, the identified rigid body is used.
     """
     check_output(picture)
     recording = read_recording(data, reading)
