@@ -119,7 +119,7 @@ def test_the_command_writes_recording_sidecar_and_truth(tmp_path: Path) -> None:
     ("words", "sentence"),
     [
         (("--robot", "ur5e", "--law", "lugre"), "--law is for one joint"),
-        (("--every", 2), "--every says nothing without --robot"),
+        (("--every", 2), "--every needs --robot"),
     ],
 )
 def test_options_of_the_other_kind_are_refused(tmp_path: Path, words: tuple, sentence: str) -> None:
