@@ -76,22 +76,22 @@ def _diagnosed(
     brief: bool,
 ) -> Diagnosis:
     """A diagnosis on all samples of the fit's recording."""
-    could_be = candidates_for(fitted, rejected, candidates)
-    passed, tried = passing_trials(fitted, could_be.possible, least_fall, seed)
+    offered = candidates_for(fitted, rejected, candidates)
+    passed, tried = passing_trials(fitted, offered.possible, least_fall, seed)
     good = without_proxies(fitted, passed)
     best = good[0].fit if good else fitted
     floor = noise_floor(best)
     ranked = findings(fitted, good, tried, least_fall, floor, seed)
     if brief and ranked:
-        return Diagnosis(fitted, floor, "missing", ranked, could_be.untestable, NOT_ASKED)
+        return Diagnosis(fitted, floor, "missing", ranked, offered.untestable, NOT_ASKED)
     # Without repeated states a regressor learns nothing that holds on other blocks.
     after = ranked[0].fit if ranked else fitted
-    could = None if floor.value is None else explainable(fitted, after)
-    left = unexplained(after, floor, could, last=not ranked)
-    verdict = "missing" if ranked else ("unexplained" if left.is_structure else "none")
+    explained = None if floor.value is None else explainable(fitted, after)
+    structure = unexplained(after, floor, explained, last=not ranked)
+    verdict = "missing" if ranked else ("unexplained" if structure.is_structure else "none")
     shown = visibility(
         fitted,
-        [effect for effect in could_be.possible if effect in effect_ids()],
+        [effect for effect in offered.possible if effect in effect_ids()],
         found={e for finding in ranked for e in (finding.effect, *finding.indistinguishable_from)},
         tried=tried,
         significance=SIGNIFICANCE,
@@ -102,9 +102,9 @@ def _diagnosed(
         noise_floor=floor,
         verdict=verdict,
         findings=ranked,
-        untestable=(*could_be.untestable, *shown.hidden),
-        unexplained=left,
+        untestable=(*offered.untestable, *shown.hidden),
+        unexplained=structure,
         smallest_visible=shown.smallest,
         groups=shown.groups,
-        explainable=could,
+        explainable=explained,
     )

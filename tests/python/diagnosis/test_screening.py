@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.trials.screening import screened
-from stribeck.diagnosis.trials.trial import promises, try_effect
+from stribeck.diagnosis.trials.trial import is_promising, try_effect
 from synthetic import joint, motion, record
 
 ROWS = 9000
@@ -27,7 +27,7 @@ def fitted(tmp_path: Path) -> sb.Fit:
 
 def test_it_foretells_the_fall_of_the_fit(fitted: sb.Fit) -> None:
     found = screened(fitted, "position")
-    assert found is not None and promises(found, 0.01)
+    assert found is not None and is_promising(found, 0.01)
     trial = try_effect(fitted, found)
     assert trial is not None
     assert found.fall == pytest.approx(trial.evidence.fall, abs=0.03)
@@ -36,12 +36,12 @@ def test_it_foretells_the_fall_of_the_fit(fitted: sb.Fit) -> None:
 @pytest.mark.parametrize("effect", ["offset", "temperature_viscous", "inertia", "drift"])
 def test_what_brings_nothing_is_not_fitted(fitted: sb.Fit, effect: str) -> None:
     found = screened(fitted, effect)
-    assert found is not None and not promises(found, 0.01)
+    assert found is not None and not is_promising(found, 0.01)
 
 
 def test_a_memory_is_tried_on_one_stretch(fitted: sb.Fit) -> None:
     found = screened(fitted, "presliding")
-    assert found is not None and not promises(found, 0.01)
+    assert found is not None and not is_promising(found, 0.01)
 
 
 def test_what_the_model_cannot_take_is_left_out(fitted: sb.Fit) -> None:

@@ -66,7 +66,7 @@ class Unexplained:
 
 
 def unexplained(
-    fit: Fit, floor: NoiseFloor, could: Explainable | None, *, last: bool = True
+    fit: Fit, floor: NoiseFloor, explained: Explainable | None, *, last: bool = True
 ) -> Unexplained:
     """The part of the held-out residual of `fit` that is not noise.
 
@@ -76,18 +76,18 @@ def unexplained(
         Whether no effect is left to add. Otherwise such an effect may explain varying friction.
     """
     total = rms(fit.held_out_residual[fit.rows]) ** 2
-    if could is None or not total > 0.0:
+    if explained is None or not total > 0.0:
         return Unexplained(None, None)
     above = 0.0 if floor.value is None else 1.0 - floor.value**2 / total
     varying = VaryingFriction(0.0)
     if last:
         varying = varying_friction(fit, suspected=above > SUSPICIOUS)
     varying_share = min(varying.rms**2 / total, 1.0)
-    share = max(could.left, varying_share)
+    share = max(explained.left, varying_share)
     if share <= STRUCTURE:
         return Unexplained(share, None)
     share = max(share, above)
-    is_varying = varying_share > could.left
+    is_varying = varying_share > explained.left
     return Unexplained(share, _varying(fit, varying) if is_varying else _place(fit))
 
 

@@ -13,9 +13,9 @@ from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import (
     Trial,
+    falls_on_all_samples,
+    is_promising,
     passes,
-    promises,
-    reported_fall,
     simpler_substitute,
     try_beyond,
     try_effect,
@@ -72,7 +72,7 @@ def passing_trials(
     alone = [effect for effect in possible if missing_simpler_effect(effect, fitted.model) is None]
     with on_threads() as pool:
         screenings = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
-        promising = [s for s in screenings if promises(s, least)]
+        promising = [s for s in screenings if is_promising(s, least)]
         trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]
     tried = max(len(screenings), 1)
     good = [t for t in trials if passes(t, tried, least)]
@@ -91,7 +91,7 @@ def passing_trials(
             pairs.append(_Pair(beyond[1], min(simpler, other, key=lambda trial: trial.rank)))
         elif passes(beyond[1], tried, least):
             good.append(beyond[1])
-    good = [t for t in good if reported_fall(fitted, t)]
+    good = [t for t in good if falls_on_all_samples(fitted, t)]
     flexible = FlexibleRefit.of(fitted) if good else None
     if flexible is not None:
         good = [t for t in good if not flexible.explains(t, tried, least)]

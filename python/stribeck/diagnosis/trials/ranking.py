@@ -13,9 +13,9 @@ from stribeck.diagnosis.trials.trial import (
     TIE,
     Trial,
     adds_to,
+    falls_on_all_samples,
     passes,
     refined,
-    reported_fall,
     tie_statistic,
     tie_weight,
 )
@@ -43,7 +43,7 @@ def findings(
     tied = _tied(before, good, statistic, tried, least, seed)
     ordered = tied + [t for t in good if t not in tied]
     first = refined(ordered[0], before, seed)
-    if not (passes(first, tried, least) and reported_fall(before, first)):
+    if not (passes(first, tried, least) and falls_on_all_samples(before, first)):
         # The thorough fit does not confirm the quick one.
         rest = [t for t in good if t.effect != first.effect]
         return findings(before, rest, tried, least, floor, seed)

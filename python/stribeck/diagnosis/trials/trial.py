@@ -97,7 +97,7 @@ def add_effect(
     )
 
 
-def promises(found: Screened, least: float) -> bool:
+def is_promising(found: Screened, least: float) -> bool:
     """Whether an effect that was tried on few samples may bring the fall `least` on all."""
     return found.fall >= PROMISE * least
 
@@ -125,7 +125,7 @@ def try_beyond(
     The trial of the effect beside the simpler one, and of both together beside `before`; None
     where the effect explains nothing more, or the model cannot take it.
     """
-    beyond = _try_more(simpler.fit, effect, least, seed)
+    beyond = _try_if_promising(simpler.fit, effect, least, seed)
     if beyond is None:
         return None
     return beyond, Trial(effect, beyond.fit, evidence(before, beyond.fit))
@@ -140,17 +140,17 @@ def simpler_substitute(
     dependence that differs between motoring and generating, against one that does not differ and a
     wrong torque constant.
     """
-    other = _most_like(beyond, simpler, others, before)
+    other = _most_similar(beyond, simpler, others, before)
     if other is None:
         return None
     effect = other.fit.model.written(other.effect)
     if len(extended_model(simpler.fit, effect).names) >= beyond.parameters:
         return None
-    both = _try_more(simpler.fit, effect, least, seed)
+    both = _try_if_promising(simpler.fit, effect, least, seed)
     return other if both is not None and tie_statistic(beyond, both) <= SIMPLEST else None
 
 
-def _most_like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> Trial | None:
+def _most_similar(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> Trial | None:
     """The one of `others` whose torque is most similar to what `beyond` adds to `simpler`."""
     if not others:
         return None
@@ -167,10 +167,10 @@ def _most_like(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) 
     return others[best] if cosines[best] > RESEMBLING else None
 
 
-def _try_more(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
+def _try_if_promising(before: Fit, effect: str, least: float, seed: int) -> Trial | None:
     """Try an effect if its screening is promising."""
     found = screened(before, effect, seed=seed)
-    return try_effect(before, found) if found is not None and promises(found, least) else None
+    return try_effect(before, found) if found is not None and is_promising(found, least) else None
 
 
 def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
@@ -192,7 +192,7 @@ def passes(trial: Trial, tried: int, least: float) -> bool:
     return relevant and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
-def reported_fall(before: Fit, trial: Trial) -> bool:
+def falls_on_all_samples(before: Fit, trial: Trial) -> bool:
     """Whether the error over all scored samples falls too, transients included."""
     assert before.rmse_held_out is not None and trial.fit.rmse_held_out is not None
     return trial.fit.rmse_held_out < before.rmse_held_out
@@ -210,5 +210,5 @@ def tie_weight(statistic: float) -> float:
 
 def adds_to(first: Trial, other: Trial, tried: int, least: float, seed: int = 0) -> bool:
     """Whether the effect of `other` explains something that the effect of `first` does not."""
-    again = _try_more(first.fit, other.fit.model.written(other.effect), least, seed)
+    again = _try_if_promising(first.fit, other.fit.model.written(other.effect), least, seed)
     return again is not None and passes(again, tried, least)
