@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck import _core
 from stribeck.base.errors import SpecError
 
 LUGRE_1995 = {
@@ -185,3 +186,22 @@ def test_a_reversed_box_in_a_model_file_is_refused_with_its_line(tmp_path: Path)
     path.write_text(path.read_text().replace("[-2.0, 2.0]", "[2.0, -2.0]"))
     with pytest.raises(sb.ModelFileError, match=r"line \d+: velocity is \[2.0, -2.0\]"):
         sb.load(path)
+
+
+def test_a_check_that_is_repeated_is_not_proved_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    proofs = []
+    proof = _core.passivity
+
+    def counted(*question: object) -> object:
+        proofs.append(question)
+        return proof(*question)
+
+    monkeypatch.setattr(_core, "passivity", counted)
+    model = sb.model("coulomb", coulomb_friction=1.2345, viscous_friction=0.5)
+    box = {"velocity": (-1.0, 1.0)}
+    first, again = sb.check(model, box), sb.check(model.with_values(model.values), box)
+    assert first.to_dict() == again.to_dict() and len(proofs) == 1
+    assert sb.check(model, {"velocity": (-1.0, 2.0)}).box != first.box
+    other = model.with_values(model.values * [1.0, -1.0])
+    assert sb.check(other, box).passive is False
+    assert len(proofs) == 3
