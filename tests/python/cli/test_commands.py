@@ -105,7 +105,7 @@ def test_compare(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
 def test_diagnose(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
     page, figures = tmp_path / "page.html", tmp_path / "figures"
     made = answer("diagnose", plain_file, model_file, "--report", page, "--figures", figures)
-    assert "Nothing that this recording can show is missing" in page.read_text()
+    assert "No effect that this recording can show is missing" in page.read_text()
     assert not figures.exists()
     assert {"model", "rmse", "rmse_held_out", "noise_floor", "verdict", "findings", "untestable",
             "unexplained", "scored"} <= set(made)  # fmt: skip
