@@ -7,5 +7,5 @@ from typing import TypeAlias
 
 __all__ = ["Json"]
 
-#: A value that JSON can say.
+#: A value that can be written as JSON.
 Json: TypeAlias = "bool | int | float | str | Sequence[Json] | Mapping[str, Json] | None"

@@ -45,7 +45,7 @@ class TomlText:
     error
         The type of the errors.
     under
-        Words after which the lines in question stand, where the file holds more than one table of
+        Words before the lines in question, where the file holds more than one table of
         the same kind.
     """
 

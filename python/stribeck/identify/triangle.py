@@ -58,9 +58,9 @@ class Triangle:
         return cls.of(
             np.concatenate([part.factor for part in parts]),
             np.concatenate([part.right for part in parts]),
-        )._beside(parts)
+        )._with_rests(parts)
 
-    def _beside(self, parts: list[Triangle]) -> Triangle:
+    def _with_rests(self, parts: list[Triangle]) -> Triangle:
         """Add the rests of the parts."""
         rest = np.linalg.norm([self.rest, *(part.rest for part in parts)])
         return Triangle(self.factor, self.right, float(rest))

@@ -15,8 +15,8 @@ Array = NDArray[np.float64]
 #: Channels as keyword arguments of a compiled model.
 ChannelArguments: TypeAlias = dict[str, Any]
 
-#: Channels that a model may read beside the velocity.
-BESIDE_VELOCITY = (
+#: Channels that a model may read, other than the velocity.
+OTHER_CHANNELS = (
     "position",
     "acceleration",
     "temperature",
@@ -47,7 +47,7 @@ def columns(
     core: _core.Model,
     velocity: ArrayLike,
     dt: float | ArrayLike | None,
-    beside: Sequence[ArrayLike | None],
+    others: Sequence[ArrayLike | None],
 ) -> Columns:
     """The channels of a call, each of the velocity's length.
 
@@ -60,10 +60,10 @@ def columns(
         rad/s or m/s.
     dt : float or array [n]
         Step to the previous sample, s.
-    beside
-        The other channels in the order of `BESIDE_VELOCITY`, arrays [n] or numbers.
+    others
+        The other channels in the order of `OTHER_CHANNELS`, arrays [n] or numbers.
     """
-    given = dict(zip(BESIDE_VELOCITY, beside, strict=True))
+    given = dict(zip(OTHER_CHANNELS, others, strict=True))
     speed = column(np.atleast_1d(velocity))
 
     def filled(name: str) -> Array | None:
@@ -98,11 +98,11 @@ def split_columns(
 ) -> dict[str, Array]:
     """The channels at which a steady torque is asked for, all of the longest one's length.
 
-    A channel that is not given stands at the middle of the operating `box`, the time at the middle
-    of the recording, the second derivative of the load at 0.
+    A channel that is not given is at the middle of the operating `box`; the time is at the middle
+    of the recording, the second derivative of the load is 0.
     """
     found = {"velocity": column(np.atleast_1d(velocity))}
-    for name in BESIDE_VELOCITY:
+    for name in OTHER_CHANNELS:
         values = given.get(name)
         if values is None:
             values = _usual(core, name, box)

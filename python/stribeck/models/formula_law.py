@@ -88,14 +88,16 @@ class FormulaTerms:
                 f"{self.name!r} cannot be the name of a law or effect: use letters, digits and _, "
                 f"as in 'creep = c*abs(load)*sgn(v)'"
             )
-        for symbol, said in self.declared:
+        for symbol, stated in self.declared:
             if symbol not in self.symbols:
                 raise SpecError(
                     f"the formula {self.text!r} has no parameter {symbol!r}"
                     f"{nearest(symbol, self.symbols)}; it has {', '.join(self.symbols)}"
                 )
-            if said.lower > said.upper:
-                raise SpecError(f"the bounds of {symbol} are empty: {said.lower} .. {said.upper}")
+            if stated.lower > stated.upper:
+                raise SpecError(
+                    f"the bounds of {symbol} are empty: {stated.lower} .. {stated.upper}"
+                )
 
     @cached_property
     def core(self) -> _core.Formula:
@@ -134,8 +136,8 @@ class FormulaTerms:
     @cached_property
     def declarations(self) -> tuple[Declaration, ...]:
         """The declaration of each parameter."""
-        said = dict(self.declared)
-        return tuple(said.get(symbol, Declaration()) for symbol in self.symbols)
+        stated = dict(self.declared)
+        return tuple(stated.get(symbol, Declaration()) for symbol in self.symbols)
 
     def units(self, torque_unit: str, position_unit: str) -> tuple[str, ...]:
         """The unit of each parameter: as declared, else as it follows from the formula."""
@@ -144,8 +146,8 @@ class FormulaTerms:
             for powers in self.dimensions
         )
         return tuple(
-            unit if said.unit is None else said.unit
-            for said, unit in zip(self.declarations, implied, strict=True)
+            unit if stated.unit is None else stated.unit
+            for stated, unit in zip(self.declarations, implied, strict=True)
         )
 
 
@@ -190,12 +192,12 @@ def is_formula(text: str) -> bool:
 
 def declarations(texts: Iterable[str]) -> tuple[tuple[str, Declaration], ...]:
     """Parse ``"c3: rad/s, 0.001..10, start 0.1"`` texts into symbols and declarations."""
-    said = [_declaration(text) for text in texts]
-    symbols = [symbol for symbol, _ in said]
+    parsed = [_declaration(text) for text in texts]
+    symbols = [symbol for symbol, _ in parsed]
     for symbol in symbols:
         if symbols.count(symbol) > 1:
             raise SpecError(f"parameter {symbol} is declared twice: leave one out")
-    return tuple(said)
+    return tuple(parsed)
 
 
 def _declaration(text: str) -> tuple[str, Declaration]:

@@ -304,7 +304,7 @@ class Model:
         ValueError
             A channel that the model reads is missing.
         """
-        # In the order of `BESIDE_VELOCITY`.
+        # In the order of `OTHER_CHANNELS`.
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
         return self.core.torque(
@@ -330,7 +330,7 @@ class Model:
         load_torque_curvature: ArrayLike | None = None,
     ) -> Array:
         """Derivatives of `torque` with respect to the parameters, array [n, p]."""
-        # In the order of `BESIDE_VELOCITY`.
+        # In the order of `OTHER_CHANNELS`.
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
         _, jacobian = self.core.gradient(

@@ -94,7 +94,7 @@ def read_model(data: Mapping[str, object], path: Path, text: str, *under: str) -
     path, text
         The file.
     under
-        Words after which `data` stands in the text, where the file holds more than one model.
+        Words before `data` in the text, where the file holds more than one model.
 
     Raises
     ------

@@ -33,5 +33,5 @@ def friction_part(model: Model) -> tuple[Model, tuple[str, ...]]:
         rigid_body=(),
         values=np.empty(0),
     )
-    # A law lacks its own offset beside the effect `offset`, where that is zero.
+    # With the effect `offset` a law has no offset of its own: it is zero.
     return kept.with_values([known.get(name, 0.0) for name in kept.names]), left_out

@@ -115,15 +115,15 @@ class SteadyPoints(Shown):
         write_whole(path, self.to_frame().write_csv(), ModelFileError)
 
     def _sidecar(self) -> str:
-        said = {
+        sidecar = {
             "kind": "recording",
             "joint_kind": self.recording.joint_kind,
             "average": "run",
             "note": f"steady-state points by {self.method} from {Path(self.recording.path).name}",
         }
         if self.recording.torque_unit not in ("N", "N m"):
-            said["effort_unit"] = self.recording.torque_unit
-        return tomlkit.dumps(said)
+            sidecar["effort_unit"] = self.recording.torque_unit
+        return tomlkit.dumps(sidecar)
 
 
 def mean_of(values: Array) -> tuple[float, float]:
