@@ -1,5 +1,5 @@
 from collections.abc import Mapping, Sequence
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias, TypedDict, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,9 +16,11 @@ __all__ = [
     "__version__",
     "bounded_least_squares",
     "catalog",
+    "column_formula",
     "compensate",
     "elementary",
     "elementary_constants",
+    "formula_functions",
     "fourier",
     "largest_factor",
     "margins",
@@ -49,7 +51,32 @@ def elementary(
 ) -> list[float]: ...
 def elementary_constants(*, single: bool = False) -> dict[str, list[float]]: ...
 def catalog() -> CoreCatalog: ...
-def units() -> dict[str, list[dict[str, Any]]]: ...
+
+class _Dimension(TypedDict):
+    name: str
+    si: str
+    unit: str | None
+    powers: tuple[int, int, int, int] | None
+
+class _Unit(TypedDict):
+    dimension: str
+    spellings: list[str]
+    factor: float
+    offset: float
+
+class _Channel(TypedDict):
+    name: str
+    unit: str
+    powers: tuple[int, int, int, int]
+
+class _Units(TypedDict):
+    dimensions: list[_Dimension]
+    units: list[_Unit]
+    channels: list[_Channel]
+
+def units() -> _Units: ...
+def column_formula(text: str) -> list[tuple[str, float | str | tuple[str, int] | None, int]]: ...
+def formula_functions() -> list[tuple[str, str]]: ...
 def normal_equations(
     jacobian: ArrayLike, residual: ArrayLike, group: ArrayLike, groups: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
@@ -170,7 +197,7 @@ class Formula:
     @property
     def channels(self) -> list[str]: ...
     @property
-    def operations(self) -> list[tuple[str, Any]]: ...
+    def operations(self) -> list[tuple[str, float | int | str | None]]: ...
     @property
     def terms(self) -> list[dict[str, Any]]: ...
 

@@ -33,6 +33,8 @@ pub(crate) enum Reason<'a> {
     NoOperator(&'a str),
     /// An opening bracket without a closing one.
     Unclosed(&'a str),
+    /// An opening quote without a closing one.
+    Unquoted(char),
     /// A closing bracket without an opening one of its kind.
     Unopened(&'a str),
     /// A name before a bracket that is not a function, and the function with the most similar name.
@@ -49,8 +51,18 @@ pub(crate) enum Reason<'a> {
     Arity(Function, usize),
     /// A constant expression that is infinite or NaN.
     NotFinite,
+    /// An operator that is spelt otherwise, and how.
+    Spelling(&'static str, &'static str),
     /// The formula is too long.
     TooLarge(&'static str, usize),
+}
+
+impl<'a> FormulaError<'a> {
+    /// What is wrong at a byte of a text.
+    pub(super) fn at(text: &str, byte: usize, reason: Reason<'a>) -> Self {
+        let before = text.get(..byte).unwrap_or_default();
+        Self { position: before.chars().count() + 1, reason }
+    }
 }
 
 impl fmt::Display for FormulaError<'_> {
@@ -68,6 +80,7 @@ impl fmt::Display for FormulaError<'_> {
             Reason::Unfinished => f.write_str("a value is missing at the end,"),
             Reason::NoOperator(text) => write!(f, "an operator is missing before '{text}'"),
             Reason::Unclosed(text) => write!(f, "the bracket '{text}' is never closed,"),
+            Reason::Unquoted(quote) => write!(f, "the quote {quote} is never closed,"),
             Reason::Unopened(text) => write!(f, "'{text}' has no opening bracket,"),
             Reason::UnknownFunction(name, None) => write!(f, "'{name}' is not a function,"),
             Reason::UnknownFunction(name, Some(near)) => {
@@ -94,10 +107,17 @@ impl fmt::Display for FormulaError<'_> {
             }
             Reason::Arity(function, given) => {
                 let (name, needed) = (function.name(), function.arity());
-                let values = if needed == 1 { "argument" } else { "arguments" };
+                let values = match needed {
+                    1 => "argument",
+                    _ if function.takes_more() => "or more arguments",
+                    _ => "arguments",
+                };
                 write!(f, "{name} takes {needed} {values}, not {given},")
             }
             Reason::NotFinite => f.write_str("the result is not a finite number,"),
+            Reason::Spelling(text, right) => {
+                write!(f, "'{text}' is not an operator (write '{right}'),")
+            }
             Reason::TooLarge(what, most) => {
                 write!(f, "the formula is too long (at most {most} {what}),")
             }

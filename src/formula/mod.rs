@@ -7,7 +7,8 @@
 //! | module | content |
 //! |---|---|
 //! | [`vocabulary`](Function) | names of channels, functions and constants |
-//! | `parser` | from text to program |
+//! | `tokens`, `parser` | the grammar, of laws and of formulas over the columns of a recording |
+//! | `law` | from text to program |
 //! | [`program`](Operation) | operations in postfix order, and their evaluation |
 //! | [`terms`](TermKind) | terms: dry, rate-dependent or additive |
 //! | `linear` | the parameters in which the torque is linear |
@@ -24,17 +25,23 @@
 //! ```
 
 mod error;
+mod law;
 mod linear;
 mod parser;
 mod program;
 mod terms;
+mod tokens;
 mod vocabulary;
 
 #[cfg(test)]
 mod tests;
 
 pub use error::FormulaError;
-pub use parser::FormulaNames;
+#[cfg(feature = "python")]
+pub(crate) use error::Reason;
+pub use law::FormulaNames;
+#[cfg(feature = "python")]
+pub(crate) use parser::{Builder, parse};
 #[cfg(feature = "python")]
 pub(crate) use program::Operation;
 pub use terms::Formula;
@@ -43,3 +50,5 @@ pub(crate) use terms::FormulaTerms;
 pub(crate) use terms::Term;
 #[cfg(feature = "std")]
 pub(crate) use terms::TermKind;
+#[cfg(feature = "python")]
+pub(crate) use vocabulary::{FUNCTIONS, Function};

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use super::error::{FormulaError, Reason};
 use super::linear::{ParameterSet, linear_parameters};
-use super::parser::{self, FormulaNames};
+use super::law::{self, FormulaNames};
 use super::program::{MAX_OPERATIONS, MAX_PARAMETERS, Operation, Program, Replacement};
 use super::vocabulary::Function;
 use crate::sample::{Sample, Split};
@@ -101,7 +101,7 @@ impl Formula {
     /// # Errors
     /// What is wrong with the text, and where.
     pub fn parse(text: &str) -> Result<(Self, FormulaNames<'_>), FormulaError<'_>> {
-        let (program, names) = parser::parse(text)?;
+        let (program, names) = law::parse(text)?;
         Ok((Self::of(program)?, names))
     }
 

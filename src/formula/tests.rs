@@ -53,6 +53,8 @@ const SAMPLE: Sample<f64> = Sample {
 fn operators_have_the_usual_precedence() {
     assert_eq!(at("c + 2*3^2", 1.0, 0.0), 19.0);
     assert_eq!(at("c - 2 - 3", 1.0, 0.0), -4.0);
+    assert_eq!(at("c*max(v, 3, 2) + min(5, v, 4, 6)", 1.0, 0.0), 3.0);
+    assert_eq!(at("c*1_000 + 0x10", 1.0, 0.0), 1016.0);
     assert_eq!(at("c*12/4/3", 1.0, 0.0), 1.0);
     assert_eq!(at("-c^2", 3.0, 0.0), -9.0);
     assert_eq!(at("c**2**3", 2.0, 0.0), 256.0);
@@ -264,6 +266,10 @@ fn errors_state_what_and_where() {
         ("c1*exp", "'exp' is a function (write exp(...)), at position 4"),
         ("c1*exp(v, 2)", "exp takes 1 argument, not 2, at position 4"),
         ("c1*pow(v)", "pow takes 2 arguments, not 1, at position 4"),
+        ("c1*min(v)", "min takes 2 or more arguments, not 1, at position 4"),
+        ("c1*(v, 2)", "an operator is missing before ',' at position 6"),
+        ("c1*(v < 2)", "'<' is not allowed in a formula, at position 7"),
+        ("c1*`v`", "'`' is not allowed in a formula, at position 4"),
         ("c1*(1/0)", "the result is not a finite number, at position 6"),
         ("c1*1e999", "the result is not a finite number, at position 4"),
         ("c1*ä", "'ä' is not allowed in a formula, at position 4"),

@@ -25,13 +25,19 @@ pub enum Function {
 }
 
 impl Function {
-    /// Number of arguments.
+    /// Number of arguments; the least number where more are allowed.
     #[must_use]
     pub const fn arity(self) -> usize {
         match self {
             Self::Power | Self::Minimum | Self::Maximum => 2,
             _ => 1,
         }
+    }
+
+    /// Whether it takes any larger number of arguments too.
+    #[must_use]
+    pub const fn takes_more(self) -> bool {
+        matches!(self, Self::Minimum | Self::Maximum)
     }
 
     /// The name in programs and messages.
@@ -42,7 +48,7 @@ impl Function {
 }
 
 /// Functions by name; the first name of each function is the one in messages.
-const FUNCTIONS: [(&str, Function); 20] = [
+pub(crate) const FUNCTIONS: [(&str, Function); 20] = [
     ("sgn", Function::Sign),
     ("sign", Function::Sign),
     ("abs", Function::Abs),

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::refuse;
-use crate::formula::{self, Operation};
+use crate::formula::{self, Builder, FUNCTIONS, Function, Operation, Reason};
 use crate::table::Channel;
 
 /// Friction terms given as text. No text is executed as code.
@@ -89,4 +89,111 @@ impl Formula {
         };
         self.formula.terms().map(term).collect()
     }
+}
+
+/// One step of a formula over columns, in postfix order.
+struct Step<'a> {
+    name: &'static str,
+    detail: Detail<'a>,
+    /// The byte at which it begins.
+    at: usize,
+}
+
+/// What a step works on besides the values before it.
+enum Detail<'a> {
+    None,
+    Number(f64),
+    Text(&'a str),
+    /// A function and its number of arguments.
+    Call(&'static str, usize),
+}
+
+/// The steps of a formula over columns while its text is parsed.
+struct Columns<'a>(Vec<Step<'a>>);
+
+impl<'a> Columns<'a> {
+    fn add(&mut self, name: &'static str, detail: Detail<'a>, at: usize) {
+        self.0.push(Step { name, detail, at });
+    }
+}
+
+impl<'a> Builder<'a> for Columns<'a> {
+    const DEPTH: usize = 100;
+    const CONDITIONS: bool = true;
+
+    fn number(&mut self, number: f64, at: usize) -> Result<(), Reason<'a>> {
+        if !number.is_finite() {
+            return Err(Reason::NotFinite);
+        }
+        self.add("number", Detail::Number(number), at);
+        Ok(())
+    }
+
+    fn name(&mut self, name: &'a str, at: usize) -> Result<(), Reason<'a>> {
+        self.add("name", Detail::Text(name), at);
+        Ok(())
+    }
+
+    fn operation(&mut self, operation: Operation, at: usize) -> Result<(), Reason<'a>> {
+        let name = match operation {
+            Operation::Negate => "negate",
+            Operation::Add => "add",
+            Operation::Subtract => "subtract",
+            Operation::Multiply => "multiply",
+            Operation::Divide => "divide",
+            _ => "power",
+        };
+        self.add(name, Detail::None, at);
+        Ok(())
+    }
+
+    fn call(&mut self, function: Function, given: usize, at: usize) -> Result<(), Reason<'a>> {
+        self.add("call", Detail::Call(function.name(), given), at);
+        Ok(())
+    }
+
+    fn text(&mut self, text: &'a str, at: usize) -> Result<(), Reason<'a>> {
+        self.add("text", Detail::Text(text), at);
+        Ok(())
+    }
+
+    fn condition(&mut self, word: &'a str, chained: bool, at: usize) -> Result<(), Reason<'a>> {
+        match word {
+            "and" => self.add("and", Detail::None, at),
+            "or" => self.add("or", Detail::None, at),
+            "not" => self.add("not", Detail::None, at),
+            _ if chained => self.add("chain", Detail::Text(word), at),
+            _ => self.add("compare", Detail::Text(word), at),
+        }
+        Ok(())
+    }
+}
+
+/// The steps of a formula over columns in postfix order: what to do, with what, and the position of
+/// the character where it begins, counted from 1.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub fn column_formula<'py>(
+    py: Python<'py>,
+    text: &str,
+) -> PyResult<Vec<(&'static str, Bound<'py, PyAny>, usize)>> {
+    let mut columns = Columns(Vec::new());
+    formula::parse(text, &mut columns).map_err(refuse)?;
+    let step = |step: &Step<'_>| {
+        let detail = match step.detail {
+            Detail::None => py.None().into_bound(py),
+            Detail::Number(number) => number.into_pyobject(py)?.into_any(),
+            Detail::Text(text) => text.into_pyobject(py)?.into_any(),
+            Detail::Call(name, given) => (name, given).into_pyobject(py)?.into_any(),
+        };
+        let before = text.get(..step.at).unwrap_or_default();
+        Ok((step.name, detail, before.chars().count() + 1))
+    };
+    columns.0.iter().map(step).collect()
+}
+
+/// The functions of formulas: each name, and the name in programs.
+#[pyfunction]
+pub fn formula_functions() -> Vec<(&'static str, &'static str)> {
+    FUNCTIONS.iter().map(|(name, function)| (*name, function.name())).collect()
 }

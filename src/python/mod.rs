@@ -43,7 +43,7 @@ mod _core {
     #[pymodule_export]
     use super::export::{elementary, elementary_constants};
     #[pymodule_export]
-    use super::formula::Formula;
+    use super::formula::{Formula, column_formula, formula_functions};
     #[pymodule_export]
     use super::identify::{
         bounded_least_squares, search, search_by, slides, triangle, triangles_of,

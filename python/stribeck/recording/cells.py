@@ -13,7 +13,7 @@ __all__ = ["column_numbers", "labels", "numbered"]
 
 
 def labels(table: pl.DataFrame, column: str) -> pl.Series:
-    """Return the names of the joints or runs of each row, whole numbers without a decimal point."""
+    """A column as names of joints or runs, [rows]; whole numbers have no decimal point."""
     series = table[column]
     if series.dtype.is_float():
         values = series.unique()
@@ -28,19 +28,19 @@ def _label(value: float | None) -> str:
 
 
 def numbered(names: pl.Series) -> tuple[list[str], Ints]:
-    """Return the different names in order of appearance, and which of them stands in each row."""
+    """The different names in order of appearance, and the number of the name in each row."""
     different = names.unique(maintain_order=True)
     number = np.arange(len(different), dtype=np.int64)
     return different.to_list(), names.replace_strict(different, number).to_numpy()
 
 
 def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) -> Floats:
-    """Return a column as numbers, NaN where a cell is empty.
+    """A column as numbers, [rows]; NaN where a cell is empty.
 
     Raises
     ------
     RecordingError
-        When a cell holds text, naming file, row and column.
+        A cell holds text; the sentence names file, row and column.
     """
     series = table[column]
     dtype = series.dtype

@@ -44,12 +44,12 @@ class Channels:
         choice = self.prepared.choices[channel]
         if choice.unit is None or choice.unit.name == unit:
             return
-        if choice.said_by == "suffix":
+        if choice.unit_from == "suffix":
             self.notes.append(
                 f"{channel} is read from '{choice.source}' in {choice.unit.name}, converted to "
                 f"{unit}"
             )
-        elif choice.said_by == "option":
+        elif choice.unit_from == "option":
             self.notes.append(
                 f"'{choice.source}' is in {choice.unit.name} as given, converted to {unit}"
             )

@@ -34,14 +34,14 @@ class Choice:
     ----------
     unit
         None: no unit was named, the SI unit is taken.
-    said_by
+    unit_from
         What named the unit: an option, the suffix of the column's name, or nothing ("name", "map").
     """
 
     channel: str
     source: str
     unit: Unit | None
-    said_by: Literal["map", "option", "suffix", "name"]
+    unit_from: Literal["map", "option", "suffix", "name"]
 
 
 def choose_columns(
@@ -93,15 +93,15 @@ def _check_given(
     """Refuse options that name a channel or column that does not exist."""
     known = set(names)
     for channel, column in maps.items():
-        said = option("map", f"{channel}={column}")
+        given = option("map", f"{channel}={column}")
         if channel not in CHANNELS:
             hint = nearest(channel, CHANNELS) or f"; those are {', '.join(CHANNELS)}"
             raise RecordingError(
-                f"{path}: {said}: '{channel}' is not a channel that stribeck knows{hint}"
+                f"{path}: {given}: '{channel}' is not a channel that stribeck knows{hint}"
             )
         if column not in known and column != "none":
             hint = nearest(column, names) or f"; the file has {', '.join(names)}"
-            raise RecordingError(f"{path}: {said}: there is no column '{column}'{hint}")
+            raise RecordingError(f"{path}: {given}: there is no column '{column}'{hint}")
     for column, unit in units.items():
         if column not in known and column not in CHANNELS:
             hint = nearest(column, names) or f"; the file has {', '.join(names)}"
@@ -191,10 +191,10 @@ def _choice(
     dimensions = CHANNELS[channel]
     if not dimensions:
         return Choice(channel, column, None, "map" if mapped else "name")
-    said = units.get(column, units.get(channel))
-    if said is not None:
-        what = f"{path}: {option('unit', f'{column}={said}')}"
-        unit = parse_unit(said, dimensions, what)
+    given = units.get(column, units.get(channel))
+    if given is not None:
+        what = f"{path}: {option('unit', f'{column}={given}')}"
+        unit = parse_unit(given, dimensions, what)
         return Choice(channel, column, unit, "option")
     parsed = parse_name(column)
     if parsed.unit is not None and parsed.unit.dimension in dimensions:

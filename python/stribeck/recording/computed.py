@@ -90,7 +90,7 @@ def _mask(source: Source, table: pl.DataFrame, text: str) -> Bools:
 
 
 def _inferred_unit(formula: Formula) -> str | None:
-    """Return V or % when a formula only scales one column in that unit by powers of ten.
+    """V or % if a formula only scales one column in that unit by powers of ten, otherwise None.
 
     ``pwm_permille/1000*supply_V`` is a voltage; ``u_V*35.15`` may be anything.
     """
@@ -111,7 +111,7 @@ def _compile(source: Source, table: pl.DataFrame, text: str, where: str) -> Form
     try:
         return compile_formula(text, table.schema, where)
     except RecordingError:
-        # One bad cell turns a column of numbers into text: then the cell is what is wrong.
+        # One bad cell makes a column of numbers a column of text: then the cell is refused.
         for name in table.columns:
             if table.schema[name] == pl.String and name in text:
                 bare = table[name].str.strip_chars().drop_nulls()

@@ -6,22 +6,23 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
+from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.rows import segment_slices
 
 __all__ = ["Smoother", "choose_cutoff", "jumps", "motion_band"]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
-
 _ORDER = 4
-_HIGHEST = 0.4  # of the sampling rate: a cut-off above leaves nothing worth removing
-_MARGIN = 1.5  # the pass band ends a little above the frequency where motion meets noise
-_ABOVE = 4.0  # motion is seen where the spectrum is this many times the noise
-_JUMP = 20.0  # times the 99 % quantile of the change from step to step
-_UNIFORM = 0.01  # steps within 1 % of their mean are taken as uniform
+#: Highest cut-off, as a share of the sampling rate: above it, a filter removes next to nothing.
+_HIGHEST = 0.4
+#: Cut-off over the frequency where motion meets noise.
+_MARGIN = 1.5
+#: Motion is seen where the spectrum is this many times the noise.
+_ABOVE = 4.0
+#: A jump is this many times the 99 % quantile of the change from step to step.
+_JUMP = 20.0
+#: Steps within 1 % of their mean count as uniform.
+_UNIFORM = 0.01
 
 
 def _grid(t: Floats) -> tuple[Floats, bool]:
@@ -41,8 +42,8 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
 
     The spectrum of the differenced signal (differencing keeps the strong slow motion from leaking
     over the weak fast one) is divided by the response of the difference. Its high-frequency plateau
-    is the noise; motion ends at the highest frequency where the spectrum stands clearly above
-    it. The cut-off does not depend on the derivative wanted: motion and noise grow alike with it.
+    is the noise; motion ends at the highest frequency where the spectrum is clearly above it. The
+    cut-off does not depend on the derivative that is wanted: motion and noise grow alike with it.
 
     Parameters
     ----------
@@ -57,8 +58,34 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
     slices = [s for s in segment_slices(segment) if s.stop - s.start >= 32]
     if not slices:
         return None
-    steps = np.concatenate([np.diff(time[s]) for s in slices])
-    step = float(np.median(steps))
+    step = float(np.median(np.concatenate([np.diff(time[s]) for s in slices])))
+    spectrum = _difference_spectrum(time, value, slices, step, differences)
+    if spectrum is None:
+        return None
+    frequency = np.fft.rfftfreq(2 * (len(spectrum) - 1), step)
+    response = np.abs(2.0 * np.sin(np.pi * frequency * step)) ** (2 * differences)
+    density, frequency = spectrum[1:] / response[1:], frequency[1:]
+    rate = 1.0 / step
+    nyquist = 0.5 * rate
+    plateau = density[(frequency > 0.6 * nyquist) & (frequency < 0.95 * nyquist)]
+    noise = float(np.median(plateau))
+    if noise <= 0.0:
+        return None
+    above = _smooth(density) > _ABOVE * noise
+    if not above.any():
+        return None
+    meeting = float(frequency[np.flatnonzero(above)[-1]])
+    # A spectrum that still falls at its end has no plateau: there is no noise to remove.
+    if meeting > 0.55 * nyquist:
+        return None
+    cutoff = _MARGIN * meeting
+    return cutoff if cutoff < _HIGHEST * rate else None
+
+
+def _difference_spectrum(
+    time: Floats, value: Floats, slices: list[slice], step: float, differences: int
+) -> Floats | None:
+    """Spectral density of the differences of a signal, by Welch's method; None without data."""
     rate = 1.0 / step
     longest = max(s.stop - s.start for s in slices)
     # Windows of about 4 s resolve the motions of a robot joint; at least 64 samples to see a
@@ -82,28 +109,7 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
         frames = frames - frames.mean(axis=1, keepdims=True)
         spectrum += (np.abs(np.fft.rfft(frames * window, axis=1)) ** 2).sum(axis=0) * scale
         windows += len(frames)
-    if windows == 0 or not spectrum.any():
-        return None
-    spectrum /= windows
-    frequency = np.fft.rfftfreq(length, step)
-    response = np.abs(2.0 * np.sin(np.pi * frequency * step)) ** (2 * differences)
-    usable = slice(1, None)
-    density = spectrum[usable] / response[usable]
-    frequency = frequency[usable]
-    nyquist = 0.5 * rate
-    plateau = density[(frequency > 0.6 * nyquist) & (frequency < 0.95 * nyquist)]
-    noise = float(np.median(plateau))
-    if noise <= 0.0:
-        return None
-    above = _smooth(density) > _ABOVE * noise
-    if not above.any():
-        return None
-    meeting = float(frequency[np.flatnonzero(above)[-1]])
-    # A spectrum still falling at its end has no plateau: there is no noise to remove.
-    if meeting > 0.55 * nyquist:
-        return None
-    cutoff = _MARGIN * meeting
-    return cutoff if cutoff < _HIGHEST * rate else None
+    return spectrum / windows if windows and spectrum.any() else None
 
 
 def motion_band(time: Floats, velocity: Floats, segment: Ints) -> float | None:
@@ -131,7 +137,7 @@ def motion_band(time: Floats, velocity: Floats, segment: Ints) -> float | None:
 def jumps(value: Floats) -> Bools:
     """Steps between samples that no motion makes, bool [n - 1].
 
-    They stand out from the steps around them by many times what steps usually change by.
+    A jump differs from the steps around it by many times the usual change from step to step.
     """
     step = np.diff(value)
     if len(step) < 2:
@@ -164,11 +170,11 @@ def _slope(x: Floats, step: float) -> Floats:
 
 
 def _mend_ends(raw: Floats, y: Floats, rate: float, cutoff: float, derivative: int) -> Floats:
-    """Replace what a filter leaves at the ends of a segment by a cubic fitted to the raw samples.
+    """Replace the filtered signal at the ends of a segment by a cubic fitted to the raw samples.
 
-    A filter has to guess what lies beyond the ends, which bends velocity and acceleration there.
-    The cubic spans as many samples as a cubic Savitzky-Golay filter of the same cut-off, and fades
-    into the filtered signal over half of them.
+    A filter extrapolates beyond the ends, which bends velocity and acceleration there. The cubic
+    spans as many samples as a cubic Savitzky-Golay filter of the same cut-off, and fades into the
+    filtered signal over half of them.
     """
     half = int(np.ceil((4.0 * 0.5 * rate / cutoff + 4.6) / 3.2))
     span = 2 * half + 1
@@ -206,7 +212,7 @@ class Smoother:
     def smooth(self, value: Floats, derivative: int = 0) -> Floats:
         """Low-pass a signal and take its derivative, segment by segment.
 
-        Segments too short for the filter are differentiated as they are.
+        Segments too short for the filter are differentiated without it.
         """
         out = np.empty_like(value)
         sections: dict[float, Floats] = {}

@@ -62,9 +62,12 @@ def with_drive(recording: Recording, prepared: Prepared, values: Mapping[str, Fl
                 "torque is zero there, and the effort is set to zero"
             )
     return replace(
-        recording, drive=prepared.settings.drive, torque=torque, enabled=enabled,
+        recording,
+        drive=prepared.settings.drive,
+        torque=torque,
+        enabled=enabled,
         notes=tuple(notes),
-    )  # fmt: skip
+    )
 
 
 def _external_torque(

@@ -1,4 +1,4 @@
-"""Contiguous stretches of something long, taken evenly."""
+"""Contiguous stretches of a recording, evenly distributed."""
 
 from __future__ import annotations
 
@@ -10,19 +10,18 @@ from stribeck.recording.recording import Recording
 
 __all__ = ["SAMPLE_ROWS", "excerpt", "stretches"]
 
-#: Rows on which causes are looked for, unless something else is said: what they show no less than
-#: millions would, in seconds.
+#: Samples in which causes are searched by default: they show as much as millions, in seconds.
 SAMPLE_ROWS = 100_000
 
-#: They are taken in so many stretches: long enough for a motion, many enough for slow changes.
+#: Number of stretches: each is long enough for a motion, and slow changes are seen as well.
 STRETCHES = 40
 
 
 def stretches(rows: int, most: int, seed: int) -> list[tuple[int, int]]:
     """First and last row (exclusive) of stretches of equal length, one in each equal share.
 
-    Where a stretch lies in its share is drawn from `seed`, so that no motion that repeats itself
-    is always met at the same place.
+    The place of a stretch in its share is random, so that a periodic motion is not always sampled
+    at the same phase.
 
     Examples
     --------
@@ -42,7 +41,7 @@ def stretches(rows: int, most: int, seed: int) -> list[tuple[int, int]]:
 
 
 def excerpt(recording: Recording, most: int, seed: int = 0) -> Recording:
-    """At most `most` rows of a recording; itself where it has no more.
+    """At most `most` samples of a recording; the recording itself if it has no more.
 
     Each stretch begins a segment. Held-out blocks, runs and the filtered channels are those of the
     whole recording.

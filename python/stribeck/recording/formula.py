@@ -1,275 +1,263 @@
-"""A small, safe formula language over columns: parsed by Python's grammar, run by polars.
+"""Formulas over columns: the formulas of friction laws, with comparisons, texts and conditions.
 
-Nothing is ever executed as Python. Only the node types listed here are translated; everything else
-is refused with its position.
+The crate parses the text (`src/formula`), so that a formula means the same here and in a law;
+polars evaluates it. Nothing of the text is executed as code.
 """
 
 from __future__ import annotations
 
 import ast
-import re
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import NoReturn
+from typing import Literal, NoReturn
 
+import numpy as np
 import polars as pl
 
+from stribeck import _core
 from stribeck.base.errors import RecordingError, nearest
 
 __all__ = ["Formula", "compile_formula"]
 
 _LIMIT = 2000
 
-_FUNCTIONS = ("abs", "sqrt", "exp", "log", "sin", "cos", "tan", "sign", "min", "max")
-_WORDS = {"pi": 3.141592653589793, "e": 2.718281828459045}
+Kind = Literal["number", "text", "truth"]
+#: What a step of `_core.column_formula` works on: a number, a text, a function and its number of
+#: arguments, or nothing.
+Detail = float | str | tuple[str, int] | None
+
+_CONSTANTS = {"pi": 3.141592653589793, "e": 2.718281828459045}
+_TRUTHS = {"true": True, "True": True, "false": False, "False": False}
+_ARITHMETIC: dict[str, Callable[[pl.Expr, pl.Expr], pl.Expr]] = {
+    "add": operator.add,
+    "subtract": operator.sub,
+    "multiply": operator.mul,
+    "divide": operator.truediv,
+    "power": pl.Expr.pow,
+}
+_COMPARISONS: dict[str, Callable[[pl.Expr, pl.Expr], pl.Expr]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+
+
+def _expm1(x: pl.Expr) -> pl.Expr:
+    return x.map_batches(np.expm1, return_dtype=pl.Float64)
+
+
+#: What the crate's functions (`_core.formula_functions`) are in polars.
+_FUNCTIONS: dict[str, Callable[..., pl.Expr]] = {
+    "sgn": pl.Expr.sign,
+    "abs": pl.Expr.abs,
+    "exp": pl.Expr.exp,
+    "expm1": _expm1,
+    "log": pl.Expr.log,
+    "log10": pl.Expr.log10,
+    "sqrt": pl.Expr.sqrt,
+    "cbrt": pl.Expr.cbrt,
+    "sin": pl.Expr.sin,
+    "cos": pl.Expr.cos,
+    "tan": pl.Expr.tan,
+    "atan": pl.Expr.arctan,
+    "tanh": pl.Expr.tanh,
+    "pow": pl.Expr.pow,
+    "min": pl.min_horizontal,
+    "max": pl.max_horizontal,
+}
 
 
 @dataclass(frozen=True)
 class Formula:
-    """A translated formula: its expression, its kind and the columns it reads."""
+    """A formula over the columns of a table.
+
+    Attributes
+    ----------
+    kind
+        What its values are.
+    columns, numbers
+        The columns and the numbers in it, in order.
+    product
+        Whether it only multiplies and divides: units of the one column then carry over.
+    """
 
     text: str
     expression: pl.Expr
-    kind: str  # "number" | "text" | "truth"
+    kind: Kind
     columns: tuple[str, ...]
     numbers: tuple[float, ...]
-    product: bool  # only *, / and numbers between columns: units of the one column carry over
+    product: bool
 
 
 def compile_formula(text: str, schema: Mapping[str, pl.DataType], where: str) -> Formula:
-    """Translate a formula over the columns of a table.
+    """Compile a formula over the columns of a table.
 
     Parameters
     ----------
     text
-        The formula. A column whose name is not a plain word goes in back-ticks.
+        The formula. A column whose name is not a plain word is written in back-ticks.
     schema
         Column names and types of the table.
     where
-        What the formula is for, the start of every error sentence.
+        What the formula is for; every error sentence begins with it.
+
+    Raises
+    ------
+    RecordingError
+        The text is no formula, or it does not fit the columns; with the position.
     """
     if len(text) > _LIMIT:
         raise RecordingError(f"{where}: the formula is longer than {_LIMIT} characters")
-    if not text.strip():
-        raise RecordingError(f"{where}: the formula is empty")
-    quoted: dict[str, str] = {}
-
-    def hide(match: re.Match[str]) -> str:
-        # Same length as the original, so that positions in error sentences stay right.
-        width = len(match.group(0))
-        name = f"_{len(quoted)}_".ljust(width, "_") if width >= 4 else f"_{len(quoted)}"
-        quoted[name] = match.group(1)
-        return name
-
-    plain = re.sub(r"`([^`]+)`", hide, text)
-    # Leading blanks would be an indentation error; columns are counted back in below.
-    stripped = plain.lstrip()
-    shift = len(plain) - len(stripped)
-    stripped = stripped.rstrip()
     try:
-        tree = ast.parse(stripped, mode="eval")
-    except SyntaxError as error:
-        position = (error.offset or len(stripped) + 1) + shift
-        hint = ""
-        if re.search(r"(?<![=!<>])=(?!=)", plain):
-            hint = " (equality is written ==)"
-        elif "&&" in plain or "||" in plain:
-            hint = " (write 'and', 'or')"
-        raise RecordingError(
-            f"{where}: '{text}' is not a formula, at position {position}{hint}"
-        ) from None
-    except (ValueError, RecursionError, MemoryError):
-        raise RecordingError(f"{where}: '{text[:80]}' is not a formula") from None
-    try:
-        return _Translator(text, schema, where, quoted, shift).run(tree)
-    except RecursionError:
-        raise RecordingError(f"{where}: the formula is nested too deeply") from None
+        steps = _core.column_formula(text)
+    except _core.ModelError as error:
+        # Only an empty formula has no position.
+        of = f" of '{text}'" if text.strip() else ""
+        raise RecordingError(f"{where}: {error}{of}") from None
+    compiler = _Compiler(text, schema, where)
+    for name, detail, position in steps:
+        compiler.step(name, detail, position)
+    (value,) = compiler.stack
+    numbers = tuple(compiler.numbers)
+    return Formula(
+        text, value.expression, value.kind, tuple(compiler.columns), numbers, compiler.product
+    )
 
 
-class _Translator:
-    def __init__(
-        self,
-        text: str,
-        schema: Mapping[str, pl.DataType],
-        where: str,
-        quoted: dict[str, str],
-        shift: int,
-    ) -> None:
+@dataclass(frozen=True)
+class _Value:
+    """A value on the stack.
+
+    Attributes
+    ----------
+    position
+        Of its first character, counted from 1.
+    last
+        The right operand, where it is a comparison.
+    """
+
+    expression: pl.Expr
+    kind: Kind
+    position: int
+    last: _Value | None = None
+
+
+class _Compiler:
+    """The stack while the steps of a formula are taken."""
+
+    def __init__(self, text: str, schema: Mapping[str, pl.DataType], where: str) -> None:
         self.text = text
         self.schema = schema
         self.where = where
-        self.quoted = quoted
-        self.shift = shift
+        self.stack: list[_Value] = []
         self.columns: list[str] = []
         self.numbers: list[float] = []
         self.product = True
 
-    def run(self, tree: ast.Expression) -> Formula:
-        expression, kind = self.visit(tree.body)
-        return Formula(
-            self.text, expression, kind, tuple(self.columns), tuple(self.numbers), self.product
-        )
+    def step(self, name: str, detail: Detail, position: int) -> None:
+        """Take one step of `_core.column_formula`."""
+        if isinstance(detail, float):
+            self.numbers.append(detail)
+            literal = pl.lit(detail, dtype=pl.Float64)
+            self.stack.append(_Value(literal, "number", position))
+        elif isinstance(detail, tuple):
+            self._call(detail[0], detail[1], position)
+        elif name == "text" and detail is not None:
+            self.stack.append(_Value(pl.lit(ast.literal_eval(detail)), "text", position))
+        elif name == "name" and detail is not None:
+            self._name(detail, position)
+        elif detail is not None:
+            self._compare(detail, chained=name == "chain")
+        elif name == "negate":
+            expression = -self._number(self.stack.pop())
+            self.stack.append(_Value(expression, "number", position))
+        elif name == "not":
+            expression = ~self._truth(self.stack.pop())
+            self.stack.append(_Value(expression, "truth", position))
+        elif name in ("and", "or"):
+            self._join(name)
+        else:
+            self._binary(name)
 
-    def refuse(self, node: ast.AST, message: str) -> NoReturn:
-        position = getattr(node, "col_offset", 0) + 1 + self.shift
+    def _refuse(self, message: str, position: int) -> NoReturn:
         raise RecordingError(f"{self.where}: {message} at position {position} of '{self.text}'")
 
-    def number(self, node: ast.AST) -> pl.Expr:
-        expression, kind = self.visit(node)
-        if kind == "text":
-            self.refuse(node, "text is used as a number")
-        return expression.cast(pl.Float64) if kind == "truth" else expression
+    def _number(self, value: _Value) -> pl.Expr:
+        if value.kind == "text":
+            self._refuse("text is used as a number", value.position)
+        truth = value.kind == "truth"
+        return value.expression.cast(pl.Float64) if truth else value.expression
 
-    def truth(self, node: ast.AST) -> pl.Expr:
-        expression, kind = self.visit(node)
-        if kind == "text":
-            self.refuse(node, "text is used as true or false")
-        return expression if kind == "truth" else expression != 0.0
+    def _truth(self, value: _Value) -> pl.Expr:
+        if value.kind == "text":
+            self._refuse("text is used as a condition", value.position)
+        return value.expression if value.kind == "truth" else value.expression != 0.0
 
-    def visit(self, node: ast.AST) -> tuple[pl.Expr, str]:
-        if isinstance(node, ast.Constant):
-            return self.constant(node)
-        if isinstance(node, ast.Name):
-            return self.name(node)
-        if isinstance(node, ast.BinOp):
-            return self.binary(node), "number"
-        if isinstance(node, ast.UnaryOp):
-            if isinstance(node.op, ast.Not):
-                return ~self.truth(node.operand), "truth"
-            if isinstance(node.op, ast.USub):
-                return -self.number(node.operand), "number"
-            if isinstance(node.op, ast.UAdd):
-                return self.number(node.operand), "number"
-            self.refuse(node, "the operator '~' is not available (write 'not')")
-        if isinstance(node, ast.BoolOp):
-            self.product = False
-            parts = [self.truth(value) for value in node.values]
-            joined = parts[0]
-            for part in parts[1:]:
-                joined = joined & part if isinstance(node.op, ast.And) else joined | part
-            return joined, "truth"
-        if isinstance(node, ast.Compare):
-            return self.compare(node), "truth"
-        if isinstance(node, ast.Call):
-            return self.call(node), "number"
-        self.refuse(
-            node,
-            "only numbers, texts, columns, + - * / **, comparisons, and/or/not and "
-            f"{', '.join(_FUNCTIONS)} are available, not what stands",
-        )
-
-    def constant(self, node: ast.Constant) -> tuple[pl.Expr, str]:
-        value = node.value
-        if isinstance(value, bool):
-            return pl.lit(value), "truth"
-        if isinstance(value, (int, float)):
-            try:
-                number = float(value)
-            except OverflowError:
-                self.refuse(node, "a number is too large")
-            self.numbers.append(number)
-            return pl.lit(number, dtype=pl.Float64), "number"
-        if isinstance(value, str):
-            return pl.lit(value), "text"
-        self.refuse(node, "this kind of value is not available")
-
-    def name(self, node: ast.Name) -> tuple[pl.Expr, str]:
-        name = self.quoted.get(node.id, node.id)
+    def _name(self, name: str, position: int) -> None:
+        """A column by its name in any case; otherwise a constant."""
         if name not in self.schema:
             folded = [column for column in self.schema if column.casefold() == name.casefold()]
             if len(folded) == 1:
                 name = folded[0]
-            elif name in _WORDS:
-                self.numbers.append(_WORDS[name])
-                return pl.lit(_WORDS[name]), "number"
-            elif name in ("true", "false"):
-                return pl.lit(name == "true"), "truth"
+            elif name in _CONSTANTS:
+                self.numbers.append(_CONSTANTS[name])
+                self.stack.append(_Value(pl.lit(_CONSTANTS[name]), "number", position))
+                return
+            elif name in _TRUTHS:
+                self.stack.append(_Value(pl.lit(_TRUTHS[name]), "truth", position))
+                return
             else:
                 hint = nearest(name, self.schema) or f"; the file has {', '.join(self.schema)}"
-                self.refuse(
-                    node,
-                    f"unknown column '{name}'{hint} It stands"
-                    if hint.endswith("?")
-                    else f"unknown column '{name}'{hint}; it stands",
-                )
+                found = f"it is at position {position} of '{self.text}'"
+                end = f" ({found})" if hint.endswith("?") else f"; {found}"
+                raise RecordingError(f"{self.where}: unknown column '{name}'{hint}{end}")
         if name not in self.columns:
             self.columns.append(name)
-        dtype = self.schema[name]
+        dtype, column = self.schema[name], pl.col(name)
         if dtype == pl.Boolean:
-            return pl.col(name), "truth"
-        if dtype.is_numeric():
-            return pl.col(name).cast(pl.Float64), "number"
-        if dtype in (pl.String, pl.Categorical, pl.Enum) or dtype.is_temporal():
-            return pl.col(name).cast(pl.String), "text"
-        self.refuse(node, f"column '{name}' holds neither numbers nor text")
+            self.stack.append(_Value(column, "truth", position))
+        elif dtype.is_numeric():
+            self.stack.append(_Value(column.cast(pl.Float64), "number", position))
+        elif dtype in (pl.String, pl.Categorical, pl.Enum) or dtype.is_temporal():
+            self.stack.append(_Value(column.cast(pl.String), "text", position))
+        else:
+            self._refuse(f"column '{name}' holds neither numbers nor text", position)
 
-    def binary(self, node: ast.BinOp) -> pl.Expr:
-        left, right = self.number(node.left), self.number(node.right)
-        if not isinstance(node.op, (ast.Mult, ast.Div)):
+    def _binary(self, name: str) -> None:
+        right, left = self.stack.pop(), self.stack.pop()
+        if name not in ("multiply", "divide"):
             self.product = False
-        if isinstance(node.op, ast.Add):
-            return left + right
-        if isinstance(node.op, ast.Sub):
-            return left - right
-        if isinstance(node.op, ast.Mult):
-            return left * right
-        if isinstance(node.op, ast.Div):
-            return left / right
-        if isinstance(node.op, ast.Pow):
-            return left.pow(right)
-        if isinstance(node.op, ast.BitXor):
-            self.refuse(node, "a power is written **, not ^,")
-        if isinstance(node.op, (ast.BitAnd, ast.BitOr)):
-            self.refuse(node, "write 'and', 'or' instead of & and |")
-        self.refuse(node, "this operator is not available")
+        expression = _ARITHMETIC[name](self._number(left), self._number(right))
+        self.stack.append(_Value(expression, "number", left.position))
 
-    def compare(self, node: ast.Compare) -> pl.Expr:
+    def _join(self, name: str) -> None:
         self.product = False
-        operands = [node.left, *node.comparators]
-        visited = [self.visit(operand) for operand in operands]
-        joined: pl.Expr | None = None
-        for i, operator in enumerate(node.ops):
-            (left, left_kind), (right, right_kind) = visited[i], visited[i + 1]
-            if (left_kind == "text") != (right_kind == "text"):
-                self.refuse(
-                    operands[i + 1], "text is compared with a number (only text stands in quotes)"
-                )
-            if left_kind != right_kind:
-                left, right = left.cast(pl.Float64), right.cast(pl.Float64)
-            if isinstance(operator, ast.Eq):
-                part = left == right
-            elif isinstance(operator, ast.NotEq):
-                part = left != right
-            elif isinstance(operator, ast.Lt):
-                part = left < right
-            elif isinstance(operator, ast.LtE):
-                part = left <= right
-            elif isinstance(operator, ast.Gt):
-                part = left > right
-            elif isinstance(operator, ast.GtE):
-                part = left >= right
-            else:
-                self.refuse(node, "only == != < <= > >= compare; 'in' and 'is' are not available")
-            joined = part if joined is None else joined & part
-        assert joined is not None
-        return joined
+        right, left = self.stack.pop(), self.stack.pop()
+        one, other = self._truth(left), self._truth(right)
+        expression = one & other if name == "and" else one | other
+        self.stack.append(_Value(expression, "truth", left.position))
 
-    def call(self, node: ast.Call) -> pl.Expr:
+    def _compare(self, comparison: str, *, chained: bool) -> None:
+        """A comparison; in ``a < b < c`` the second one is of b and c, and both must hold."""
         self.product = False
-        if not isinstance(node.func, ast.Name) or node.func.id not in _FUNCTIONS:
-            name = node.func.id if isinstance(node.func, ast.Name) else "this"
-            self.refuse(
-                node, f"'{name}' is not a function here (there are {', '.join(_FUNCTIONS)}),"
-            )
-        if node.keywords or any(isinstance(argument, ast.Starred) for argument in node.args):
-            self.refuse(node, "functions take plain arguments only,")
-        name = node.func.id
-        arguments = [self.number(argument) for argument in node.args]
-        if name in ("min", "max"):
-            if len(arguments) < 2:
-                self.refuse(node, f"{name} takes two or more values,")
-            return pl.min_horizontal(arguments) if name == "min" else pl.max_horizontal(arguments)
-        if len(arguments) != 1:
-            self.refuse(node, f"{name} takes one value,")
-        result: pl.Expr = getattr(arguments[0], name)()
-        return result
+        right, before = self.stack.pop(), self.stack.pop()
+        left = before.last if chained and before.last is not None else before
+        if (left.kind == "text") != (right.kind == "text"):
+            self._refuse("text is compared with a number (texts are in quotes)", right.position)
+        one, other = left.expression, right.expression
+        if left.kind != right.kind:
+            one, other = one.cast(pl.Float64), other.cast(pl.Float64)
+        expression = _COMPARISONS[comparison](one, other)
+        if chained:
+            expression = before.expression & expression
+        self.stack.append(_Value(expression, "truth", before.position, last=right))
+
+    def _call(self, name: str, given: int, position: int) -> None:
+        self.product = False
+        arguments = [self._number(value) for value in self.stack[-given:]]
+        del self.stack[-given:]
+        self.stack.append(_Value(_FUNCTIONS[name](*arguments), "number", position))

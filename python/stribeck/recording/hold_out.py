@@ -15,14 +15,14 @@ from stribeck.recording.table import Prepared
 __all__ = ["with_hold_out"]
 
 
-def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, said: str) -> Recording:
+def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, given: str) -> Recording:
     """The recording with one held-out block for each value of a column of its file.
 
     Parameters
     ----------
     rows
         Rows of the table that the recording was made of, [n].
-    said
+    given
         ``"COLUMN"``, or ``"COLUMN=VALUE"`` to take the held-out error of this value alone.
 
     Raises
@@ -31,8 +31,8 @@ def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, said: st
         No such column or value, or a column with the same value in every row.
     """
     path, table = recording.path, prepared.table
-    column, mark, value = (word.strip() for word in said.partition("="))
-    where = f"{path}: {option('hold_out', said)}"
+    column, mark, value = (word.strip() for word in given.partition("="))
+    where = f"{path}: {option('hold_out', given)}"
     if column not in table.columns:
         hint = nearest(column, table.columns) or f"; the file has {', '.join(table.columns)}"
         raise RecordingError(f"{where}: there is no column '{column}'{hint}")

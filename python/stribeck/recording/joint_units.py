@@ -68,20 +68,20 @@ def _check_motion(data: Channels, motion: dict[str, str]) -> None:
     """Refuse units of motion that contradict each other or the joint kind that was given."""
     lines = [c for c, u in motion.items() if u in _LINEAR]
     turns = [c for c, u in motion.items() if u in _ANGULAR]
-    said = data.prepared.settings.joint_kind
+    given = data.prepared.settings.joint_kind
     if lines and turns:
         raise RecordingError(
             f"{data.path}: {lines[0]} is in {motion[lines[0]]} but {turns[0]} in "
             f"{motion[turns[0]]}: a joint is either prismatic or revolute; correct one with "
             f"{option('unit', 'COLUMN=UNIT')}"
         )
-    if said == "revolute" and lines:
+    if given == "revolute" and lines:
         raise RecordingError(
             f"{data.path}: {lines[0]} is in {motion[lines[0]]} but the joint is given as "
             f"revolute: give {option('joint_kind', 'prismatic')}, or the column's unit with "
             f"{option('unit', 'COLUMN=UNIT')}"
         )
-    if said == "prismatic" and turns and data.prepared.settings.mechanics.screw_pitch is None:
+    if given == "prismatic" and turns and data.prepared.settings.mechanics.screw_pitch is None:
         raise RecordingError(
             f"{data.path}: {turns[0]} is in {motion[turns[0]]} but the joint is given as "
             f"prismatic: give the column's unit with {option('unit', 'COLUMN=UNIT')}, or "
@@ -91,9 +91,9 @@ def _check_motion(data: Channels, motion: dict[str, str]) -> None:
 
 def _kind(data: Channels, motion: dict[str, str], effort: str) -> str:
     """The joint kind that was given, or what the units say, with a note."""
-    said = data.prepared.settings.joint_kind
-    if said is not None:
-        return said
+    given = data.prepared.settings.joint_kind
+    if given is not None:
+        return given
     for kind, units in (("prismatic", _LINEAR), ("revolute", _ANGULAR)):
         channels = [c for c, u in motion.items() if u in units]
         if channels:

@@ -104,7 +104,7 @@ class ReadArguments(TypedDict, total=False):
 
 @dataclass(frozen=True, kw_only=True)
 class ReadOptions:
-    """How a file is read, as the user said it; `stribeck.read` says what each option means."""
+    """How a file is read, as given by the user; `stribeck.read` explains each option."""
 
     joint: str | None = field(
         default=None, metadata=_text("Which joint of a file that holds several.")
@@ -173,13 +173,13 @@ class ReadOptions:
     )
 
     def given(self) -> ReadArguments:
-        """The options that say something, as keyword arguments of `stribeck.read`.
+        """The options that are not at their default, as keyword arguments of `stribeck.read`.
 
-        An inertia of 0 says something; an empty list does not.
+        An inertia of 0 is not the default; an empty list is.
         """
         values = ((f.name, getattr(self, f.name), f.default) for f in fields(self))
-        said = {name: v for name, v, unsaid in values if v != unsaid and v not in ([], {})}
-        return cast(ReadArguments, said)
+        kept = {name: v for name, v, default in values if v != default and v not in ([], {})}
+        return cast(ReadArguments, kept)
 
     def number(self, name: str) -> float | None:
         """A number that was given, checked.
@@ -219,13 +219,13 @@ TABLE: tuple[Entry, ...] = tuple(
 _BY_NAME = {entry.name: entry for entry in TABLE}
 
 
-def split_pairs(name: str, said: Pairs) -> dict[str, str]:
+def split_pairs(name: str, given: Pairs) -> dict[str, str]:
     """Split the ``NAME=VALUE`` texts of an option, or take a mapping."""
-    if isinstance(said, Mapping):
-        return {str(key): str(value) for key, value in said.items()}
+    if isinstance(given, Mapping):
+        return {str(key): str(value) for key, value in given.items()}
     form = _BY_NAME[name].form or "NAME=VALUE"
     found: dict[str, str] = {}
-    for item in [said] if isinstance(said, str) else said:
+    for item in [given] if isinstance(given, str) else given:
         # Columns may hold '=', and so do formulas: the split is next to the side that cannot.
         left, mark, value = item.rpartition("=") if name == "unit" else item.partition("=")
         if not mark or not left.strip() or not value.strip():

@@ -5,20 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import polars as pl
-from numpy.typing import NDArray
 
+from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.derive import Smoother, jumps
 from stribeck.recording.rows import SIGMAS, noise_level
 
 __all__ = ["Column", "Recording"]
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -56,17 +51,41 @@ class Column:
 class Recording:
     """One joint's measurements, checked, in SI units; arrays are read-only.
 
-    `time` [s], `position` [rad or m], `velocity`, `acceleration`, `temperature` [degC], `torque` as
-    it was recorded and `load_torque` (None: not known, to be identified) in `torque_unit`; where
-    friction was measured directly, `torque` is the friction and the load no part of it. With a
-    `drive` (``"voltage"``) `torque` is what drives the motor, in its own unit, and all loads are in
-    N m or N; `enabled` marks the rows where it does. `external_torque` is what the environment
-    exerts on the joint (None: not known). The
-    ``*_smooth`` arrays are zero-phase low-passed at `cutoff_hz` on the same rows. `dt` [s] is the
-    step to the previous sample, 0 where a segment (run, or stretch between gaps) starts. `moving`
-    marks the scored rows, `block` the held-out blocks, `counted` the rows of which the held-out
-    error counts (None: all). `elapsed_before` [s] has gone by before the first row, where that is
-    not the first of a longer recording. `excerpt_of` is the recording of which this is an excerpt.
+    Attributes
+    ----------
+    time
+        s.
+    position, velocity, acceleration
+        In `position_unit`, per s, per s2; position is None where it was not recorded.
+    torque
+        As recorded, in `torque_unit`. Where friction was measured directly, it is the friction.
+        With a `drive` it is what drives the motor, in its own unit.
+    load_torque
+        None: not known, to be identified. With a `drive`, in N m or N.
+    external_torque
+        Torque that the environment exerts on the joint; None: not known.
+    temperature
+        degC.
+    position_smooth, velocity_smooth, acceleration_smooth, load_torque_smooth
+        The same channels after a zero-phase low-pass at `cutoff_hz`.
+    segment, run, run_names
+        Segment (stretch between gaps) and run of each sample, and the names of the runs.
+    dt
+        Step to the previous sample, s; 0 where a segment starts.
+    moving
+        The scored samples: those faster than `velocity_threshold`, or all.
+    block, block_count, counted
+        Held-out block of each sample; the samples whose held-out error is taken (None: all).
+    averaged
+        Whether each sample is a steady-state point.
+    motor
+        Constants of motor and transmission that are known.
+    drive, enabled
+        ``"voltage"`` or None; the samples where the drive is on.
+    elapsed_before
+        Time before the first sample of an excerpt, s.
+    excerpt_of
+        The recording that this is an excerpt of.
     """
 
     path: str
@@ -115,7 +134,7 @@ class Recording:
 
     @property
     def rows(self) -> int:
-        """Number of rows."""
+        """Number of samples."""
         return len(self.time)
 
     @property
@@ -139,13 +158,13 @@ class Recording:
 
     @property
     def known_torque(self) -> Floats:
-        """The part of `torque` that is known beforehand, [n]: the load, where it is in there."""
+        """The known part of `torque`, [n]: the load where `torque` includes it, zeros elsewhere."""
         if self.torque_holds_load and self.load_torque is not None:
             return self.load_torque
         return np.zeros_like(self.torque)
 
     def scored(self) -> dict[str, float]:
-        """Return the ``scored`` object of the JSON output: rows, share, velocity_threshold."""
+        """The ``scored`` object of the JSON output: rows, share, velocity_threshold."""
         rows = int(self.moving.sum())
         return {
             "rows": rows,
@@ -154,31 +173,34 @@ class Recording:
         }
 
     def denoised(self, channel: str) -> Floats:
-        """Return a channel's noise taken out where that does not bend the signal, [n].
+        """A channel with its noise removed where that does not distort the signal, [n].
 
-        The smoothed channel where it differs by noise alone, the measured one elsewhere; where a
-        channel has no smoothed form, itself. Found once.
+        The smooth channel where it differs from the measured one by noise alone, the measured one
+        elsewhere. A channel without a smooth form is returned as measured. Computed once.
         """
-        name = f"{channel} without noise"
-        if name not in self.remembered:
-            measured = getattr(self, channel)
-            smooth = getattr(self, f"{channel}_smooth", None)
+        if channel not in self._denoised:
+            measured: Floats = getattr(self, channel)
+            smooth: Floats | None = getattr(self, f"{channel}_smooth", None)
             if smooth is None or smooth is measured:
-                self.remembered[name] = measured
+                self._denoised[channel] = measured
             else:
                 sigma = noise_level(self.time, measured, self.segment)
                 near = np.abs(smooth - measured) <= SIGMAS * sigma
-                self.remembered[name] = np.where(near, smooth, measured)
-        return self.remembered[name]
+                self._denoised[channel] = np.where(near, smooth, measured)
+        return self._denoised[channel]
 
     @cached_property
-    def remembered(self) -> dict[str, Any]:
-        """What was found of this recording at some cost and is asked for again, by name."""
+    def remembered(self) -> dict[str, dict[str, float]]:
+        """Numbers computed from this recording at some cost and kept, by name."""
+        return {}
+
+    @cached_property
+    def _denoised(self) -> dict[str, Floats]:
         return {}
 
     @cached_property
     def elapsed(self) -> Floats:
-        """Time since the first row, s, [n]; a run that sets its clock back goes on from before."""
+        """Time since the first sample, s, [n]; runs whose clock starts again follow each other."""
         step = np.diff(self.time, prepend=self.time[:1])
         if np.any(step < 0.0):
             step = np.where(step >= 0.0, step, self.scales()["sample_period"])
@@ -188,8 +210,8 @@ class Recording:
     def load_torque_curvature(self) -> Floats | None:
         """Second derivative of the load torque by time, N m/s2 or N/s2, [n]; None without a load.
 
-        By central differences of the load torque without its noise, segment by segment. Where it
-        jumps a payload was swapped, and the stretches before and after stand each for itself.
+        By central differences of the load torque without its noise, segment by segment. A jump is
+        a change of payload; the stretches before and after it are differentiated separately.
         """
         if self.load_torque is None:
             return None
@@ -198,7 +220,7 @@ class Recording:
 
     @cached_property
     def motion_band(self) -> float | None:
-        """Frequency in Hz below which 99 % of the velocity's power lies; None where none can be."""
+        """Frequency [Hz] below which 99 % of the velocity's power lies; None if too short."""
         v = self.velocity
         if self.averaged or v.size < 64 or self.rate_hz <= 0:
             return None
@@ -211,12 +233,12 @@ class Recording:
         return max(band, self.rate_hz / v.size)
 
     def scales(self) -> dict[str, float]:
-        """Return typical sizes for scaling parameters, each in the channel's unit.
+        """Typical sizes for scaling parameters, each in the channel's unit.
 
-        speed (99.9th percentile over moving rows), torque (rms over moving rows; with a drive, of
-        the load), effort (rms of `torque` over moving rows, whatever it is), position
+        speed (99.9th percentile over moving samples), torque (rms over moving samples; with a
+        drive, of the load), effort (rms of `torque` over moving samples, in its own unit), position
         (excursion), acceleration (99th percentile of the smooth one), sample_period (median step),
-        temperature (span). A channel that is absent has scale 0.
+        temperature (span). A missing channel has scale 0.
         """
         return self._scales
 
@@ -236,19 +258,12 @@ class Recording:
         }
 
     def to_frame(self) -> pl.DataFrame:
-        """Return the channels as a polars frame, one row a sample."""
-        data: dict[str, Any] = {"time": self.time}
-        for name in (
-            "position",
-            "velocity",
-            "acceleration",
-            "torque",
-            "load_torque",
-            "temperature",
-        ):
-            values = getattr(self, name)
+        """The channels as a polars frame, one row per sample."""
+        names = ("position", "velocity", "acceleration", "torque", "load_torque", "temperature")
+        channels: dict[str, Floats] = {"time": self.time}
+        for name in names:
+            values: Floats | None = getattr(self, name)
             if values is not None:
-                data[name] = values
-        data["run"] = [self.run_names[i] for i in self.run]
-        data["moving"] = self.moving
-        return pl.DataFrame(data)
+                channels[name] = values
+        runs = pl.Series("run", [self.run_names[i] for i in self.run])
+        return pl.DataFrame(channels).with_columns(runs, pl.Series("moving", self.moving))

@@ -1,47 +1,56 @@
-"""Rows: segments, gaps, the noise of the velocity, moving rows and held-out blocks."""
+"""Samples: segments, gaps, noise of a signal and held-out blocks."""
 
 from __future__ import annotations
 
 import itertools
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from stribeck.recording.arrays import Floats, Ints
 
 __all__ = [
-    "GAP", "SIGMAS", "held_out_blocks", "noise_level", "quantisation_step", "segment_rows",
+    "BLOCKS",
+    "GAP",
+    "MANY_RUNS",
+    "SIGMAS",
+    "held_out_blocks",
+    "noise_level",
+    "quantisation_step",
+    "segment_rows",
     "segment_slices",
-]  # fmt: skip
+]
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-
-GAP = 5.0  # a step longer than this many median steps starts a new segment
-SIGMAS = 5.0  # a row moves when its speed is above this many sigmas of velocity noise
-VISITS = 20  # a signal that takes each of its values this often on average is a list of settings
+#: A step longer than this many median steps starts a new segment.
+GAP = 5.0
+#: A sample moves when its speed is above this many standard deviations of the velocity noise.
+SIGMAS = 5.0
+#: A signal that takes each of its values this often on average is a list of settings.
+VISITS = 20
+#: Held-out blocks of a recording with few runs.
 BLOCKS = 10
-MANY_RUNS = 5  # from this many runs on, a held-out block is a whole run
+#: From this number of runs on, each run is a held-out block.
+MANY_RUNS = 5
 
 
 def segment_rows(time: Floats, run: Ints, row: Ints) -> tuple[Ints, Floats, float]:
-    """Number the contiguous stretches of a recording.
+    """Number the segments of a recording: its contiguous stretches.
 
-    A segment ends where the run ends, where rows were removed, and where the step is longer than
+    A segment ends where the run ends, where samples were removed, and where the step is longer than
     `GAP` times the median step of that run (runs of one file may have their own rates).
 
     Parameters
     ----------
     time
-        Time of each row [s], increasing within a run.
+        Time of each sample [s], increasing within a run.
     run
-        Run number of each row, runs contiguous.
+        Run number of each sample, runs contiguous.
     row
-        Original row number in the file, to see removed rows.
+        Row of the file of each sample, which shows where samples were removed.
 
     Returns
     -------
     tuple
-        Segment of each row, step to the previous sample [s] (0 at each segment start), and the
+        Segment of each sample, step to the previous sample [s] (0 at each segment start), and the
         median step of the recording [s].
     """
     n = len(time)
@@ -113,8 +122,8 @@ def _differences(time: Floats, value: Floats, slices: list[slice], order: int) -
             weights[j] = 1.0 / product
         weights /= np.sqrt((weights**2).sum(axis=0))
         windows = np.stack([x[j : j + n] for j in range(order + 1)])
-        # Stretches that stand exactly still (a servo off, a clipped sensor) carry no noise and
-        # would pull the median to zero.
+        # Stretches that are constant (a servo off, a clipped sensor) carry no noise and would pull
+        # the median to zero.
         alive = (windows != windows[0]).any(axis=0)
         found.append((weights * windows).sum(axis=0)[alive])
     return np.concatenate(found) if found else np.empty(0)
@@ -123,17 +132,17 @@ def _differences(time: Floats, value: Floats, slices: list[slice], order: int) -
 def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | None = None) -> float:
     """Standard deviation of the white noise on a signal, from its high-order differences.
 
-    Differences of order 2, 3, 4 ... remove ever more of the motion and leave the noise; the first
-    order that agrees with the next within a tenth is taken, the smallest when none does. A
-    quantised signal has at least step/sqrt(12). A signal that keeps returning to a few values on
-    no grid (the speeds of a static friction curve) is a list of settings, which has no noise.
+    Differences of order 2 to 5 remove more and more of the motion and leave the noise. The first
+    order that agrees with the next within a tenth is taken, or the smallest noise if none does. A
+    quantised signal has at least step/sqrt(12). A signal with few values that lie on no grid (the
+    speeds of a static friction curve) is a list of settings, which has no noise.
 
     Parameters
     ----------
     time, value, segment
         The signal and its segments; differences never cross segments.
     quantum
-        Known quantisation step; looked for when None.
+        Quantisation step, if it is known.
     """
     step = quantisation_step(value) if quantum is None else quantum
     if step == 0.0 and np.unique(value).size * VISITS <= value.size:
@@ -154,7 +163,7 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
 
 
 def held_out_blocks(dt: Floats, segment: Ints, run: Ints, typical: float) -> tuple[Ints, int]:
-    """Assign every row to a held-out block.
+    """Assign every sample to a held-out block.
 
     Ten contiguous blocks of equal recorded duration (a gap counts as one step), or whole runs when
     there are at least five.
@@ -167,5 +176,4 @@ def held_out_blocks(dt: Floats, segment: Ints, run: Ints, typical: float) -> tup
     step = np.where(dt > 0.0, dt, typical if typical > 0.0 else 1.0)
     clock = np.cumsum(step) - 0.5 * step
     total = float(step.sum())
-    block: Any = np.minimum((clock / total * count).astype(np.int64), count - 1)
-    return block, count
+    return np.minimum((clock / total * count).astype(np.int64), count - 1), count

@@ -129,8 +129,8 @@ def gather(path: str | Path, options: ReadOptions) -> Settings:
     for channel in maps:
         if channel not in CHANNELS:
             hint = nearest(channel, CHANNELS) or f"; the names are {', '.join(CHANNELS)}"
-            said = option("map", f"{channel}={maps[channel]}")
-            raise RecordingError(f"{said}: unknown name '{channel}'{hint}")
+            named = option("map", f"{channel}={maps[channel]}")
+            raise RecordingError(f"{named}: unknown name '{channel}'{hint}")
     joint = options.joint
     return Settings(
         mechanics=Mechanics.of({**sidecar.numbers, **given}),
@@ -159,8 +159,8 @@ def _joint_kind(options: ReadOptions, sidecar: Sidecar) -> str | None:
     known = _KINDS.get(kind.strip().lower())
     if known is None:
         hint = nearest(kind, _CHOICES["joint_kind"]) or ": it is revolute or prismatic"
-        said = _said("joint_kind", kind, options.joint_kind is not None, sidecar)
-        raise RecordingError(f"{said}: unknown kind of joint{hint}")
+        named = _named("joint_kind", kind, options.joint_kind is not None, sidecar)
+        raise RecordingError(f"{named}: unknown kind of joint{hint}")
     return known
 
 
@@ -185,11 +185,11 @@ def _chosen(name: str, options: ReadOptions, sidecar: Sidecar) -> str | None:
     given: str | None = getattr(options, name)
     text = given if given is not None else sidecar.texts.get(name)
     if text is not None and text not in _CHOICES[name]:
-        said = _said(name, text, given is not None, sidecar)
-        raise RecordingError(f"{said}: unknown value; give {' or '.join(_CHOICES[name])}")
+        named = _named(name, text, given is not None, sidecar)
+        raise RecordingError(f"{named}: unknown value; give {' or '.join(_CHOICES[name])}")
     return text
 
 
-def _said(name: str, value: str, as_option: bool, sidecar: Sidecar) -> str:
-    """What was said, and where."""
+def _named(name: str, value: str, as_option: bool, sidecar: Sidecar) -> str:
+    """A value as sentences name it: the option, or the key of the sidecar."""
     return option(name, value) if as_option else f"{sidecar.path}: {name} {value}"

@@ -105,7 +105,7 @@ def read_sidecar(path: FilePath) -> Sidecar:
     tables = {key: page.text_table(key) for key in _TABLES}
     return Sidecar(
         name,
-        page.numbers(page.said, None),
+        page.numbers(page.content, None),
         page.texts(),
         tables["units"],
         tables["map"],
@@ -134,7 +134,7 @@ class _Page:
         self.name = name
         self.text = text
         try:
-            self.said = _parse(text)
+            self.content = _parse(text)
         except ValueError as error:
             raise RecordingError(f"{name}: is not TOML: {error}") from None
 
@@ -145,24 +145,24 @@ class _Page:
     def check_keys(self) -> None:
         """Refuse unknown keys and files that are no sidecars."""
         known = (*_TEXTS, *_NUMBERS, *_TABLES, _JOINTS)
-        for key in self.said:
+        for key in self.content:
             if key not in known:
                 hint = nearest(key, known) or f"; the keys are {', '.join(known)}"
                 raise self.stop(f"unknown key '{key}'{hint}", key)
-        if self.said.get("kind") != "recording":
-            there = "kind" in self.said
+        if self.content.get("kind") != "recording":
+            there = "kind" in self.content
             where = _line(self.text, "kind") if there else "line 1"
-            got = f"kind is {self.said['kind']!r}" if there else "there is no kind"
+            got = f"kind is {self.content['kind']!r}" if there else "there is no kind"
             raise RecordingError(f'{self.name}, {where}: {got}: a sidecar needs kind = "recording"')
 
     def texts(self) -> dict[str, str]:
         """The texts at the top."""
         texts: dict[str, str] = {}
         for key in _TEXTS:
-            value = self.said.get(key)
+            value = self.content.get(key)
             if key == "joint" and isinstance(value, int):
                 value = str(value)
-            if key in self.said:
+            if key in self.content:
                 if not isinstance(value, str):
                     raise self.stop(f"{key} must be a text, not {value!r}", key)
                 texts[key] = value
@@ -170,7 +170,7 @@ class _Page:
 
     def text_table(self, key: str) -> dict[str, str]:
         """A table of texts."""
-        table = self.said.get(key, {})
+        table = self.content.get(key, {})
         if not isinstance(table, dict):
             raise self.stop(f"{key} must be a table: write [{key}]", key)
         for inner, value in table.items():
@@ -178,13 +178,13 @@ class _Page:
                 raise self.stop(f"{key}.{inner} must be a text, not {value!r}", inner, key)
         return dict(table)
 
-    def numbers(self, said: Toml, table: str | None) -> dict[str, float]:
+    def numbers(self, content: Toml, table: str | None) -> dict[str, float]:
         """The numbers at the top, or in one of the tables."""
         numbers: dict[str, float] = {}
         for key, limit in _NUMBERS.items():
-            if key not in said:
+            if key not in content:
                 continue
-            value = said[key]
+            value = content[key]
             if isinstance(value, bool) or not isinstance(value, (int, float)):
                 raise self.stop(f"{key} must be a finite number, not {value!r}", key, table)
             problem = check_limit(value, limit)
@@ -195,7 +195,7 @@ class _Page:
 
     def joints(self) -> dict[str, dict[str, float]]:
         """The tables ``[joints.NAME]``."""
-        tables = self.said.get(_JOINTS, {})
+        tables = self.content.get(_JOINTS, {})
         if not isinstance(tables, dict):
             raise self.stop("joints must be tables: write [joints.NAME]", _JOINTS)
         joints: dict[str, dict[str, float]] = {}

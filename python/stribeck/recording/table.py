@@ -60,12 +60,12 @@ class Prepared:
 
 
 def prepare(path: str, settings: Settings) -> Prepared:
-    """Read a file and apply formulas, filter and column choices."""
+    """Read a file, apply formulas and condition, and choose its columns."""
     return prepared_table(read_table(path), settings)
 
 
 def prepared_table(source: Source, settings: Settings) -> Prepared:
-    """Apply formulas, filter and column choices to a table."""
+    """Apply formulas and condition to a table, and choose its columns."""
     computed = apply_formulas(source, settings)
     choices, notes = choose_columns(
         source.path,
@@ -90,7 +90,7 @@ def _wide_index(table: pl.DataFrame, settings: Settings) -> str | None:
 
 
 def joints_of(prepared: Prepared) -> list[str]:
-    """Return the joints of a file in order of appearance; empty without a joint column."""
+    """The joints of a file in order of appearance; empty without a joint column."""
     choice = prepared.choices.get("joint")
     if choice is None:
         return []
@@ -98,12 +98,12 @@ def joints_of(prepared: Prepared) -> list[str]:
 
 
 def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]:
-    """Return the joint to read and its rows.
+    """The joint to read, and its rows.
 
     Raises
     ------
     RecordingError
-        When the file holds several joints and none, or an unknown one, was named.
+        The file has several joints and none, or an unknown one, was named.
     """
     path = prepared.source.path
     joints = joints_of(prepared)
@@ -137,9 +137,7 @@ def _listed(names: list[str]) -> str:
 
 
 def channel_values(prepared: Prepared, channel: str, rows: Ints) -> tuple[Floats, str, str]:
-    """Return a channel of some rows, ascending, in SI, its SI unit (or '' when none was named) and
-    dimension.
-    """
+    """A channel of some rows (ascending) in SI, its unit ('' where none was named) and dimension."""
     choice = prepared.choices[channel]
     table, row = prepared.table.select(choice.source), prepared.row
     if rows.size < table.height:
