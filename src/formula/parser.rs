@@ -264,11 +264,7 @@ impl<'a, B: Builder<'a>> Parser<'a, '_, B> {
         Ok(())
     }
 
-    fn checked(
-        &self,
-        built: Result<(), Reason<'a>>,
-        token: Token,
-    ) -> Result<(), FormulaError<'a>> {
+    fn checked(&self, built: Result<(), Reason<'a>>, token: Token) -> Result<(), FormulaError<'a>> {
         built.map_err(|reason| self.error_at(token.start, reason))
     }
 

@@ -4,8 +4,8 @@
 use core::ops::Range;
 
 use super::error::{FormulaError, Reason};
-use super::linear::{ParameterSet, linear_parameters};
 use super::law::{self, FormulaNames};
+use super::linear::{ParameterSet, linear_parameters};
 use super::program::{MAX_OPERATIONS, MAX_PARAMETERS, Operation, Program, Replacement};
 use super::vocabulary::Function;
 use crate::sample::{Sample, Split};

@@ -33,11 +33,7 @@ pub(super) struct Token {
 
 /// The token at or after a place in a text; `conditions` says whether comparisons, texts and quoted
 /// names are among them.
-pub(super) fn token_at(
-    text: &str,
-    at: usize,
-    conditions: bool,
-) -> Result<Token, FormulaError<'_>> {
+pub(super) fn token_at(text: &str, at: usize, conditions: bool) -> Result<Token, FormulaError<'_>> {
     let rest = text.get(at..).unwrap_or_default();
     let blank = rest.len() - rest.trim_start().len();
     let rest = rest.trim_start();
@@ -110,9 +106,8 @@ fn arithmetic<'a>(
 
 /// The length of a name in bytes; with `unicode`, of letters of any alphabet.
 fn name_length(rest: &str, unicode: bool) -> usize {
-    let inside = |c: char| {
-        c == '_' || if unicode { c.is_alphanumeric() } else { c.is_ascii_alphanumeric() }
-    };
+    let inside =
+        |c: char| c == '_' || if unicode { c.is_alphanumeric() } else { c.is_ascii_alphanumeric() };
     rest.find(|c| !inside(c)).unwrap_or(rest.len())
 }
 
