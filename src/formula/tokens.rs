@@ -151,7 +151,8 @@ fn number_length(text: &str) -> usize {
     let mut before = ' ';
     for (at, c) in text.char_indices() {
         let exponent = matches!(before, 'e' | 'E') && matches!(c, '+' | '-') && !hexadecimal;
-        if !(c.is_ascii_alphanumeric() || matches!(c, '.' | '_') || exponent) {
+        let grouped = c == '_' && before.is_ascii_alphanumeric();
+        if !(c.is_ascii_alphanumeric() || c == '.' || grouped || exponent) {
             return at;
         }
         before = c;
