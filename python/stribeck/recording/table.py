@@ -137,7 +137,7 @@ def _listed(names: list[str]) -> str:
 
 
 def channel_values(prepared: Prepared, channel: str, rows: Ints) -> tuple[Floats, str, str]:
-    """A channel of some rows (ascending) in SI, its unit ('' where none was named) and dimension."""
+    """A channel of some rows (ascending) in SI, its unit ('' if not named) and dimension."""
     choice = prepared.choices[channel]
     table, row = prepared.table.select(choice.source), prepared.row
     if rows.size < table.height:
