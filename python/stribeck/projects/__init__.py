@@ -1,4 +1,4 @@
-"""Projects: the loop driven by hand, with every branch kept in one file.
+"""Projects: the loop of diagnosis by hand, with every branch in one file.
 
 The walk through it: `source` is the data and how it was read, `kept` a fitted model as it is
 stored, `findings` what a diagnosis said, `node` a model with how it came about, `tree` the nodes,

@@ -58,7 +58,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Remembered:
-    """A diagnosis in short.
+    """Summary of a diagnosis.
 
     Attributes
     ----------

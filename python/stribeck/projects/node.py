@@ -10,7 +10,7 @@ from stribeck.models.formula_law import effect_terms, is_formula
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.kept import Kept
 
-#: How a node comes from its parent.
+#: How a node differs from its parent.
 CHANGES = ("base", "add", "drop")
 
 

@@ -44,10 +44,6 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
-def _silent(sentence: str) -> None:
-    """Report no progress."""
-
-
 @dataclass(frozen=True, repr=False)
 class Project(Plotted):
     """The loop of diagnosis by hand: every method returns a new project, `save` writes it.
@@ -312,7 +308,7 @@ class Project(Plotted):
         most_steps: int = MOST_STEPS,
         candidates: Collection[str] = (),
         seed: int = 0,
-        progress: Callable[[str], None] = _silent,
+        progress: Callable[[str], None] = lambda sentence: None,
         each: Callable[[Project], None] = lambda project: None,
     ) -> Project:
         """Diagnose and add effects from the current node until none passes; each step is a node.

@@ -22,7 +22,7 @@ READING = tuple(entry.name for entry in TABLE)
 
 @dataclass(frozen=True)
 class Source:
-    """A data file, by content, and the options it was read with.
+    """A data file, identified by its content, and the options that read it.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Source:
 
     @classmethod
     def of(cls, data: str | os.PathLike[str], folder: Path, reading: Mapping[str, Any]) -> Source:
-        """The source that a data file is, as it stands now."""
+        """Return the source of a data file in its present state."""
         given = {name: _plain(said) for name, said in reading.items()}
         given = {name: said for name, said in given.items() if _is_said(said)}
         if "sidecar" in given:
@@ -63,7 +63,7 @@ class Source:
         return find_sidecar(self.file) if named is None else self.folder / str(named)
 
     def check(self) -> None:
-        """Refuse data that are not those the project was made of.
+        """Raise ProjectError if the data differ from those of the project.
 
         Raises
         ------

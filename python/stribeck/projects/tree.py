@@ -33,7 +33,7 @@ class Tree:
         return next(node for node in self.nodes if node.number == number)
 
     def find(self, said: str | int) -> Node:
-        """The node that a number or a name means.
+        """Return the node with a number or name.
 
         Raises
         ------

@@ -21,7 +21,7 @@ SCHEMA = 1
 
 
 def write_project(project: Project, path: Path) -> None:
-    """Write a project whole or not at all.
+    """Write a project atomically.
 
     Raises
     ------

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from stribeck.base.errors import SpecError
 from stribeck.motion.simulate.drive import Controller
 
-#: Of the default gains: all poles of the error lie there, Hz.
+#: Frequency of all poles of the error with the default gains, Hz.
 BANDWIDTH = 5.0
 
 

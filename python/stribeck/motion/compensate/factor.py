@@ -17,15 +17,15 @@ from stribeck.models.model_file import ModelFile
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
 
-#: Evaluations of the friction over a box after which a search gives up: some seconds.
+#: Largest number of evaluations of the friction over a box: some seconds.
 BUDGET = 100_000
-#: Standard errors that the parameters of a model file may be off, as in a 95 % interval.
+#: Half width of the intervals of the parameters in standard errors, as for 95 %.
 STANDARD_ERRORS = 1.96
 
 
 @dataclass(frozen=True, repr=False)
 class Factor(Shown):
-    """How much of a compensator's torque is safe.
+    """The largest safe compensation factor.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ def largest_factor(
     friction: Model | ModelFile | Fit | None = None,
     box: Box | None = None,
 ) -> Factor:
-    """The largest ``alpha`` so that ``alpha`` times the compensator never exceeds the friction.
+    """Return the largest ``alpha`` with which the compensator never exceeds the friction.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def _intervals(
     reach = np.array([errors.get(name, 0.0) for name in friction.names])
     lower, upper = friction.values - reach, friction.values + reach
     for k, p in enumerate(friction.parameters):
-        # What a parameter cannot be by its meaning, such as a speed below zero, it is not.
+        # Intervals end where a parameter loses its meaning, such as a speed below zero.
         if p.lower >= 0.0 and friction.values[k] >= 0.0:
             lower[k] = max(lower[k], 0.0)
     exact = tuple(name for name in friction.names if name not in errors)

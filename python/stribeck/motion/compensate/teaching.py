@@ -22,7 +22,7 @@ from stribeck.motion.simulate.trajectory import Trajectory
 
 @dataclass(frozen=True)
 class Guidance:
-    """A hand that leads the joint along a trajectory: a spring and a damper to where it wants it.
+    """A hand that guides the joint along a trajectory, modelled as a spring and a damper.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Teaching(Shown):
         return float(np.sqrt(np.mean(hand**2))), float(np.abs(hand).max())
 
     def overcompensated(self, motion: ClosedLoopMotion) -> float:
-        """Share of the time in motion in which compensation pushes harder than friction holds.
+        """Return the share of the time in motion in which compensation exceeds friction.
 
         It pushes along the motion; a bristle that springs back pushes by itself and holds nothing.
         """

@@ -1,4 +1,4 @@
-"""What a recording tells of effects: the criterion of a plan, and the figures that it states.
+"""Information of a recording about effects: the criterion of a plan, and its results.
 
 D_s-optimality for the sizes of the wanted effects: of each, what of its torque neither the model
 nor the other wanted effects take up; the plan maximises the least of these (maximin).
@@ -24,7 +24,7 @@ from stribeck.motion.design.setting import Setting
 
 Array = NDArray[np.float64]
 
-#: Share of the friction that a wanted effect has on the reference motion when it is weighed.
+#: Size of a wanted effect on the reference motion in the criterion, as a share of friction.
 WEIGHED = 0.1
 
 
@@ -50,7 +50,7 @@ class Wanted:
     def of(
         cls, reference: Problem, residual: Array | None, show: Sequence[str], apart: Sequence[str]
     ) -> Wanted:
-        """Add each effect to the model of `reference`, and weigh it there."""
+        """Add each effect to the model of `reference`, and compute its weight."""
         effects = dict.fromkeys((*apart, *show))
         widened = {e: AddedEffect.of(reference, e, residual) for e in effects}
         level = WEIGHED * rms(reference.target - reference.known[reference.rows])
@@ -103,7 +103,7 @@ def least_information(
 
 @dataclass(frozen=True)
 class Sight:
-    """What a recording, made or planned, shows of the wanted effects.
+    """What a recorded or planned motion shows of the wanted effects.
 
     Attributes
     ----------

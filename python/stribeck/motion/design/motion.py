@@ -13,7 +13,7 @@ from stribeck.base.errors import SpecError
 
 Array = NDArray[np.float64]
 
-#: Share of a limit that is used: rounding must not carry a sample over it.
+#: Share of a limit that is used, so that rounding does not exceed it.
 INSIDE = 1.0 - 1e-9
 
 

@@ -13,11 +13,11 @@ from stribeck.motion.generate.trajectory import quintic
 
 Array = NDArray[np.float64]
 
-#: Peak speed and acceleration of a fifth-degree move over a unit of way in a unit of time.
+#: Peak speed and acceleration of a quintic move over unit distance in unit time.
 PEAK_SPEED, PEAK_ACCELERATION = 1.875, 10.0 / math.sqrt(3.0)
-#: Decades over which the lengths of moves and their shares of the time range.
+#: Range of the lengths of moves and of their durations, in decades.
 DECADES, TIME_DECADES = 2.5, 1.5
-#: Seconds that a move lasts on average, at least; no more moves than this each way.
+#: Smallest mean duration of a move, s; largest number of moves in each direction.
 SECONDS_A_MOVE, MOST_MOVES = 2.0, 8
 #: Rest after each move, s, and the share of the time that rests may take.
 REST, REST_SHARE = 0.2, 0.1

@@ -36,7 +36,7 @@ class Size:
 
 @dataclass(frozen=True)
 class Prospect:
-    """What a plan brings for one effect.
+    """What a plan shows of one effect.
 
     Attributes
     ----------

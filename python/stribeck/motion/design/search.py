@@ -16,9 +16,9 @@ Array = NDArray[np.float64]
 
 #: Candidates of a generation and generations of the search, for each family of motions.
 CANDIDATES, GENERATIONS = 24, 30
-#: Samples of a motion while it is searched; with a memory in the model they must lie closer.
+#: Number of samples during the search; a model with a state needs more.
 FEW_SAMPLES, MORE_SAMPLES = 1200, 5000
-#: Cost of a motion on which a wanted effect does not show at all.
+#: Cost of a motion that does not show a wanted effect at all.
 SHOWS_NOTHING = 1e6
 
 

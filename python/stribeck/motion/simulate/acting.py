@@ -14,7 +14,7 @@ from stribeck.motion.simulate.joint import Joint
 
 @dataclass(frozen=True)
 class Acting:
-    """A model taken apart for a simulation.
+    """The parts of a model in a simulation.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class Acting:
 
 
 def take_apart(model: Model, joint: Joint | None) -> Acting:
-    """The acting part of a model, and the joint that it acts on.
+    """Return the friction of a model and the joint on which it acts.
 
     Rigid-body terms that were identified with the friction are the joint's where none is given;
     the effects ``inertia`` and ``gravity`` correct the one that is.
@@ -51,7 +51,7 @@ def take_apart(model: Model, joint: Joint | None) -> Acting:
 
 
 def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
-    """What of a model acts as torque without being a rigid body, and what is left out of it.
+    """Return the part of a model that acts as friction, and the effects that are ignored.
 
     Raises
     ------

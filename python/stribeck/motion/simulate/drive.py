@@ -13,7 +13,7 @@ from stribeck.motion.simulate.trajectory import Trajectory
 
 @dataclass(frozen=True)
 class Torque:
-    """A motor torque at the joint side, whatever the joint does.
+    """A given motor torque at the joint side (open loop).
 
     Attributes
     ----------
@@ -26,7 +26,7 @@ class Torque:
 
 @dataclass(frozen=True)
 class Controller:
-    """A sampled PID controller of position, its output held over each step.
+    """A sampled PID position controller; its output is constant over each step.
 
     Attributes
     ----------

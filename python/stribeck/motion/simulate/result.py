@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, repr=False)
 class Simulation(Plotted):
-    """A motion: postures at the instants between steps, and means over the steps.
+    """A motion: states between the steps, and means over the steps.
 
     Attributes
     ----------
@@ -94,7 +94,7 @@ class Simulation(Plotted):
 
     @property
     def energy(self) -> dict[str, float]:
-        """Energies of the whole motion, J: ``imbalance`` is rounding.
+        """Energies of the whole motion, J: ``imbalance`` is the rounding error.
 
         Kinetic energy is that of what friction acts on; a load beyond a transmission counts to the
         environment.

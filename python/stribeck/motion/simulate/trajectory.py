@@ -33,7 +33,7 @@ def _positive(name: str, value: float) -> None:
 
 @dataclass(frozen=True)
 class Trapezoid:
-    """There and back with trapezoidal speed, from rest to rest.
+    """Forward and back with trapezoidal speed, from rest to rest.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Trapezoid:
 
 @dataclass(frozen=True)
 class Quintic:
-    """There and back by polynomials of fifth degree, with speed and acceleration zero at the ends.
+    """Forward and back by quintic polynomials; speed and acceleration are zero at the ends.
 
     Attributes
     ----------
@@ -140,7 +140,7 @@ class Fourier:
         seed: int = 0,
         centre: float = 0.0,
     ) -> Fourier:
-        """A random series that begins and ends at the centre, at rest and without acceleration.
+        """Return a random series from the centre to the centre, at zero speed and acceleration.
 
         Parameters
         ----------
@@ -187,7 +187,7 @@ def _without(vector: Array, direction: Array) -> Array:
 
 @dataclass(frozen=True)
 class Sampled:
-    """A desired position that was recorded, held between samples; its velocity by differences.
+    """A recorded desired position, constant between samples; its velocity by differences.
 
     Attributes
     ----------

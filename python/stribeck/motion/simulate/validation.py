@@ -24,19 +24,19 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
-#: Times ahead at which the position is compared, s.
+#: Prediction horizons at which positions are compared, s.
 HORIZONS = (0.1, 0.3, 1.0, 3.0, 10.0)
-#: Starts that are tried for each of them.
+#: Number of starts for each horizon.
 STARTS = 100
-#: Fewest starts from which an error is told.
+#: Smallest number of starts to state an error.
 FEWEST_STARTS = 5
-#: Time steps that differ by more than this share are not even.
+#: Largest relative difference of time steps that count as even.
 EVEN = 0.05
 
 
 @dataclass(frozen=True)
 class Growth:
-    """How far a simulation is off after a while.
+    """Error of a simulation at one prediction horizon.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Growth:
 
 @dataclass(frozen=True, repr=False)
 class Validation(Plotted):
-    """A simulated motion beside the measured one.
+    """A simulated motion compared with the measured one.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ def validate(
     *,
     horizons: Sequence[float] = HORIZONS,
 ) -> Validation:
-    """Drive the model by the measured torque alone, and compare the motion.
+    """Simulate the model with the measured torque, and compare the motion.
 
     Every run starts where the measured one does, and is never corrected afterwards: errors of the
     force are integrated twice. `growth` restarts all over the recording and looks so far ahead.
@@ -176,7 +176,7 @@ def validate_closed_loop(
     controller: Controller,
     joint: Joint | None = None,
 ) -> Validation:
-    """Let the recording's own controller move the model, and compare position and torque.
+    """Simulate the model with the controller of the recording; compare position and torque.
 
     Parameters
     ----------

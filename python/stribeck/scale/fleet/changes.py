@@ -33,7 +33,7 @@ JointId = tuple[str | None, str | None]
 
 @dataclass(frozen=True)
 class Question:
-    """What counts as a change.
+    """Definition of a change.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class Change:
 
 @dataclass(frozen=True)
 class JointChange:
-    """One joint, its newest days against those before.
+    """One joint: its newest days compared with earlier days.
 
     Attributes
     ----------
@@ -140,7 +140,7 @@ class JointChange:
 
 @dataclass(frozen=True)
 class Changes:
-    """Which joints of a fleet have changed.
+    """The joints of a fleet that changed.
 
     Attributes
     ----------
@@ -181,7 +181,7 @@ class Changes:
 
 
 def find_changes(rows: pl.DataFrame, question: Question) -> Changes:
-    """Compare the newest days of every joint with those before.
+    """Compare the newest days of every joint with earlier days.
 
     Parameters
     ----------
@@ -226,7 +226,7 @@ def _judge(
     for (robot, joint), (quantities, before, after) in compared.items():
         changes = [_change(each, scatters[each.kind]) for each in quantities]
         changes.sort(key=lambda c: (abs(c.relative) < question.least_change, c.p_value))
-        # The surest of several quantities has had several chances.
+        # The smallest p-value of several quantities is corrected for their number.
         matter = [c.p_value for c in changes if abs(c.relative) >= question.least_change]
         smallest.append(min([1.0, *(p * len(changes) for p in matter)]))
         shifts = effect_shifts(before, after)

@@ -12,9 +12,9 @@ from stribeck.base.errors import option
 from stribeck.scale.fleet.identified import IMPROVE
 from stribeck.scale.fleet.store import DONE, as_name
 
-#: An effect is a joint's own when no more than this share of its peers have it.
+#: An effect stands out if no more than this share of the other joints have it.
 FEW = 0.25
-#: Joints of the same name that make a comparison; with fewer the whole fleet is it.
+#: Smallest number of joints of the same name to compare with; otherwise the whole fleet is used.
 FEWEST_PEERS = 3
 
 #: Why a fleet that was fitted with one model has nothing to say about effects.
@@ -32,10 +32,10 @@ class JointEffect:
     confidence
         Median over the days on which it was found.
     tied
-        What it cannot be told from, on any of the days.
+        Effects that are indistinguishable from it, on any of the days.
     peers, peers_with
         Other joints of the same name (or all others, where those are few), and how many of them
-        have the effect or one that it cannot be told from.
+        have the effect or one that is indistinguishable from it.
     """
 
     robot: str | None
@@ -99,7 +99,7 @@ class Effects:
     shares
         By name of joint and effect, the effects that most joints have first.
     why
-        Why there is nothing to say; None where there is.
+        Why there is no result; None if there is one.
     """
 
     joints: tuple[JointEffect, ...]
@@ -108,7 +108,7 @@ class Effects:
 
     @classmethod
     def not_asked(cls) -> Effects:
-        """Where one model was fitted everywhere."""
+        """Return the result if one model was fitted everywhere."""
         return cls((), (), NOT_ASKED)
 
     @property
@@ -147,7 +147,7 @@ class _Joint:
 
 
 def find_effects(rows: pl.DataFrame) -> Effects:
-    """Which effects each joint has, and how rare that is among its peers.
+    """Find the effects of each joint, and how rare they are among similar joints.
 
     Parameters
     ----------

@@ -19,9 +19,9 @@ from stribeck.passivity.friction import friction_part
 
 Array = NDArray[np.float64]
 
-#: Where friction is compared: shares of the speed that all days have in common.
+#: Speeds at which friction is compared, as shares of the speed that all days reach.
 SHARES = (0.1, 0.25, 0.5, 1.0)
-#: A day that reaches less than this share of the usual speed is no measure of what is common.
+#: Days that reach less than this share of the usual speed are ignored for the common speed.
 LEAST_REACH = 0.5
 #: Relative step of the difference quotients by parameters.
 STEP = 1e-6
@@ -85,7 +85,7 @@ def _sliding(friction: Model, velocity: Array, conditions: Mapping[str, float]) 
 
 
 def common_speeds(models: Sequence[Model]) -> Array:
-    """Speeds in both directions, within what the days have in common; empty where nothing is.
+    """Return speeds in both directions that all days reach; empty if there are none.
 
     Returns
     -------
@@ -104,7 +104,7 @@ def common_speeds(models: Sequence[Model]) -> Array:
 
 
 def common_conditions(models: Sequence[Model]) -> dict[str, float]:
-    """Where load, temperature and other channels stand for the comparison.
+    """Return load, temperature and other channels for the comparison.
 
     The middle of what was seen on most days; a load at zero where it has been there, and the motor
     torque at half of its largest.

@@ -19,7 +19,7 @@ from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import parse_model_file
 from stribeck.recording.recording import Recording
 
-#: Instead of a model: diagnose and add effects until what is left is noise.
+#: In place of a model: diagnose and add effects until the residual is noise.
 IMPROVE = "improve"
 
 
@@ -81,7 +81,7 @@ class Identified:
 def identify(
     recording: Recording, model: str, base: str, starts: int = 20, seed: int = 0
 ) -> Identified:
-    """Fit `model` to a recording, or improve `base` where `model` is ``"improve"``.
+    """Fit `model` to a recording, or improve `base` if `model` is ``"improve"``.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Whether means of few days differ, with the scatter between days learnt from many joints.
+"""Test whether means of few days differ; the scatter between days is estimated from many joints.
 
 A joint has a handful of days before and after, too few to know how much they scatter; but there
 are many joints. Their scatters are taken as draws around a common one, and each joint's own is
@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: Joints with a scatter of their own, from which a common one is learnt.
+#: Smallest number of joints with several days to estimate a common scatter.
 FEWEST_JOINTS = 3
-#: Joints whose changes show a common scatter, where there is one day each; most are unchanged.
+#: Smallest number of joints with single days to estimate it; most joints are unchanged.
 FEWEST_CHANGES = 5
 #: Median of the absolute value of a standard normal variable.
 MEDIAN_NORMAL = 0.6745
@@ -28,7 +28,7 @@ MEDIAN_NORMAL = 0.6745
 
 @dataclass(frozen=True)
 class Difference:
-    """Weighted means of two groups of days, and how much their own errors explain.
+    """Weighted means of two groups of days, and their standard errors.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ def difference(before: Array, after: Array, error_before: Array, error_after: Ar
 
 
 def common_scatter(differences: Sequence[Difference]) -> Scatter:
-    """Learn the scatter that joints have in common; freedom 0 where they are too few.
+    """Estimate the scatter common to the joints; 0 degrees of freedom if they are too few.
 
     With one day in each period the days of a joint say nothing of it. Then the changes themselves
     do, of which most are taken to be none (Efron 2004, the empirical null).
@@ -103,7 +103,7 @@ def _scatter_of_changes(differences: Sequence[Difference]) -> Scatter:
 
 
 def moderated(found: Difference, common: Scatter) -> tuple[float, float]:
-    """Standard error of a change with the scatter between days, and its degrees of freedom.
+    """Return the standard error of a change with scatter between days, and degrees of freedom.
 
     Never less than what the standard errors of the days say by themselves. Where nothing is known
     of the scatter, these alone count, with infinitely many degrees of freedom.

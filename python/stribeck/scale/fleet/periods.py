@@ -21,7 +21,7 @@ MEAN_FRICTION = "mean friction"
 
 @dataclass(frozen=True)
 class Compared:
-    """A quantity of one joint before the scatter of the others is known.
+    """A quantity of one joint, before the scatter common to all joints is estimated.
 
     `kind` is the same for a like quantity of all joints: ``"coulomb_friction"``, ``"friction
     forwards at 0.5 of the speed"``. `size` is what the change is relative to.
@@ -72,7 +72,7 @@ def _compare_friction(before: Sequence[DayModel], after: Sequence[DayModel]) -> 
     speeds, conditions = common_speeds(models), common_conditions(models)
     if speeds.size == 0:
         return []
-    # What opposes the motion, whichever its direction.
+    # Friction in both directions, positive if it opposes motion.
     along = np.sign(speeds)
     weights = np.vstack([along / speeds.size, np.diag(along)])
     periods = [_weighted_friction(days, speeds, conditions, weights) for days in (before, after)]
@@ -118,7 +118,7 @@ def _weighted_friction(
 def _compare_parameters(
     before: Sequence[DayModel], after: Sequence[DayModel], friction: float
 ) -> list[Compared]:
-    """Each parameter of the newest model, on the days that have this model.
+    """Return each parameter of the newest model, for the days with this model.
 
     Where fixed numbers of the model differ from day to day (a reference temperature), the friction
     parameters mean something else each day, and are left out.

@@ -1,7 +1,7 @@
-"""The Parquet data set of a fleet: one row a joint and file, kept as they come.
+"""The Parquet data set of a fleet: one row for each joint and file.
 
-``manifest.json`` says what is done with every joint. ``results/`` is the data set: parts are added
-every few seconds, each written whole, and put together into one at the end. It can be read at any
+``manifest.json`` describes the work. ``results/`` is the data set: parts are added every few
+seconds, each written atomically, and merged at the end. It can be read at any
 time: ``polars.read_parquet("FOLDER/results/*.parquet")``.
 """
 
@@ -23,9 +23,9 @@ from stribeck.recording.sidecar import sidecar_hash
 from stribeck.scale.fleet.task import File, Task, TaskResult, Work
 
 RESULTS = "results"
-#: Seconds after which what has come is written; what a power cut costs at most.
+#: Seconds between two writes; a power cut loses no more than this.
 BETWEEN_PARTS = 5.0
-#: What must be the same for rows to stand in one data set, and how to say that it is not.
+#: What must be the same for all rows of a data set, and the words of the error if it is not.
 IDENTITY = {
     "model": "with another model",
     "base": "from another base model",
@@ -75,7 +75,7 @@ SCHEMA: dict[str, pl.DataType | type[pl.DataType]] = {
     "sidecar_sha256": pl.String,
     "joints_in_file": pl.Int64,
 }
-#: A row answers for a joint of a file, and for these bytes.
+#: What identifies a row, and the content of the files that it is about.
 KEY, BYTES = ("file", "joint"), ("sha256", "sidecar_sha256")
 DONE, FAILED = "done", "failed"
 
@@ -86,16 +86,16 @@ class FleetStore:
     Parameters
     ----------
     folder
-        Made where it does not exist.
+        Created if it does not exist.
     work
         What is done with every joint.
     retry_failed
-        Take what failed before as not done.
+        Run failed tasks again.
 
     Attributes
     ----------
     frame : polars.DataFrame
-        Every row, by file and joint: those found, and once it is closed those added.
+        Every row, by file and joint; rows added later are included when the store is closed.
 
     Raises
     ------
@@ -122,7 +122,7 @@ class FleetStore:
         self._answered = set(keys.iter_rows())
 
     def known(self, files: Iterable[File]) -> set[str]:
-        """Paths of which every joint has its row, and which have not changed since."""
+        """Return the paths that have a row for every joint and have not changed since."""
         of_file = self._kept.group_by("file").agg(
             pl.len() == pl.first("joints_in_file"), pl.first("size", "modified", "sidecar_sha256")
         )
@@ -131,19 +131,19 @@ class FleetStore:
         return {p for p in paths if p in states and states[p] == self._state(p)}
 
     def has(self, task: Task) -> bool:
-        """Whether these bytes of a joint have been answered for."""
+        """Return whether there is a row for this joint and content of a file."""
         return (task.file, task.joint, task.sha256, task.sidecar_sha256) in self._answered
 
     def add(self, row: dict[str, object]) -> None:
-        """Keep a row; it is on disk some seconds later, and when the store is closed."""
+        """Add a row; it is written within seconds, or when the store is closed."""
         self._new.append(row)
         if time.monotonic() - self._written > BETWEEN_PARTS:
             self._write_part()
 
     def close(self) -> None:
-        """Write what is left, and put all parts together into one, in order.
+        """Write the remaining rows, and merge all parts into one, in order.
 
-        A folder without a single answer is none: the next run may ask something else of it.
+        A folder without a result is removed, so that the next run can use it for other work.
         """
         self._write_part()
         self.frame = _latest([self.frame, *self._added])
@@ -188,7 +188,7 @@ class FleetStore:
 
 
 def file_state(path: str) -> tuple[int | None, int | None]:
-    """Size in bytes and time of the last change in ns; a file that has both is the same."""
+    """Return size in bytes and time of the last change in ns, which identify an unchanged file."""
     try:
         stat = Path(path).stat()
     except OSError:
@@ -197,7 +197,7 @@ def file_state(path: str) -> tuple[int | None, int | None]:
 
 
 def row_of(answer: TaskResult) -> dict[str, object]:
-    """A joint that was identified, or could not be."""
+    """Return the row of a task that ended."""
     failed = answer.failure is not None
     return {
         **dict.fromkeys(SCHEMA),
@@ -210,12 +210,12 @@ def row_of(answer: TaskResult) -> dict[str, object]:
 
 
 def row_of_loss(task: Task, reason: str) -> dict[str, object]:
-    """A joint that was given up."""
+    """Return the row of a task that was given up."""
     return {**dict.fromkeys(SCHEMA), **_of_task(task), "status": FAILED, "reason": reason}
 
 
 def row_of_file(file: File, reason: str) -> dict[str, object]:
-    """A file of which no joint could be told."""
+    """Return the row of a file whose joints are unknown."""
     size, modified = file_state(file.path)
     return {
         **dict.fromkeys(SCHEMA),
@@ -232,7 +232,7 @@ def row_of_file(file: File, reason: str) -> dict[str, object]:
 
 
 def as_name(cell: object) -> str | None:
-    """A robot or joint out of the data set."""
+    """Return a cell of the data set as the name of a robot or joint."""
     return None if cell is None else str(cell)
 
 
@@ -241,9 +241,9 @@ def _of_task(task: Task) -> dict[str, object]:
 
 
 def _latest(parts: Iterable[pl.DataFrame]) -> pl.DataFrame:
-    """Rows of several parts, the later one where two answer for the same; in order.
+    """Return the rows of several parts in order; of two rows of the same joint, the later one.
 
-    The last bytes of a file count: rows of other ones are of joints that are no longer in it.
+    Rows of an earlier content of a file are dropped.
     """
     rows = pl.concat([pl.DataFrame(schema=SCHEMA), *parts])
     same = [pl.col(c).eq_missing(pl.col(c).last().over("file")) for c in BYTES]
@@ -267,5 +267,5 @@ def _read(path: Path) -> pl.DataFrame:
 def _manifest(work: Work) -> dict[str, object]:
     said = asdict(work)
     said["reading"] = {k: v for k, v in work.reading.given().items() if v != ""}
-    # As it reads back: tuples are lists in JSON.
+    # Tuples become lists in JSON; the manifest is compared with one that was read.
     return dict(json.loads(json.dumps({"kind": "fleet", **said}, default=str)))

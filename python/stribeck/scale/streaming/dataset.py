@@ -17,13 +17,13 @@ from stribeck.base.errors import RecordingError
 __all__ = ["DataSet", "is_data_set"]
 
 SUFFIXES = (".parquet", ".pq")
-#: Bytes of a file that are hashed at a time.
+#: Number of bytes hashed at a time.
 HASHED = 1 << 22
 
 
 @dataclass(frozen=True)
 class DataSet:
-    """The rows of one or several Parquet files, in the order of their names.
+    """The samples of one or several Parquet files, in the order of their names.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class DataSet:
 
     @classmethod
     def open(cls, path: str | Path) -> DataSet:
-        """Find the files and count their rows; of the data itself only the first row is read.
+        """Find the files and count their samples; only the first sample is read.
 
         Parameters
         ----------

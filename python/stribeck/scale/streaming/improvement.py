@@ -15,7 +15,7 @@ __all__ = ["StreamedImprovement"]
 
 @dataclass(frozen=True, repr=False)
 class StreamedImprovement(Shown):
-    """The way from a base model to one that leaves noise.
+    """The steps from a base model to one whose residual is noise.
 
     Attributes
     ----------

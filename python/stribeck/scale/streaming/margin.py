@@ -11,11 +11,11 @@ from stribeck.recording.sampled import BANDS
 
 __all__ = ["Margin", "acceleration_band", "smoothed"]
 
-#: A filter has forgotten what lies so many periods of its cut-off away (to 1e-10).
+#: Memory of a filter in periods of its cut-off frequency (to 1e-10).
 PERIODS = 10.0
-#: A state of friction is run in over so many seconds before the window.
+#: Seconds before a window over which the state of friction settles.
 RUN_IN = 20.0
-#: Most rows of a margin.
+#: Largest number of samples of a margin.
 MOST = 131_072
 
 
@@ -28,7 +28,7 @@ class Margin:
 
     @classmethod
     def of(cls, model: Model, sample: Recording) -> Margin:
-        """What `model` needs on data like `sample`.
+        """Return the margin that `model` needs on data like `sample`.
 
         One row before shows how the time goes on; more are needed for filters and states alone.
         """

@@ -28,7 +28,7 @@ class MotionChannels:
 
     @classmethod
     def recorded(cls, data: Channels) -> MotionChannels:
-        """As recorded, where nothing reads what is smooth or derived.
+        """Return the channels as recorded, if nothing needs smooth or derived ones.
 
         An acceleration that the files do not have is no number: nothing can read it by mistake.
         """
@@ -39,7 +39,7 @@ class MotionChannels:
 
     @classmethod
     def filtered(cls, data: Channels, smoother: Smoother, band: float | None) -> MotionChannels:
-        """As recorded, or derived as in a recording in memory; smooth beside it.
+        """Return the channels as recorded or derived, and their smooth versions.
 
         Parameters
         ----------

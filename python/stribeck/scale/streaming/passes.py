@@ -1,4 +1,4 @@
-"""A least-squares problem over a data set: one pass over all rows for each linearisation.
+"""A least-squares problem over a data set: one pass over all samples for each linearisation.
 
 Rows are factored a window at a time and merged into the factor so far (sequential TSQR; Demmel,
 Grigori, Hoemmen and Langou 2012): exact, with the condition of the Jacobian and not its square, in
@@ -28,7 +28,7 @@ __all__ = ["Groups", "StreamedProblem", "Told", "group_edges"]
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Told after each window: rows done and rows in all, of which pass.
+#: Called after each window with samples done, samples in all, and the number of the pass.
 Told = Callable[[int, int, int], None]
 
 
@@ -41,7 +41,7 @@ def group_edges(edges: Ints, count: int) -> Ints:
 
 @dataclass(frozen=True)
 class Groups:
-    """What a pass leaves: the problem linearised at `values`, in groups of rows.
+    """Result of a pass: the problem linearised at `values`, in groups of samples.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ class _Sums:
 
 @dataclass
 class StreamedProblem:
-    """A model bound to a data set, for `stribeck.identify.separable`.
+    """A model on a data set, for `stribeck.identify.separable`.
 
     Parameters
     ----------

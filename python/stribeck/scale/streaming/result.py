@@ -21,7 +21,7 @@ __all__ = ["StreamedFit"]
 
 @dataclass(frozen=True, repr=False)
 class StreamedFit(Shown):
-    """A model identified on all rows of a data set.
+    """A model identified on all samples of a data set.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class StreamedFit(Shown):
         try:
             return check(self.model).passive
         except StribeckError:
-            # A box over which the law has no limit, or a bristle without dry friction.
+            # The law is unbounded over the box, or it has a bristle without dry friction.
             return None
 
     def to_dict(self) -> dict[str, object]:

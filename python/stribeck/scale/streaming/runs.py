@@ -13,12 +13,12 @@ __all__ = ["block_edges", "numbered", "run_starts"]
 
 Ints = NDArray[np.int64]
 
-#: Rows of one column that are looked at together.
+#: Number of samples of a column that are read together.
 LOOKED_AT = 4_000_000
 
 
 def run_starts(data: DataSet, run: str | None, time: str) -> Ints:
-    """Numbers of the rows with which a run begins, in order.
+    """Return the indices of the first samples of the runs, in order.
 
     Without a column `run` a new one begins with each file whose clock starts again, as loggers
     write them.
@@ -67,7 +67,7 @@ def _of_column(data: DataSet, run: str) -> Ints:
 
 
 def block_edges(rows: int, starts: Ints) -> Ints:
-    """Rows at which held-out blocks begin, and the number of all rows, array [blocks + 1].
+    """Return the first samples of the held-out blocks, and the number of samples, [blocks + 1].
 
     Ten equal shares of the rows; where there are at least five runs, of whole runs.
     """

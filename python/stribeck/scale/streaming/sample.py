@@ -23,13 +23,13 @@ __all__ = ["Sample", "take"]
 
 Ints = NDArray[np.int64]
 
-#: Column that numbers the runs where only the clock tells them apart.
+#: Column that numbers the runs if only their times separate them.
 CLOCK_RUN = "run of the clock"
 
 
 @dataclass(frozen=True)
 class Sample:
-    """What is in memory of a data set, and what it tells about the rest.
+    """The part of a data set in memory, and how it describes the rest.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class _Rows(Source):
 
 
 def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
-    """Read at most `most` rows of a data set.
+    """Read at most `most` samples of a data set.
 
     Raises
     ------
@@ -91,7 +91,7 @@ def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
 
 
 def _refuse(data: DataSet, settings: Settings) -> None:
-    """Refuse what needs more than one stretch at a time."""
+    """Raise RecordingError for options that need all samples at once."""
     for name in ("average", "drive", "hold_out"):
         value: str | None = getattr(settings, name)
         if value is not None:

@@ -33,12 +33,12 @@ __all__ = ["Stream", "stream"]
 
 
 def _silent(done: int, total: int, number: int) -> None:
-    """Tell nobody."""
+    """Report no progress."""
 
 
 @dataclass(frozen=True)
 class Stream:
-    """One joint's measurements in Parquet files, of which only a sample is in memory.
+    """Measurements of a joint in Parquet files; only a part of them is in memory.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class Stream:
         fix: Mapping[str, float] | None = None,
         told: Told = _silent,
     ) -> StreamedFit:
-        """Identify `spec` on all rows by bounded least squares; see `stribeck.fit`.
+        """Identify `spec` on all samples by bounded least squares; see `stribeck.fit`.
 
         Parameters
         ----------
@@ -122,7 +122,7 @@ class Stream:
         told: Told = _silent,
         **options: Any,
     ) -> StreamedImprovement:
-        """Diagnose and add until what is left is noise; see `stribeck.improve`.
+        """Diagnose and add effects until the residual is noise; see `stribeck.improve`.
 
         Causes are looked for on the sample; each step's model is then identified on all rows.
 
@@ -137,7 +137,7 @@ class Stream:
             base, sample, starts=starts, seed=seed, sample_rows=sample.rows, **options
         )
         *way, last = [found.base, *(step.after for step in found.steps)]
-        # Of the models on the way only the errors are wanted.
+        # Only the errors of the intermediate models are needed.
         fits = [self._on_all_rows(fit, told, QUICK.tolerance) for fit in way]
         return StreamedImprovement(found, (*fits, self._on_all_rows(last, told)))
 

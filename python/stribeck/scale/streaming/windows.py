@@ -34,13 +34,13 @@ __all__ = ["WINDOW_ROWS", "Window", "Windows"]
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Rows of a window.
+#: Number of samples of a window.
 WINDOW_ROWS = 262_144
 
 
 @dataclass(frozen=True)
 class Window:
-    """A stretch of the data set.
+    """A window of the data set with margins.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class Window:
 
 @dataclass(frozen=True)
 class Anchor:
-    """The last row of a window: what has gone by until then.
+    """State at the last sample of a window.
 
     Attributes
     ----------
@@ -88,7 +88,7 @@ class Anchor:
         return cls(int(window.row[last]), float(r.time[last]), float(r.elapsed[last]))
 
     def elapsed_before(self, recording: Recording, row: Ints) -> float:
-        """What has gone by before the first row of the next window, s.
+        """Return the time before the first sample of the next window, s.
 
         Parameters
         ----------
@@ -190,7 +190,7 @@ class Windows:
         data = Channels(prepared, rows)
         columns = self.sample.recording.columns
         for channel in wanted_channels(prepared):
-            # A channel that is empty in the sample is left out of all windows.
+            # A channel that is empty in the part in memory is left out of all windows.
             if channel == "current" or channel in columns:
                 data.load(channel)
         return data

@@ -1,4 +1,4 @@
-"""What the tables and pictures say of a law on a joint: figures of its best start."""
+"""Errors of the best start of a law on a joint, for tables and figures."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from stribeck.scale.study.trial import Trial
 
 Array = NDArray[np.float64]
 
-#: Rows kept of each joint for the picture of friction against velocity.
+#: Samples of each joint kept for the figure of friction against velocity.
 DRAWN = 1200
 
 
 @dataclass(frozen=True)
 class Spread:
-    """Distribution of the torque error e = measured - modelled over some rows.
+    """Distribution of the torque error e = measured - modelled over some samples.
 
-    Quartiles and whiskers are those of the review's box plots: whiskers reach to the last row
-    within 1.5 times the interquartile range of the box. All NaN where there are no rows.
+    Quartiles and whiskers are those of the review's box plots: whiskers reach to the last
+    sample within 1.5 times the interquartile range of the box. NaN if there are no samples.
     """
 
     rows: int
@@ -38,7 +38,7 @@ class Spread:
 
     @classmethod
     def of(cls, error: Array) -> Spread:
-        """Of the errors of some rows."""
+        """Compute the distribution of errors."""
         if error.size == 0:
             nan = float("nan")
             return cls(0, nan, nan, (nan, nan, nan), (nan, nan))
@@ -72,7 +72,7 @@ class Spread:
 
 @dataclass(frozen=True)
 class Cloud:
-    """Friction against velocity on some rows of a joint, measured and modelled."""
+    """Friction against velocity at some samples of a joint, measured and modelled."""
 
     velocity: Array
     measured: Array
@@ -88,11 +88,11 @@ class Entry:
     best
         The start with the smallest error.
     whole, low_speed
-        Torque error over all scored rows, and over those slower than the study's low speed.
+        Torque error over all scored samples, and over those at low speed.
     agreeing
-        Starts that ended within a thousandth of the best error.
+        Number of starts that ended within a thousandth of the best error.
     energy
-        None where the motor is not known.
+        None if the motor is unknown.
     """
 
     best: Trial
@@ -121,12 +121,12 @@ class Entry:
 
 @dataclass(frozen=True)
 class JointData:
-    """What was scored of a joint.
+    """Scored data of a joint.
 
     Attributes
     ----------
     low_speed
-        What counts as low speed, in the unit of velocity.
+        Largest low speed, in the unit of velocity.
     """
 
     rows: int
@@ -138,7 +138,7 @@ class JointData:
 
 @dataclass(frozen=True)
 class JointTrials:
-    """The fits of a joint by law, and what counts as low speed (None: what suits the joint)."""
+    """The fits of a joint by law, and the largest low speed (None: by the kind of joint)."""
 
     joint: str | None
     trials: Mapping[str, Sequence[Trial]]
@@ -147,7 +147,7 @@ class JointTrials:
 
 @dataclass(frozen=True)
 class Assessed:
-    """Figures of a joint: the table of each law, and the laws that could be fitted."""
+    """Results of a joint: the table of each law, and the fitted laws."""
 
     joint: str | None
     data: JointData
@@ -156,7 +156,7 @@ class Assessed:
 
 
 def assess_joint(desk: Desk, of: JointTrials) -> Assessed:
-    """Figures of every law on a joint."""
+    """Assess every law on a joint."""
     recording = desk.recording(of.joint)
     low_speed = LOW_SPEED[recording.joint_kind] if of.low_speed is None else of.low_speed
     data = JointData(
@@ -173,13 +173,13 @@ def assess_joint(desk: Desk, of: JointTrials) -> Assessed:
 
 
 def best_trial(trials: Sequence[Trial]) -> Trial | None:
-    """The trial with the smallest error; of equal ones the first start. None if all failed."""
+    """Return the trial with the smallest error, or the first of equal ones; None if all failed."""
     fitted = [t for t in trials if t.rmse is not None and np.isfinite(t.rmse)]
     return min(fitted, key=lambda t: (t.rmse, t.job.start), default=None)
 
 
 def assess(trials: Sequence[Trial], recording: Recording, low_speed: float) -> Entry | None:
-    """Figures of a law on a joint from its starts; None where every start failed.
+    """Assess a law on a joint by its best start; None if every start failed.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def assess(trials: Sequence[Trial], recording: Recording, low_speed: float) -> E
 
 
 def _drawn(recording: Recording) -> NDArray[np.intp]:
-    """Scored rows to draw, half of them evenly over the rows and half evenly over the speeds."""
+    """Return scored samples to draw, half of them even in time and half even in speed."""
     rows = np.flatnonzero(recording.moving)
     if rows.size <= DRAWN:
         return rows

@@ -1,8 +1,7 @@
-"""The folder of a study: what it is of, and every fit as it is made.
+"""The folder of a study: its description, and every fit.
 
-``manifest.json`` says what the study is of. ``fits.csv`` gets one line as each fit ends, so that
-nothing is lost when the study is stopped; at the end it is put in order, and the same rows are
-written to ``fits.parquet``.
+``manifest.json`` describes the study. ``fits.csv`` gets one line when a fit ends, so that nothing
+is lost when the study is stopped; at the end it is sorted, and written to ``fits.parquet`` too.
 """
 
 from __future__ import annotations
@@ -39,7 +38,7 @@ FIELDS = (
     "rigid_body",
     "failure",
 )
-#: What must be the same for a study to go on, and how to say that it is not.
+#: What must be the same to continue a study, and the words of the error if it is not.
 IDENTITY = {
     "data": "of another recording or sidecar",
     "reading": "of a recording read with other options",
@@ -57,9 +56,9 @@ class StudyStore:
     Parameters
     ----------
     folder
-        Made where it does not exist.
+        Created if it does not exist.
     plan
-        What the study is of.
+        The fits of the study.
 
     Raises
     ------
@@ -78,13 +77,13 @@ class StudyStore:
             raise unwritable(folder, error) from None
 
     def add(self, trial: Trial) -> None:
-        """Keep a fit; it is on disk when this returns."""
+        """Write a fit to disk."""
         self.trials[trial.job] = trial
         self._log.write(_lines([trial]))
         self._log.flush()
 
     def close(self) -> None:
-        """Put the fits in order and write them as Parquet too."""
+        """Sort the fits, and write them as Parquet too."""
         self._log.close()
         self._rewrite()
         stream = io.BytesIO()
@@ -92,17 +91,17 @@ class StudyStore:
         write_bytes_whole(self.folder / "fits.parquet", stream.getvalue())
 
     def _rewrite(self) -> None:
-        """Write the fits known in the order of joints, laws and starts."""
+        """Write the fits, sorted by joint, law and start."""
         write_whole(self.folder / FITS, ",".join(FIELDS) + "\n" + _lines(self.ordered()))
 
     def ordered(self) -> list[Trial]:
-        """The fits by joint, law and start, whichever order they were made in."""
+        """Return the fits sorted by joint, law and start."""
         return sorted(
             self.trials.values(), key=lambda t: (t.job.joint or "", t.job.law, t.job.start)
         )
 
     def frame(self) -> pl.DataFrame:
-        """Every fit, one row each; parameters as a list of name and value."""
+        """Return a table with one row for each fit; parameters are lists of name and value."""
         rows = [
             {
                 "joint": t.job.joint,
@@ -150,12 +149,12 @@ def _manifest(plan: StudyPlan) -> dict[str, object]:
         "fits": len(plan.jobs),
         "skipped": [{"joint": s.joint, "law": s.law, "why": s.why} for s in plan.skipped],
     }
-    # As it reads back: tuples are lists in JSON.
+    # Tuples become lists in JSON; the manifest is compared with one that was read.
     return dict(json.loads(json.dumps(made, default=str)))
 
 
 def _lines(trials: Iterable[Trial]) -> str:
-    """Fits as lines of CSV; numbers read back with the same bits."""
+    """Return fits as lines of CSV that reproduce every bit of the numbers."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     for t in trials:
@@ -184,7 +183,7 @@ def _number(value: float | None) -> str:
 
 
 def _read_fits(path: Path, wanted: set[Job]) -> dict[Job, Trial]:
-    """The fits made before; a line that was cut off in writing is left out and made again."""
+    """Read earlier fits; an incomplete last line is ignored and fitted again."""
     if not path.exists():
         return {}
     text = path.read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Many laws on every joint of a recording, from many starts: the tables of the UR5e review.
+"""Fits of many laws to every joint of a recording, from many starts, as in the UR5e review.
 
 The review of 25 friction models (2024/25, sections 3 to 5) fits each law to each joint from twenty
 random starts, keeps the best, and compares the errors of friction torque, over all speeds and
@@ -26,7 +26,7 @@ from stribeck.scale.study.trial import Trial, fit_trials
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-#: Told after each fit: fits made now and before, and all there are.
+#: Called after each fit with the numbers of fits done and in all.
 Progress = Callable[[int, int], None]
 
 
@@ -48,28 +48,28 @@ def study(
     Parameters
     ----------
     path
-        The recording; `reading` are the options of `stribeck.read`. With ``joint`` that one alone.
+        The recording; `reading` are the options of `stribeck.read`. ``joint`` selects one joint.
     output
-        Folder of the study. Every fit is written there as it ends; a second run with the same
-        arguments goes on from them.
+        Folder of the study. Every fit is written there when it ends; a second run with the same
+        arguments continues from there.
     laws
         Specs; default: the 25 of the review.
     starts
-        Of each law on each joint: the catalog's own and random ones (review: 20).
+        Number of starts of each law on each joint: the default one and random ones (review: 20).
     low_speed
-        What the tables call low speed, rad/s or m/s; default 0.1 rad/s or 0.01 m/s.
+        Largest low speed of the tables, rad/s or m/s; default 0.1 rad/s or 0.01 m/s.
     workers
-        Processes; None: one for each core. More than one needs the script's main module to be
-        importable (``if __name__ == "__main__":``). The results do not depend on it.
+        Number of processes; None: one for each core. The results do not depend on it.
     progress, note
-        Told after each fit how many are made, and before the first how the recording was read.
+        Called after each fit with the numbers of fits done and in all; called before the first fit
+        with notes on how the recording was read.
 
     Raises
     ------
     StribeckError
-        A recording, law or folder that cannot be used.
+        The recording, a law or the folder cannot be used.
     Stopped
-        On Ctrl-C; what is done is saved.
+        On Ctrl-C; finished fits are saved.
 
     Examples
     --------
@@ -94,8 +94,8 @@ def _fit(
 ) -> None:
     """Make the fits that are not in the store.
 
-    The starts of a law on a joint are fitted together, and again if one of them is missing: so the
-    results are the same on any number of processes, and of a study that was stopped.
+    All starts of a law on a joint are fitted together, even if only one is missing. So the results
+    do not depend on the number of processes or on interruptions.
     """
     missing = {job for job in plan.jobs if job not in store.trials}
 
@@ -115,7 +115,7 @@ def _fit(
 def _result(
     plan: StudyPlan, store: StudyStore, low_speed: float | None, processes: StudyWorkers
 ) -> Study:
-    """Figures of the best starts, joint by joint."""
+    """Compute the tables from the best starts, joint by joint."""
     trials = store.ordered()
     of_joint: dict[str | None, dict[str, list[Trial]]] = {joint: {} for joint in plan.joints}
     for trial in trials:
@@ -139,7 +139,7 @@ def _result(
 
 
 def _write(result: Study, processes: StudyWorkers) -> None:
-    """Tables and pictures into the study's folder."""
+    """Write tables and figures to the folder of the study."""
     folder = result.folder
     write_whole(folder / "tables.csv", result.to_frame().write_csv())
     write_whole(folder / "tables.txt", repr(result) + "\n")
@@ -152,7 +152,7 @@ def _write(result: Study, processes: StudyWorkers) -> None:
 
 
 def _draw(_: Desk, of: tuple[Study, str | None]) -> None:
-    """The pictures of one joint."""
+    """Draw the figures of one joint."""
     result, joint = of
     name = "" if joint is None else f"_{_plain_name(joint)}"
     save_figure(draw(result, joint=joint), str(result.folder / f"errors{name}.png"))
@@ -162,7 +162,7 @@ def _draw(_: Desk, of: tuple[Study, str | None]) -> None:
 
 
 def _plain_name(joint: str) -> str:
-    """A joint's name as part of a file name."""
+    """Return the name of a joint as part of a file name."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in joint)
 
 

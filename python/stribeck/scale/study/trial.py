@@ -1,4 +1,4 @@
-"""The fits of a law on a joint: one from each start."""
+"""Fits of a law to a joint, one from each start."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ from stribeck.recording.recording import Recording
 from stribeck.scale.study.desk import Desk
 from stribeck.scale.study.plan import Job
 
-#: Each start is brought to its own minimum on all rows. Held-out blocks are predicted by the
-#: linearised model, which spares running every start ten times.
+#: Each start runs to its minimum on all samples. Held-out blocks are predicted by the linearised
+#: model, which saves ten fits for each start.
 EFFORT = Effort(finished=1, tolerance=1e-8, exact=False)
 
 
 @dataclass(frozen=True)
 class Trial:
-    """Where one start ended.
+    """Result of one start.
 
     Attributes
     ----------
     rmse, rmse_held_out
-        Over the scored rows, in the unit of torque; None where the fit failed.
+        Over the scored samples, in the unit of torque; None if the fit failed.
     parameters
         Values by name, in the units of the model.
     seconds
-        Its part of the time that the law took on the joint: starts share much of it.
+        Time of the law on the joint, divided by the number of starts.
     constants, rigid_body
-        The fixed numbers and the rigid-body terms that belong to the model.
+        The constants and rigid-body terms of the model.
     failure
-        Why there is no fit; empty where there is one.
+        Why there is no fit; empty if there is one.
     """
 
     job: Job
@@ -66,11 +66,11 @@ class Trial:
 
 
 def start_model(law: str, recording: Recording, start: int, seed: int) -> Model:
-    """The model from which a start sets out.
+    """Return the model at a start.
 
-    Start 0 is the catalog's. The others draw the nonlinear parameters evenly between their bounds
-    (by their logarithm, where a bound above zero allows it) as the review does, with numbers that
-    depend on seed and start alone; linear parameters follow from the nonlinear ones.
+    Start 0 has the default values. The others draw the nonlinear parameters uniformly between their
+    bounds, in the logarithm if the bounds are positive, as in the review. The random numbers depend
+    on seed and start alone. Linear parameters follow from the nonlinear ones.
     """
     model = model_for(law, recording)
     lower, upper, first = bounds(model, recording)
@@ -84,7 +84,7 @@ def start_model(law: str, recording: Recording, start: int, seed: int) -> Model:
 
 
 def fit_trials(desk: Desk, jobs: Sequence[Job]) -> list[Trial]:
-    """The fits of a law on a joint, whose starts are all there or none."""
+    """Fit all starts of a law on a joint."""
     joint = jobs[0].joint
     return run_trials(jobs, desk.recording(joint), desk.transient(joint), desk.plan.seed)
 
@@ -92,14 +92,14 @@ def fit_trials(desk: Desk, jobs: Sequence[Job]) -> list[Trial]:
 def run_trials(
     jobs: Sequence[Job], recording: Recording, transient: NDArray[np.bool_], seed: int
 ) -> list[Trial]:
-    """Fit a law from its starts; what cannot be fitted is said, not raised.
+    """Fit a law from its starts; an error is part of the result and is not raised.
 
     Parameters
     ----------
     jobs
-        Of one law on one joint, the starts from 0 on.
+        All starts of one law on one joint.
     transient : bool array [n]
-        Rows that no start is fitted to (`stribeck.identify.transients`).
+        Samples excluded from the fits (`stribeck.identify.transients`).
     """
     began = time.perf_counter()
     fits: Sequence[FittedStart | StribeckError]
@@ -109,7 +109,7 @@ def run_trials(
     except StribeckError as error:
         fits = [error] * len(jobs)
     except Exception as error:
-        # One defect must not end the other fits of a study of hours; it is listed with them.
+        # One defect must not end a study of hours; it is listed with the fits.
         sentence = f"unexpected {type(error).__name__}: {error}; please report it"
         fits = [StribeckError(sentence.replace("\n", " "))] * len(jobs)
     seconds = (time.perf_counter() - began) / len(jobs)
