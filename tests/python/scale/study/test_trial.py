@@ -72,7 +72,7 @@ def test_starts_that_come_together_end_where_each_would_alone(
     recording: sb.Recording, law: str
 ) -> None:
     together = run(law, recording, starts=12)
-    led = [trial for trial in together if "went on" in trial.outcome]
+    led = [trial for trial in together if "merged with start" in trial.outcome]
     assert led, "no two starts came together"
     # Where a start ends depends on none after it.
     fewer = run(law, recording, starts=7)
