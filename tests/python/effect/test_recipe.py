@@ -1,7 +1,8 @@
 """The recipe of CONTRIBUTING.md for a new effect, followed in a copy of the tree.
 
 `recipe/` holds the two files that the recipe asks for. Two rows in `src/effect/mod.rs` are all that
-is edited; then the new effect is generated, diagnosed and named.
+is edited; then the new effect is generated, diagnosed and named. The first build takes some minutes,
+on a busy machine many.
 """
 
 from __future__ import annotations
@@ -72,6 +73,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(3600)
 def test_a_new_effect_is_generated_and_found(tree: Path) -> None:
     python = {"PYTHONPATH": str(tree / "python")}
     stribeck = [sys.executable, "-m", "stribeck"]
@@ -89,6 +91,7 @@ def test_a_new_effect_is_generated_and_found(tree: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(3600)
 def test_without_its_python_file_the_effect_is_refused(tree: Path) -> None:
     missing = tree / "python" / "stribeck" / "effect" / "surge.py"
     text = missing.read_text()
