@@ -1,7 +1,7 @@
 """The recipe of CONTRIBUTING.md for a new effect, followed in a copy of the tree.
 
 `recipe/` holds the two files that the recipe asks for. Two rows in `src/effect/mod.rs` are all that
-is edited; then the new effect is generated, diagnosed and named. The first build takes some minutes,
+is edited; then the new effect is generated, diagnosed and named. The first build takes minutes,
 on a busy machine many.
 """
 
