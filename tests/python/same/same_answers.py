@@ -220,9 +220,11 @@ def code(text: str) -> Json:
             return ""
         return '"…"' if " " in token else token
 
-    lines = [line.rstrip() for line in tokens.sub(plain, text).splitlines()]
+    text = tokens.sub(plain, text)
     # How a crate calls its own modules is no part of what the code does.
-    lines = [line for line in lines if line and not line.startswith("use ")]
+    text = re.sub(r"^\s*use [^;]*;", "", text, flags=re.MULTILINE)
+    text = re.sub(r"\bstribeck::(\w+::)*", "", text)
+    lines = [line.rstrip() for line in text.splitlines() if line.strip()]
     pieces = ["\n".join(lines[k : k + 16]) for k in range(0, len(lines), 16)]
     return {"lines": len(lines), "elements": [short(piece) for piece in pieces]}
 
