@@ -33,10 +33,12 @@ from stribeck.models.model import Model
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.kept import Kept
 from stribeck.projects.node import Node
+from stribeck.projects.read import read_project
 from stribeck.projects.sides import Sides
 from stribeck.projects.source import Source
 from stribeck.projects.tables import project_dict, project_frame
 from stribeck.projects.tree import Tree
+from stribeck.projects.write import write_project
 from stribeck.recording.options import ReadArguments
 from stribeck.recording.recording import Recording
 
@@ -112,16 +114,12 @@ class Project(Plotted):
         ProjectError, ModelFileError
             The file is not a project, or its data have changed or are missing.
         """
-        from stribeck.projects.read import read_project
-
-        project = read_project(Path(path))
+        project = cls(Path(path), *read_project(Path(path)))
         project.source.check()
         return project
 
     def save(self, path: str | os.PathLike[str] | None = None) -> None:
         """Write the project file atomically; default: to `path`."""
-        from stribeck.projects.write import write_project
-
         write_project(self, self.path if path is None else Path(path))
 
     def save_model(self, path: str | os.PathLike[str]) -> None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import NamedTuple
 
-from stribeck.base.errors import ProjectError, nearest
+from stribeck.base.errors import ProjectError
+from stribeck.base.toml import TomlText, read_text
 from stribeck.models.reader import read_model
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.kept import Kept
@@ -16,14 +16,6 @@ from stribeck.projects.node import CHANGES, Node
 from stribeck.projects.source import READING, Source
 from stribeck.projects.tree import Tree
 from stribeck.projects.write import SCHEMA
-
-if sys.version_info >= (3, 11):
-    import tomllib
-else:
-    import tomli as tomllib
-
-if TYPE_CHECKING:
-    from stribeck.projects.project import Project
 
 VERDICTS = ("missing", "none", "unexplained")
 TOP_KEYS = ("kind", "schema", "current", "data", "reading", "nodes")
@@ -33,44 +25,35 @@ FOUND_KEYS = ("effect", "confidence", "rmse_held_out", "share", "where", "ties")
 DIAGNOSIS_KEYS = ("verdict", "noise_floor", "left", "left_where", "findings")
 
 
-def read_project(path: Path) -> Project:
+class StoredProject(NamedTuple):
+    """What a project file contains."""
+
+    source: Source
+    tree: Tree
+    current: int
+
+
+def read_project(path: Path) -> StoredProject:
     """Read a project file.
 
     Raises
     ------
     ProjectError, ModelFileError
+        The file cannot be read, or is not a project; with the line.
     """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is not text"
-        raise ProjectError(f"cannot read the project {path}: {reason}") from None
-    try:
-        data = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ProjectError(f"{path}: not a TOML file ({error})") from None
-    return _Reader(path, text).project(data)
+    text = TomlText(path, read_text(path, "project", ProjectError), ProjectError)
+    return _Reader(text).project(text.parsed())
 
 
 class _Reader:
-    """Reads one file; keeps its text to tell the line of what is wrong."""
+    """Reads one project file; errors name the line."""
 
-    def __init__(self, path: Path, text: str) -> None:
-        self.path = path
-        self.rows = text.splitlines()
+    def __init__(self, text: TomlText) -> None:
         self.text = text
+        self.path = text.path
+        self.stop = text.stop
 
-    def stop(self, what: str, *words: str) -> ProjectError:
-        """An error that names the line on which the last of `words` stands, each after the last."""
-        line = 0
-        for word in words:
-            line = next((k for k in range(line, len(self.rows)) if word in self.rows[k]), line)
-        where = f", line {line + 1}" if words else ""
-        return ProjectError(f"{self.path}{where}: {what}")
-
-    def project(self, data: Mapping[str, Any]) -> Project:
-        from stribeck.projects.project import Project
-
+    def project(self, data: Mapping[str, object]) -> StoredProject:
         if data.get("kind") != "project":
             raise self.stop(
                 f'this is not a project: kind is {data.get("kind")!r}, "project" is needed',
@@ -80,27 +63,31 @@ class _Reader:
             raise self.stop(
                 f"schema {data.get('schema')!r} is not known here, {SCHEMA} is", "schema"
             )
-        self._known(data, TOP_KEYS)
-        for key in ("data", "nodes"):
-            if not isinstance(data.get(key), dict) or not data[key]:
-                raise self.stop(f"the table [{key}] is missing")
-        tree = Tree(self._nodes(data["nodes"]))
+        self.text.check_keys(data, TOP_KEYS)
+        tables = {key: self._table(data, key) for key in ("data", "nodes")}
+        tree = Tree(self._nodes(tables["nodes"]))
         current = data.get("current")
-        if current not in [node.number for node in tree]:
+        if not isinstance(current, int) or current not in [node.number for node in tree]:
             raise self.stop(f"current is {current!r}, and there is no such node", "current")
-        return Project(self.path, self._source(data), tree, current)
+        return StoredProject(self._source(tables["data"], data.get("reading", {})), tree, current)
 
-    def _source(self, data: Mapping[str, Any]) -> Source:
-        said, reading = data["data"], data.get("reading", {})
-        self._known(said, DATA_KEYS, "[data]")
-        texts = {key: self._text(said, key, "[data]") for key in ("path", "sha256")}
+    def _table(self, data: Mapping[str, object], key: str) -> Mapping[str, object]:
+        table = data.get(key)
+        if not isinstance(table, dict) or not table:
+            raise self.stop(f"the table [{key}] is missing")
+        return table
+
+    def _source(self, stored: Mapping[str, object], reading: object) -> Source:
+        self.text.check_keys(stored, DATA_KEYS, "[data]")
+        path, sha256 = (self._text(stored, key, "[data]") for key in ("path", "sha256"))
         if not isinstance(reading, dict):
             raise self.stop(f"reading is {reading!r}, a table is needed", "reading")
-        self._known(reading, READING, "[reading]")
-        beside = self._text(said, "sidecar_sha256", "[data]") if "sidecar_sha256" in said else None
-        return Source(self.path.parent, texts["path"], texts["sha256"], beside, reading)
+        self.text.check_keys(reading, READING, "[reading]")
+        key = "sidecar_sha256"
+        sidecar = self._text(stored, key, "[data]") if key in stored else None
+        return Source(self.path.parent, path, sha256, sidecar, reading)
 
-    def _nodes(self, tables: Mapping[str, Any]) -> tuple[Node, ...]:
+    def _nodes(self, tables: Mapping[str, object]) -> tuple[Node, ...]:
         nodes: list[Node] = []
         for word, table in tables.items():
             header = f"[nodes.{word}"
@@ -109,14 +96,19 @@ class _Reader:
             nodes.append(self._node(int(word), table, header, nodes))
         return tuple(nodes)
 
-    def _node(self, number: int, table: Mapping[str, Any], header: str, before: list[Node]) -> Node:
-        self._known(table, NODE_KEYS, header)
-        change = table.get("change")
-        if change not in CHANGES:
+    def _node(
+        self, number: int, table: Mapping[str, object], header: str, before: list[Node]
+    ) -> Node:
+        self.text.check_keys(table, NODE_KEYS, header)
+        change, parent = table.get("change"), table.get("parent")
+        if not isinstance(change, str) or change not in CHANGES:
             raise self.stop(f"change is {change!r}; it is {' or '.join(CHANGES)}", header, "change")
-        if not isinstance(table.get("model"), dict):
+        if not isinstance(parent, int | None):
+            raise self.stop(f"parent is {parent!r}, and no such node is above", header)
+        model = table.get("model")
+        if not isinstance(model, dict):
             raise self.stop(f"node {number} has no model", header)
-        kept = Kept(read_model(table["model"], self.path, self.text, f"[nodes.{number}.model]"))
+        kept = Kept(read_model(model, self.path, self.text.text, f"[nodes.{number}.model]"))
         fitted_on, place = kept.file.fitted_on, f"[nodes.{number}.model.fitted_on]"
         self._number(fitted_on, "rmse_held_out", place)
         if self._number(fitted_on, "rmse", place) is None:
@@ -124,7 +116,7 @@ class _Reader:
         found = self._found(table["found"], f"[nodes.{number}.found]") if "found" in table else None
         node = Node(
             number,
-            table.get("parent"),
+            parent,
             change,
             found,
             kept,
@@ -159,21 +151,21 @@ class _Reader:
                 header,
             )
 
-    def _rejected(self, table: Mapping[str, Any], number: int) -> dict[str, str]:
+    def _rejected(self, table: Mapping[str, object], number: int) -> dict[str, str]:
         rows = table.get("rejected", {})
         header = f"[nodes.{number}.rejected]"
         if not isinstance(rows, dict):
             raise self.stop(f"rejected is {rows!r}, a table is needed", header)
         return {effect: self._text(rows, effect, header) for effect in rows}
 
-    def _diagnosis(self, table: Mapping[str, Any], number: int) -> Remembered | None:
+    def _diagnosis(self, table: Mapping[str, object], number: int) -> Remembered | None:
         said = table.get("diagnosis")
         if said is None:
             return None
         header = f"[nodes.{number}.diagnosis"
         if not isinstance(said, dict) or said.get("verdict") not in VERDICTS:
             raise self.stop(f"the verdict is {' or '.join(VERDICTS)}", header)
-        self._known(said, DIAGNOSIS_KEYS, header)
+        self.text.check_keys(said, DIAGNOSIS_KEYS, header)
         rows = said.get("findings", [])
         if not isinstance(rows, list):
             raise self.stop(f"findings is {rows!r}, a list of tables is needed", header)
@@ -185,10 +177,10 @@ class _Reader:
             tuple(self._found(row, header) for row in rows),
         )
 
-    def _found(self, row: Any, header: str) -> Found:
+    def _found(self, row: object, header: str) -> Found:
         if not isinstance(row, dict):
             raise self.stop(f"a finding is {row!r}, a table is needed", header)
-        self._known(row, FOUND_KEYS, header)
+        self.text.check_keys(row, FOUND_KEYS, header)
         ties = row.get("ties", [])
         if not isinstance(ties, list) or not all(isinstance(tie, str) for tie in ties):
             raise self.stop(f"ties is {ties!r}, a list of names is needed", header, "ties")
@@ -201,18 +193,13 @@ class _Reader:
             tuple(ties),
         )
 
-    def _known(self, table: Mapping[str, Any], keys: tuple[str, ...], *words: str) -> None:
-        for key in table:
-            if key not in keys:
-                raise self.stop(f"key {key!r} is unknown{nearest(key, keys)}", *words, key)
-
-    def _text(self, table: Mapping[str, Any], key: str, header: str) -> str:
+    def _text(self, table: Mapping[str, object], key: str, header: str) -> str:
         value = table.get(key)
         if not isinstance(value, str):
             raise self.stop(f"{key} is {value!r}, a text is needed", header, key)
         return value
 
-    def _number(self, table: Mapping[str, Any], key: str, header: str) -> float | None:
+    def _number(self, table: Mapping[str, object], key: str, header: str) -> float | None:
         value = table.get(key)
         if value is None:
             return None
