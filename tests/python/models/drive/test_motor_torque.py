@@ -84,5 +84,5 @@ def test_explicit_and_balanced_torque_agree() -> None:
 
 def test_a_self_locking_joint_is_refused() -> None:
     model = sb.model("bam_m3", Kc=0.0, Kl=1.1, Kv=0.0)
-    with pytest.raises(_core.ModelError, match=r"no motor torque moves the joint at row 1"):
+    with pytest.raises(_core.ModelError, match=r"no motor torque moves the joint at sample 1"):
         model.torque([0.0, 1.0], load_torque=[1.0, 1.0], external_torque=[-1.0, -1.0])
