@@ -11,11 +11,11 @@
 
 use std::vec::Vec;
 
-use super::{PassivityError, regions_of};
 use super::enclosure::Enclosure;
 use super::friction::sliding;
 use super::region::{Point, Region, Side};
 use super::search::Search;
+use super::{PassivityError, regions_of};
 use crate::composed::{Composed, Spec};
 use crate::error::ModelError;
 use crate::scalar::Dual;

@@ -219,7 +219,8 @@ fn regions_of(specs: &[&Spec], sides: &[Side]) -> Result<Vec<Region>, PassivityE
             }
         }
     }
-    let is_read = |side: &&Side| specs.iter().any(|spec| spec.channels().any(|c| c == side.channel));
+    let is_read =
+        |side: &&Side| specs.iter().any(|spec| spec.channels().any(|c| c == side.channel));
     let read: Vec<_> = sides.iter().filter(is_read).copied().collect();
     for &side in &read {
         if !(side.lower.is_finite() && side.upper.is_finite() && side.lower <= side.upper) {
