@@ -1,1 +1,1 @@
-"""More than one recording, or more data than memory holds."""
+"""Many recordings, and recordings larger than memory."""

@@ -1,1 +1,1 @@
-"""Many robots, joints and days: the same work on each, and what changed."""
+"""The same identification on many robots, joints and days, and what changed between days."""

@@ -1,4 +1,4 @@
-"""Which joints have changed: the newest days against those before."""
+"""Which joints have changed: comparison of the newest days with earlier days."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ class Question:
     since
         First of the new days; None: the newest `window` days.
     history
-        How many days before them they are compared with: of another season friction is another.
+        Number of earlier days to compare with. Friction changes with the season.
     false_discovery_rate
-        Largest share of the joints listed that may be there by chance.
+        Largest expected share of false alarms among the joints listed.
     least_change
-        Smallest change that matters: of friction relative to the joint's friction, of another
-        parameter relative to itself.
+        Smallest relevant change: of friction relative to the joint's friction, of another parameter
+        relative to its own value.
     """
 
     since: date | None = None
@@ -64,9 +64,10 @@ class Change:
     quantity
         A parameter, or ``"friction at +0.5 rad/s"``.
     relative
-        Change relative to what `Question.least_change` speaks of.
+        Change divided by the reference of `Question.least_change`.
     stderr
-        Of the change, with the scatter between days; `p_value` is that of the quantity alone.
+        Standard error of the change, including the scatter between days; `p_value` is not corrected
+        for the number of quantities.
     """
 
     quantity: str
@@ -92,13 +93,12 @@ class Change:
 
 @dataclass(frozen=True)
 class JointChange:
-    """One joint: its newest days compared with earlier days.
+    """Comparison of the newest days of a joint with earlier days.
 
     Attributes
     ----------
     changes
-        Every quantity that could be compared; those that are large enough to matter come first,
-        and of these the surest.
+        Every quantity that could be compared: relevant changes first, then by p-value.
     q_value
         Smallest false discovery rate at which the joint is listed.
     effects
@@ -116,12 +116,12 @@ class JointChange:
 
     @property
     def largest(self) -> Change:
-        """The surest of the changes that are large enough to matter."""
+        """The relevant change with the smallest p-value."""
         return self.changes[0]
 
     @property
     def friction(self) -> Change | None:
-        """The change of the mean friction over the common speeds; None where there are none."""
+        """The change of the mean friction over the common speeds; None without common speeds."""
         return next((c for c in self.changes if c.quantity == MEAN_FRICTION), None)
 
     def to_dict(self) -> dict[str, object]:
@@ -140,16 +140,16 @@ class JointChange:
 
 @dataclass(frozen=True)
 class Changes:
-    """The joints of a fleet that changed.
+    """Comparison of all joints of a fleet.
 
     Attributes
     ----------
     joints
-        Every joint that could be compared, the surest change first.
+        Every joint that could be compared, the smallest q-value first.
     not_compared
         Joints without a day in one of the periods.
     why
-        Why nothing could be compared; None where something was.
+        Why no joint could be compared; None if at least one was.
     """
 
     question: Question
@@ -208,7 +208,7 @@ def find_changes(rows: pl.DataFrame, question: Question) -> Changes:
             compared[robot, joint] = compare_periods(before, after), before, after
     why = None
     if not compared:
-        why = f"no joint has days both from {since} on and in the {question.history} before"
+        why = f"no joint has days both from {since} on and in the {question.history} days before"
     return Changes(question, since, newest, _judge(compared, question), every - len(compared), why)
 
 
@@ -216,7 +216,7 @@ def _judge(
     compared: Mapping[JointId, tuple[Sequence[Compared], pl.DataFrame, pl.DataFrame]],
     question: Question,
 ) -> tuple[JointChange, ...]:
-    """Weigh every change by the scatter that joints have in common."""
+    """Test every change with the scatter common to all joints."""
     by_kind: dict[str, list[Difference]] = {}
     for quantities, _, _ in compared.values():
         for each in quantities:

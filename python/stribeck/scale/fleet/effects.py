@@ -1,4 +1,4 @@
-"""Which joints have an effect that the others lack."""
+"""Which joints have an effect that most other joints lack."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FEW = 0.25
 #: Smallest number of joints of the same name to compare with; otherwise the whole fleet is used.
 FEWEST_PEERS = 3
 
-#: Why a fleet that was fitted with one model has nothing to say about effects.
+#: Why there is no result for effects if one model was fitted everywhere.
 NOT_ASKED = f"one model was fitted everywhere: {option('model', IMPROVE)} looks for missing effects"
 
 
@@ -28,14 +28,14 @@ class JointEffect:
     Attributes
     ----------
     days_found, days
-        On how many days, of how many.
+        Number of days on which it was found, and of all days.
     confidence
         Median over the days on which it was found.
     tied
-        Effects that are indistinguishable from it, on any of the days.
+        Effects indistinguishable from it on at least one day.
     peers, peers_with
-        Other joints of the same name (or all others, where those are few), and how many of them
-        have the effect or one that is indistinguishable from it.
+        Number of other joints of the same name (all other joints if those are few), and how many of
+        them have the effect or one indistinguishable from it.
     """
 
     robot: str | None
@@ -50,7 +50,7 @@ class JointEffect:
 
     @property
     def is_odd(self) -> bool:
-        """Whether the others lack it."""
+        """Whether most of the other joints lack it."""
         return self.peers > 0 and self.peers_with <= FEW * self.peers
 
     def to_dict(self) -> dict[str, object]:
@@ -95,9 +95,9 @@ class Effects:
     Attributes
     ----------
     joints
-        Every joint and effect it has, the rarest among its peers first.
+        Every effect of every joint, the rarest among the peers first.
     shares
-        By name of joint and effect, the effects that most joints have first.
+        Shares by name of joint and effect, the most frequent effects first.
     why
         Why there is no result; None if there is one.
     """
@@ -113,7 +113,7 @@ class Effects:
 
     @property
     def odd(self) -> tuple[JointEffect, ...]:
-        """What single joints have and the others lack."""
+        """Effects that most other joints lack."""
         return tuple(each for each in self.joints if each.is_odd)
 
     def to_dict(self) -> dict[str, object]:
@@ -128,7 +128,7 @@ class Effects:
 
 @dataclass(frozen=True)
 class _Joint:
-    """What was found at one joint over its days."""
+    """Effects found at one joint on its days."""
 
     robot: str | None
     joint: str | None
@@ -141,7 +141,7 @@ class _Joint:
         return 2 * len(self.found.get(effect, ())) > self.days
 
     def may_have(self, effect: str) -> bool:
-        """Whether it was found, itself or one that it cannot be told from, on half of the days."""
+        """Whether it, or an effect indistinguishable from it, was found on half of the days."""
         tied = sum(count[effect] for count in self.tied.values())
         return 2 * (len(self.found.get(effect, ())) + tied) > self.days
 
@@ -179,7 +179,7 @@ def _joint(robot: str | None, joint: str | None, days: pl.DataFrame) -> _Joint:
 
 
 def _against_peers(one: _Joint, effect: str, joints: list[_Joint]) -> JointEffect:
-    """An effect of a joint, and how many of its peers have it."""
+    """Count how many peers of a joint have one of its effects."""
     peers = [other for other in joints if other.joint == one.joint and other is not one]
     if len(peers) < FEWEST_PEERS:
         peers = [other for other in joints if other is not one]
@@ -203,7 +203,7 @@ def _rarest_first(each: JointEffect) -> tuple[float, float, str, str, str]:
 
 
 def _shares(joints: list[_Joint]) -> tuple[Share, ...]:
-    """By name of joint: effects that most joints of the fleet have come first."""
+    """Shares by name of joint; effects that are frequent in the fleet come first."""
     names = sorted({joint.joint for joint in joints}, key=lambda name: name or "")
     counts = Counter(e for joint in joints for e in joint.found if joint.has(e))
     return tuple(

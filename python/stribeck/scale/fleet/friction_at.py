@@ -1,7 +1,7 @@
 """Friction of identified models at common speeds and conditions, with standard errors.
 
-Parameters of different models do not compare, and even those of one trade against each other. The
-friction torque does compare, at the same speed, load and temperature.
+Parameters of different models cannot be compared, and those of one model are correlated. The
+friction torque at the same speed, load and temperature can be compared.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from stribeck.passivity.friction import friction_part
 
 Array = NDArray[np.float64]
 
-#: Speeds at which friction is compared, as shares of the speed that all days reach.
+#: Speeds at which friction is compared, relative to the largest speed that all days reach.
 SHARES = (0.1, 0.25, 0.5, 1.0)
 #: Days that reach less than this share of the usual speed are ignored for the common speed.
 LEAST_REACH = 0.5
-#: Relative step of the difference quotients by parameters.
+#: Relative parameter step of the finite differences.
 STEP = 1e-6
 
 
@@ -36,7 +36,7 @@ class DayModel:
 
     @classmethod
     def of(cls, model_file: str, covariance: Sequence[float]) -> DayModel:
-        """From what is stored of it."""
+        """Create it from the stored text and covariance."""
         model = parse_model_file(model_file, Path("results")).model
         size = len(model.names)
         return cls(model, np.asarray(covariance, dtype=np.float64).reshape(size, size))
@@ -49,13 +49,14 @@ class DayModel:
         velocity : array [n]
             rad/s or m/s, none of them zero.
         conditions
-            Load, temperature and other channels by name, held; of the motor torque the size, as
-            the motor drives the joint.
+            Constant load, temperature and other channels by name. The motor torque is given by its
+            magnitude; its sign is that of the velocity.
 
         Raises
         ------
         ValueError
-            The model needs a channel that is not among them, or has no value there.
+            A channel that the model needs is missing, or the model has no value at these
+            conditions.
         """
         friction, _ = friction_part(self.model)
         held = {name: x for name, x in conditions.items() if name in friction.core.needs}
@@ -90,8 +91,8 @@ def common_speeds(models: Sequence[Model]) -> Array:
     Returns
     -------
     array [n]
-        rad/s or m/s, in the order of `SHARES` forwards and then backwards, as far as both have
-        been driven.
+        rad/s or m/s, in the order of `SHARES`: positive speeds, then negative ones, each if all
+        days have moved in that direction.
     """
     speeds = []
     for sign in (1.0, -1.0):
@@ -106,8 +107,8 @@ def common_speeds(models: Sequence[Model]) -> Array:
 def common_conditions(models: Sequence[Model]) -> dict[str, float]:
     """Return load, temperature and other channels for the comparison.
 
-    The middle of what was seen on most days; a load at zero where it has been there, and the motor
-    torque at half of its largest.
+    The typical middle of the range. A load is zero if zero is in its range; the motor torque is
+    half of its largest value.
     """
     middles: dict[str, list[float]] = {}
     for model in models:

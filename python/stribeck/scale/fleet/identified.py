@@ -1,4 +1,4 @@
-"""What is kept of a model identified on one joint and day: plain data that travel."""
+"""The stored result of a model identified on one joint and day: plain data that can be pickled."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ IMPROVE = "improve"
 
 @dataclass(frozen=True)
 class Found:
-    """An effect that was found missing, how sure that is, and what it cannot be told from."""
+    """An effect found missing, its confidence, and the effects indistinguishable from it."""
 
     effect: str
     confidence: float
@@ -34,7 +34,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Value:
-    """A parameter; `stderr` is None where it is at a bound, held or not identifiable."""
+    """A parameter; `stderr` is None if it is at its bound, fixed or not identifiable."""
 
     name: str
     symbol: str
@@ -58,7 +58,7 @@ class Identified:
     noise_floor
         None where it cannot be estimated.
     covariance
-        Of the parameters, p x p row by row; 0 where a parameter has no standard error.
+        Covariance of the parameters, p x p, row by row; 0 where a parameter has no standard error.
     notes
         How the recording was understood.
     """
@@ -86,7 +86,7 @@ def identify(
     Parameters
     ----------
     model, base
-        A spec, or the text of a model file, whose values are then the first start.
+        A spec, or the text of a model file whose values are the first start.
     """
     if model != IMPROVE:
         fitted = fit(start_model(model), recording, starts=starts, seed=seed)
@@ -100,7 +100,7 @@ def identify(
 
 
 def start_model(text: str) -> str | Model:
-    """What is fitted: a spec as it is, or the model of a model file's text."""
+    """Return a spec unchanged, or the model in the text of a model file."""
     return parse_model_file(text, Path("the model")).model if "\n" in text else text
 
 
@@ -125,7 +125,8 @@ def _identified(fitted: Fit, found: tuple[Found, ...], floor: float | None) -> I
 
 
 def _covariance(fitted: Fit) -> NDArray[np.float64]:
-    """Covariance [p, p] of the parameters, of which `Estimate.stderr` is the diagonal."""
+    """Covariance [p, p] of the parameters; the square roots of its diagonal are
+    `Estimate.stderr`."""
     problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
     residual, jacobian = problem.linearise(fitted.model.values)
     free = np.array([e.stderr is not None for e in fitted.estimates.values()], dtype=bool)

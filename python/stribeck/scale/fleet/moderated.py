@@ -1,9 +1,9 @@
-"""Test whether means of few days differ; the scatter between days is estimated from many joints.
+"""Test whether means over few days differ, with the scatter between days estimated from all joints.
 
-A joint has a handful of days before and after, too few to know how much they scatter; but there
-are many joints. Their scatters are taken as draws around a common one, and each joint's own is
-moved towards it by as much as that is worth (Smyth 2004, "Linear models and empirical Bayes methods
-for assessing differential expression", section 6).
+A joint has few days before and after, too few to estimate their scatter, but there are many joints.
+The variances of the joints are assumed to be drawn from a common prior, and each joint's variance
+is shrunk towards it (Smyth 2004, "Linear models and empirical Bayes methods for assessing
+differential expression", section 6).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 #: Smallest number of joints with several days to estimate a common scatter.
 FEWEST_JOINTS = 3
-#: Smallest number of joints with single days to estimate it; most joints are unchanged.
+#: Smallest number of joints with single days to estimate it, assuming that most are unchanged.
 FEWEST_CHANGES = 5
 #: Median of the absolute value of a standard normal variable.
 MEDIAN_NORMAL = 0.6745
@@ -33,10 +33,10 @@ class Difference:
     Attributes
     ----------
     stderr
-        Of `after` - `before`, by the standard errors of the days alone.
+        Standard error of `after` - `before`, from the standard errors of the days alone.
     ratio
-        Birge's: mean square of the days about the mean of their group over their variances; NaN
-        where there is one day each.
+        Birge ratio: weighted mean square of the deviations of the days from the mean of their
+        group, the weights being the inverse variances; NaN with one day in each group.
     freedom
         Degrees of freedom of `ratio`.
     """
@@ -55,14 +55,14 @@ class Difference:
 
 @dataclass(frozen=True)
 class Scatter:
-    """What joints have in common: `ratio` scatters around it like one of `freedom` degrees."""
+    """Common scatter: the prior of `Difference.ratio`, with `freedom` degrees of freedom."""
 
     ratio: float = 1.0
     freedom: float = 0.0
 
 
 def difference(before: Array, after: Array, error_before: Array, error_after: Array) -> Difference:
-    """Compare values [n] and [m] with standard errors, each day one."""
+    """Compare the values [n] and [m] of the days of two groups, given their standard errors."""
     groups = [(before, error_before**-2.0), (after, error_after**-2.0)]
     means = [float(np.average(values, weights=weights)) for values, weights in groups]
     spread = sum(
@@ -76,10 +76,10 @@ def difference(before: Array, after: Array, error_before: Array, error_after: Ar
 
 
 def common_scatter(differences: Sequence[Difference]) -> Scatter:
-    """Estimate the scatter common to the joints; 0 degrees of freedom if they are too few.
+    """Estimate the scatter common to the joints; 0 degrees of freedom if there are too few joints.
 
-    With one day in each period the days of a joint say nothing of it. Then the changes themselves
-    do, of which most are taken to be none (Efron 2004, the empirical null).
+    With one day in each period, the days of a joint do not determine it. It is then estimated from
+    the changes, assuming that most joints are unchanged (Efron 2004, the empirical null).
     """
     known = [d for d in differences if d.freedom > 0 and d.ratio > 0.0]
     if len(known) < FEWEST_JOINTS:
@@ -105,8 +105,8 @@ def _scatter_of_changes(differences: Sequence[Difference]) -> Scatter:
 def moderated(found: Difference, common: Scatter) -> tuple[float, float]:
     """Return the standard error of a change with scatter between days, and degrees of freedom.
 
-    Never less than what the standard errors of the days say by themselves. Where nothing is known
-    of the scatter, these alone count, with infinitely many degrees of freedom.
+    The result is never smaller than the standard error from the days alone. If the scatter is
+    unknown, it is equal to that, with infinitely many degrees of freedom.
     """
     freedom = found.freedom + common.freedom
     if freedom == 0:
@@ -120,14 +120,14 @@ def moderated(found: Difference, common: Scatter) -> tuple[float, float]:
 
 
 def two_sided(change: float, stderr: float, freedom: float) -> float:
-    """Probability that chance alone gives a change at least as large either way."""
+    """Two-sided p-value of a change."""
     if stderr <= 0.0:
         return 1.0 if change == 0.0 else 0.0
     return float(2.0 * scipy.special.stdtr(min(freedom, 1e9), -abs(change) / stderr))
 
 
 def false_discovery(p_values: Sequence[float]) -> list[float]:
-    """Benjamini and Hochberg's adjusted p values, in the order given."""
+    """P-values adjusted by the method of Benjamini and Hochberg, in the order given."""
     p = np.asarray(p_values, dtype=np.float64)
     order = np.argsort(p, kind="stable")
     stepped = p[order] * p.size / np.arange(1, p.size + 1)

@@ -9,7 +9,6 @@ from pathlib import Path
 
 from stribeck.base.errors import RecordingError, SpecError, nearest, option
 
-#: Fields of a pattern.
 FIELDS = ("robot", "day", "joint")
 _DATE = re.compile(r"(?<!\d)(\d{4})[-_.]?(\d{2})[-_.]?(\d{2})(?!\d)")
 #: Fields that must have a certain form.
@@ -19,7 +18,7 @@ _PIECE = re.compile(r"\{(\w*)\}|(\*)|([^{}*]+)|(.)", re.DOTALL)
 
 @dataclass(frozen=True)
 class Name:
-    """What a path states; None for what it does not state."""
+    """Robot, day and joint named by a path; None if the path does not name it."""
 
     robot: str | None
     day: date | None

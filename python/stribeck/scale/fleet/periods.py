@@ -1,4 +1,4 @@
-"""One joint in two periods: what can be compared, and by how much it differs."""
+"""Comparison of one joint in two periods."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ MEAN_FRICTION = "mean friction"
 class Compared:
     """A quantity of one joint, before the scatter common to all joints is estimated.
 
-    `kind` is the same for a like quantity of all joints: ``"coulomb_friction"``, ``"friction
-    forwards at 0.5 of the speed"``. `size` is what the change is relative to.
+    `kind` is the same for the same quantity of all joints: ``"coulomb_friction"``, ``"friction
+    forwards at 0.5 of the speed"``. The relative change is the change divided by `size`.
     """
 
     kind: str
@@ -36,7 +36,7 @@ class Compared:
 
 @dataclass(frozen=True)
 class EffectShift:
-    """On how many of the days an effect was found, before and after."""
+    """Number of days on which an effect was found, before and after."""
 
     effect: str
     before: int
@@ -48,12 +48,12 @@ class EffectShift:
 
 
 def compare_periods(before: pl.DataFrame, after: pl.DataFrame) -> list[Compared]:
-    """Friction and parameters of one joint in two periods.
+    """Compare friction and parameters of one joint in two periods.
 
     Parameters
     ----------
     before, after
-        Rows of the data set; each file counts as a day of its own.
+        Rows of the data set; each file is treated as one day.
     """
     earlier, later = _models(before), _models(after)
     friction = _compare_friction(earlier, later)
@@ -67,7 +67,7 @@ def _models(days: pl.DataFrame) -> list[DayModel]:
 
 
 def _compare_friction(before: Sequence[DayModel], after: Sequence[DayModel]) -> list[Compared]:
-    """The friction at each of the common speeds, and its mean over them."""
+    """Compare the friction at each common speed, and its mean over them."""
     models = [day.model for day in (*before, *after)]
     speeds, conditions = common_speeds(models), common_conditions(models)
     if speeds.size == 0:
@@ -91,12 +91,12 @@ def _compare_friction(before: Sequence[DayModel], after: Sequence[DayModel]) -> 
 def _weighted_friction(
     days: Sequence[DayModel], speeds: Array, conditions: Mapping[str, float], weights: Array
 ) -> tuple[Array, Array]:
-    """Combinations of the friction at the common speeds, and their standard errors.
+    """Return weighted sums of the friction at the common speeds, and their standard errors.
 
     Parameters
     ----------
     weights : array [m, n]
-        Of each of the n speeds in each of the m combinations.
+        Weight of each of n speeds in each of m sums.
 
     Returns
     -------
@@ -120,8 +120,8 @@ def _compare_parameters(
 ) -> list[Compared]:
     """Return each parameter of the newest model, for the days with this model.
 
-    Where fixed numbers of the model differ from day to day (a reference temperature), the friction
-    parameters mean something else each day, and are left out.
+    If constants of the model differ from day to day (a reference temperature), its friction
+    parameters are not comparable and are left out.
     """
     spec = Counter(day.model.spec for day in after).most_common(1)[0][0]
     periods = [[day for day in days if day.model.spec == spec] for days in (before, after)]
@@ -147,7 +147,7 @@ def _values(days: Sequence[DayModel], k: int) -> tuple[Array, Array]:
 
 
 def _difference(before: tuple[Array, Array], after: tuple[Array, Array]) -> Difference | None:
-    """Compare the days that have a standard error; None where a period has none."""
+    """Compare the days that have a standard error; None if a period has none."""
     kept = [
         (values[known], errors[known])
         for values, errors in (before, after)

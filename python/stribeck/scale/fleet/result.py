@@ -1,4 +1,4 @@
-"""What a fleet answers: which joints changed, and which have an effect of their own."""
+"""The result of a fleet: joints that changed, and joints with an unusual effect."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from stribeck.scale.fleet.task import Work
 
 @dataclass(frozen=True)
 class Failure:
-    """A joint, or a whole file, that gave no answer."""
+    """A joint or file without a result."""
 
     file: str
     joint: str | None
@@ -30,16 +30,16 @@ class Failure:
 
 @dataclass(frozen=True, repr=False)
 class Fleet(Plotted):
-    """A model on every joint of many robots and days.
+    """A model identified on every joint of many robots and days.
 
     Attributes
     ----------
     rows : polars.DataFrame
-        The data set, one row a joint and file (`stribeck.scale.fleet.store.SCHEMA`).
+        The data set, one row per joint and file (`stribeck.scale.fleet.store.SCHEMA`).
     new
-        Rows made by this run; the others were there before.
+        Number of rows added by this run.
     incidents
-        What went wrong with workers on the way.
+        Failures of workers during the run.
     """
 
     folder: Path
@@ -52,17 +52,17 @@ class Fleet(Plotted):
 
     @property
     def done(self) -> pl.DataFrame:
-        """The rows with an answer."""
+        """The rows with a result."""
         return self.rows.filter(pl.col("status") != FAILED)
 
     @property
     def failures(self) -> tuple[Failure, ...]:
-        """Joints and files without an answer, and why."""
+        """Joints and files without a result, and why."""
         failed = self.rows.filter(pl.col("status") == FAILED)
         return tuple(Failure(*row) for row in failed.select("file", "joint", "reason").iter_rows())
 
     def counts(self) -> dict[str, int]:
-        """How many files, robots, joints and days gave an answer, and how many did not."""
+        """Numbers of files, robots, joints and days with a result, and without one."""
         done = self.done
         return {
             "files": done["file"].n_unique(),
@@ -75,7 +75,7 @@ class Fleet(Plotted):
         }
 
     def reading_notes(self) -> tuple[str, ...]:
-        """How most of the recordings were understood."""
+        """The notes on reading that most recordings share."""
         done = self.done
         notes = done["notes"].explode().drop_nulls().value_counts(sort=True)
         return tuple(text for text, count in notes.iter_rows() if 2 * count > done.height)
@@ -94,5 +94,5 @@ class Fleet(Plotted):
         }
 
     def to_frame(self) -> pl.DataFrame:
-        """The data set: one row a joint and file."""
+        """The data set: one row per joint and file."""
         return self.rows

@@ -1,4 +1,4 @@
-"""One run of a fleet: the files that need work, their tasks, and what is kept of them."""
+"""One run of a fleet: the files to process, their tasks, and the stored results."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class FleetRun:
     Parameters
     ----------
     store
-        Keeps a row for each joint and file.
+        Stores a row for each joint and file.
     straggler
         A task that takes this many times the median is run again; None: never.
     progress, note

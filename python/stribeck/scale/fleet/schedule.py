@@ -75,7 +75,7 @@ def run_tasks(
     Raises
     ------
     StribeckError
-        The executor cannot continue, or a worker cannot run the tasks at all.
+        The executor cannot continue, or a worker cannot run the tasks.
     """
     _Run(do, tasks, backend, finished, given_up, straggler, note).to_the_end()
 

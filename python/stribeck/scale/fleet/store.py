@@ -29,8 +29,8 @@ BETWEEN_PARTS = 5.0
 IDENTITY = {
     "model": "with another model",
     "base": "from another base model",
-    "name": "with robots and days named otherwise",
-    "day_column": "with days from elsewhere",
+    "name": "with other names of robots and days",
+    "day_column": "with days from another column or from the paths",
     "starts": "with another number of starts",
     "seed": "with another seed",
     "reading": "of recordings read with other options",
@@ -75,7 +75,7 @@ SCHEMA: dict[str, pl.DataType | type[pl.DataType]] = {
     "sidecar_sha256": pl.String,
     "joints_in_file": pl.Int64,
 }
-#: What identifies a row, and the content of the files that it is about.
+#: The columns that identify a row and the content of its files.
 KEY, BYTES = ("file", "joint"), ("sha256", "sidecar_sha256")
 DONE, FAILED = "done", "failed"
 
@@ -100,7 +100,7 @@ class FleetStore:
     Raises
     ------
     StribeckError
-        The folder holds something else, or cannot be written to.
+        The folder contains something else, or cannot be written to.
     """
 
     def __init__(self, folder: Path, work: Work, *, retry_failed: bool = False) -> None:
@@ -197,7 +197,7 @@ def file_state(path: str) -> tuple[int | None, int | None]:
 
 
 def row_of(answer: TaskResult) -> dict[str, object]:
-    """Return the row of a task that ended."""
+    """Return the row of a finished task."""
     failed = answer.failure is not None
     return {
         **dict.fromkeys(SCHEMA),
@@ -259,7 +259,7 @@ def _read(path: Path) -> pl.DataFrame:
             )
     except (pl.exceptions.PolarsError, OSError):
         raise StribeckError(
-            f"{path} is damaged: remove it, its joints are then done again"
+            f"{path} is damaged: remove it, and its joints will be identified again"
         ) from None
     return part
 

@@ -1,7 +1,7 @@
-"""The pieces of work of a fleet: to find the joints of a file, and to identify one of them.
+"""The tasks of a fleet: find the joints of a file, and identify one of them.
 
-Both run in whichever process or machine an executor chooses. They get and give plain data only,
-and what is wrong with a file is part of the result.
+Both run in any process or on any machine of the executor. Arguments and results are plain data, and
+an error of a file is part of the result.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Work:
     base
         Spec, or the text of a model file.
     starts, seed
-        Of every fit.
+        Number of starts and seed of every fit.
     reading
         How the files are read.
     name
@@ -44,7 +44,7 @@ class Work:
     day_column
         Column of the files that holds the date; None: the path has it.
     version
-        Of the package that asks; another version refuses the work.
+        Version of the package that submits the work; workers with another version refuse it.
     """
 
     model: str
@@ -58,7 +58,7 @@ class Work:
 
     @property
     def label(self) -> str:
-        """What is done, in a word or two."""
+        """Return a short name of the work."""
         if self.model == IMPROVE:
             return f"{IMPROVE} from {_spec(self.base)}"
         return _spec(self.model)
@@ -71,7 +71,7 @@ def _spec(text: str) -> str:
 
 @dataclass(frozen=True)
 class File:
-    """A file of a fleet, and what its path says of it."""
+    """A file of a fleet, and the robot, day and joint from its path."""
 
     path: str
     robot: str | None
@@ -81,7 +81,7 @@ class File:
 
 @dataclass(frozen=True)
 class Task:
-    """One joint of a file, and which bytes these were when they were looked at.
+    """One joint of a file, and the state of the file when its joints were listed.
 
     Attributes
     ----------
@@ -90,11 +90,11 @@ class Task:
     select
         The value of the file's joint column; None: the file holds this joint alone.
     size, modified
-        Bytes, and ns since 1970: a file with the same ones is taken as unchanged.
+        Bytes, and ns since 1970: a file with the same values is taken as unchanged.
     sha256, sidecar_sha256
-        Of the file, and of its sidecar where there is one.
+        Hash of the file, and of its sidecar if there is one.
     joints_in_file
-        How many tasks the file makes.
+        Number of tasks of the file.
     """
 
     file: str
@@ -111,7 +111,7 @@ class Task:
 
 @dataclass(frozen=True)
 class FileJoints:
-    """What is in a file: its joints as tasks, or why there are none."""
+    """The joints of a file as tasks, or why there are none."""
 
     file: File
     tasks: tuple[Task, ...]
@@ -120,7 +120,7 @@ class FileJoints:
 
 @dataclass(frozen=True)
 class TaskResult:
-    """What came of a task: what was identified, or why nothing was."""
+    """Result of a task: the identified model, or why there is none."""
 
     task: Task
     identified: Identified | None
@@ -140,7 +140,7 @@ def find_joints(file: File, work: Work) -> FileJoints:
 def identify_joint(task: Task, work: Work) -> TaskResult:
     """Identify one joint of one file.
 
-    The same wherever it runs: with one thread, and the seed of `work`.
+    The result is the same on every machine: one thread, and the seed of `work`.
     """
     _check_version(work)
     began = time.perf_counter()
@@ -185,7 +185,7 @@ def _tasks(file: File, work: Work) -> tuple[Task, ...]:
 def _wanted(
     joints: Sequence[str], asked: str | None, file: File
 ) -> list[tuple[str | None, str | None]]:
-    """Name of each joint to identify, and what selects it in the file."""
+    """Return the name of each joint to identify, and the value that selects it in the file."""
     if not joints:
         return [(asked, None)]
     if asked is None:
@@ -198,7 +198,7 @@ def _wanted(
 
 
 def _day(path: str, column: str) -> date:
-    """The day of the first row: a log that goes on past midnight is of the day it began."""
+    """The day of the first row: a log that continues past midnight belongs to the day it began."""
     table = read_table(path).table
     if column not in table.columns:
         raise RecordingError(
@@ -212,7 +212,7 @@ def _day(path: str, column: str) -> date:
     if isinstance(found, date):
         return found
     raise RecordingError(
-        f"{path}: column {column!r} holds {first!r}, and {option('day')} needs dates"
+        f"{path}: column {column!r} holds {first!r}, but {option('day')} needs dates"
     )
 
 
@@ -225,7 +225,7 @@ def _check_version(work: Work) -> None:
 
 
 def _sentence(error: Exception) -> str:
-    """Why a file or joint gives no result; one defect must not end the others of a fleet."""
+    """Return why a file or joint has no result; one defect must not stop the other tasks."""
     if isinstance(error, StribeckError):
         text = str(error)
     elif isinstance(error, OSError):

@@ -1,1 +1,1 @@
-"""Data sets larger than memory: Parquet files read in passes, a window at a time."""
+"""Data sets larger than memory: Parquet files read in passes, one window at a time."""

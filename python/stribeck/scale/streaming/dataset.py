@@ -1,4 +1,4 @@
-"""Parquet files in a row, read a stretch at a time."""
+"""Consecutive Parquet files, read in parts."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ class DataSet:
     Attributes
     ----------
     path
-        What was given: a file, a folder or a pattern.
+        The path given: a file, a folder or a pattern.
     files
         Paths of the files, in order.
     first
-        Number of the first row of each file, and of all rows, array [files + 1].
+        Index of the first row of each file, then the number of all rows, array [files + 1].
     schema
         Columns and their types, the same in every file.
     origin
@@ -67,12 +67,12 @@ class DataSet:
             if own != schema:
                 differing = sorted({n for n, _ in set(own.items()) ^ set(schema.items())})
                 raise RecordingError(
-                    f"{file}: its columns are not those of {files[0]} (they differ in "
+                    f"{file}: its columns differ from those of {files[0]} (in "
                     f"{', '.join(differing) or 'order'}): write all files with the same columns"
                 )
             counts.append(int(pl.scan_parquet(file).select(pl.len()).collect().item()))
         if not sum(counts):
-            raise RecordingError(f"{path}: there are no rows of data in the files")
+            raise RecordingError(f"{path}: the files contain no samples")
         first = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
         dates = [name for name, kind in schema.items() if kind == pl.Datetime]
         head = files[int(np.argmax(np.array(counts) > 0))]
@@ -82,11 +82,11 @@ class DataSet:
 
     @property
     def rows(self) -> int:
-        """Rows of all files together."""
+        """Number of rows of all files."""
         return int(self.first[-1])
 
     def frame(self, start: int, stop: int, columns: list[str] | None = None) -> pl.DataFrame:
-        """Rows `start` to `stop` of the data set, dates as durations since the first of them."""
+        """Rows `start` to `stop` of the data set, with dates as durations since the first date."""
         parts = []
         begin = int(np.searchsorted(self.first, start, side="right")) - 1
         for k in range(begin, len(self.files)):
@@ -106,7 +106,7 @@ class DataSet:
         )
 
     def place(self, row: int) -> str:
-        """Name a row (counted from 0) the way a person finds it: by its row in its file."""
+        """Name a row (counted from 0) by its file and its row there."""
         k = int(np.searchsorted(self.first, row, side="right")) - 1
         return f"row {row - int(self.first[k]) + 1} of {Path(self.files[k]).name}"
 
@@ -121,12 +121,12 @@ class DataSet:
 
 
 def is_data_set(path: str | Path) -> bool:
-    """Whether a path is a folder or a pattern, which stand for several files."""
+    """Whether a path is a folder or a pattern, and so may name several files."""
     return Path(path).is_dir() or (glob.has_magic(str(path)) and not Path(path).exists())
 
 
 def _found(path: str | Path) -> list[str]:
-    """The files that a path stands for, by name."""
+    """The files that match a path, sorted by name."""
     given = Path(path)
     if given.is_dir():
         files = [str(file) for file in given.iterdir() if file.suffix.lower() in SUFFIXES]
@@ -137,14 +137,14 @@ def _found(path: str | Path) -> list[str]:
         files, what = [str(given)], ""
     else:
         files = [file for file in glob.glob(str(path)) if Path(file).is_file()]
-        what = "no file has a name of this pattern"
+        what = "no file matches this pattern"
     if not files:
         raise RecordingError(f"{path}: {what}")
     for file in files:
         if Path(file).suffix.lower() not in SUFFIXES:
             raise RecordingError(
                 f"{file}: only Parquet files can be streamed: write it as Parquet, or read "
-                "it whole, without streaming"
+                "it into memory, without streaming"
             )
     return sorted(files)
 
@@ -165,7 +165,9 @@ def _collected(file: str, frame: pl.LazyFrame) -> pl.DataFrame:
 
 def _damaged(file: str, error: BaseException) -> RecordingError:
     reason = str(error).strip().splitlines()[0][:120] if str(error).strip() else "unknown"
-    return RecordingError(f"{file}: is not a whole Parquet file ({reason}): write or copy it again")
+    return RecordingError(
+        f"{file}: is not a complete Parquet file ({reason}): write or copy it again"
+    )
 
 
 def _hash(file: str) -> str:

@@ -1,4 +1,4 @@
-"""A diagnosis of a data set: made on stretches in memory, its findings counted on all rows."""
+"""A diagnosis of a data set: made on the samples in memory, with errors over all samples."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ __all__ = ["StreamedDiagnosis"]
 
 @dataclass(frozen=True, repr=False)
 class StreamedDiagnosis(Shown):
-    """What is missing from a model on a data set.
+    """The effects missing from a model on a data set.
 
     Attributes
     ----------
     found
-        The diagnosis of the stretches in memory.
+        The diagnosis of the samples in memory.
     fit, with_finding
-        The model without and with each of the findings, identified on all rows.
+        The model without findings, and with each of them, identified on all samples.
     """
 
     found: Diagnosis
@@ -29,7 +29,7 @@ class StreamedDiagnosis(Shown):
     with_finding: tuple[StreamedFit, ...]
 
     def to_dict(self) -> dict[str, object]:
-        """The contract's JSON of `stribeck diagnose`; errors are of all rows."""
+        """The contract's JSON of `stribeck diagnose`; errors are over all samples."""
         made = self.found.to_dict()
         floor = self.found.noise_floor
         made["findings"] = [

@@ -30,8 +30,8 @@ Ints = NDArray[np.int64]
 
 #: Largest number of passes of a search.
 MOST_PASSES = 40
-#: The search ends when the predicted relative decrease of the squared error is below this share of
-#: that of one independent sample: the step is then a hundredth of the standard error.
+#: The search ends when the predicted relative decrease of the squared error, times the number of
+#: independent samples, is below this value: the step is then a hundredth of the standard error.
 SETTLED = 1e-4
 #: Largest number of updates of the load of an identified rigid body, and the relative change of the
 #: parameters that ends them.
@@ -62,7 +62,7 @@ def streamed_fit(
     start : Fit
         A fit to `sample`, which is a part of `data`.
     told
-        Called after each window with samples done, samples in all, and the number of the pass.
+        Called after each window with the samples done, all samples, and the number of the pass.
     tolerance
         The search ends when the predicted relative decrease of the squared error is smaller.
         Default: no parameter would move by more than a hundredth of its standard error.
@@ -178,7 +178,7 @@ def _not_finite(problem: StreamedProblem) -> FitError:
 
 
 def _at(problem: StreamedProblem, values: Array) -> Groups:
-    """The pass whose nonlinear parameters are those of the solution."""
+    """The pass at the nonlinear parameters of the solution."""
     curved = [k for k, p in enumerate(problem.model.parameters) if not p.linear]
     latest = problem.latest
     if latest is not None and np.array_equal(latest.values[curved], values[curved]):
@@ -190,23 +190,23 @@ def _at(problem: StreamedProblem, values: Array) -> Groups:
 
 
 def _in_order(groups: Groups, values: Array) -> list[Triangle]:
-    """Factors of the groups at the solution, columns in the order of the parameters."""
+    """Factors of the groups at the solution, with columns in the order of the parameters."""
     columns = np.argsort(groups.wanted)
     return [Triangle(t.factor[:, columns], t.right, t.rest) for t in groups.moved(values)]
 
 
 def _joined(parts: list[Triangle], wanted: NDArray[np.bool_]) -> Triangle:
-    """The problem of some of the groups together."""
+    """The least-squares problem of the selected groups."""
     return Triangle.joined(
         [part for part, is_wanted in zip(parts, wanted, strict=True) if is_wanted]
     )
 
 
 def _held_out(values: Array, bounds: Array, blocks: list[Triangle]) -> float | None:
-    """Sum of squares, each block predicted by a refit without it; None with a single block.
+    """Sum of squares, each block predicted by a fit without it; None with a single block.
 
-    A refit is one step from the solution, of which the linearisation tells the prediction: exact
-    for linear parameters; leaving out a tenth of so many rows moves the others little.
+    Each fit is one Gauss-Newton step from the solution: exact for linear parameters, and accurate
+    for the others, which change little when a tenth of many samples is left out.
     """
     if len(blocks) < 2:
         return None
@@ -222,7 +222,7 @@ def _held_out(values: Array, bounds: Array, blocks: list[Triangle]) -> float | N
 def _estimates(
     model: Model, values: Array, bounds: Array, parts: list[Triangle], free: NDArray[np.intp]
 ) -> dict[str, Estimate]:
-    """The parameters with errors from the scores of the groups."""
+    """The parameters, with standard errors from the scores of the groups."""
     count = max(free.size, 1)
     jacobian = np.zeros((count * len(parts), values.size))
     jacobian[:, free] = np.concatenate([t.factor for t in parts])
@@ -235,12 +235,12 @@ def _notes(sample: Sample, start: Fit, groups: Groups) -> tuple[str, ...]:
     notes = []
     if not sample.whole:
         notes.append(
-            f"bounds, noise of the velocity and the start of the search are from "
-            f"{sample.recording.rows} rows in contiguous stretches; parameters and errors are from "
-            f"all {groups.count} rows"
+            f"bounds, velocity noise and the start of the search are from "
+            f"{sample.recording.rows} samples in contiguous parts; parameters and errors are from "
+            f"all {groups.count} samples"
         )
     if groups.dropped:
-        notes.append(f"{groups.dropped} rows with empty, NaN or infinite cells dropped as gaps")
+        notes.append(f"{groups.dropped} samples with empty, NaN or infinite cells dropped as gaps")
     if start.model.rigid_body:
         notes.append(
             f"identified together with the friction: {' and '.join(start.model.rigid_body)}"

@@ -1,4 +1,4 @@
-"""The loop on a data set: looked for on stretches in memory, counted on all rows."""
+"""Improvement on a data set: effects found on the samples in memory, errors over all samples."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class StreamedImprovement(Shown):
     Attributes
     ----------
     found
-        The way on the stretches in memory: which effects, how sure, where they show.
+        The improvement on the samples in memory: the effects, their confidence, and where they act.
     fits
-        The base model and that of each step, identified on all rows.
+        The base model and the model of each step, identified on all samples.
     """
 
     found: Improvement
@@ -30,11 +30,11 @@ class StreamedImprovement(Shown):
 
     @property
     def final(self) -> StreamedFit:
-        """The last model, identified on all rows."""
+        """The last model, identified on all samples."""
         return self.fits[-1]
 
     def to_dict(self) -> dict[str, object]:
-        """The contract's JSON of `stribeck improve`; errors and parameters are of all rows."""
+        """The contract's JSON of `stribeck improve`; errors and parameters are from all samples."""
         made = self.found.to_dict()
         floor = self.found.noise_floor
         made["steps"] = [
@@ -58,7 +58,7 @@ class StreamedImprovement(Shown):
 def before_and_after(
     before: StreamedFit, after: StreamedFit, floor: NoiseFloor
 ) -> dict[str, float | None]:
-    """The held-out errors of all rows without an effect and with it, and what they come to."""
+    """The held-out errors over all samples without and with an effect, and their comparison."""
     return {
         "rmse_held_out_before": before.rmse_held_out,
         "rmse_held_out_after": after.rmse_held_out,

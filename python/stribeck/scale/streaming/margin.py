@@ -1,4 +1,4 @@
-"""How far a window has to see beyond its own rows."""
+"""How many samples a window needs before and after its own."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST = 131_072
 
 @dataclass(frozen=True)
 class Margin:
-    """Rows that a window needs to see before and after its own."""
+    """Number of samples that a window needs before and after its own."""
 
     before: int
     after: int
@@ -30,7 +30,7 @@ class Margin:
     def of(cls, model: Model, sample: Recording) -> Margin:
         """Return the margin that `model` needs on data like `sample`.
 
-        One row before shows how the time goes on; more are needed for filters and states alone.
+        One sample before gives the time step; only filters and states need more.
         """
         if not smoothed(model, sample):
             return cls(1, 0)
@@ -64,7 +64,7 @@ def _known_inertia(sample: Recording) -> bool:
 
 
 def acceleration_band(sample: Recording) -> float | None:
-    """Cut-off of an acceleration that is derived, Hz, as a recording in memory has it."""
+    """Cut-off of a derived acceleration, Hz, the same as for a recording in memory."""
     band = motion_band(sample.time, sample.velocity, sample.segment)
     bands = [x for x in (sample.cutoff_hz, None if band is None else BANDS * band) if x is not None]
     return min(bands, default=None)

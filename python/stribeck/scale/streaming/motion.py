@@ -28,9 +28,9 @@ class MotionChannels:
 
     @classmethod
     def recorded(cls, data: Channels) -> MotionChannels:
-        """Return the channels as recorded, if nothing needs smooth or derived ones.
+        """Return the channels as recorded, for models that need no smooth or derived ones.
 
-        An acceleration that the files do not have is no number: nothing can read it by mistake.
+        An acceleration that is not in the files is NaN, so that it cannot be used by mistake.
         """
         position, velocity = data.values.get("position"), data.values["velocity"]
         missing = np.broadcast_to(np.nan, velocity.shape)
@@ -39,14 +39,14 @@ class MotionChannels:
 
     @classmethod
     def filtered(cls, data: Channels, smoother: Smoother, band: float | None) -> MotionChannels:
-        """Return the channels as recorded or derived, and their smooth versions.
+        """Return the recorded or derived channels, and their smooth versions.
 
         Parameters
         ----------
         smoother
             With the cut-off found on the sample.
         band
-            Cut-off of an acceleration that is derived, Hz.
+            Cut-off of a derived acceleration, Hz.
         """
         values = data.values
         position = values.get("position")

@@ -1,9 +1,10 @@
 """A least-squares problem over a data set: one pass over all samples for each linearisation.
 
-Rows are factored a window at a time and merged into the factor so far (sequential TSQR; Demmel,
-Grigori, Hoemmen and Langou 2012): exact, with the condition of the Jacobian and not its square, in
-memory that does not grow with the rows. Factors are kept for groups of rows, each inside a held-out
-block: joined they are the blocks, and the whole; their scores tell standard errors.
+Each window is factored and merged into the factor so far (sequential TSQR; Demmel, Grigori, Hoemmen
+and Langou 2012). This is exact, has the condition number of the Jacobian and not its square, and
+needs memory independent of the number of samples. Factors are stored for groups of samples within a
+held-out block. Joined, they give the factors of the blocks and of all samples; their scores give
+standard errors.
 """
 
 from __future__ import annotations
@@ -28,12 +29,13 @@ __all__ = ["Groups", "StreamedProblem", "Told", "group_edges"]
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-#: Called after each window with samples done, samples in all, and the number of the pass.
+#: Called after each window with the samples done, all samples, and the number of the pass.
 Told = Callable[[int, int, int], None]
 
 
 def group_edges(edges: Ints, count: int) -> Ints:
-    """Rows at which groups begin, `count` in each held-out block, and the number of all rows."""
+    """First samples of the groups, `count` in each held-out block, then the number of all
+    samples."""
     shares = np.arange(count) / count
     first = edges[:-1, None] + np.diff(edges)[:, None] * shares
     return np.append(np.unique(first.astype(np.int64)), edges[-1])
@@ -46,19 +48,19 @@ class Groups:
     Attributes
     ----------
     values, wanted
-        Where it was linearised, array [p], and by which parameters, array [k].
+        Point of linearisation, array [p], and indices of the free parameters, array [k].
     parts, number
-        Factors of each group that has rows, and its number among all.
+        Factor of each group with samples, and the index of the group.
     rows
-        Rows of each group that are fitted to, array [groups].
+        Number of fitted samples of each group, array [groups].
     ranges
-        Least and largest value of each channel over these rows.
+        Smallest and largest value of each channel over these samples.
     torque_square
-        Sum of squares of the measured torque over them.
+        Sum of squares of the measured torque over these samples.
     time_span
-        Times of the first and of the last row, s.
+        Times of the first and the last of these samples, s.
     count, dropped
-        Rows in all that were read, and those without a number.
+        Number of samples read, and of samples dropped as not finite.
     """
 
     values: Array
@@ -73,13 +75,13 @@ class Groups:
     dropped: int
 
     def moved(self, values: Array) -> list[Triangle]:
-        """Factors at other values of parameters in which the torque is linear."""
+        """Return the factors at other values of the linear parameters."""
         step = (values - self.values)[self.wanted]
         return [Triangle(t.factor, t.right - t.factor @ step, t.rest) for t in self.parts]
 
 
 class _Sums:
-    """What a pass has gathered so far."""
+    """Sums accumulated during a pass."""
 
     def __init__(self, values: Array, wanted: NDArray[np.intp], edges: Ints) -> None:
         self.values, self.wanted, self.edges = values, wanted, edges
@@ -92,7 +94,7 @@ class _Sums:
         self.count = self.dropped = 0
 
     def add(self, window: Window, problem: Problem, residual: Array, jacobian: Array) -> None:
-        """Take in a window, linearised on its rows [m]: residual [m] and jacobian [m, k]."""
+        """Add a window linearised at its m samples: residual [m] and jacobian [m, k]."""
         time = window.recording.time
         self.times = [*self.times[:1], float(time[0]), float(time[-1])]
         self.count += window.count
@@ -109,7 +111,7 @@ class _Sums:
         self.rows[first:last] += np.bincount(own, minlength=last - first)
 
     def done(self) -> Groups:
-        """The groups of which there is something."""
+        """Return the groups that have samples."""
         full = np.flatnonzero(self.rows)
         return Groups(
             self.values,
@@ -132,11 +134,11 @@ class StreamedProblem:
     Parameters
     ----------
     load_at : array [p] or None
-        Values whose rigid body gives the load that friction depends on, where no column does.
+        Parameter values whose rigid body gives the load of the friction law, if no column does.
     edges : array [groups + 1]
-        Rows at which groups begin.
+        First samples of the groups, then the number of all samples.
     told
-        Told after each window.
+        Called after each window.
     """
 
     windows: Windows
@@ -149,12 +151,12 @@ class StreamedProblem:
 
     @property
     def torque_norm(self) -> float:
-        """Norm of the measured torque over the rows that are fitted to."""
+        """Norm of the measured torque over the fitted samples."""
         assert self.latest is not None
         return float(np.sqrt(self.latest.torque_square))
 
     def triangle(self, values: Array, wanted: NDArray[np.intp], slope: Array) -> Triangle | None:
-        """The problem linearised at `values`, its columns times `slope` [k]; one pass."""
+        """Linearise at `values` in one pass, with the columns scaled by `slope` [k]."""
         made = self.groups(values, wanted)
         if made is None:
             return None
@@ -164,7 +166,7 @@ class StreamedProblem:
         return scaled if finite else None
 
     def groups(self, values: Array, wanted: NDArray[np.intp]) -> Groups | None:
-        """Linearise at `values` by the parameters `wanted`, all rows; None where not finite."""
+        """Linearise all samples at `values` in the parameters `wanted`; None if not finite."""
         sums = _Sums(values, wanted, self.edges)
         self.passes += 1
         for window in self.windows:
@@ -176,7 +178,7 @@ class StreamedProblem:
             sums.add(window, problem, residual, jacobian)
             self.told(window.end, self.windows.data.rows, self.passes)
         if not sums.rows.any():
-            raise FitError(f"{self.windows.data.path}: no row of the data set moves")
+            raise FitError(f"{self.windows.data.path}: no sample of the data set moves")
         self.latest = sums.done()
         return self.latest
 
@@ -188,7 +190,7 @@ class StreamedProblem:
 
 
 def _widen(ranges: dict[str, tuple[float, float]], seen: dict[str, tuple[float, float]]) -> None:
-    """Let ranges hold what was seen too."""
+    """Extend ranges to include those of `seen`."""
     for name, (low, high) in seen.items():
         if np.isfinite(low) and np.isfinite(high):
             before = ranges.get(name, (low, high))

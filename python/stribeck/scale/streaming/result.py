@@ -1,4 +1,4 @@
-"""What a fit to a data set tells."""
+"""The result of a fit to a data set."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ class StreamedFit(Shown):
     Attributes
     ----------
     start
-        The fit to the stretches in memory, from which the passes set out.
+        The fit to the samples in memory, from which the passes start.
     rmse, rmse_held_out
-        Over all moving rows, in the unit of torque; held out by blocks of the whole data set.
+        Over all moving samples, in the unit of torque; the blocks held out cover the data set.
     rows, moving, dropped
-        Rows in all, those that are scored and fitted to, and those without a number.
+        Number of all samples, of those fitted and scored, and of those dropped as not finite.
     passes
-        How often all rows were read.
+        How often all samples were read.
     seconds, pass_seconds
-        In all, and of the passes alone.
+        Total time, and time of the passes.
     """
 
     model: Model
@@ -57,12 +57,12 @@ class StreamedFit(Shown):
 
     @property
     def rows_per_second(self) -> float:
-        """Rows read in a second of the passes."""
+        """Samples read per second of the passes."""
         return self.passes * self.rows / self.pass_seconds
 
     @property
     def passive(self) -> bool | None:
-        """Whether friction gives off no energy over the ranges seen; None where undecided."""
+        """Whether friction is passive over the operating box; None if undecided."""
         from stribeck.passivity.check import check
 
         try:
@@ -72,9 +72,9 @@ class StreamedFit(Shown):
             return None
 
     def to_dict(self) -> dict[str, object]:
-        """The contract's JSON of `stribeck fit`, and what was read of the data.
+        """The contract's JSON of `stribeck fit`, with figures of the data set.
 
-        The relative residual, which needs a filter over all rows, is of the stretches in memory.
+        The relative residual needs a filter over all samples; it is from those in memory.
         """
         sample = self.start.recording
         return {

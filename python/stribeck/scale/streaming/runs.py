@@ -1,4 +1,4 @@
-"""Where runs begin in a data set, and which held-out block each row belongs to."""
+"""First samples of the runs and of the held-out blocks of a data set."""
 
 from __future__ import annotations
 
@@ -20,13 +20,12 @@ LOOKED_AT = 4_000_000
 def run_starts(data: DataSet, run: str | None, time: str) -> Ints:
     """Return the indices of the first samples of the runs, in order.
 
-    Without a column `run` a new one begins with each file whose clock starts again, as loggers
-    write them.
+    Without a column `run`, a run begins at each file whose clock starts again.
 
     Raises
     ------
     RecordingError
-        The rows of a run do not stand together.
+        The samples of a run are not contiguous.
     """
     return _of_files(data, time) if run is None else _of_column(data, run)
 
@@ -57,8 +56,8 @@ def _of_column(data: DataSet, run: str) -> Ints:
                 continue
             if name in seen:
                 raise RecordingError(
-                    f"{data.path}: {data.place(begin + row)}, column '{run}': run '{name}' goes on "
-                    "after another one: sort the rows by run, then by time"
+                    f"{data.path}: {data.place(begin + row)}, column '{run}': run '{name}' "
+                    "continues after another run: sort the rows by run, then by time"
                 )
             seen.add(name)
             starts.append(begin + row)
@@ -69,7 +68,7 @@ def _of_column(data: DataSet, run: str) -> Ints:
 def block_edges(rows: int, starts: Ints) -> Ints:
     """Return the first samples of the held-out blocks, and the number of samples, [blocks + 1].
 
-    Ten equal shares of the rows; where there are at least five runs, of whole runs.
+    There are ten equal blocks; with at least five runs, a run is not split between blocks.
     """
     edges = np.arange(BLOCKS + 1) * rows // BLOCKS
     if starts.size >= MANY_RUNS:
@@ -79,12 +78,12 @@ def block_edges(rows: int, starts: Ints) -> Ints:
 
 
 def numbered(row: Ints, starts: Ints) -> Ints:
-    """Which of the pieces that begin at `starts` each row belongs to, array [n].
+    """Return the index of the part, of those that begin at `starts`, of each row, array [n].
 
     Parameters
     ----------
     row : array [n]
-        Numbers of rows, ascending, none before the first piece.
+        Indices of rows, ascending, none before the first part.
 
     Examples
     --------

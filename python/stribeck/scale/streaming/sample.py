@@ -1,4 +1,4 @@
-"""Contiguous stretches of a data set, taken evenly, as one recording in memory."""
+"""Evenly spaced contiguous parts of a data set, as one recording in memory."""
 
 from __future__ import annotations
 
@@ -29,19 +29,18 @@ CLOCK_RUN = "run of the clock"
 
 @dataclass(frozen=True)
 class Sample:
-    """The part of a data set in memory, and how it describes the rest.
+    """The samples of a data set in memory, and how the other samples are read.
 
     Attributes
     ----------
     recording
-        The stretches, with gaps between them.
+        The contiguous parts, with gaps between them.
     prepared
         Their table, with the columns chosen for the channels.
     joint
-        The joint that is read of a file that holds several.
+        The joint read, if the files hold several.
     starts, edges
-        Rows of the data set at which runs and held-out blocks begin; `edges` ends with the number
-        of all rows.
+        First rows of the runs and of the held-out blocks; `edges` ends with the number of all rows.
     """
 
     recording: Recording
@@ -52,12 +51,12 @@ class Sample:
 
     @property
     def whole(self) -> bool:
-        """Whether all rows of the data set are in it."""
+        """Whether it contains all samples of the data set."""
         return self.prepared.source.table.height == int(self.edges[-1])
 
 
 class _Rows(Source):
-    """Rows of a data set, named by their place in its files."""
+    """Rows of a data set, named by their file and row there."""
 
     def __init__(self, data: DataSet, table: pl.DataFrame) -> None:
         super().__init__(data.path, "", table, 0)
@@ -74,7 +73,7 @@ def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
     Raises
     ------
     RecordingError
-        What a recording is refused for, or an option that needs all rows at once.
+        The recording is invalid, or an option needs all samples at once.
     """
     _refuse(data, settings)
     taken = stretches(data.rows, most, seed)
@@ -97,7 +96,7 @@ def _refuse(data: DataSet, settings: Settings) -> None:
         if value is not None:
             raise RecordingError(
                 f"{data.path}: {option(name, value)} needs all samples in memory: leave it out, or "
-                "read one file whole, without streaming"
+                "read one file into memory, without streaming"
             )
 
 
@@ -106,8 +105,8 @@ def _starts(data: DataSet, prepared: Prepared) -> Ints:
     for choice in (time, run):
         if choice is not None and choice.source not in data.schema:
             raise RecordingError(
-                f"{data.path}: '{choice.source}' is derived, but a data set is put in order by "
-                f"columns of its files: write the {choice.channel} into them"
+                f"{data.path}: '{choice.source}' is derived, but a streamed data set "
+                f"needs the {choice.channel} as a column: write it into the files"
             )
     if time is None:
         return np.zeros(1, dtype=np.int64)
@@ -115,7 +114,7 @@ def _starts(data: DataSet, prepared: Prepared) -> Ints:
 
 
 def _with_runs(prepared: Prepared, row: Ints, starts: Ints) -> Prepared:
-    """Number the runs where no column does and there are several."""
+    """Number the runs if there are several and no column numbers them."""
     if "run" in prepared.choices or starts.size < 2:
         return prepared
     number = pl.Series(CLOCK_RUN, np.searchsorted(starts, row, side="right"))

@@ -45,9 +45,9 @@ class Stream:
     data
         The files.
     sample
-        Contiguous stretches of them.
+        Contiguous parts of them.
     window_rows
-        Rows that are in memory at a time beside the sample.
+        Number of rows in memory at a time, in addition to the sample.
     """
 
     data: DataSet
@@ -70,7 +70,7 @@ class Stream:
         Parameters
         ----------
         told
-            Told after each window: rows done, rows in all, number of the pass.
+            Called after each window with the samples done, all samples, and the number of the pass.
         """
         first = fit_in_memory(
             spec,
@@ -95,7 +95,7 @@ class Stream:
     ) -> StreamedDiagnosis:
         """Find which effect `spec` lacks; see `stribeck.diagnose`.
 
-        Causes are looked for on the sample; the errors without and with them are of all rows.
+        Causes are searched on the sample; the errors without and with them are over all samples.
         """
         sample = self.sample.recording
         first = fit_in_memory(spec, sample, starts=starts, seed=seed)
@@ -124,7 +124,7 @@ class Stream:
     ) -> StreamedImprovement:
         """Diagnose and add effects until the residual is noise; see `stribeck.improve`.
 
-        Causes are looked for on the sample; each step's model is then identified on all rows.
+        Causes are searched on the sample; each step's model is then identified on all samples.
 
         Parameters
         ----------
@@ -154,7 +154,7 @@ class Stream:
     def __repr__(self) -> str:
         files = len(self.data.files)
         return (
-            f"<Stream {self.data.path}: {self.data.rows} rows in {files} "
+            f"<Stream {self.data.path}: {self.data.rows} samples in {files} "
             f"file{'s' if files > 1 else ''}, {self.sample.recording.rows} of them in memory>"
         )
 
@@ -167,27 +167,27 @@ def stream(
     seed: int = 0,
     **reading: Unpack[ReadArguments],
 ) -> Stream:
-    """Open a data set that is read in passes, a window at a time.
+    """Open a data set that is read in passes, one window at a time.
 
     Parameters
     ----------
     path
         A Parquet file, a folder of them (in the order of their names), or a pattern.
     sample_rows
-        Rows in memory: forty contiguous stretches, one in each equal share. They tell the noise of
-        the velocity, bounds and starts, and they are what a diagnosis looks at.
+        Number of samples in memory: forty contiguous parts, one in each fortieth of the data set.
+        They give the velocity noise, bounds and starts, and are used by a diagnosis.
     window_rows
-        Rows that are read at a time. Memory follows it; results do, by rounding alone, for models
-        without a memory on columns as recorded.
+        Number of samples read at a time, which determines the memory used. For models without a
+        memory on recorded columns it changes results by rounding only.
     seed
-        Of the places of the stretches.
+        Seed of the positions of the parts.
     **reading
-        As in `stribeck.read`, but for `average`, `drive`, `hold_out` and `standstill`.
+        Options of `stribeck.read`, except `average`, `drive`, `hold_out` and `standstill`.
 
     Raises
     ------
     RecordingError
-        One sentence that says what is wrong, where, and what to do.
+        The data set or an option cannot be used.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""All rows of a data set, a window at a time, as recordings in SI units."""
+"""All samples of a data set, one window at a time, as recordings in SI units."""
 
 from __future__ import annotations
 
@@ -45,15 +45,15 @@ class Window:
     Attributes
     ----------
     recording
-        Its rows and the margins around them.
+        The samples of the window and of the margins around it.
     rows
-        The rows of `recording` that are its own and move, array [m].
+        Indices in `recording` of the moving samples of the window without margins, array [m].
     row
-        Number in the data set of each row of `recording`, array [n].
+        Index in the data set of each sample of `recording`, array [n].
     end
-        Number of the first row that belongs to the next window.
+        Index of the first sample of the next window.
     count, dropped
-        Rows of the data set it stands for, and those left out for want of a number.
+        Number of samples of the window without margins, and of those dropped as not finite.
     """
 
     recording: Recording
@@ -71,9 +71,9 @@ class Anchor:
     Attributes
     ----------
     row
-        Its number in the data set; -1 before the first.
+        Its index in the data set; -1 before the first sample.
     time, elapsed
-        What its clock says, and what has gone by since the first row of the data set, s.
+        Its time stamp, and the time since the first sample of the data set, s.
     """
 
     row: int = -1
@@ -82,7 +82,7 @@ class Anchor:
 
     @classmethod
     def of(cls, window: Window) -> Anchor:
-        """The last of the window's own rows."""
+        """The state at the last sample of a window, without margins."""
         last = int(np.searchsorted(window.row, window.end)) - 1
         r = window.recording
         return cls(int(window.row[last]), float(r.time[last]), float(r.elapsed[last]))
@@ -93,7 +93,7 @@ class Anchor:
         Parameters
         ----------
         recording, row
-            The next window with its margins, and the numbers of its rows.
+            The next window with its margins, and the indices of its samples.
         """
         if self.row < 0:
             return 0.0
@@ -110,7 +110,7 @@ class Windows:
     Parameters
     ----------
     model
-        What the windows are for: it decides which channels are there.
+        The model to fit, which decides which channels are read.
     """
 
     data: DataSet
@@ -126,7 +126,7 @@ class Windows:
         self._columns = self._read()
 
     def _read(self) -> list[str] | None:
-        """Columns of the files that are needed; None: all, since a formula may read any."""
+        """Columns that are needed; None: all, since a formula may use any."""
         settings = self.sample.prepared.settings
         if settings.derive or settings.where is not None:
             return None
@@ -137,7 +137,7 @@ class Windows:
         return -(-self.data.rows // self.size)
 
     def __iter__(self) -> Iterator[Window]:
-        """Windows in order; the next one is made ready while the last one is worked on."""
+        """Iterate over the windows in order; the next one is read while one is processed."""
         anchor = Anchor()
         with ThreadPoolExecutor(1) as reader:
             coming = reader.submit(self._window, 0, anchor)
@@ -150,12 +150,12 @@ class Windows:
                     yield window
 
     def _reach(self, start: int) -> tuple[int, int]:
-        """Rows of the window that begins at `start`, with its margins."""
+        """First and last row of the window that begins at `start`, with its margins."""
         stop = min(start + self.size, self.data.rows)
         return max(start - self.margin.before, 0), min(stop + self.margin.after, self.data.rows)
 
     def _window(self, start: int, anchor: Anchor) -> Window | None:
-        """The window that begins at `start`; None where no row of it is left."""
+        """The window that begins at `start`; None if all its samples are dropped."""
         begin, end = self._reach(start)
         data = self._channels(self.data.frame(begin, end, self._columns), begin)
         finite = np.ones(data.rows.size, dtype=bool)
@@ -196,7 +196,7 @@ class Windows:
         return data
 
     def _recording(self, data: Channels, row: Ints, anchor: Anchor) -> Recording:
-        """The checked recording of a window with its margins."""
+        """The recording of a window with its margins, after checks."""
         sample = self.sample.recording
         time = data.values["time"]
         run = numbered(row, self.sample.starts)

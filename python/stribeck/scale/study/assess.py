@@ -211,7 +211,7 @@ def assess(trials: Sequence[Trial], recording: Recording, low_speed: float) -> E
 
 
 def _drawn(recording: Recording) -> NDArray[np.intp]:
-    """Return scored samples to draw, half of them even in time and half even in speed."""
+    """Return scored samples to draw: half evenly spaced in time, half evenly spaced in speed."""
     rows = np.flatnonzero(recording.moving)
     if rows.size <= DRAWN:
         return rows

@@ -44,7 +44,7 @@ class Study(Plotted):
     Attributes
     ----------
     joints
-        What was scored of each joint.
+        The scored data of each joint.
     tables
         As tables 4, 5 and 6 of the review; a group without laws is left out.
     failed
@@ -122,7 +122,7 @@ class Study(Plotted):
         }
 
     def to_frame(self) -> pl.DataFrame:
-        """One row a law and joint: the figures of the tables."""
+        """One row per law and joint, with the figures of the tables."""
         return pl.DataFrame(
             [
                 {
@@ -177,9 +177,9 @@ def make_tables(
 
 
 def _ranked(laws: Mapping[str, Mapping[str | None, Entry]]) -> list[str]:
-    """Laws with the smallest error first: mean over the joints of the error over the best one's.
+    """Sort laws by the mean over the joints of error / smallest error of the joint.
 
-    Relative, since joints differ in size; a law that lacks a joint comes after those with all.
+    The ratio is used because joints differ in size. Laws without some joint come last.
     """
     best: dict[str | None, float] = {}
     for entries in laws.values():

@@ -133,7 +133,7 @@ def _result(
         },
     )
     if not tables:
-        raise FitError(f"{plan.path}: no fit could be made, the first says: {failed[0].failure}")
+        raise FitError(f"{plan.path}: no fit could be made; the first error: {failed[0].failure}")
     joints = {name: of.data for name, of in assessed.items()}
     return Study(plan, store.folder, joints, tables, failed, store.frame())
 

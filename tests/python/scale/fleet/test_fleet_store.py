@@ -91,7 +91,7 @@ def test_failures_are_kept_until_they_are_asked_for(two_days: list[Path], tmp_pa
         ("bittencourt_a", {}, "another model"),
         ("coulomb", {"seed": 1}, r"another seed \(0 there, 1 here\)"),
         ("coulomb", {"joint_kind": "revolute"}, "other options"),
-        ("coulomb", {"name": "{robot}/{day}.parquet"}, "named otherwise"),
+        ("coulomb", {"name": "{robot}/{day}.parquet"}, "with other names"),
     ],
 )
 def test_another_question_needs_another_folder(

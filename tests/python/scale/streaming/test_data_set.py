@@ -83,8 +83,8 @@ def test_dates_are_counted_from_the_first_row(tmp_path: Path) -> None:
     ("change", "sentence"),
     [
         ("backwards", r'row 202 of part_1.parquet: time goes from .* `map="run=COLUMN"`'),
-        ("columns", r"part_1.parquet: its columns are not those of .*position"),
-        ("damaged", r"part_1.parquet: is not a whole Parquet file .*: write or copy it again"),
+        ("columns", r"part_1.parquet: its columns differ from those of .*position"),
+        ("damaged", r"part_1.parquet: is not a complete Parquet file .*: write or copy it again"),
         ("empty", r"there are no Parquet files in this folder"),
     ],
 )
