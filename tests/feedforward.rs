@@ -1,5 +1,10 @@
 //! Friction feedforward: missing, invalid and first readings.
 
+mod common;
+
+use common::random::cases;
+use proptest::collection::vec;
+use proptest::prelude::*;
 use stribeck::law::Lugre;
 use stribeck::{Feed, Feedforward, FixedLaw, Friction, Limits, ModelError, Sample, Source, Spec};
 
@@ -96,19 +101,26 @@ fn torque_is_limited_and_the_state_is_not() {
     assert_eq!(joint.state().deflection(), wide.state().deflection());
 }
 
-#[test]
-fn the_state_stays_bounded_for_any_readings() {
-    let mut joint = joint();
-    let mut seed = 0x9e37_79b9_7f4a_7c15_u64;
-    for _ in 0..200_000 {
-        seed ^= seed << 13;
-        seed ^= seed >> 7;
-        seed ^= seed << 17;
-        let any = f64::from_bits(seed);
-        let velocity = if seed.is_multiple_of(3) { any } else { (seed as f64 / 1e19 - 0.9) * 7.0 };
-        let feed = joint.next((!seed.is_multiple_of(11)).then(|| Sample::at(velocity)).as_ref());
-        assert!(feed.torque.abs() <= LIMITS.torque);
-        assert!(joint.state().deflection().abs() <= FARTHEST * (1.0 + 1e-12));
+/// Any bits, a speed that is possible or a little beyond, or no reading.
+fn reading() -> impl Strategy<Value = Option<f64>> {
+    prop_oneof![
+        1 => any::<u64>().prop_map(|bits| Some(f64::from_bits(bits))),
+        2 => (-7.0..7.0).prop_map(Some),
+        1 => Just(None),
+    ]
+}
+
+proptest! {
+    #![proptest_config(cases(400))]
+
+    #[test]
+    fn the_state_stays_bounded_for_any_readings(readings in vec(reading(), 500)) {
+        let mut joint = joint();
+        for velocity in readings {
+            let feed = joint.next(velocity.map(Sample::at).as_ref());
+            prop_assert!(feed.torque.abs() <= LIMITS.torque);
+            prop_assert!(joint.state().deflection().abs() <= FARTHEST * (1.0 + 1e-12));
+        }
     }
 }
 

@@ -4,25 +4,18 @@
 
 mod common;
 
+use std::cell::Cell;
+
 use common::close;
+use common::random::hold;
+use proptest::collection::vec;
+use proptest::prop_assert;
 use stribeck::Spec;
 use stribeck::batch::{self, BatchError, Channels, Columns, TimeStep};
 use stribeck::identify::{
     Bounds, LeastSquares, NOT_SCORED, Outcome, Problem, Steps, Triangle, bounded_least_squares,
     minimise, triangles,
 };
-
-/// Pseudo-random numbers between -1 and 1.
-fn chance(count: usize, seed: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    (0..count).map(|_| next()).collect()
-}
 
 /// Gradient of half the squared error.
 fn slopes(matrix: &[f64], right: &[f64], x: &[f64]) -> Vec<f64> {
@@ -34,26 +27,26 @@ fn slopes(matrix: &[f64], right: &[f64], x: &[f64]) -> Vec<f64> {
 
 #[test]
 fn a_bounded_solution_is_optimal() {
-    let mut met = 0;
-    for seed in 0..300 {
-        let (rows, p) = (8, 4);
-        let mut matrix = chance(rows * p, 2 * seed + 1);
+    let met = Cell::new(0);
+    let (rows, p) = (8, 4);
+    let problems = (vec(-1.0..1.0, rows * p), vec(-1.0..1.0, rows), vec(0.0..1.2, p));
+    hold(300, &problems, |(mut matrix, right, width)| {
         // Columns of very different lengths, as parameters of a law have.
         matrix.iter_mut().enumerate().for_each(|(i, x)| *x *= [1e-3, 1.0, 40.0, 1e5][i % p]);
-        let right = chance(rows, 2 * seed + 2);
-        let width: Vec<f64> = chance(p, 7 * seed + 3).iter().map(|x| 0.6 * (x + 1.0)).collect();
         let reach: Vec<f64> =
             width.iter().zip([1e3, 1.0, 0.03, 1e-5]).map(|(x, s)| x * s).collect();
         let lower: Vec<f64> = reach.iter().map(|x| -x).collect();
         let x = bounded_least_squares(&matrix, &right, &lower, &reach);
         for (k, slope) in slopes(&matrix, &right, &x).into_iter().enumerate() {
             let small = 1e-9 * [1e-3, 1.0, 40.0, 1e5][k];
-            assert!((lower[k]..=reach[k]).contains(&x[k]));
-            met += usize::from(x[k] == lower[k] || x[k] == reach[k]);
-            assert!(slope <= small || x[k] == lower[k], "{seed}: {k} would go down");
-            assert!(slope >= -small || x[k] == reach[k], "{seed}: {k} would go up");
+            prop_assert!((lower[k]..=reach[k]).contains(&x[k]));
+            met.set(met.get() + usize::from(x[k] == lower[k] || x[k] == reach[k]));
+            prop_assert!(slope <= small || x[k] == lower[k], "{k} would go down");
+            prop_assert!(slope >= -small || x[k] == reach[k], "{k} would go up");
         }
-    }
+        Ok(())
+    });
+    let met = met.get();
     assert!(met > 300, "bounds are active in only {met} cases");
 }
 

@@ -5,6 +5,14 @@
 
 mod common;
 
+use std::cell::Cell;
+
+use common::random::{cases, hold, runner};
+use proptest::array::uniform2;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::{option, prop_assert, proptest};
 use stribeck::catalog::LawId;
 use stribeck::passivity::{
     Condition, Hold, Margin, PassivityError, Point, Side, Verdict, check, requirements, work,
@@ -16,30 +24,17 @@ const BUDGET: usize = 400_000;
 /// s0, s1, s2, Fc, Fs, vs, alpha of Canudas de Wit et al. 1995.
 const LUGRE_1995: [f64; 7] = [1e5, 316.227_766_016_837_95, 0.4, 1.0, 1.5, 1e-3, 2.0];
 
-/// A pseudo-random generator (xorshift64*).
-struct Random(u64);
-
-impl Random {
-    /// From `low` to `high`.
-    #[allow(clippy::cast_precision_loss)]
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        let share =
-            (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64;
-        low + share * (high - low)
-    }
-
-    /// A point of the box; half of the speeds are uniform over decades.
-    #[allow(clippy::disallowed_methods)]
-    fn point(&mut self, sides: &[Side]) -> Point {
+/// A point of the box; half of the speeds are uniform over decades.
+#[allow(clippy::disallowed_methods)]
+fn point(sides: &[Side]) -> impl Strategy<Value = Point> + use<> {
+    let sides = sides.to_vec();
+    (vec(0.0..=1.0, sides.len()), option::of(-6.0..0.0)).prop_map(move |(shares, decade)| {
         let mut point = Sample::at(0.0);
-        for side in sides {
-            let mut x = self.between(side.lower, side.upper);
-            if side.channel == Channel::Velocity && self.between(0.0, 1.0) < 0.5 {
-                x *= 10_f64.powf(self.between(-6.0, 0.0));
-                x = x.clamp(side.lower, side.upper);
+        for (side, share) in sides.iter().zip(shares) {
+            let share: f64 = share;
+            let mut x = side.lower + share * (side.upper - side.lower);
+            if let (Channel::Velocity, Some(decade)) = (side.channel, decade) {
+                x = (x * 10_f64.powf(decade)).clamp(side.lower, side.upper);
             }
             match side.channel {
                 Channel::Velocity => point.velocity = x,
@@ -54,7 +49,7 @@ impl Random {
             }
         }
         point
-    }
+    })
 }
 
 fn side(channel: Channel, lower: f64, upper: f64) -> Side {
@@ -110,7 +105,6 @@ fn breaks(model: &Composed<f64>, verdict: &Verdict) {
 #[test]
 fn no_sample_contradicts_a_certificate() {
     let sides = wide();
-    let mut random = Random(11);
     let (mut proved, mut broken) = (0, 0);
     for spec in common::every_model() {
         let values = common::values(&spec);
@@ -126,16 +120,16 @@ fn no_sample_contradicts_a_certificate() {
         match found.passive {
             Some(true) => {
                 proved += 1;
-                for _ in 0..20_000 {
-                    let point = random.point(&sides);
+                hold(20_000, &point(&sides), |point| {
                     let split = model.split(&point);
                     let along = if model.has_state() {
                         split.dry() + (split.rate + split.additive) * point.velocity.sign()
                     } else {
                         split.torque(point.velocity.sign()) * point.velocity.sign()
                     };
-                    assert!(along >= found.margins[0].lower - 1e-12, "{spec} {point:?}");
-                }
+                    prop_assert!(along >= found.margins[0].lower - 1e-12, "{spec} {point:?}");
+                    Ok(())
+                });
             }
             Some(false) => {
                 broken += 1;
@@ -151,32 +145,37 @@ fn no_sample_contradicts_a_certificate() {
 #[test]
 fn static_laws_with_any_parameters_are_decided() {
     let sides = wide();
-    let mut random = Random(17);
-    let (mut proved, mut broken, mut open) = (0, 0, 0);
+    let [proved, broken, open] = [const { Cell::new(0) }; 3];
+    let add = |count: &Cell<u32>| count.set(count.get() + 1);
     for law in LawId::ALL {
         let spec = Spec::new(law.info().id, []).unwrap();
-        for _ in 0..if spec.has_state() { 0 } else { 20 } {
-            let scaled = |x: f64| x * random.between(-0.5, 1.5);
-            let values: Vec<_> = common::values(&spec).into_iter().map(scaled).collect();
-            let Ok(model) = spec.with(&values[..]) else { continue };
+        if spec.has_state() {
+            continue;
+        }
+        let usual = common::values(&spec);
+        hold(20, &vec(-0.5..1.5, usual.len()), |scales| {
+            let values: Vec<_> = usual.iter().zip(scales).map(|(x, scale)| x * scale).collect();
+            let Ok(model) = spec.with(&values[..]) else { return Ok(()) };
             let found = check(&spec, &values, &sides, BUDGET / 10).unwrap();
             match found.passive {
                 Some(true) => {
-                    proved += 1;
-                    for _ in 0..5_000 {
-                        let point = random.point(&sides);
+                    add(&proved);
+                    hold(5_000, &point(&sides), |point| {
                         let power = model.static_torque(&point) * point.velocity;
-                        assert!(power >= -1e-12, "{spec} {values:?} {point:?}");
-                    }
+                        prop_assert!(power >= -1e-12, "{spec} {values:?} {point:?}");
+                        Ok(())
+                    });
                 }
                 Some(false) => {
-                    broken += 1;
+                    add(&broken);
                     breaks(&model, &found);
                 }
-                None => open += 1,
+                None => add(&open),
             }
-        }
+            Ok(())
+        });
     }
+    let [proved, broken, open] = [proved, broken, open].map(Cell::into_inner);
     eprintln!("{proved} proved, {broken} broken, {open} not decided");
     assert!(proved > 50 && broken > 50 && open * 10 < proved + broken);
 }
@@ -238,50 +237,51 @@ fn property_1_is_sufficient_and_needlessly_strict() {
     assert_eq!((found.passive, found.condition), (Some(true), Condition::Cycle));
 }
 
-/// Barabanov and Ortega's `s2 > s1 (Fs - Fc)/Fc` is sufficient over any box.
-#[test]
-fn known_passive_models_are_certified_and_random_cycles_agree() {
-    let mut random = Random(23);
-    for _ in 0..200 {
-        let coulomb = random.between(0.5, 3.0);
-        let height = random.between(0.0, 2.0);
-        let damping = random.between(0.1, 100.0);
-        let viscous = damping * height / coulomb * 1.05 + 0.01;
-        let velocity = random.between(0.01, 0.3);
-        let values = [1e4, damping, viscous, coulomb, coulomb + height, velocity, 2.0];
-        let sides = speed(random.between(0.05, 3.0));
-        let found = verdict("lugre", &values, &sides);
-        assert_eq!(found.passive, Some(true), "{values:?} {sides:?} {found:?}");
-        let model = made("lugre").with(&values[..]).unwrap();
-        for _ in 0..500 {
-            let work = random_cycle(&model, &mut random, &sides);
-            assert!(work.is_none_or(|work| work >= -1e-15), "{values:?} {work:?}");
-        }
-    }
-}
+proptest! {
+    #![proptest_config(cases(200))]
 
-/// Models that a cycle inside the box proves not passive: found by random cycles and by the check.
-#[test]
-fn models_violated_by_a_random_cycle_are_not_passive() {
-    let mut random = Random(31);
-    let mut broken = 0;
-    while broken < 200 {
-        let coulomb = random.between(0.5, 3.0);
-        let damping = random.between(10.0, 500.0);
-        let height = random.between(0.3, 2.0);
-        let velocity = random.between(0.001, 0.05);
-        let values = [1e5, damping, 0.01, coulomb, coulomb + height, velocity, 2.0];
-        let sides = speed(random.between(0.1, 1.0));
-        let model = made("lugre").with(&values[..]).unwrap();
-        let breaks_here = |random: &mut Random| {
-            (0..2_000).any(|_| random_cycle(&model, random, &sides).is_some_and(|w| w < -1e-9))
-        };
-        if !breaks_here(&mut random) {
-            continue;
-        }
-        broken += 1;
+    /// Barabanov and Ortega's `s2 > s1 (Fs - Fc)/Fc` is sufficient over any box.
+    #[test]
+    fn known_passive_models_are_certified_and_random_cycles_agree(
+        coulomb in 0.5..3.0,
+        height in 0.0..2.0,
+        damping in 0.1..100.0,
+        velocity in 0.01..0.3,
+        limit in 0.05..3.0,
+    ) {
+        let viscous = damping * height / coulomb * 1.05 + 0.01;
+        let values = [1e4, damping, viscous, coulomb, coulomb + height, velocity, 2.0];
+        let sides = speed(limit);
         let found = verdict("lugre", &values, &sides);
-        assert_eq!(found.passive, Some(false), "{values:?} {sides:?} {found:?}");
+        prop_assert_eq!(found.passive, Some(true), "{:?}", found);
+        let model = made("lugre").with(&values[..]).unwrap();
+        hold(500, &cycle(&sides), |cycle| {
+            let work = cycle.work(&model);
+            prop_assert!(work.is_none_or(|work| work >= -1e-15), "{work:?}");
+            Ok(())
+        });
+    }
+
+    /// Models that a cycle inside the box proves not passive: found by random cycles and by the check.
+    #[test]
+    fn models_violated_by_a_random_cycle_are_not_passive(
+        coulomb in 0.5..3.0,
+        damping in 10.0..500.0,
+        height in 0.3..2.0,
+        velocity in 0.001..0.05,
+        limit in 0.1..1.0,
+    ) {
+        let values = [1e5, damping, 0.01, coulomb, coulomb + height, velocity, 2.0];
+        let sides = speed(limit);
+        let model = made("lugre").with(&values[..]).unwrap();
+        let (cycles, mut runner) = (cycle(&sides), runner(1));
+        let breaks_here = (0..2_000).any(|_| {
+            let cycle = cycles.new_tree(&mut runner).unwrap().current();
+            cycle.work(&model).is_some_and(|work| work < -1e-9)
+        });
+        prop_assume!(breaks_here);
+        let found = verdict("lugre", &values, &sides);
+        prop_assert_eq!(found.passive, Some(false), "{:?}", found);
         breaks(&model, &found);
     }
 }
@@ -289,32 +289,31 @@ fn models_violated_by_a_random_cycle_are_not_passive() {
 /// A proved model violates no requirement, and a model that violates one is not proved.
 #[test]
 fn requirements_agree_with_certificates() {
-    let mut random = Random(47);
-    let (mut met, mut missed) = (0, 0);
-    for _ in 0..60 {
-        let coulomb = random.between(0.5, 3.0);
-        let static_friction = coulomb + random.between(0.0, 2.0);
-        let (damping, viscous) = (random.between(0.1, 300.0), random.between(0.0, 2.0));
-        let values = [1e4, damping, viscous, coulomb, static_friction, 0.02, 2.0];
-        let sides = speed(random.between(0.05, 1.0));
+    let [met, missed] = [const { Cell::new(0) }; 2];
+    let models = (0.5..3.0, 0.0..2.0, 0.1..300.0, 0.0..2.0, 0.05..1.0);
+    hold(60, &models, |(coulomb, height, damping, viscous, limit)| {
+        let values = [1e4, damping, viscous, coulomb, coulomb + height, 0.02, 2.0];
+        let sides = speed(limit);
         let (spec, found) = (made("lugre"), verdict("lugre", &values, &sides));
         let asked = requirements(&spec, &values, &sides).unwrap();
         let model = spec.with(&values[..]).unwrap();
         let least = asked.iter().map(|r| r.margin(&model)).fold(f64::INFINITY, f64::min);
         match found.passive {
             Some(true) => {
-                met += 1;
-                assert_eq!(found.open, None);
-                assert!(least >= -1e-12, "{values:?} {least}");
+                met.set(met.get() + 1);
+                prop_assert_eq!(found.open, None);
+                prop_assert!(least >= -1e-12, "{values:?} {least}");
             }
             Some(false) => {
-                missed += 1;
+                missed.set(missed.get() + 1);
                 let open = found.open.expect("a violated requirement is returned");
-                assert!(open.margin(&model) < 0.0, "{values:?} {open:?}");
+                prop_assert!(open.margin(&model) < 0.0, "{values:?} {open:?}");
             }
-            None => assert!(least > -1e-9),
+            None => prop_assert!(least > -1e-9),
         }
-    }
+        Ok(())
+    });
+    let (met, missed) = (met.get(), missed.get());
     assert!(met >= 10 && missed >= 10, "{met} met, {missed} missed");
 }
 
@@ -342,29 +341,42 @@ fn gradients_of_requirements_equal_those_of_their_margins() {
     }
 }
 
-/// The work of a cycle of a bristle between two random points, if it closes.
-#[allow(clippy::disallowed_methods)]
-fn random_cycle(model: &Composed<f64>, random: &mut Random, sides: &[Side]) -> Option<f64> {
-    let points = [random.point(sides), random.point(sides)];
-    let stiffness = model.deflection(&points[0]).unwrap().stiffness;
-    let strongest = model.split(&Sample::at(1e-9)).dry();
-    let ends = [0, 1].map(|_| random.between(-strongest, strongest) / stiffness);
-    let mut holds = Vec::new();
-    for (k, point) in points.into_iter().enumerate() {
-        // z tends to its end at the rate r, at constant velocity.
-        let rate = stiffness * point.velocity.abs() / model.split(&point).dry();
-        let end = point.velocity / rate;
-        let (from, to) = (ends[k], ends[1 - k]);
-        let duration = ((end - from) / (end - to)).ln() / rate;
-        if !(duration.is_finite() && duration > 0.0) {
-            return None;
+/// A cycle of a bristle between two points and two forces, as shares of its strength.
+#[derive(Clone, Debug)]
+struct Cycle {
+    points: [Point; 2],
+    forces: [f64; 2],
+}
+
+fn cycle(sides: &[Side]) -> impl Strategy<Value = Cycle> + use<> {
+    (point(sides), point(sides), uniform2(-1.0..1.0))
+        .prop_map(|(up, down, forces)| Cycle { points: [up, down], forces })
+}
+
+impl Cycle {
+    /// Its work, if it closes.
+    #[allow(clippy::disallowed_methods)]
+    fn work(&self, model: &Composed<f64>) -> Option<f64> {
+        let stiffness = model.deflection(&self.points[0]).unwrap().stiffness;
+        let strongest = model.split(&Sample::at(1e-9)).dry();
+        let ends = self.forces.map(|share| share * strongest / stiffness);
+        let mut holds = Vec::new();
+        for (k, point) in self.points.into_iter().enumerate() {
+            // z tends to its end at the rate r, at constant velocity.
+            let rate = stiffness * point.velocity.abs() / model.split(&point).dry();
+            let end = point.velocity / rate;
+            let (from, to) = (ends[k], ends[1 - k]);
+            let duration = ((end - from) / (end - to)).ln() / rate;
+            if !(duration.is_finite() && duration > 0.0) {
+                return None;
+            }
+            holds.push(Hold { point, duration });
         }
-        holds.push(Hold { point, duration });
+        let (work, end) = work(model, Some(ends[0]), &holds);
+        // The energy left in the bristle due to rounding.
+        let left = stiffness * end.abs().max(ends[0].abs()) * (end - ends[0]).abs();
+        Some(work + left)
     }
-    let (work, end) = work(model, Some(ends[0]), &holds);
-    // The energy left in the bristle due to rounding.
-    let left = stiffness * end.abs().max(ends[0].abs()) * (end - ends[0]).abs();
-    Some(work + left)
 }
 
 #[test]
@@ -388,7 +400,6 @@ fn other_single_deflections() {
 #[test]
 fn random_motions_agree_with_certificates() {
     let sides = wide();
-    let mut random = Random(41);
     let laws = ["lugre", "tadese_t", "tadese_full", "xiao", "dahl", "elastoplastic"];
     let mut certified = 0;
     for name in laws {
@@ -401,11 +412,9 @@ fn random_motions_agree_with_certificates() {
             continue;
         }
         certified += 1;
-        for _ in 0..500 {
+        hold(500, &vec((point(&sides), 0.0..0.02), 40), |motion| {
             let (mut state, mut work, mut effort) = (State::default(), 0.0, 0.0);
-            for _ in 0..40 {
-                let point = random.point(&sides);
-                let duration = random.between(0.0, 0.02);
+            for (point, duration) in motion {
                 let step = model.step(&mut state, &point, duration);
                 let taken = step.mean_torque * point.velocity * duration;
                 work += taken;
@@ -415,8 +424,9 @@ fn random_motions_agree_with_certificates() {
             let spring = 0.5 * stiffness * state.deflection() * state.deflection();
             let stored = if found.condition == Condition::Cycle { 0.0 } else { spring };
             // The error of the elastoplastic step is up to 6e-6 of the dry friction.
-            assert!(work - stored >= -2e-5 * effort, "{name}: {work} {stored}");
-        }
+            prop_assert!(work - stored >= -2e-5 * effort, "{name}: {work} {stored}");
+            Ok(())
+        });
     }
     assert!(certified >= 4, "{certified}");
 }

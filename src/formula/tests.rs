@@ -3,9 +3,16 @@
 // Values with all digits printed by mpmath.
 #![allow(clippy::excessive_precision)]
 
+use core::cell::Cell;
+
+use proptest::collection::vec;
+use proptest::prop_assert;
+use proptest::sample::select;
+
 use super::{FormulaTerms, TermKind};
 use crate::catalog::Role;
 use crate::common::close;
+use crate::common::random::hold;
 use crate::{Channel, Dual, Formula, Real, Sample, Spec, State};
 
 fn parse(text: &str) -> Formula {
@@ -296,26 +303,23 @@ fn formulas_that_are_too_large_are_refused() {
 /// Random texts give a formula or an error, and values without a panic.
 #[test]
 fn no_text_causes_a_panic() {
-    let pieces = [
+    const PIECES: &[&str] = &[
         "v", "q", "T", "c1", "c2", "12", ".5", "e", "+", "-", "*", "/", "^", "**", "(", ")", "[",
         "]", ",", "sgn(", "tanh(", "min(", "pow(", "log(", " ", "=", "€", "1e3", "abs(v)",
     ];
-    let mut seed: u64 = 1;
-    let mut next = |below: usize| {
-        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (seed >> 33) as usize % below
-    };
-    let mut understood = 0;
-    for _ in 0..200_000 {
-        let text: String = (0..1 + next(12)).map(|_| pieces[next(pieces.len())]).collect();
+    let understood = Cell::new(0);
+    hold(200_000, &vec(select(PIECES), 1..=12), |text| {
+        let text = text.concat();
         match Formula::parse(&text) {
             Ok((formula, _)) => {
-                understood += 1;
+                understood.set(understood.get() + 1);
                 let _ = FormulaTerms::new(&formula, &[0.3, -0.7]).split(&SAMPLE);
             }
-            Err(error) => assert!(!error.to_string().is_empty()),
+            Err(error) => prop_assert!(!error.to_string().is_empty(), "{text}"),
         }
-    }
+        Ok(())
+    });
+    let understood = understood.get();
     assert!(understood > 1000, "only {understood} texts were formulas");
 }
 

@@ -1,4 +1,6 @@
-//! Random inputs of property tests, the same in every run unless `PROPTEST_RNG_SEED` says otherwise.
+//! Random inputs of property tests: the same in every run unless `PROPTEST_RNG_SEED` is set.
+
+use std::cell::Cell;
 
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
@@ -10,12 +12,37 @@ pub fn cases(count: u32) -> ProptestConfig {
         RngSeed::Random => RngSeed::Fixed(1),
         given @ RngSeed::Fixed(_) => given,
     };
-    ProptestConfig { cases: count, rng_seed, failure_persistence: None, ..usual }
+    ProptestConfig {
+        cases: count,
+        rng_seed,
+        failure_persistence: None,
+        max_global_rejects: 1 << 20,
+        ..usual
+    }
 }
 
-/// The runner of a property with this many inputs.
+thread_local! {
+    /// Number of runners that this test has made: each draws other inputs.
+    static RUNNERS: Cell<u64> = const { Cell::new(0) };
+}
+
+/// A source of random inputs.
 pub fn runner(count: u32) -> TestRunner {
-    TestRunner::new(cases(count))
+    let usual = cases(count);
+    let made = RUNNERS.replace(RUNNERS.get() + 1);
+    let RngSeed::Fixed(seed) = usual.rng_seed else { return TestRunner::new(usual) };
+    TestRunner::new(ProptestConfig { rng_seed: RngSeed::Fixed(seed + made), ..usual })
+}
+
+/// Checks a property with this many inputs; the panic names the simplest counterexample found.
+pub fn hold<S: Strategy>(
+    count: u32,
+    inputs: &S,
+    property: impl Fn(S::Value) -> Result<(), TestCaseError>,
+) {
+    if let Err(error) = runner(count).run(inputs, property) {
+        panic!("{error}");
+    }
 }
 
 /// From `2^low` to `2^high`, uniform over the powers of two.
