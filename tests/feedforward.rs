@@ -111,10 +111,10 @@ fn reading() -> impl Strategy<Value = Option<f64>> {
 }
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(cases(100))]
 
     #[test]
-    fn the_state_stays_bounded_for_any_readings(readings in vec(reading(), 500)) {
+    fn the_state_stays_bounded_for_any_readings(readings in vec(reading(), 200)) {
         let mut joint = joint();
         for velocity in readings {
             let feed = joint.next(velocity.map(Sample::at).as_ref());

@@ -120,7 +120,7 @@ fn no_sample_contradicts_a_certificate() {
         match found.passive {
             Some(true) => {
                 proved += 1;
-                hold(20_000, &point(&sides), |point| {
+                hold(4_000, &point(&sides), |point| {
                     let split = model.split(&point);
                     let along = if model.has_state() {
                         split.dry() + (split.rate + split.additive) * point.velocity.sign()
@@ -160,7 +160,7 @@ fn static_laws_with_any_parameters_are_decided() {
             match found.passive {
                 Some(true) => {
                     add(&proved);
-                    hold(5_000, &point(&sides), |point| {
+                    hold(1_000, &point(&sides), |point| {
                         let power = model.static_torque(&point) * point.velocity;
                         prop_assert!(power >= -1e-12, "{spec} {values:?} {point:?}");
                         Ok(())

@@ -308,7 +308,7 @@ fn no_text_causes_a_panic() {
         "]", ",", "sgn(", "tanh(", "min(", "pow(", "log(", " ", "=", "€", "1e3", "abs(v)",
     ];
     let understood = Cell::new(0);
-    hold(200_000, &vec(select(PIECES), 1..=12), |text| {
+    hold(50_000, &vec(select(PIECES), 1..=12), |text| {
         let text = text.concat();
         match Formula::parse(&text) {
             Ok((formula, _)) => {
@@ -320,7 +320,7 @@ fn no_text_causes_a_panic() {
         Ok(())
     });
     let understood = understood.get();
-    assert!(understood > 1000, "only {understood} texts were formulas");
+    assert!(understood > 250, "only {understood} texts were formulas");
 }
 
 fn static_torque(spec: &Spec, values: &[f64]) -> f64 {

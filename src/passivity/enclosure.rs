@@ -386,7 +386,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(cases(100_000))]
+        #![proptest_config(cases(30_000))]
 
         #[test]
         fn intervals_contain_the_values_at_points((x, a) in pair(4.0), (y, b) in pair(3.0)) {
