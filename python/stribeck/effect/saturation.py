@@ -54,8 +54,9 @@ def _where(before: Identified, after: Identified) -> str:
     m = after.model
     top, share = m.constants["reference_torque"], 100 * m.value("saturation")
     return (
-        f"at {number(top)} {m.load_unit} the torque channel shows {number(share)} % more than the "
-        f"motor yields, and {number(share * 0.5 ** m.value('saturation_exponent'))} % at half of it"
+        f"the torque channel shows {number(share)} % more than the motor delivers at {number(top)} "
+        f"{m.load_unit}, and {number(share * 0.5 ** m.value('saturation_exponent'))} % more at "
+        f"half that torque"
     )
 
 

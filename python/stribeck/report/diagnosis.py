@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.visibility.result import Group, SmallestVisible
 
 VERDICTS = {
-    "missing": "Missing, best first:",
+    "missing": "Missing:",
     "none": "Nothing is missing: the residual is noise.",
     "unexplained": "Unexplained structure remains, but none of the known effects explains it.",
 }
@@ -37,16 +37,20 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
     """What is missing from a model."""
     f = diagnosis.fit
     findings = [finding_text(finding, k) for k, finding in enumerate(diagnosis.findings, 1)]
+    likely = len(likely_effects(diagnosis))
     following = ""
     if findings:
         following = (
-            "Each effect was tried alone. Add the first one and diagnose again (`improve` does "
-            "this): others may then disappear or appear."
+            f"Each effect was tried alone. Add {diagnosis.findings[0].effect} and diagnose again "
+            f"(`improve` does this): the answer for the other effects can change."
         )
     return joined(
         f"What is missing from {f.model.spec} on {file_name(f.recording)}?",
         paragraph(errors_sentence(diagnosis)),
-        joined(VERDICTS[diagnosis.verdict], *findings),
+        joined(VERDICTS[diagnosis.verdict], *findings[:likely]),
+        joined(paragraph(less_likely_sentence(likely_effects(diagnosis)), 0), *findings[likely:])
+        if findings[likely:]
+        else "",
         paragraph(left_after(diagnosis), 0),
         paragraph(explainable_text(diagnosis.explainable, f.model.spec, f.model.torque_unit), 0),
         paragraph(following, 0),
@@ -83,6 +87,22 @@ def nothing_found(spec: str, *, unexplained: bool) -> str:
             f"lowers its held-out error significantly."
         )
     return f"No effect that this recording can show is missing from the model {spec}."
+
+
+def likely_effects(diagnosis: Diagnosis) -> list[str]:
+    """The first finding and those indistinguishable from it; the others follow them."""
+    if not diagnosis.findings:
+        return []
+    best = diagnosis.findings[0]
+    return [best.effect, *best.indistinguishable_from]
+
+
+def less_likely_sentence(likely: Sequence[str]) -> str:
+    """Heading of the findings that the likely effects make improbable."""
+    return (
+        f"Added instead of {listed(likely, 'or')}, each of these also lowers the held-out error, "
+        f"but is less likely to be the cause:"
+    )
 
 
 def finding_text(finding: Finding, number: int | None = None) -> str:

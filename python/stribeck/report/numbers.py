@@ -106,14 +106,16 @@ def confidence_words(confidence: float) -> str:
 
 
 def confidence_text(confidence: float) -> str:
-    """A confidence (0..1) with two digits; never rounded up to 1.
+    """A confidence (0..1) with two digits; never rounded to 0 or 1.
 
     Examples
     --------
-    >>> confidence_text(0.998), confidence_text(0.5)
-    ('> 0.99', '0.50')
+    >>> confidence_text(0.998), confidence_text(0.5), confidence_text(1e-9)
+    ('> 0.99', '0.50', '< 0.01')
     """
-    return "> 0.99" if confidence > 0.99 else f"{confidence:.2f}"
+    if confidence > 0.99:
+        return "> 0.99"
+    return f"{confidence:.2f}" if confidence >= 0.01 else "< 0.01"
 
 
 def change_text(before: float, after: float) -> str:

@@ -22,6 +22,8 @@ from stribeck.report.diagnosis import (
     indistinguishable_sentence,
     left_after,
     left_text,
+    less_likely_sentence,
+    likely_effects,
     untestable_rows,
     visible_rows,
 )
@@ -83,6 +85,8 @@ def improvement_page(improvement: Improvement) -> str:
         [step.finding for step in improvement.steps],
         improvement.untestable,
         summary=summary_sentence(improvement),
+        likely=len(improvement.steps),
+        less_likely="",
         picture=picture_text(improvement_figure(improvement)),
         steps=_steps(improvement, largest),
         floor=floor_sentence(floor, final.model.torque_unit),
@@ -112,6 +116,8 @@ def diagnosis_page(diagnosis: Diagnosis) -> str:
         diagnosis.findings,
         diagnosis.untestable,
         summary=diagnosis_summary(diagnosis),
+        likely=len(likely_effects(diagnosis)),
+        less_likely=less_likely_sentence(likely_effects(diagnosis)),
         left=[sentence for sentence in sentences if sentence],
         lists=[(heading, rows) for heading, rows in lists if rows],
     )

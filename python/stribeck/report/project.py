@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.describe import physically
 from stribeck.report.comparison import comparison_figure, comparison_text
-from stribeck.report.diagnosis import VERDICTS
+from stribeck.report.diagnosis import VERDICTS, less_likely_sentence
 from stribeck.report.layout import BAR, WIDTH, bar, bars_legend, bullets, joined, paragraph, table
 from stribeck.report.numbers import (
     DASH,
@@ -174,7 +174,10 @@ def missing_text(project: Project) -> str:
     lines = [VERDICTS[said.verdict]]
     rejected = project.tree.rejected(node.number)
     unit = node.kept.model.torque_unit
-    for found in said.findings:
+    for k, found in enumerate(said.findings):
+        if k == 1 + len(said.findings[0].ties):
+            likely = [said.findings[0].effect, *said.findings[0].ties]
+            lines.append(paragraph(less_likely_sentence(likely), 0))
         done = project.tree.child(node.number, "add", found.effect)
         mark = ""
         if done is not None:
