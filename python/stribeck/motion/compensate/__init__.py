@@ -1,6 +1,6 @@
-"""Friction compensation: how much better a joint follows, and how much of it is safe to cancel.
+"""Friction compensation: the gain in tracking, and the largest safe compensation factor.
 
-`compensate` moves a joint along a trajectory without and with compensation, `teach` lets a hand
-guide it, and `largest_factor` proves which share of the friction can be cancelled without ever
-cancelling more than there is.
+`compensate` moves a joint along a trajectory without and with compensation, `teach` simulates
+guidance by hand, and `largest_factor` proves how much of the friction can be compensated without
+exceeding it.
 """

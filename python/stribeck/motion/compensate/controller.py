@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from stribeck.base.errors import SpecError
 from stribeck.motion.simulate.drive import Controller
 
-#: Frequency of all poles of the error with the default gains, Hz.
+#: Frequency of the three poles of the error with the default gains, Hz.
 BANDWIDTH = 5.0
 
 
@@ -17,8 +17,8 @@ class HInfinity:
     """Gains of the H-infinity PID.
 
     ``tau_m = M qr'' + C qr' + g + (K + 1/gamma^2) s`` with the error ``e = qd - q``, the reference
-    ``qr' = qd' + Kp e + KI int e`` and ``s = qr' - q' = e' + Kp e + KI int e``. (The print has
-    ``q'`` for ``qd'`` and a minus before the last term, which is unstable.)
+    ``qr' = qd' + Kp e + KI int e`` and ``s = qr' - q' = e' + Kp e + KI int e``. (The paper prints
+    ``q'`` instead of ``qd'`` and a minus before the last term, which is unstable.)
 
     Attributes
     ----------
@@ -27,7 +27,7 @@ class HInfinity:
     gain
         ``K``, N m s/rad or N s/m.
     attenuation
-        ``gamma``: the smaller, the less a disturbance does; infinite adds nothing to ``K``.
+        ``gamma``: smaller values attenuate disturbances more; infinite adds nothing to ``K``.
 
     Examples
     --------
@@ -56,14 +56,14 @@ class HInfinity:
 
     @classmethod
     def with_bandwidth(cls, inertia: float, hertz: float = BANDWIDTH) -> HInfinity:
-        """Gains that give the error on this inertia (kg m2 or kg) three equal poles."""
+        """Return gains with three equal poles of the error for an inertia (kg m2 or kg)."""
         if not (math.isfinite(hertz) and hertz > 0.0):
             raise SpecError(f"the controller's bandwidth is {hertz:g} Hz: give one above 0")
         pole = math.tau * hertz
         return cls(2.0 * pole, pole**2, inertia * pole)
 
     def on(self, inertia: float) -> Controller:
-        """The same as a PID beside ``M qd'' + g``: of one joint the inertia does not change.
+        """Return the equivalent PID with feedforward ``M qd'' + g``, for constant inertia.
 
         ``M (Kp e' + KI e) + L (e' + Kp e + KI int e)`` with ``L = K + 1/gamma^2``.
         """

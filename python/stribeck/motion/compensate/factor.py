@@ -1,4 +1,4 @@
-"""The largest compensation factor that overcompensates nowhere, proved over a box."""
+"""The largest compensation factor that never overcompensates, proved over an operating box."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from stribeck.models.model_file import ModelFile
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
 
-#: Largest number of evaluations of the friction over a box: some seconds.
+#: Largest number of evaluations of the friction over a box; takes some seconds.
 BUDGET = 100_000
-#: Half width of the intervals of the parameters in standard errors, as for 95 %.
+#: Half-width of the 95 % intervals of the parameters, in standard errors.
 STANDARD_ERRORS = 1.96
 
 
@@ -30,16 +30,17 @@ class Factor(Shown):
     Attributes
     ----------
     value
-        The largest factor, at most 1, with which compensation nowhere exceeds friction: proved for
-        all of the box and all parameters within their intervals. 0: none is.
+        The largest factor, at most 1, with which compensation never exceeds friction, proved for
+        the whole box and all parameters within their intervals. 0: no factor is safe.
     bound
-        The same without the limits 0 and 1; above 1 the compensator never reaches the friction.
+        The factor without the limits 0 and 1; above 1 the compensator never reaches the friction.
     at_point
-        What the bound comes to at the single operating point `point`, which stands in the way.
+        The ratio of friction to compensation at `point`, the operating point that limits the
+        factor.
     box
-        Over which it is proved.
+        Operating box of the proof.
     exact
-        Parameters of the friction that count as known exactly: nothing is known of their error.
+        Parameters of the friction without a standard error, which are treated as exact.
     """
 
     compensator: Model
@@ -75,12 +76,12 @@ def largest_factor(
     Parameters
     ----------
     compensator : Model, ModelFile or Fit
-        Its values are what a controller computes with.
+        The model that the controller evaluates.
     friction : Model, ModelFile or Fit, optional
-        What resists: each parameter may lie anywhere in its 95 % interval, which a model without
-        standard errors does not have. Default: the compensator, within its own intervals.
+        The true friction, with each parameter anywhere in its 95 % interval; a parameter without a
+        standard error is exact. Default: the compensator, with its own intervals.
     box : dict of (low, high), optional
-        Operating box; what it leaves out is taken from the boxes of friction and compensator.
+        Operating box; missing sides are taken from the boxes of friction and compensator.
 
     Returns
     -------
@@ -89,15 +90,16 @@ def largest_factor(
     Raises
     ------
     SpecError
-        Values or sides are missing, or the box holds a temperature at which a law has no limit.
+        Values or sides are missing, or a law is unbounded at a temperature of the box.
 
     Notes
     -----
-    With compensation ``f - alpha g`` is left of the friction ``f``. In steady sliding it takes
-    energy at every operating point if and only if ``alpha g <= f`` along the motion, so alpha is
-    the least ``f/g`` over the box where ``g > 0``. Its lower bound by interval arithmetic with
-    subdivision is the answer: a proof, no sample. Parameters count as independent, which allows
-    for more than their joint 95 % region does. Of the transient of a bristle it says nothing.
+    With compensation ``alpha g`` of friction ``f``, the torque ``f - alpha g`` remains. In steady
+    sliding it dissipates energy at every operating point if and only if ``alpha g <= f`` along the
+    motion, so the largest alpha is the minimum of ``f/g`` over the box where ``g > 0``. The result
+    is a lower bound of this minimum, proved by interval arithmetic with subdivision. Parameters are
+    treated as independent, which is conservative compared with their joint 95 % region. The result
+    does not cover bristle transients.
 
     Examples
     --------
@@ -132,12 +134,12 @@ def _checked(given: Model | ModelFile | Fit) -> Model:
 def _intervals(
     friction: Model, given: Model | ModelFile | Fit
 ) -> tuple[np.ndarray, np.ndarray, tuple[str, ...]]:
-    """Between what each parameter of the friction lies, and which have no error."""
+    """Return the intervals of the friction's parameters, and the parameters without an error."""
     errors = dict(_reach(given))
     reach = np.array([errors.get(name, 0.0) for name in friction.names])
     lower, upper = friction.values - reach, friction.values + reach
     for k, p in enumerate(friction.parameters):
-        # Intervals end where a parameter loses its meaning, such as a speed below zero.
+        # Intervals end where a parameter becomes meaningless, such as a negative speed.
         if p.lower >= 0.0 and friction.values[k] >= 0.0:
             lower[k] = max(lower[k], 0.0)
     exact = tuple(name for name in friction.names if name not in errors)
@@ -145,7 +147,7 @@ def _intervals(
 
 
 def _reach(given: Model | ModelFile | Fit) -> Iterator[tuple[str, float]]:
-    """How far each parameter may be off either way, where that is known."""
+    """Yield the half-width of the interval of each parameter, if known."""
     if isinstance(given, Fit):
         for name, estimate in given.estimates.items():
             if estimate.ci95 is not None:

@@ -27,7 +27,7 @@ class Guidance:
     Attributes
     ----------
     trajectory
-        What the hand wants.
+        The motion that the hand intends.
     stiffness, damping
         N m/rad, N m s/rad, or N for N m and m for rad.
     """
@@ -38,7 +38,7 @@ class Guidance:
 
     @classmethod
     def with_bandwidth(cls, trajectory: Trajectory, inertia: float, hertz: float = 2.0) -> Guidance:
-        """A hand that places both poles of this inertia (kg m2 or kg) there."""
+        """Return a hand that places both poles of an inertia (kg m2 or kg) at a frequency."""
         if not (math.isfinite(hertz) and hertz > 0.0):
             raise SpecError(f"the hand's bandwidth is {hertz:g} Hz: give one above 0")
         pole = math.tau * hertz
@@ -52,11 +52,11 @@ class Teaching(Shown):
     Attributes
     ----------
     friction
-        What really resists.
-    step
-        s.
+        True friction of the joint.
+        step
+            Time step, s.
     motions
-        Their `controller_torque` is the hand's.
+        Motions, whose `controller_torque` is the torque of the hand.
     """
 
     friction: Model
@@ -65,14 +65,15 @@ class Teaching(Shown):
     motions: tuple[ClosedLoopMotion, ...]
 
     def interaction(self, motion: ClosedLoopMotion) -> tuple[float, float]:
-        """RMS and largest size of the hand's torque, N m or N."""
+        """RMS and largest magnitude of the torque of the hand, N m or N."""
         hand: Array = motion.controller_torque
         return float(np.sqrt(np.mean(hand**2))), float(np.abs(hand).max())
 
     def overcompensated(self, motion: ClosedLoopMotion) -> float:
         """Return the share of the time in motion in which compensation exceeds friction.
 
-        It pushes along the motion; a bristle that springs back pushes by itself and holds nothing.
+        Compensation then drives the motion. A bristle that springs back opposes no motion: its
+        friction is taken as 0.
         """
         way = np.diff(motion.position)
         moving = way != 0.0
@@ -109,31 +110,30 @@ def teach(
     temperature: ArrayLike | None = None,
     encoder: float = 0.0,
 ) -> Teaching:
-    """Guide a joint by hand: its motor gives ``g + alpha tf``, first with ``alpha`` 0.
+    """Guide a joint by hand; its motor applies ``g + alpha tf``, in the first motion with alpha 0.
 
     Parameters
     ----------
     friction : Model, ModelFile or Fit
-        What really resists.
-    joint : Joint, optional
-        None: the inertia and gravity identified with the friction.
+        True friction of the joint.
+        joint : Joint, optional
+            The joint; None: with the inertia and gravity identified together with the friction.
     guidance : Guidance
     compensators : sequence of Compensator
-        By feedback: nobody tells the motor where the hand is going.
+        Compensators with feedback: the motor does not know the desired motion.
     seconds : float, optional
-        Default: as long as the trajectory.
+        Duration; default: that of the trajectory.
     step : float
-        s.
+        Time step, s.
     temperature : float or array [steps], optional
-        degC; the default is the middle of the friction's operating box.
+        degC; default: the middle of the operating box of the friction.
     encoder : float
-        Resolution of the encoder, rad or m: position in these steps and velocity by their
-        differences are all that is measured; 0 measures both exactly.
+        Resolution, rad or m. Velocity is the difference of positions; 0 measures both exactly.
 
     Raises
     ------
     SpecError
-        Something is missing, or cannot be; a compensator is a feedforward.
+        An argument is missing or invalid, or a compensator uses feedforward.
     """
     for compensator in compensators:
         if not compensator.feedback:

@@ -1,1 +1,1 @@
-"""Motions that show what a recording does not: optimal experiment design."""
+"""Optimal experiment design: motions that show effects which a recording cannot."""

@@ -1,8 +1,8 @@
 """Periodic motions: a Fourier series of five harmonics from rest to rest.
 
 Swevers, Ganseman, Tukel, De Schutter and Van Brussel 1997, "Optimal robot excitation and
-identification". There the limits are constraints of the search; here the series is scaled to its
-true extremes, so that every vector makes a motion that keeps to them.
+identification". In that paper the limits are constraints of the search. Here the series is scaled
+by its exact extremes, so that every design vector gives a motion within the limits.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from stribeck.motion.design.motion import INSIDE, Limits, SampledMotion, sample_
 Array = NDArray[np.float64]
 
 HARMONICS = 5
-#: Samples of the recording that a period of the quickest harmonic holds.
+#: Smallest number of samples in a period of the highest harmonic.
 FEWEST_SAMPLES = 20
 
 
@@ -26,9 +26,10 @@ FEWEST_SAMPLES = 20
 class FourierMotions:
     """Motions ``q(t) = c + sum_l A_l sin(l w t) + B_l cos(l w t)`` for `duration` s.
 
-    A whole number of periods fits in; speed and acceleration are 0 at both ends. The vector holds
-    the harmonics' shares of the speed (sine, then cosine), the period and the place in the range.
-    At `rate` in Hz the quickest harmonic has at least `FEWEST_SAMPLES` a period.
+    The duration is a whole number of periods; speed and acceleration are 0 at both ends. The design
+    vector contains the speed amplitudes of the harmonics (sine, then cosine), the period and the
+    position in the range. At `rate` in Hz the highest harmonic has at least `FEWEST_SAMPLES`
+    samples per period.
     """
 
     limits: Limits
@@ -38,18 +39,18 @@ class FourierMotions:
 
     @property
     def variables(self) -> int:
-        """Two numbers a harmonic, the period and the place."""
+        """Two variables per harmonic, the period and the position."""
         return 2 * HARMONICS + 2
 
     @property
     def start(self) -> Array:
-        """The first three sines, in the middle of the range."""
+        """Three sines in the middle of the range."""
         design = np.full(self.variables, 0.5)
         design[:3] = (1.0, 0.2, 0.7)
         return design
 
     def motion(self, design: Array, rate: float) -> SampledMotion:
-        """The motion of a vector [variables], sampled at `rate` in Hz."""
+        """Return the motion of a design vector [variables], sampled at `rate` in Hz."""
         sine, cosine = _from_rest(2.0 * design[:HARMONICS] - 1.0, _second(design))
         frequency = 2.0 * math.pi * self._periods(design[-2]) / self.duration
         low, high = extremes(sine, cosine)
@@ -63,7 +64,7 @@ class FourierMotions:
         return SampledMotion(time, place + q, v, a)
 
     def _periods(self, share: float) -> int:
-        """Number of periods: from one to as many as the limits let a large motion have."""
+        """Number of periods, between one and the most that the limits allow for a large motion."""
         limits = self.limits
         reach = 0.5 * limits.stroke
         swing = 2.0 * math.pi * max(reach / limits.speed, math.sqrt(reach / limits.acceleration))
@@ -72,7 +73,7 @@ class FourierMotions:
         return max(1, round(most**share))
 
     def _scale(self, sine: Array, cosine: Array, frequency: float, height: float) -> float:
-        """The largest factor with which the series keeps to the limits."""
+        """The largest factor with which the series is within the limits."""
         speed = np.abs(extremes(*_derivative(sine, cosine))).max() * frequency
         bend = np.abs(extremes(*_derivative(*_derivative(sine, cosine)))).max() * frequency**2
         limits = self.limits
@@ -88,7 +89,7 @@ def _second(design: Array) -> Array:
 
 
 def _from_rest(sine: Array, cosine: Array) -> tuple[Array, Array]:
-    """Amplitudes from shares of the speed, without what moves or bends at the start."""
+    """Position amplitudes from speed amplitudes, with zero initial speed and acceleration."""
     order = np.arange(1, HARMONICS + 1, dtype=np.float64)
     sine, cosine = sine / order, cosine / order
     return (
@@ -110,7 +111,7 @@ def series(sine: Array, cosine: Array, frequency: float, time: Array) -> tuple[A
 
 
 def _derivative(sine: Array, cosine: Array) -> tuple[Array, Array]:
-    """Amplitudes of the derivative by the phase."""
+    """Amplitudes of the derivative with respect to the phase."""
     order = np.arange(1, sine.size + 1)
     return -order * cosine, order * sine
 
@@ -118,7 +119,7 @@ def _derivative(sine: Array, cosine: Array) -> tuple[Array, Array]:
 def extremes(sine: Array, cosine: Array) -> tuple[float, float]:
     """Smallest and largest value of ``sum_l sine_l sin(l x) + cosine_l cos(l x)``.
 
-    At the roots of its derivative, which is a polynomial in ``exp(i x)``: exact, not on a grid.
+    They are exact: values at the roots of the derivative, a polynomial in ``exp(i x)``.
 
     Examples
     --------

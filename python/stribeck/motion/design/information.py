@@ -1,7 +1,7 @@
 """Information of a recording about effects: the criterion of a plan, and its results.
 
-D_s-optimality for the sizes of the wanted effects: of each, what of its torque neither the model
-nor the other wanted effects take up; the plan maximises the least of these (maximin).
+D_s-optimality for the sizes of the wanted effects: the torque of each effect outside the span of
+the model and of the other wanted effects. The plan maximises the smallest of these (maximin).
 """
 
 from __future__ import annotations
@@ -35,11 +35,11 @@ class Wanted:
     Attributes
     ----------
     widened
-        The model with each of them added, on a reference recording.
+        The model with each effect added, on a reference recording.
     apart
-        Those that are to be told from each other too.
+        Effects that are also to be distinguished from each other.
     sizes
-        Size of each at which it weighs alike on the reference.
+        Size of each effect at which all have the same torque RMS on the reference.
     """
 
     widened: Mapping[str, AddedEffect]
@@ -61,26 +61,26 @@ class Wanted:
         return cls(widened, tuple(apart), sizes)
 
     def others(self, effect: str) -> list[str]:
-        """Effects that `effect` is to be told from."""
+        """Effects from which `effect` is to be distinguished."""
         return [e for e in self.apart if e != effect] if effect in self.apart else []
 
 
 def typical_torque(one: AddedEffect) -> Array:
-    """Torque for one unit of the size, array [m]; of a bristle, with one of middling stiffness."""
+    """Torque per unit of size, array [m]; for a bristle, at a medium stiffness."""
     return one.torque_of(one.sizes(3)[1]) if one.is_nonlinear else one.unit_torque()
 
 
 def columns_of(one: AddedEffect) -> Array:
-    """Torques that the effect can make near its start, array [m, k]."""
+    """Basis of the torques of the effect near its start values, array [m, k]."""
     return typical_torque(one)[:, None] if one.is_nonlinear else one.spaces(1)[0]
 
 
 def least_information(
     wanted: Wanted, setting: Setting, motion: SampledMotion, rate: float
 ) -> float:
-    """Logarithm of the least signal of a wanted effect, squared and summed over time, in T2 s.
+    """Logarithm of the smallest signal energy of a wanted effect, in T2 s.
 
-    The same effects weigh the same on every motion; -inf where one of them does not show at all.
+    The weights are the same for every motion. The result is -inf if an effect is not visible.
     """
     recording = setting.recording(motion, rate)
     problem = setting.problem(recording)
@@ -103,14 +103,14 @@ def least_information(
 
 @dataclass(frozen=True)
 class Sight:
-    """What a recorded or planned motion shows of the wanted effects.
+    """Visibility of the wanted effects in a recorded or planned motion.
 
     Attributes
     ----------
     smallest
-        Of each effect, the smallest that is seen beside the model and told from the others.
+        Smallest size of each effect that is visible and distinguishable from the others.
     cosines
-        Of each pair that is to be told apart, how alike they look beside the model, 0 to 1.
+        Similarity of each pair of effects to distinguish, after projection on the model, 0 to 1.
     """
 
     smallest: Mapping[str, VisibleEffect]
@@ -118,7 +118,7 @@ class Sight:
 
 
 def sight(wanted: Wanted, problem: Problem, noise: Noise | ExpectedNoise, demand: Demand) -> Sight:
-    """The figures of a recording, that of `problem`."""
+    """Return the visibility in the recording of `problem`."""
     base = problem.predict(problem.model.values)[problem.rows]
     here = {effect: one.on(problem) for effect, one in wanted.widened.items()}
     spaces = {effect: columns_of(here[effect]) for effect in wanted.apart}

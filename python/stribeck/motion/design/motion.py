@@ -1,4 +1,4 @@
-"""What a motion is, and the limits that it keeps to."""
+"""Sampled motions, their limits, and families of motions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from stribeck.base.errors import SpecError
 
 Array = NDArray[np.float64]
 
-#: Share of a limit that is used, so that rounding does not exceed it.
+#: Share of a limit that is used, so that rounding cannot exceed it.
 INSIDE = 1.0 - 1e-9
 
 
@@ -35,7 +35,7 @@ class Limits:
     def __post_init__(self) -> None:
         if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
             raise SpecError(
-                f"the positions {self.low:g} .. {self.high:g} are no range: give LOW:HIGH"
+                f"the positions {self.low:g} .. {self.high:g} are not a range: give LOW:HIGH"
             )
         for what, value in (("speed", self.speed), ("acceleration", self.acceleration)):
             if not (math.isfinite(value) and value > 0):
@@ -67,22 +67,22 @@ class SampledMotion:
 
 
 class Family(Protocol):
-    """Motions that a vector of numbers between 0 and 1 chooses from, all within the limits."""
+    """Motions given by a design vector of numbers between 0 and 1, all within the limits."""
 
     @property
     def name(self) -> str:
-        """One or two words."""
+        """Name in one or two words."""
 
     @property
     def variables(self) -> int:
-        """Length of the vector."""
+        """Length of the design vector."""
 
     @property
     def start(self) -> Array:
-        """A vector that makes a sound motion."""
+        """Design vector of a good initial motion."""
 
     def motion(self, design: Array, rate: float) -> SampledMotion:
-        """The motion of a vector, sampled at `rate` in Hz from rest to rest."""
+        """Return the motion of a design vector, from rest to rest, sampled at `rate` in Hz."""
 
 
 def sample_times(duration: float, rate: float) -> Array:

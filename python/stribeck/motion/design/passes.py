@@ -1,4 +1,4 @@
-"""Point-to-point motions: fifth-degree moves of all speeds, there and back, with rests between."""
+"""Point-to-point motions: quintic moves at all speeds, forward and back, with rests between."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ REST, REST_SHARE = 0.2, 0.1
 class PassMotions:
     """Moves between way points for `duration` s, then all of them back in reverse order.
 
-    Each way is passed once in either direction at the same speed. The vector holds, of each move,
-    its way (its length over decades, below 0.5 backward) and its share of the time, and where the
-    motion starts.
+    Each move is made once in both directions at the same speed. The design vector contains the
+    length of each move (logarithmic; below 0.5 backward), its share of the time, and the start
+    position.
     """
 
     limits: Limits
@@ -38,23 +38,23 @@ class PassMotions:
 
     @property
     def moves(self) -> int:
-        """Moves each way."""
+        """Number of moves in each direction."""
         return int(np.clip(self.duration / (2.0 * SECONDS_A_MOVE), 1, MOST_MOVES))
 
     @property
     def variables(self) -> int:
-        """Two numbers a move and the start."""
+        """Two variables per move, and the start position."""
         return 2 * self.moves + 1
 
     @property
     def start(self) -> Array:
-        """Fast and slow moves in turn, from the middle."""
+        """Alternating fast and slow moves from the middle of the range."""
         way = np.resize([1.0, 0.0, 0.85, 0.15], self.moves)
         share = np.resize([0.5, 0.2, 0.8], self.moves)
         return np.concatenate([way, share, [0.5]])
 
     def motion(self, design: Array, rate: float) -> SampledMotion:
-        """The motion of a vector [variables], sampled at `rate` in Hz."""
+        """Return the motion of a design vector [variables], sampled at `rate` in Hz."""
         rest = min(REST, REST_SHARE * self.duration / (2.0 * self.moves))
         seconds = self._seconds(design[self.moves : -1], 0.5 * self.duration - self.moves * rest)
         points = self._points(design[: self.moves], seconds, design[-1])
@@ -71,12 +71,12 @@ class PassMotions:
         )
 
     def _seconds(self, shares: Array, available: float) -> Array:
-        """How long each move lasts, array [moves]."""
+        """Duration of each move, s, array [moves]."""
         weights = 10.0 ** (TIME_DECADES * shares)
         return np.asarray(available * weights / weights.sum())
 
     def _points(self, ways: Array, seconds: Array, start: float) -> Array:
-        """Way points, array [moves + 1]: each way is cut to what speed, bend and range allow."""
+        """Way points, array [moves + 1]; moves are shortened to stay within the limits."""
         limits = self.limits
         longest = INSIDE * np.minimum(
             limits.speed * seconds / PEAK_SPEED,

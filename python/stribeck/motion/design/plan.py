@@ -1,7 +1,7 @@
-"""Find a motion that shows effects which the present data cannot show or separate.
+"""Find a motion that shows or separates effects which the present data cannot.
 
 The search covers Fourier series and point-to-point motions. It maximises the visibility of the
-least visible effect, each after a refit of the model.
+least visible effect after a refit of the model.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ def _setting(
     """Return the conditions of the planned recording, checked for the wanted effects."""
     setting = setting_of_fit(of) if isinstance(of, Fit) else setting_of_file(of, limits, noise)
     if any("temperature" in catalog()["effects"][e]["channels"] for e in effects):
-        # No motion at one temperature shows such an effect.
+        # A motion at one temperature cannot show such an effect.
         (usual,) = setting.temperatures
         setting = replace(setting, temperatures=(usual - WARMING / 2, usual + WARMING / 2))
     _check_load(effects, setting)

@@ -1,4 +1,4 @@
-"""What a plan is: the motion, and what a recording of it is expected to show."""
+"""The result of a plan: the motion, and the expected visibility of effects in a recording of it."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from stribeck.motion.design.motion import Limits, SampledMotion
 
 @dataclass(frozen=True)
 class Size:
-    """The smallest effect that is seen: its parameter's value, and the RMS of its torque."""
+    """The smallest visible effect: value of its parameter, and RMS of its torque."""
 
     value: float | None
     rms: float | None
 
     @classmethod
     def of(cls, shown: VisibleEffect) -> Size:
-        """None where no size is seen."""
+        """Return the size, or None if no size is visible."""
         if not np.isfinite(shown.factor):
             return cls(None, None)
         result = shown.result("")
@@ -36,16 +36,16 @@ class Size:
 
 @dataclass(frozen=True)
 class Prospect:
-    """What a plan shows of one effect.
+    """Expected visibility of one effect.
 
     Attributes
     ----------
     inverse
-        Whether the effect is the smaller the larger its size.
+        Whether the effect becomes smaller when its parameter grows.
     before, after
-        Smallest size seen on the data at hand (None without data) and on the planned motion.
+        Smallest size visible in the present data (None without data) and in the planned motion.
     advice
-        What the motion cannot do for it; empty if nothing.
+        What the motion cannot show of it; may be empty.
     """
 
     effect: str
@@ -58,7 +58,7 @@ class Prospect:
 
     @property
     def gain(self) -> float | None:
-        """How many times smaller an effect is seen; None where that is no number."""
+        """Factor by which the smallest visible effect decreases; None if it is unknown."""
         before = None if self.before is None else self.before.value
         if before is None or self.after.value is None:
             return None
@@ -79,17 +79,17 @@ class Prospect:
 
 @dataclass(frozen=True, repr=False)
 class Plan(Plotted):
-    """A motion, and what a recording of it is expected to show.
+    """A motion, and the expected visibility of effects in a recording of it.
 
     Attributes
     ----------
     motion, rate
-        Its samples, and their number a second.
+        Samples of the motion, and the sampling rate, Hz.
     kind
-        Family that it was chosen from.
+        Family of the motion.
     cosines
-        Of each pair to be told apart, how alike both look: on the data at hand (None without
-        data) and on the planned motion.
+        Similarity of each pair of effects to distinguish, 0 to 1: in the present data (None without
+        data) and in the planned motion.
     """
 
     model: Model

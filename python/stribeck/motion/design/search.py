@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 CANDIDATES, GENERATIONS = 24, 30
 #: Number of samples during the search; a model with a state needs more.
 FEW_SAMPLES, MORE_SAMPLES = 1200, 5000
-#: Cost of a motion that does not show a wanted effect at all.
+#: Cost of a motion that does not show a wanted effect.
 SHOWS_NOTHING = 1e6
 
 
@@ -30,7 +30,7 @@ def search(
     rate: float,
     seed: int,
 ) -> tuple[str, SampledMotion]:
-    """The best motion of all families, and the name of its own."""
+    """Return the best motion of all families, and the name of its family."""
     plain = all(one.problem.model.memoryless for one in wanted.widened.values())
     coarse = min(rate, (FEW_SAMPLES if plain else MORE_SAMPLES) / duration)
     found = []

@@ -20,8 +20,8 @@ class _Made(TypedDict):
     warming: float
 
 
-#: How the shipped recording of `stribeck demo` was made. The joint hardly warms up, as in any
-#: recording this short, so that the demo has effects that cannot be tested with its data.
+#: How the shipped recording of `stribeck demo` was made. The joint warms up by a few kelvin only,
+#: as in any short recording. So the demo has effects that cannot be tested with its data.
 DEMO: _Made = {
     "effects": ("load", "stribeck"),
     "seed": 1,
@@ -33,10 +33,10 @@ DEMO: _Made = {
 
 
 def demo_recording() -> tuple[pl.DataFrame, Truth]:
-    """Make the shipped recording again, and what is hidden in it."""
+    """Generate the shipped recording and its truth again."""
     return generate(**DEMO)
 
 
 def demo_path() -> Path:
-    """Where the shipped recording is."""
+    """Path of the shipped recording."""
     return Path(str(resources.files("stribeck") / "data" / "demo.parquet"))

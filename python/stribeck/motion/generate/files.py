@@ -14,7 +14,7 @@ from stribeck.motion.generate.ur5e import JOINTS, RobotRecording
 
 
 def file_bytes(frame: pl.DataFrame, suffix: str) -> bytes:
-    """A recording as a file; numbers read back with the same bits."""
+    """Return a recording as the bytes of a file, from which numbers are read back exactly."""
     if suffix == ".csv":
         return frame.write_csv().encode("utf-8")
     stream = io.BytesIO()
@@ -23,12 +23,12 @@ def file_bytes(frame: pl.DataFrame, suffix: str) -> bytes:
 
 
 def sidecar_text(truth: Truth) -> str:
-    """The sidecar of a generated recording: what its columns do not contain."""
+    """Return the sidecar of a generated recording, which states the kind of joint."""
     return f'kind = "recording"\njoint_kind = "{truth["joint_kind"]}"\n'
 
 
 def write_robot(recording: RobotRecording, target: Path) -> None:
-    """Write a robot's recording as Parquet or CSV, whole or not at all.
+    """Write the recording of a robot as Parquet or CSV, atomically.
 
     The full Test 2 has 16 million rows. Each joint is written to a file of its own first, so that
     one joint at a time is in memory; polars then joins the files as a stream.

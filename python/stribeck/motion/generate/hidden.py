@@ -66,7 +66,7 @@ def generate(
     Parameters
     ----------
     effects : sequence of str
-        Ids of the catalog: the effects that a model of `law` alone lacks.
+        Ids of the catalog: the effects added to `law`.
     seconds, rate : float
         Duration in s and sample rate in Hz.
     noise : float

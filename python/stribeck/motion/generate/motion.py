@@ -61,7 +61,7 @@ class Motion:
 
 def _pass(distance: float, speed: float, ramp: float) -> tuple[float, Move]:
     """Duration and move with a cruise at `speed` and cosine-shaped ramps of the speed."""
-    # Where the distance is too short to reach the speed: the same ramps to a lower speed.
+    # If the distance is too short to reach the speed: the same ramps to a lower speed.
     cruise = abs(distance) / speed - ramp
     if cruise < 0.0:
         speed, cruise = abs(distance) / ramp, 0.0

@@ -1,4 +1,4 @@
-"""Joint trajectories through way points: trapezoidal speed and fifth-degree polynomial."""
+"""Joint trajectories through way points: trapezoidal speed or quintic polynomials."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-#: Share of the distance with its first two derivatives, by the share of the time.
+#: Position of a unit move and its first two derivatives, as functions of unit time.
 Profile = Callable[[Array], tuple[Array, Array, Array]]
 
 

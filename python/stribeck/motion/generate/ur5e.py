@@ -2,17 +2,17 @@
 
 The review of 25 friction models (2024/25, section 4) moves a UR5e through trapezoidal speed
 profiles between six way points (Test 1), and through fifth-degree polynomials between twenty way
-points in sixty seconds, ninety times over while the joints warm up (Test 2), recorded at 500 Hz.
-This module makes recordings of this kind:
+points in sixty seconds, repeated ninety times while the joints warm up (Test 2), recorded at 500
+Hz. This module makes recordings of this kind:
 
 - load torques from gravity, inertia and the coupling of the joints (`arm`), with the kinematics
   and masses that the manufacturer publishes; links are point masses, so loads are approximate;
-- friction from `true_friction`, which is none of the catalog's laws, sized like the friction
-  torques of the review's figures 6 and 10;
-- joint temperatures from one heat capacity and one thermal resistance per joint, heated by
+- friction from `true_friction`, which is not a law of the catalog, with magnitudes like the
+friction torques of the review's figures 6 and 10; - joint temperatures from one heat capacity and
+one thermal resistance per joint, heated by
   friction and by the copper losses of the motor;
-- currents with correlated noise in steps of the converter, positions in steps of the motor's
-  encoder, velocities as their differences.
+- currents with correlated noise, quantised by the converter; positions quantised by the encoder of
+the motor; velocities as differences of positions.
 
 Motor constants and friction are plausible for motors and strain-wave gears of these sizes; they
 are not measurements of a UR5e.
@@ -80,7 +80,7 @@ UR5E = Arm(
     ),
     rotor_inertia=np.array([0.7, 0.7, 0.7, 0.1, 0.1, 0.1]),
 )
-#: Where way points are drawn, rad.
+#: Range of the way points, rad.
 LOWEST = np.array([-2.4, -2.6, -2.2, -2.4, -2.4, -2.4])
 HIGHEST = np.array([2.4, -0.5, 2.2, 2.4, 2.4, 2.4])
 
@@ -94,7 +94,7 @@ class Drive:
     motor
         Constants of the review's eqs 1 and 7.
     friction
-        Friction that is hidden in the recording.
+        True friction of the joint.
     current_noise
         RMS of the current noise, A.
     heating
@@ -182,13 +182,13 @@ class RobotRecording:
     Parameters
     ----------
     test
-        1: trapezoidal speed profiles, once. 2: fifth-degree polynomials, sixty seconds a cycle.
+        1: trapezoidal speed profiles, one cycle. 2: quintic polynomials, sixty seconds per cycle.
     seed
         Seed of way points, friction and noise.
     repeats
         Number of cycles; 90 for Test 2 in the review.
     every
-        Record one of so many cycles; the arm also warms up in the others.
+        Record one cycle out of this number; the arm also warms up in the others.
     rate
         Sample rate, Hz: 500, or 500 divided by a whole number.
 
@@ -249,7 +249,7 @@ class RobotRecording:
 
     @property
     def rows(self) -> int:
-        """Rows of the whole recording, all joints."""
+        """Number of rows of the recording, over all joints."""
         return len(self._recorded) * self._cycle_rows * len(JOINTS)
 
     @property
@@ -333,7 +333,7 @@ class RobotRecording:
         )
 
     def truth(self) -> dict[str, object]:
-        """What is hidden in the recording, and how it is made, as JSON."""
+        """True friction of the recording, and how it was generated, as JSON."""
         return {
             "robot": "ur5e",
             "test": self.test,

@@ -1,4 +1,4 @@
-"""What of a model acts on a joint as torque, and what of it is the joint or the measurement."""
+"""Split a model into friction, the rigid body of the joint, and effects of the measurement."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Acting:
     Attributes
     ----------
     friction
-        What acts as torque: friction, and offsets, ripple or springs where the model has them.
+        The parts that act as torque: friction, and offsets, ripple or springs of the model.
     joint
-        With the model's inertia and gravity, where it has them.
+        The joint, with the inertia and gravity of the model if it has them.
     left_out
         Effects of the measurement.
     """
@@ -34,13 +34,13 @@ class Acting:
 def take_apart(model: Model, joint: Joint | None) -> Acting:
     """Return the friction of a model and the joint on which it acts.
 
-    Rigid-body terms that were identified with the friction are the joint's where none is given;
-    the effects ``inertia`` and ``gravity`` correct the one that is.
+    If no joint is given, it has the rigid-body terms identified with the friction. The effects
+    ``inertia`` and ``gravity`` correct a given joint.
 
     Raises
     ------
     SpecError
-        There is no inertia, or the model holds a drive train that only explains recordings.
+        There is no inertia, or the model has a drive-train effect that cannot be simulated.
     """
     plain = model.friction
     friction, left_out = friction_of(model)
@@ -56,15 +56,15 @@ def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
     Raises
     ------
     SpecError
-        Values are missing, or the model holds a drive train that only explains recordings.
+        Values are missing, or the model has a drive-train effect that cannot be simulated.
     """
     model.known_values()
     plain = model.friction
     trains = [e for e in plain.effects if of_catalog(e).in_motion == "drive train"]
     if trains:
         raise SpecError(
-            f"{plain.spec} has {trains[0]}, which explains a recording and moves nothing: "
-            f"simulate a model without it"
+            f"{plain.spec} has {trains[0]}, which describes recordings and cannot be simulated: "
+            f"use a model without it"
         )
     taken = (*plain.rigid_body, *(e for e in plain.effects if e in RIGID_BODY_EFFECTS))
     left_out = tuple(e for e in plain.effects if of_catalog(e).in_motion == "measurement")
@@ -81,7 +81,7 @@ def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
 
 
 def _joint(model: Model, joint: Joint | None, known: dict[str, float]) -> Joint:
-    """The joint with what the model says of its rigid body."""
+    """Return the joint with the rigid-body terms of the model."""
     terms = model.effects if joint is not None else (*model.effects, *model.rigid_body)
     inertia = known["inertia"] if "inertia" in terms else 0.0
     cos, sin = (known["gravity_cos"], known["gravity_sin"]) if "gravity" in terms else (0.0, 0.0)

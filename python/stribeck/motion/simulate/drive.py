@@ -1,4 +1,4 @@
-"""What moves a joint: a torque, a controller that follows a trajectory, a spring that is pulled."""
+"""Drives of a simulated joint: a torque, a controller on a trajectory, or a pulled spring."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Torque:
     Attributes
     ----------
     torque
-        N m or N, held over each step: one number, or one a step.
+        N m or N, constant over each step: one number, or one per step.
     """
 
     torque: ArrayLike
@@ -34,9 +34,9 @@ class Controller:
         ``kp e + ki int e dt + kd (b vd - v)``: N m/rad, N m/(rad s), N m s/rad, or N for N m and m
         for rad.
     velocity_weight
-        Share ``b`` of the desired velocity; with 0 the derivative part damps all motion.
+        Weight ``b`` of the desired velocity; with 0 the derivative part damps all motion.
     limit
-        Largest torque, N m or N; the integral then stands still.
+        Largest torque, N m or N; the integral is frozen at the limit.
     """
 
     proportional: float
@@ -70,9 +70,9 @@ class Follow:
     trajectory
         The desired motion.
     controller
-        Who sees to it.
+        The feedback controller.
     feedforward
-        Whether the torque that inertia and gravity of the desired motion need is given beforehand.
+        Whether the torque for inertia and gravity of the desired motion is added.
     """
 
     trajectory: Trajectory
@@ -82,7 +82,7 @@ class Follow:
 
 @dataclass(frozen=True)
 class Pull:
-    """A spring, slack at first, and a damper beside it, whose far end moves at constant speed.
+    """An initially slack spring with a parallel damper, whose far end moves at constant speed.
 
     Attributes
     ----------

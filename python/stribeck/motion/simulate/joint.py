@@ -1,4 +1,4 @@
-"""Joints: what friction, motor and environment act on."""
+"""Joints: inertia, gravity and transmission."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from stribeck.base.errors import SpecError
 
 @dataclass(frozen=True)
 class Transmission:
-    """A spring, a damper and play between motor and load.
+    """A spring, a damper and backlash between motor and load.
 
-    Friction, controller and recorded position are those of the motor, at the joint side.
+    Friction and controller act on the motor, and its position is recorded, at the joint side.
 
     Attributes
     ----------
     motor_inertia
         kg m2 or kg, at the joint side.
     stiffness, damping
-        N m/rad, N m s/rad, or N for N m and m for rad; damping while the flanks touch.
+        N m/rad, N m s/rad, or N for N m and m for rad; the damper acts while the flanks touch.
     backlash
-        Play from one flank to the other, rad or m.
+        Distance between the flanks, rad or m.
     """
 
     motor_inertia: float
@@ -58,7 +58,7 @@ class Joint:
     kind
         ``"revolute"`` or ``"prismatic"``.
     transmission
-        Between motor and load; None: they are one.
+        Between motor and load; None: both are one rigid body.
 
     Examples
     --------
@@ -100,17 +100,17 @@ class Joint:
         Parameters
         ----------
         mass : float
-            That is moved, kg.
+            Moved mass, kg.
         rotor_inertia : float
-            Of motor and screw, kg m2.
+            Inertia of motor and screw, kg m2.
         pitch : float
-            Travel a turn, m.
+            Travel per turn, m.
         gravity : float
-            Along the axis, N.
+            Force of gravity along the axis, N.
 
         Notes
         -----
-        ``M_eq = M + J (2 pi/p)^2``; the motor's torque acts as the force ``2 pi/p`` times it.
+        ``M_eq = M + J (2 pi/p)^2``; the motor torque times ``2 pi/p`` is the force.
         """
         if not pitch > 0.0:
             raise SpecError(f"the screw's pitch is {pitch:g} m: give one above 0")
@@ -120,12 +120,12 @@ class Joint:
 
     @property
     def motor_inertia(self) -> float:
-        """What friction acts on at once, kg m2 or kg: all of it without a transmission."""
+        """Inertia on which friction acts, kg m2 or kg: the total inertia without a transmission."""
         return self.inertia if self.transmission is None else self.transmission.motor_inertia
 
     @property
     def total_inertia(self) -> float:
-        """Of motor and load, kg m2 or kg."""
+        """Inertia of motor and load, kg m2 or kg."""
         return self.inertia if self.transmission is None else self.inertia + self.motor_inertia
 
     @property

@@ -26,20 +26,21 @@ class Simulation(Plotted):
     instants
         The times between steps, s, array [steps + 1].
     instant_position, instant_velocity
-        At those times, of the motor where it is apart, arrays [steps + 1].
+        Position and velocity at those times, of the motor if there is a transmission, arrays [steps
+        + 1].
     instant_load_position
-        Likewise of the load: the same without a transmission.
+        Position of the load at those times; equal to that of the motor without a transmission.
     torque, load_torque, friction_torque
         Means over each step, arrays [steps]; motor torque is the sum of the other two.
     desired_position, desired_velocity
-        Of a closed loop, at the start of each step, arrays [steps].
+        In a closed loop, at the start of each step, arrays [steps].
     motor_work, environment_work, friction_work
-        Of each step, J; gravity and springs are the environment, and what friction takes is
-        dissipated or stored in bristles. Arrays [steps].
+        Work in each step, J, arrays [steps]. Gravity and springs belong to the environment; the
+        work of friction is dissipated or stored in bristles.
     temperature
         degC, array [steps].
     left_out
-        Effects of the measurement that move nothing.
+        Effects of the measurement, which are not simulated.
     """
 
     model: Model
@@ -96,7 +97,7 @@ class Simulation(Plotted):
     def energy(self) -> dict[str, float]:
         """Energies of the whole motion, J: ``imbalance`` is the rounding error.
 
-        Kinetic energy is that of what friction acts on; a load beyond a transmission counts to the
+        Kinetic energy is that of the motor inertia; a load behind a transmission belongs to the
         environment.
         """
         motor, environment, friction = (
@@ -114,7 +115,7 @@ class Simulation(Plotted):
         }
 
     def to_frame(self) -> pl.DataFrame:
-        """The motion as a recording, a row a step: all columns at the middle of the step."""
+        """The motion as a recording with one sample per step, taken at its middle."""
         columns = {
             "time": self.time,
             "position": self.position,
@@ -131,7 +132,7 @@ class Simulation(Plotted):
         return pl.DataFrame(columns)
 
     def to_dict(self) -> dict[str, Any]:
-        """As JSON: what the motion comes to."""
+        """Summary of the motion as JSON."""
         error = self.tracking_error
         return {
             "model": self.model.spec,

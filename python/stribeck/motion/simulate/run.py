@@ -206,7 +206,7 @@ def _rigid_body(drive: Follow, joint: Joint, time: Array) -> Array:
 
 
 def column(name: str, values: ArrayLike, count: int) -> Array:
-    """Return an array with one value for each step, from a single value or as many as steps."""
+    """Return an array with one value for each step, from one value or one for each step."""
     given = np.asarray(values, dtype=np.float64)
     if given.ndim > 1 or (given.ndim == 1 and given.size != count):
         raise SpecError(f"{name} has {given.size} values for {count} steps: give one for each step")

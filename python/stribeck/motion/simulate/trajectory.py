@@ -1,4 +1,4 @@
-"""What a joint shall do: strokes there and back, and Fourier series."""
+"""Desired motions: strokes forward and back, Fourier series, and recorded positions."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Trajectory(Protocol):
 
     @property
     def duration(self) -> float:
-        """How long it lasts, s; what is periodic, one period."""
+        """Duration, s; of a periodic motion, one period."""
 
     def __call__(self, time: Array) -> tuple[Array, Array, Array]:
         """Position, velocity and acceleration at `time` [n] in s, arrays [n]."""
@@ -40,7 +40,7 @@ class Trapezoid:
     start, end
         Where it turns, rad or m.
     speed, acceleration
-        Limits, SI units; a short stroke does not reach the speed.
+        Limits, SI units; the speed is not reached on a short stroke.
     dwell
         Rest before each move, s.
     """
@@ -77,7 +77,7 @@ class Quintic:
     start, end
         Where it turns, rad or m.
     move
-        How long a move takes, s.
+        Duration of a move, s.
     dwell
         Rest before each move, s.
     """
@@ -89,7 +89,7 @@ class Quintic:
 
     def __post_init__(self) -> None:
         _check_ends(self.start, self.end, self.dwell)
-        _positive("time a move", self.move)
+        _positive("time per move", self.move)
 
     @property
     def duration(self) -> float:
@@ -103,7 +103,7 @@ class Quintic:
 
 def _check_ends(start: float, end: float, dwell: float) -> None:
     if not (math.isfinite(start) and math.isfinite(end) and start != end):
-        raise SpecError(f"a stroke from {start:g} to {end:g} is none: give two places")
+        raise SpecError(f"a stroke from {start:g} to {end:g} has no length: give two positions")
     if not (math.isfinite(dwell) and dwell >= 0.0):
         raise SpecError(f"the trajectory's dwell is {dwell:g} s: give 0 or more")
 
@@ -115,7 +115,7 @@ class Fourier:
     Attributes
     ----------
     period
-        Of the first harmonic, s.
+        Period of the first harmonic, s.
     sine, cosine
         Amplitudes of the harmonics, rad or m.
     """
@@ -140,12 +140,12 @@ class Fourier:
         seed: int = 0,
         centre: float = 0.0,
     ) -> Fourier:
-        """Return a random series from the centre to the centre, at zero speed and acceleration.
+        """Return a random series that starts at the centre with zero speed and acceleration.
 
         Parameters
         ----------
         amplitude : float
-            Its largest distance from the centre, rad or m.
+            Largest distance from the centre, rad or m.
         period : float
             s.
         harmonics : int
@@ -158,7 +158,7 @@ class Fourier:
         order = np.arange(1.0, harmonics + 1.0)
         rng = np.random.default_rng(seed)
         sine, cosine = rng.uniform(-1.0, 1.0, (2, harmonics)) / order
-        # At rest at the start: sum of k sine; without acceleration: of k^2 cosine; at the centre.
+        # The sums of k sine (speed), k^2 cosine (acceleration) and cosine (position) must be zero.
         sine = _without(sine, order)
         flat = np.ones(harmonics)
         cosine = _without(_without(cosine, flat), _without(order**2, flat))
@@ -180,14 +180,14 @@ class Fourier:
 
 
 def _without(vector: Array, direction: Array) -> Array:
-    """What of a vector is orthogonal to a direction; sums in a fixed order."""
+    """Return the component of a vector orthogonal to a direction, with sums in a fixed order."""
     share = math.fsum(vector * direction) / math.fsum(direction * direction)
     return vector - share * direction
 
 
 @dataclass(frozen=True)
 class Sampled:
-    """A recorded desired position, constant between samples; its velocity by differences.
+    """A recorded desired position, constant between samples, and its difference quotient.
 
     Attributes
     ----------
@@ -202,7 +202,7 @@ class Sampled:
 
     @property
     def duration(self) -> float:
-        """To the last sample, s."""
+        """Time of the last sample, s."""
         return (self.position.size - 1) * self.step
 
     def __call__(self, time: Array) -> tuple[Array, Array, Array]:

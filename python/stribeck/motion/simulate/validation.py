@@ -1,4 +1,4 @@
-"""Simulated against measured motion (Gantry, section 4): a model driven by the measured torque."""
+"""Comparison of simulated and measured motion (Gantry, section 4)."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ Array = NDArray[np.float64]
 HORIZONS = (0.1, 0.3, 1.0, 3.0, 10.0)
 #: Number of starts for each horizon.
 STARTS = 100
-#: Smallest number of starts to state an error.
+#: Smallest number of starts for which an error is stated.
 FEWEST_STARTS = 5
-#: Largest relative difference of time steps that count as even.
+#: Largest relative difference between time steps that are treated as equal.
 EVEN = 0.05
 
 
@@ -41,10 +41,10 @@ class Growth:
     Attributes
     ----------
     seconds
-        After the start.
+        Time after the start, s.
     error, way
-        RMS of the error in position and of the way travelled since the start, rad or m, over
-        `starts` starts spread over the recording.
+        RMS of the position error and of the displacement since the start, rad or m, over `starts`
+        starts spread over the recording.
     """
 
     seconds: float
@@ -60,14 +60,14 @@ class Validation(Plotted):
     Attributes
     ----------
     closed_loop
-        Whether a controller followed the desired position, rather than the measured torque drive
-        the joint.
+        Whether the joint was driven by a controller on the desired position; otherwise by the
+        measured torque.
     time, measured, simulated
-        s; positions in rad or m, arrays [n]: the rows of the recording that were simulated.
+        Times in s and positions in rad or m of the simulated samples, arrays [n].
     torque, measured_torque
         Motor torques, N m or N, arrays [n].
     growth
-        Of the error with time, in open loop.
+        Growth of the error with time, in open loop.
     """
 
     model: Model
@@ -92,11 +92,11 @@ class Validation(Plotted):
 
     @property
     def relative_torque_error(self) -> float:
-        """The same of the motor torque; 0 where the measured one drives the joint."""
+        """The relative error of the motor torque; 0 if the measured torque drives the joint."""
         return _relative(self.torque, self.measured_torque)
 
     def to_frame(self) -> pl.DataFrame:
-        """Both motions, a row a sample."""
+        """Both motions as a table, one row per sample."""
         return pl.DataFrame(
             {
                 "time": self.time,
@@ -134,24 +134,25 @@ def validate(
 ) -> Validation:
     """Simulate the model with the measured torque, and compare the motion.
 
-    Every run starts where the measured one does, and is never corrected afterwards: errors of the
-    force are integrated twice. `growth` restarts all over the recording and looks so far ahead.
+    Every run starts at the measured state and is not corrected afterwards, so errors of the torque
+    are integrated twice. For `growth`, simulations are started throughout the recording and
+    compared at the prediction horizons.
 
     Parameters
     ----------
     model : Model, ModelFile or Fit
     recording : Recording
-        With motor torque and position. Its load torque, where it has one, is
-        taken as it was recorded, but for the inertia.
+        Recording with motor torque and position. A recorded load torque acts on the joint, without
+        its inertial part.
     joint : Joint, optional
         Default: the inertia and gravity identified with the friction.
-    horizons : sequence of float
-        s.
+        horizons : sequence of float
+            Prediction horizons, s.
 
     Raises
     ------
     SpecError
-        There is no inertia, or no motor torque.
+        The inertia, the motor torque or the position is missing.
     """
     bench = _Bench.of(model, recording, joint)
     pieces = [bench.run(rows) for rows in bench.stretches]
@@ -181,14 +182,14 @@ def validate_closed_loop(
     Parameters
     ----------
     desired_position : array [rows]
-        rad or m, as the controller was given it.
+        Input of the controller, rad or m.
     controller : Controller
-        Sampled once a row.
+        Controller with one sample per row.
 
     Raises
     ------
     SpecError
-        As `validate`; the recording has several runs or uneven time steps.
+        As in `validate`, or the recording has several runs or uneven time steps.
     """
     bench = _Bench.of(model, recording, joint)
     if len(bench.stretches) != 1:
@@ -198,7 +199,7 @@ def validate_closed_loop(
     if desired.shape != bench.position.shape:
         raise SpecError(
             f"desired_position has {desired.size} values for {bench.position.size} rows: "
-            f"give one a row"
+            f"give one per row"
         )
     step = _even_step(recording, rows)
     moved = simulate(
@@ -224,7 +225,7 @@ def validate_closed_loop(
 
 @dataclass(frozen=True)
 class _Bench:
-    """A recording that a model is held against."""
+    """A recording to compare simulations with."""
 
     model: Model
     joint: Joint
@@ -252,7 +253,7 @@ class _Bench:
         return cls(asked, acting.joint, joint, recording, recording.position, external, stretches)
 
     def begin(self, rows: NDArray[np.intp]) -> dict[str, Any]:
-        """Where the measured motion is at the first row, and what acts besides the motor."""
+        """Return the measured state at the first sample, and the external torque."""
         temperature = self.recording.temperature
         return {
             "position": float(self.position[rows[0]]),
@@ -262,7 +263,7 @@ class _Bench:
         }
 
     def run(self, rows: NDArray[np.intp]) -> Array:
-        """Position at each of the rows, driven by the measured torque held over each step."""
+        """Return the position at the samples, driven by the measured torque."""
         moved = simulate(
             self.model,
             self.joint_given,
@@ -273,7 +274,7 @@ class _Bench:
         return moved.instant_position
 
     def growth(self, horizons: Sequence[float]) -> Iterator[Growth]:
-        """The error at each horizon for which the recording is long enough."""
+        """Yield the error at each horizon for which the recording is long enough."""
         steps = np.concatenate([np.diff(self.recording.time[rows]) for rows in self.stretches])
         step = float(np.median(steps))
         for seconds in horizons:
@@ -296,7 +297,7 @@ class _Bench:
 
 
 def _even_step(recording: Recording, rows: NDArray[np.intp]) -> float:
-    """The recording's time step, s."""
+    """Return the time step of the recording, s."""
     steps = np.diff(recording.time[rows])
     step = float(np.median(steps))
     if np.any(np.abs(steps - step) > EVEN * step):

@@ -125,8 +125,8 @@ def _identified(fitted: Fit, found: tuple[Found, ...], floor: float | None) -> I
 
 
 def _covariance(fitted: Fit) -> NDArray[np.float64]:
-    """Covariance [p, p] of the parameters; the square roots of its diagonal are
-    `Estimate.stderr`."""
+    """Covariance [p, p] of the parameters, with the squares of `Estimate.stderr` on its
+    diagonal."""
     problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
     residual, jacobian = problem.linearise(fitted.model.values)
     free = np.array([e.stderr is not None for e in fitted.estimates.values()], dtype=bool)

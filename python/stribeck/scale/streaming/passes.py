@@ -34,8 +34,7 @@ Told = Callable[[int, int, int], None]
 
 
 def group_edges(edges: Ints, count: int) -> Ints:
-    """First samples of the groups, `count` in each held-out block, then the number of all
-    samples."""
+    """First samples of the groups, `count` in each held-out block; then the number of samples."""
     shares = np.arange(count) / count
     first = edges[:-1, None] + np.diff(edges)[:, None] * shares
     return np.append(np.unique(first.astype(np.int64)), edges[-1])

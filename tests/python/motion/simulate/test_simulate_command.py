@@ -94,7 +94,7 @@ def test_bad_input_is_one_sentence(words, said):
 
 def test_a_drive_train_that_explains_recordings_moves_nothing():
     model = sb.model("coulomb+elasticity", a1=0.5, a2=2.0, c=1e-4)
-    with pytest.raises(SpecError, match="elasticity, which explains a recording"):
+    with pytest.raises(SpecError, match="elasticity, which describes recordings"):
         sb.simulate(model, Joint.revolute(1.0), Torque(1.0), seconds=1.0)
 
 

@@ -73,7 +73,7 @@ def test_the_closed_loop_is_simulated_with_its_controller(tmp_path):
     found = validate_closed_loop(friction(), recording, desired, CONTROLLER, JOINT_ALONE)
     assert found.relative_error < 1e-2
     assert found.relative_torque_error < 0.2
-    with pytest.raises(SpecError, match="give one a row"):
+    with pytest.raises(SpecError, match="give one per row"):
         validate_closed_loop(friction(), recording, desired[1:], CONTROLLER, JOINT_ALONE)
 
 
