@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
+#: What is hidden in a recording, as it is stored.
+Truth: TypeAlias = dict[str, Any]
 
 
 @dataclass(frozen=True)
@@ -46,7 +50,7 @@ class Sample:
     """
 
     frame: pl.DataFrame
-    truth: dict[str, Any]
+    truth: Truth
     oracle: Oracle
 
 

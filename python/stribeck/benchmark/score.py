@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 import polars as pl
 import scipy
+from numpy.typing import NDArray
 
 from stribeck.benchmark.answer import CaseAnswer
 from stribeck.benchmark.cases import CORRELATIONS, SIZES
@@ -125,7 +125,7 @@ class Confusion:
 
     rows: tuple[str, ...]
     columns: tuple[str, ...]
-    counts: np.ndarray[Any, np.dtype[np.int64]]
+    counts: NDArray[np.int64]
 
     def right_column(self, hidden: str) -> str:
         """The name that is right in a row."""

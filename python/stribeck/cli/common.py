@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import functools
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeVar
 
 import click
 
 from stribeck.base.errors import RecordingError
 from stribeck.base.files import write_whole
 from stribeck.cli.flags import with_flags
+from stribeck.cli.options import Command, Values, gathered
 from stribeck.diagnosis.result import Finding
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
@@ -24,10 +23,8 @@ from stribeck.recording.load import read_with
 from stribeck.recording.options import TABLE, Entry, ReadOptions
 from stribeck.recording.recording import Recording
 
-F = TypeVar("F", bound=Callable[..., Any])
 
-
-def finite(value: Any) -> Any:
+def finite(value: object) -> object:
     """Replace NaN and infinity, which JSON lacks, by null."""
     if isinstance(value, dict):
         return {key: finite(item) for key, item in value.items()}
@@ -38,7 +35,7 @@ def finite(value: Any) -> Any:
     return value
 
 
-def echo_json(value: dict[str, Any]) -> None:
+def echo_json(value: Mapping[str, object]) -> None:
     """Print one JSON object, and nothing else, on stdout."""
     click.echo(json.dumps(finite(value), allow_nan=False))
 
@@ -92,7 +89,7 @@ figures_option = click.option(
 )
 
 
-def _click_option(entry: Entry) -> Callable[[F], F]:
+def _click_option(entry: Entry) -> Callable[[Command], Command]:
     """The flag of one option of `stribeck.read`."""
     flag = "--" + entry.name.replace("_", "-")
     if entry.kind == "pairs":
@@ -106,19 +103,14 @@ def _click_option(entry: Entry) -> Callable[[F], F]:
     return click.option(flag, type=kind, default=None, metavar=entry.form, help=entry.help)
 
 
-def recording_options(command: F) -> F:
+def recording_options(command: Command) -> Command:
     """Add the reading options; the command receives them as `reading`."""
     table = [entry for entry in TABLE if entry.command_line]
 
-    @functools.wraps(command)
-    def wrapper(**given: Any) -> Any:
-        reading = ReadOptions(**{entry.name: given.pop(entry.name) for entry in table})
-        return command(reading=reading, **given)
+    def build(values: Values) -> ReadOptions:
+        return ReadOptions(**{entry.name: values.pop(entry.name) for entry in table})
 
-    decorated: Any = wrapper
-    for entry in reversed(table):
-        decorated = _click_option(entry)(decorated)
-    return decorated
+    return gathered(command, map(_click_option, table), "reading", build)
 
 
 def read_recording(path: str, reading: ReadOptions) -> Recording:

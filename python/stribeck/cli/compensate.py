@@ -25,6 +25,7 @@ from stribeck.cli.motion import (
     trajectory_options,
     value_option,
 )
+from stribeck.cli.options import Values
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
@@ -194,7 +195,7 @@ def _factor(
         raise SpecError(f"--factor {text}: give a number from 0 to 1, or largest") from None
 
 
-def _gains(sizes: dict[str, Any], inertia: float) -> HInfinity:
+def _gains(sizes: Values, inertia: float) -> HInfinity:
     """The given gains; the others follow from the bandwidth."""
     usual = HInfinity.with_bandwidth(inertia, sizes["bandwidth"])
     given = {"proportional": sizes["kp"], "integral": sizes["ki"], "gain": sizes["gain"]}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -17,6 +16,7 @@ from stribeck.diagnosis.result import Diagnosis
 from stribeck.effect.describe import physically
 from stribeck.fitting.result import Fit
 from stribeck.motion.generate.demo import DEMO, demo_path, demo_recording
+from stribeck.motion.generate.hidden import Truth
 from stribeck.recording.load import read
 from stribeck.recording.recording import Recording
 from stribeck.report.comparison import worst_places
@@ -95,7 +95,7 @@ def write_report(improvement: Improvement, folder: Path) -> dict[str, str]:
     return {"page": str(page), "picture": str(picture), "model": str(model)}
 
 
-def tell(improvement: Improvement, comparison: Comparison, truth: dict[str, Any]) -> str:
+def tell(improvement: Improvement, comparison: Comparison, truth: Truth) -> str:
     """The four steps, and what was hidden in the recording."""
     base, final = improvement.base, improvement.final
     r = final.recording
@@ -181,7 +181,7 @@ def _added(improvement: Improvement) -> str:
     )
 
 
-def _left(last: Diagnosis, truth: dict[str, Any], final: Fit) -> str:
+def _left(last: Diagnosis, truth: Truth, final: Fit) -> str:
     """The true effects and parameters, known because the recording was generated."""
     hidden = truth["hidden"]
     found = set(final.model.effects) == set(hidden)

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 
 from stribeck.base.errors import SpecError, nearest
 from stribeck.cli.common import is_model_file, say
+from stribeck.cli.options import Command, Values, gathered
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.choices import Choices
@@ -26,8 +25,6 @@ from stribeck.models.formula_law import (
 from stribeck.models.model import Model
 from stribeck.models.reader import read_model_file
 from stribeck.recording.recording import Recording
-
-F = TypeVar("F", bound=Callable[..., Any])
 
 _LAW = click.option(
     "--law",
@@ -152,24 +149,17 @@ def written_fit(
     return fit(made, recording, start=said.start, bounds=said.bounds, fix=said.fix, **options)
 
 
-def formula_options(command: F) -> F:
+def formula_options(command: Command) -> Command:
     """Add `--law` and `--parameter`; the command receives them as `written`."""
-    return _gathered(command, [_LAW, _PARAMETER])
+    return gathered(command, [_LAW, _PARAMETER], "written", _written)
 
 
-def model_options(command: F) -> F:
+def model_options(command: Command) -> Command:
     """Add all model options; the command receives them as `written`."""
-    return _gathered(command, [_LAW, _EFFECT, _PARAMETER, *_CHOICES])
+    return gathered(command, [_LAW, _EFFECT, _PARAMETER, *_CHOICES], "written", _written)
 
 
-def _gathered(command: F, options: list[Any]) -> F:
-    @functools.wraps(command)
-    def wrapper(**given: Any) -> Any:
-        said = {name: given.pop(name, ()) for name in ("laws", "effects", "parameters")}
-        choices = {name: given.pop(name, ()) for name in ("start", "bound", "fix")}
-        return command(written=Written(**said, choices=Choices.parse(**choices)), **given)
-
-    decorated: Any = wrapper
-    for option in reversed(options):
-        decorated = option(decorated)
-    return decorated
+def _written(values: Values) -> Written:
+    texts = {name: values.pop(name, ()) for name in ("laws", "effects", "parameters")}
+    choices = {name: values.pop(name, ()) for name in ("start", "bound", "fix")}
+    return Written(**texts, choices=Choices.parse(**choices))

@@ -12,7 +12,9 @@ import polars as pl
 from stribeck.base.errors import SpecError
 from stribeck.base.files import write_bytes_whole, write_whole
 from stribeck.cli.common import check_output, echo_json, json_option, seed_option
+from stribeck.cli.options import Values
 from stribeck.motion.generate.files import file_bytes, sidecar_text, write_robot
+from stribeck.motion.generate.hidden import Truth
 from stribeck.motion.generate.hidden import generate as make
 from stribeck.motion.generate.motion import JOINTS
 from stribeck.motion.generate.ur5e import RATE, REPEATS, TESTS, RobotRecording
@@ -123,9 +125,7 @@ def _refuse_strangers(context: click.Context, robot: str | None) -> None:
             )
 
 
-def _generate_joint(
-    target: Path, sizes: dict[str, Any], rate: float, seed: int, as_json: bool
-) -> None:
+def _generate_joint(target: Path, sizes: Values, rate: float, seed: int, as_json: bool) -> None:
     own = {name: sizes[name] for name in OF_A_JOINT if name != "effects"}
     frame, truth = make(sizes["effects"], rate=rate, seed=seed, **own)
     write_bytes_whole(target, file_bytes(frame, target.suffix.lower()))
@@ -136,9 +136,7 @@ def _generate_joint(
         click.echo(_joint_text(target, beside["truth_path"], frame, truth))
 
 
-def _generate_robot(
-    target: Path, sizes: dict[str, Any], rate: float, seed: int, as_json: bool
-) -> None:
+def _generate_robot(target: Path, sizes: Values, rate: float, seed: int, as_json: bool) -> None:
     test, repeats = int(sizes["test"]), sizes["repeats"]
     if repeats is None:
         repeats = 1 if test == 1 else REPEATS
@@ -154,7 +152,7 @@ def _generate_robot(
         click.echo(_robot_text(target, beside["truth_path"], truth))
 
 
-def _write_beside(target: Path, truth: dict[str, Any], sidecar: str) -> dict[str, str]:
+def _write_beside(target: Path, truth: Truth, sidecar: str) -> dict[str, str]:
     """Write truth and sidecar beside the recording, and return their paths."""
     truth_path = target.with_name(f"{target.name}.truth.json")
     sidecar_path = target.with_name(f"{target.name}.sidecar.toml")
@@ -163,7 +161,7 @@ def _write_beside(target: Path, truth: dict[str, Any], sidecar: str) -> dict[str
     return {"truth_path": str(truth_path), "sidecar_path": str(sidecar_path)}
 
 
-def _joint_text(path: Path, truth_path: str, frame: pl.DataFrame, truth: dict[str, Any]) -> str:
+def _joint_text(path: Path, truth_path: str, frame: pl.DataFrame, truth: Truth) -> str:
     unit = truth["torque_unit"]
     rows = [["parameter", "value", "unit"]]
     rows += [
@@ -187,7 +185,7 @@ def _joint_text(path: Path, truth_path: str, frame: pl.DataFrame, truth: dict[st
     )
 
 
-def _robot_text(path: Path, truth_path: str, truth: dict[str, Any]) -> str:
+def _robot_text(path: Path, truth_path: str, truth: Truth) -> str:
     cycles = len(range(0, truth["repeats"], truth["every"]))
     made = f"{truth['repeats']} cycle{'s' if truth['repeats'] > 1 else ''}"
     motion = f"{truth['motion']}, {made} of {plain(truth['cycle_s'])} s, {cycles} recorded"

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
 
 import click
 
@@ -19,6 +17,7 @@ from stribeck.cli.common import (
     say,
     seed_option,
 )
+from stribeck.cli.options import Command, Values, gathered
 from stribeck.fitting.methods.arm import arm_fit
 from stribeck.fitting.methods.averaging import averaged_points
 from stribeck.fitting.methods.grid import Axis, grid_fit
@@ -29,8 +28,6 @@ from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
-
-F = TypeVar("F", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
@@ -68,23 +65,18 @@ class Method:
         return three_step_fit(model, recording, loaded, presliding, starts=starts, seed=seed)
 
 
-def method_options(command: F) -> F:
+def method_options(command: Command) -> Command:
     """Add the method options; the command receives them as `method`."""
+    return gathered(command, _METHOD_OPTIONS, "method", _method)
 
-    @functools.wraps(command)
-    def wrapper(**given: Any) -> Any:
-        method = Method(
-            name=given.pop("method"),
-            grid=_axes(given.pop("grid")),
-            loaded=given.pop("loaded"),
-            presliding=given.pop("presliding"),
-        )
-        return command(method=method, **given)
 
-    decorated: Any = wrapper
-    for option in reversed(_METHOD_OPTIONS):
-        decorated = option(decorated)
-    return decorated
+def _method(values: Values) -> Method:
+    return Method(
+        name=values.pop("method"),
+        grid=_axes(values.pop("grid")),
+        loaded=values.pop("loaded"),
+        presliding=values.pop("presliding"),
+    )
 
 
 _METHOD_OPTIONS = [

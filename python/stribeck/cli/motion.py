@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeVar
 
 import click
 
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import is_model_file
+from stribeck.cli.options import Command, Values, added
 from stribeck.models.build import model as named
 from stribeck.models.model import Model
 from stribeck.models.reader import load
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Fourier, Quintic, Trajectory, Trapezoid
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
@@ -65,19 +62,12 @@ _TRAJECTORY = (
 
 def joint_options(command: Command) -> Command:
     """Add the options that `joint_of` reads."""
-    return _all(_JOINT, command)
+    return added(_JOINT, command)
 
 
 def trajectory_options(command: Command) -> Command:
     """Add the options that `trajectory_of` reads."""
-    return _all(_TRAJECTORY, command)
-
-
-def _all(options: Sequence[Callable[[Command], Command]], command: Command) -> Command:
-    # The help shows the options in the reverse order of their application.
-    for option in reversed(options):
-        command = option(command)
-    return command
+    return added(_TRAJECTORY, command)
 
 
 def model_of(argument: str, values: tuple[str, ...]) -> Model:
@@ -86,7 +76,7 @@ def model_of(argument: str, values: tuple[str, ...]) -> Model:
         if values:
             raise SpecError(f"--value {values[0]}: {argument} has values already, omit it")
         return load(argument)
-    given: dict[str, Any] = {}
+    given: Values = {}
     for text in values:
         name, _, number = text.partition("=")
         try:
@@ -96,7 +86,7 @@ def model_of(argument: str, values: tuple[str, ...]) -> Model:
     return named(argument, **given)
 
 
-def joint_of(sizes: dict[str, Any]) -> Joint | None:
+def joint_of(sizes: Values) -> Joint | None:
     """The joint that the options describe; None if they describe none."""
     inertia, mass = sizes["inertia"], sizes["mass"]
     screw = (sizes["rotor_inertia"], sizes["pitch"])
@@ -117,7 +107,7 @@ def joint_of(sizes: dict[str, Any]) -> Joint | None:
     return Joint.ball_screw(mass, *screw, gravity=sizes["gravity"])
 
 
-def trajectory_of(sizes: dict[str, Any], joint: Joint, seed: int) -> Trajectory:
+def trajectory_of(sizes: Values, joint: Joint, seed: int) -> Trajectory:
     usual = USUAL[joint.kind]
     start = sizes["start"]
     end = start + usual.stroke if sizes["end"] is None else sizes["end"]

@@ -26,6 +26,7 @@ from stribeck.cli.motion import (
     trajectory_options,
     value_option,
 )
+from stribeck.cli.options import Values
 from stribeck.motion.generate.files import file_bytes
 from stribeck.motion.simulate.acting import take_apart
 from stribeck.motion.simulate.drive import Controller, Drive, Follow, Pull, Torque
@@ -145,7 +146,7 @@ def simulate(
         click.echo(repr(simulation))
 
 
-def _with_transmission(joint: Joint | None, sizes: dict[str, Any]) -> Joint | None:
+def _with_transmission(joint: Joint | None, sizes: Values) -> Joint | None:
     """The joint with a separate motor, if the options describe one."""
     motor, stiffness = sizes["motor_inertia"], sizes["transmission"]
     if motor is None and stiffness is None:
@@ -161,7 +162,7 @@ def _with_transmission(joint: Joint | None, sizes: dict[str, Any]) -> Joint | No
     return replace(joint, transmission=apart)
 
 
-def _drive(sizes: dict[str, Any], joint: Joint, seed: int) -> Drive:
+def _drive(sizes: Values, joint: Joint, seed: int) -> Drive:
     """The drive of the joint."""
     torque, spring, speed = sizes["torque"], sizes["spring"], sizes["pull_speed"]
     if torque is not None and spring is not None:
@@ -178,7 +179,7 @@ def _drive(sizes: dict[str, Any], joint: Joint, seed: int) -> Drive:
     return Follow(path, _controller(sizes, joint), sizes["feedforward"])
 
 
-def _controller(sizes: dict[str, Any], joint: Joint) -> Controller:
+def _controller(sizes: Values, joint: Joint) -> Controller:
     """The given gains; the others place both poles of the joint at the bandwidth."""
     frequency = math.tau * sizes["bandwidth"]
     kp, kd = sizes["kp"], sizes["kd"]

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeVar
 
 import click
 
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import echo_json, say
+from stribeck.cli.options import Command, Values, gathered
 from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.streaming.dataset import is_data_set
@@ -18,8 +16,6 @@ from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
 from stribeck.scale.streaming.result import StreamedFit
 from stribeck.scale.streaming.stream import Stream, stream
-
-F = TypeVar("F", bound=Callable[..., Any])
 
 
 @dataclass(frozen=True)
@@ -64,18 +60,13 @@ def show(result: StreamedFit | StreamedDiagnosis | StreamedImprovement, as_json:
         click.echo(repr(result))
 
 
-def stream_options(command: F) -> F:
+def stream_options(command: Command) -> Command:
     """Add the streaming options; the command receives them as `streaming`."""
+    return gathered(command, _STREAM_OPTIONS, "streaming", _streaming)
 
-    @functools.wraps(command)
-    def wrapper(**given: Any) -> Any:
-        streaming = Streaming(given.pop("stream"), given.pop("sample_rows"))
-        return command(streaming=streaming, **given)
 
-    decorated: Any = wrapper
-    for option in reversed(_STREAM_OPTIONS):
-        decorated = option(decorated)
-    return decorated
+def _streaming(values: Values) -> Streaming:
+    return Streaming(values.pop("stream"), values.pop("sample_rows"))
 
 
 _STREAM_OPTIONS = [

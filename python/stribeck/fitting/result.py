@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 import polars as pl
@@ -91,7 +90,7 @@ class Fit(Plotted):
                 self._answers["passive"] = None
         return self._answers["passive"]
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """The contract's JSON of `stribeck fit`."""
         return {
             "model": self.model.spec,

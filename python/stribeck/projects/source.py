@@ -41,12 +41,14 @@ class Source:
     reading: Mapping[str, Any]
 
     @classmethod
-    def of(cls, data: str | os.PathLike[str], folder: Path, reading: Mapping[str, Any]) -> Source:
+    def of(
+        cls, data: str | os.PathLike[str], folder: Path, reading: Mapping[str, object]
+    ) -> Source:
         """Return the source of a data file in its present state."""
         given = {name: _plain(said) for name, said in reading.items()}
         given = {name: said for name, said in given.items() if _is_said(said)}
         if "sidecar" in given:
-            given["sidecar"] = os.path.relpath(given["sidecar"], folder)
+            given["sidecar"] = os.path.relpath(str(given["sidecar"]), folder)
         path = os.path.relpath(data, folder)
         made = cls(folder, path, "", None, given)
         return cls(folder, path, *made._hashes(), given)
@@ -110,12 +112,12 @@ def _sha256(path: Path) -> str:
         ) from None
 
 
-def _is_said(option: Any) -> bool:
+def _is_said(option: object) -> bool:
     """Whether an option says something; an inertia of 0 does."""
     return not (option is None or option is False or option == [])
 
 
-def _plain(said: Any) -> Any:
+def _plain(said: object) -> object:
     """An option as TOML keeps it: a text, a number or a list of texts."""
     if isinstance(said, Mapping):
         return [f"{name}={value}" for name, value in said.items()]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import tomlkit
+from tomlkit.items import Table
 
 from stribeck.base.errors import ProjectError
 from stribeck.base.files import write_whole
@@ -53,7 +54,7 @@ def project_toml(project: Project) -> str:
     return tomlkit.dumps(document)
 
 
-def _table(values: Mapping[str, object]) -> Any:
+def _table(values: Mapping[str, object]) -> Table:
     """A table of what is known."""
     table = tomlkit.table()
     for key, value in values.items():
@@ -62,7 +63,7 @@ def _table(values: Mapping[str, object]) -> Any:
     return table
 
 
-def _node_table(node: Node) -> Any:
+def _node_table(node: Node) -> Table:
     table = _table({"parent": node.parent, "change": node.change, "name": node.name})
     if node.found is not None:
         table.add("found", _found_table(node.found))
@@ -79,7 +80,7 @@ def _node_table(node: Node) -> Any:
     return table
 
 
-def _found_table(found: Found) -> Any:
+def _found_table(found: Found) -> Table:
     return _table(
         {
             "effect": found.effect,
@@ -92,7 +93,7 @@ def _found_table(found: Found) -> Any:
     )
 
 
-def _diagnosis_table(said: Remembered) -> Any:
+def _diagnosis_table(said: Remembered) -> Table:
     table = _table(
         {
             "verdict": said.verdict,

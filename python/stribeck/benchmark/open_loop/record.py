@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import polars as pl
@@ -26,7 +25,7 @@ from stribeck.benchmark.open_loop.shapes import (
 )
 from stribeck.benchmark.open_loop.temperature import joint_temperature
 from stribeck.benchmark.open_loop.world import Amplitudes, World
-from stribeck.benchmark.sample import Oracle, Sample, tangents
+from stribeck.benchmark.sample import Oracle, Sample, Truth, tangents
 
 Rows = NDArray[np.bool_]
 RATES = (125.0, 160.0, 200.0, 250.0)
@@ -49,7 +48,7 @@ class Recording:
     """
 
     frame: pl.DataFrame
-    truth: dict[str, Any]
+    truth: Truth
     moving: Rows
     clean: Array
     contributions: dict[str, Array]
@@ -83,7 +82,7 @@ def record(
 
 def make(
     effects: Sequence[str], seed: int, size: float | Sequence[float] = 1.0, **limits: bool
-) -> tuple[pl.DataFrame, dict[str, Any]]:
+) -> tuple[pl.DataFrame, Truth]:
     """The rows and the truth of `record`.
 
     ``truth["noise_rms"]`` is what the true friction, evaluated at the recorded velocity, leaves
@@ -244,14 +243,14 @@ class _Session:
         parts: Mapping[str, Array],
         on: Rows,
         level: float,
-    ) -> dict[str, Any]:
+    ) -> Truth:
         basis = self._base()[on]
         whole = self.contribution(amplitudes)[on] if amplitudes else np.zeros(int(on.sum()))
         own = {}
         for name, part in parts.items():
             others = [parts[o][on] for o in parts if o != name]
             own[name] = size_beyond(part[on], np.column_stack([basis, *others])) / level
-        truth: dict[str, Any] = {
+        truth: Truth = {
             "hidden": self.names or ["none"],
             "implied": [e for n in self.names for e in IMPLIED.get(n, [])],
             "size": size_beyond(whole, basis) / level,

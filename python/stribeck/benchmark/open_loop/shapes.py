@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import scipy
@@ -13,6 +13,8 @@ from stribeck.benchmark.draws import log_uniform
 from stribeck.benchmark.open_loop.joint import SimulatedJoint
 from stribeck.benchmark.open_loop.moves import Array
 
+#: Functions and numbers by name, drawn at random.
+Shapes: TypeAlias = dict[str, Any]
 Shape = Callable[[Array], Array]
 #: Zero of the Vogel equation below 0 degC, and of kelvin.
 VOGEL, KELVIN = 95.0, 273.15
@@ -20,7 +22,7 @@ VOGEL, KELVIN = 95.0, 273.15
 
 def draw_shapes(
     rng: np.random.Generator, joint: SimulatedJoint, loads: Array, temperatures: Array
-) -> dict[str, Any]:
+) -> Shapes:
     """Forms of friction against speed, load, temperature and position, and of what is not known."""
     vs = joint.vmax * log_uniform(rng, 0.02, 0.06)
     falls = _falls_with_speed(vs, rng.uniform(0.93, 1.07, 5))
@@ -109,7 +111,7 @@ def _rate(joint: SimulatedJoint, curve: int, v: Array, alpha: float) -> Array:
 
 def draw_additive_shapes(
     rng: np.random.Generator, joint: SimulatedJoint, loads: Array, end: float
-) -> dict[str, Any]:
+) -> Shapes:
     """Forms of what is no part of the friction's dependence on speed, load and temperature."""
     neutral, stiff = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.8, 1.6))
     springs: list[Shape] = [
@@ -150,9 +152,7 @@ def _ageing(end: float, slow: float) -> list[Shape]:
     ]
 
 
-def draw_quadrant_shape(
-    rng: np.random.Generator, joint: SimulatedJoint, loads: Array
-) -> dict[str, Any]:
+def draw_quadrant_shape(rng: np.random.Generator, joint: SimulatedJoint, loads: Array) -> Shapes:
     """Tooth friction per load, for a joint that drives its load and one that is driven by it.
 
     A driven gear train carries its load over more of the sliding, so it loses more; with speed the

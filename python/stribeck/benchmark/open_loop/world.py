@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from stribeck.benchmark.open_loop.maxwell_slip import maxwell_slip
 from stribeck.benchmark.open_loop.motion import MoveChain
 from stribeck.benchmark.open_loop.moves import Array
 from stribeck.benchmark.open_loop.outside import OUTSIDE
+from stribeck.benchmark.open_loop.shapes import Shapes
 
 Amplitudes = Mapping[str, float]
 
@@ -30,7 +30,7 @@ class World:
     payload: Array
     temperature: Callable[[Array], Array]
     holds: Array
-    shapes: dict[str, Any]
+    shapes: Shapes
     limit: str | None
     dt: float
     oversampling: int
