@@ -6,7 +6,7 @@ import sys
 
 import click
 
-from stribeck.cli.common import echo_json, is_model_file, json_option, seed_option
+from stribeck.cli.common import echo_result, is_model_file, json_option, seed_option
 from stribeck.models.build import model as named
 from stribeck.models.reader import load
 from stribeck.passivity.check import check as certify
@@ -31,9 +31,6 @@ def check(model: str, sides: tuple[str, ...], seed: int, as_json: bool) -> None:
     """
     asked = load(model) if is_model_file(model) else named(model)
     certificate = certify(asked, parse_sides(sides))
-    if as_json:
-        echo_json(certificate.to_dict())
-    else:
-        click.echo(repr(certificate))
+    echo_result(certificate, as_json)
     if not certificate.passive:
         sys.exit(1)

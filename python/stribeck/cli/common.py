@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Protocol
 
 import click
 
@@ -38,6 +39,22 @@ def finite(value: object) -> object:
 def echo_json(value: Mapping[str, object]) -> None:
     """Print one JSON object, and nothing else, on stdout."""
     click.echo(json.dumps(finite(value), allow_nan=False))
+
+
+class Result(Protocol):
+    """A result with the contract's JSON; its `repr` is the text."""
+
+    def to_dict(self) -> Mapping[str, object]:
+        """The contract's JSON."""
+        ...
+
+
+def echo_result(result: Result, as_json: bool) -> None:
+    """Print a result on stdout, as JSON or as text."""
+    if as_json:
+        echo_json(result.to_dict())
+    else:
+        click.echo(repr(result))
 
 
 def say(sentence: str) -> None:

@@ -139,12 +139,7 @@ def compensate(
         for each, factor in zip(cancels, factors, strict=True)
     ]
     path = trajectory_of(sizes, moved, seed)
-    course: dict[str, Any] = {
-        "seconds": seconds,
-        "step": step,
-        "temperature": temperature,
-        "encoder": encoder,
-    }
+    course: Values = dict(seconds=seconds, step=step, temperature=temperature, encoder=encoder)
     result: Tracking | Teaching
     if guided:
         if observer is not None or picture is not None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from stribeck.cli.common import echo_json, is_model_file, json_option, say, seed_option
+from stribeck.cli.common import echo_result, is_model_file, json_option, say, seed_option
 from stribeck.exporters.export import export as write
 from stribeck.models.build import model as named
 from stribeck.models.reader import read_model_file
@@ -71,7 +71,4 @@ def export(
     )
     if "delay" in written.model.effects:
         say("note: the delay belongs to the recording, not to the joint: it is not exported")
-    if as_json:
-        echo_json(written.to_dict())
-    else:
-        click.echo(repr(written))
+    echo_result(written, as_json)

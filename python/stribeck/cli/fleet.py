@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from datetime import datetime
 from pathlib import Path
 
@@ -11,14 +10,14 @@ import click
 from stribeck.base.pool import Stopped
 from stribeck.cli.common import (
     check_output,
-    echo_json,
+    echo_result,
     json_option,
     recording_options,
     say,
     seed_option,
     starts_option,
 )
-from stribeck.cli.progress import Progress
+from stribeck.cli.progress import Progress, stop_with
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.fleet.changes import Question
 from stribeck.scale.fleet.fleet import STRAGGLER
@@ -140,16 +139,16 @@ def fleet(
 ) -> None:
     """Identify every joint of FILES; find joints that changed or have an effect that others lack.
 
-    FILES are recordings or quoted patterns ("logs/*/*.parquet") with one or more joints each. The
-    results are kept in the Parquet data set OUTPUT/results. Ctrl-C stops; the same command
-    continues, and more files add to it. A file that cannot be used is reported and skipped; the
-    exit code is 2 only if none can.
+    FILES are recordings or quoted patterns ("logs/*/*.parquet"). The results are kept in the data
+    set OUTPUT/results. Ctrl-C stops; the same command continues, and more files add to it. Files
+    that cannot be used are reported and skipped; the exit code is 2 only if none can be used.
     """
     for path in (picture, report):
         check_output(path)
     if model is None and files[-1] == IMPROVE and not Path(IMPROVE).exists():
         files = files[:-1]
-    first = None if since is None else since.date()
+    since_day = None if since is None else since.date()
+    question = Question(since_day, window, history, false_discovery, least_change)
     with Progress("tasks") as bar:
         try:
             result = run_fleet(
@@ -161,7 +160,7 @@ def fleet(
                 day=day,
                 starts=starts,
                 seed=seed,
-                question=Question(first, window, history, false_discovery, least_change),
+                question=question,
                 workers=workers,
                 scheduler=scheduler,
                 straggler=straggler,
@@ -171,17 +170,9 @@ def fleet(
                 **reading.given(),
             )
         except (Stopped, KeyboardInterrupt):
-            bar.close()
-            say(
-                f"stribeck: stopped after {bar.done or 'no'} tasks of {bar.total or 'the fleet'}; "
-                f"what is done is in {output}, and the same command goes on from there"
-            )
-            sys.exit(130)
+            stop_with(bar, "the fleet", output)
     _write_pictures(result, picture, report)
-    if as_json:
-        echo_json(result.to_dict())
-    else:
-        click.echo(repr(result))
+    echo_result(result, as_json)
 
 
 def _write_pictures(result: Fleet, picture: str | None, report: str | None) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
     check_output,
-    echo_json,
+    echo_result,
     figures_option,
     json_option,
     least_fall_option,
@@ -34,15 +32,18 @@ from stribeck.cli.formulas import (
     written_fit,
 )
 from stribeck.cli.methods import Method, method_options
+from stribeck.cli.options import Values
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.diagnosis.compare import compare as compare_fits
 from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
 from stribeck.diagnosis.loop.add import Addition
 from stribeck.diagnosis.loop.add import add as add_to
+from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.loop.improve import improve as improve_from
 from stribeck.fitting.fit import fit as fit_model
 from stribeck.identify.estimates import Errors
+from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import effect_name
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
@@ -116,10 +117,7 @@ def fit(
         fitted = method.fit(model, recording, reading, starts=starts, seed=seed)
     if output is not None:
         save_fit(fitted, output)
-    if as_json:
-        echo_json(fitted.to_dict())
-    else:
-        click.echo(repr(fitted))
+    echo_result(fitted, as_json)
 
 
 @click.command()
@@ -160,10 +158,7 @@ def compare(
 
         save_figure(comparison.plot(), picture)
         say(f"wrote {picture}")
-    if as_json:
-        echo_json(comparison.to_dict())
-    else:
-        click.echo(repr(comparison))
+    echo_result(comparison, as_json)
 
 
 @click.command()
@@ -232,10 +227,8 @@ def diagnose(
         save_page(diagnosis_page(diagnosis), report)
     if streamed is not None:
         show(streamed, as_json)
-    elif as_json:
-        echo_json(diagnosis.to_dict())
     else:
-        click.echo(repr(diagnosis))
+        echo_result(diagnosis, as_json)
 
 
 @click.command()
@@ -270,10 +263,7 @@ def add(
     addition = Addition(effect_name(effect), before, after)
     if output is not None:
         save_fit(after, output)
-    if as_json:
-        echo_json(addition.to_dict())
-    else:
-        click.echo(repr(addition))
+    echo_result(addition, as_json)
 
 
 @click.command()
@@ -321,8 +311,6 @@ def improve(
 
     For a folder of Parquet files, or with --stream, effects are searched on stretches of the data.
     """
-    from stribeck.models.catalog import check_effect
-
     for path in (output, report, picture, figures):
         check_output(path)
     check_candidates(candidates)
@@ -331,15 +319,10 @@ def improve(
     if base is None and not written.laws:
         base = "coulomb"
     start = written.choices.applied(written.model(base))
-    options: dict[str, Any] = {
-        "starts": starts,
-        "seed": seed,
-        "least_fall": least_fall,
-        "most_steps": max_steps,
-        "rejected": reject,
-        "candidates": candidates,
-        "progress": say,
-    }
+    options: Values = dict(
+        starts=starts, seed=seed, least_fall=least_fall, most_steps=max_steps, rejected=reject
+    )
+    options |= {"candidates": candidates, "progress": say}
     streamed: StreamedImprovement | None = None
     if streaming.wanted(data):
         opened = streaming.open(data, reading, seed)
@@ -355,6 +338,16 @@ def improve(
             save_streamed(streamed.final, output)
         else:
             save_fit(improvement.final, output)
+    _write_pictures(improvement, picture, figures, report)
+    if streamed is not None:
+        show(streamed, as_json)
+    else:
+        echo_result(improvement, as_json)
+
+
+def _write_pictures(
+    improvement: Improvement, picture: str | None, figures: str | None, report: str | None
+) -> None:
     if picture is not None:
         from stribeck.base.files import save_figure
 
@@ -365,9 +358,3 @@ def improve(
         from stribeck.report.page import improvement_page
 
         save_page(improvement_page(improvement), report)
-    if streamed is not None:
-        show(streamed, as_json)
-    elif as_json:
-        echo_json(improvement.to_dict())
-    else:
-        click.echo(repr(improvement))

@@ -10,7 +10,7 @@ import click
 from stribeck.base.errors import RecordingError, SpecError
 from stribeck.cli.common import (
     check_output,
-    echo_json,
+    echo_result,
     json_option,
     read_recording,
     recording_options,
@@ -191,10 +191,7 @@ def points(
     if output is not None:
         made.write(output)
         say(f"wrote {output} and {output}.sidecar.toml")
-    if as_json:
-        echo_json(made.to_dict())
-    else:
-        click.echo(repr(made))
+    echo_result(made, as_json)
 
 
 @click.command()
@@ -261,7 +258,4 @@ def arm(
         for joint in (1, 2):
             made.friction(joint).save(f"{output}_joint_{joint}.toml")
             say(f"wrote {output}_joint_{joint}.toml")
-    if as_json:
-        echo_json(made.to_dict())
-    else:
-        click.echo(repr(made))
+    echo_result(made, as_json)

@@ -10,7 +10,7 @@ from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure, write_bytes_whole
 from stribeck.cli.common import (
     check_output,
-    echo_json,
+    echo_result,
     is_model_file,
     json_option,
     read_recording,
@@ -120,10 +120,7 @@ def plan(
     if picture is not None:
         save_figure(planned.plot(), picture)
         say(f"wrote {picture}")
-    if as_json:
-        echo_json(planned.to_dict())
-    else:
-        click.echo(repr(planned))
+    echo_result(planned, as_json)
 
 
 def _joint(

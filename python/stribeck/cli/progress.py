@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from types import TracebackType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from stribeck.cli.common import say
 
@@ -153,3 +153,13 @@ def _duration(seconds: float) -> str:
     if seconds < 90.0:
         return f"{seconds:.0f} s"
     return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+def stop_with(bar: Progress, work: str, folder: str) -> NoReturn:
+    """Leave the command after Ctrl-C; what is finished is in `folder`."""
+    bar.close()
+    say(
+        f"stribeck: stopped after {bar.done or 'no'} {bar.what} of {bar.total or work}; the "
+        f"finished part is in {folder}, and the same command continues it"
+    )
+    sys.exit(130)

@@ -10,6 +10,7 @@ from stribeck.base.errors import ProjectError
 from stribeck.cli.common import (
     check_output,
     echo_json,
+    echo_result,
     figures_option,
     json_option,
     least_fall_option,
@@ -35,10 +36,7 @@ def project() -> None:
 
 
 def _show(made: Project, as_json: bool) -> None:
-    if as_json:
-        echo_json(made.to_dict())
-    else:
-        click.echo(repr(made))
+    echo_result(made, as_json)
 
 
 def _written(made: Project, as_json: bool) -> None:
@@ -223,10 +221,7 @@ def improve(
 def compare(path: str, nodes: tuple[str, str], seed: int, as_json: bool) -> None:
     """Compare two nodes: errors, where each fails, parameters."""
     sides = Project.open(path).compare(*nodes, seed=seed)
-    if as_json:
-        echo_json(sides.to_dict())
-    else:
-        click.echo(repr(sides))
+    echo_result(sides, as_json)
 
 
 @project.command()

@@ -13,7 +13,7 @@ from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure, write_bytes_whole, write_whole
 from stribeck.cli.common import (
     check_output,
-    echo_json,
+    echo_result,
     json_option,
     say,
     seed_option,
@@ -140,10 +140,7 @@ def simulate(
     if picture is not None:
         save_figure(simulation.plot(), picture)
         say(f"wrote {picture}")
-    if as_json:
-        echo_json(simulation.to_dict())
-    else:
-        click.echo(repr(simulation))
+    echo_result(simulation, as_json)
 
 
 def _with_transmission(joint: Joint | None, sizes: Values) -> Joint | None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import click
 
 from stribeck.base.errors import SpecError
-from stribeck.cli.common import echo_json, say
+from stribeck.cli.common import echo_result, say
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import ReadOptions
@@ -54,10 +54,7 @@ def save_streamed(fitted: StreamedFit, path: str) -> None:
 
 def show(result: StreamedFit | StreamedDiagnosis | StreamedImprovement, as_json: bool) -> None:
     """Print a result."""
-    if as_json:
-        echo_json(result.to_dict())
-    else:
-        click.echo(repr(result))
+    echo_result(result, as_json)
 
 
 def stream_options(command: Command) -> Command:

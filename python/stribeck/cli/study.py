@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import click
 
 from stribeck.base.pool import Stopped
 from stribeck.cli.common import (
-    echo_json,
+    echo_result,
     json_option,
     recording_options,
     say,
     seed_option,
     starts_option,
 )
-from stribeck.cli.progress import Progress
+from stribeck.cli.progress import Progress, stop_with
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.study.plan import REVIEW
 from stribeck.scale.study.study import study as make_study
@@ -85,13 +84,5 @@ def study(
                 **reading.given(),
             )
         except (Stopped, KeyboardInterrupt):
-            bar.close()
-            say(
-                f"stribeck: stopped after {bar.done or 'no'} fits of {bar.total or 'the study'}; "
-                f"the finished part is in {folder}, and the same command continues it"
-            )
-            sys.exit(130)
-    if as_json:
-        echo_json(result.to_dict())
-    else:
-        click.echo(repr(result))
+            stop_with(bar, "the study", folder)
+    echo_result(result, as_json)

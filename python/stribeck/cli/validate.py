@@ -7,7 +7,7 @@ import click
 from stribeck.base.files import save_figure
 from stribeck.cli.common import (
     check_output,
-    echo_json,
+    echo_result,
     json_option,
     model_fit,
     read_recording,
@@ -51,7 +51,4 @@ def validate(
     if picture is not None:
         save_figure(validation.plot(), picture)
         say(f"wrote {picture}")
-    if as_json:
-        echo_json(validation.to_dict())
-    else:
-        click.echo(repr(validation))
+    echo_result(validation, as_json)

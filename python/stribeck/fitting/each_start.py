@@ -89,14 +89,8 @@ def fit_each(
         values, search = end.search.values, end.search
         model = made.with_values(values)
         found = Prediction.of(Problem(recording, model, rows), values, lower, upper, effort)
-        return FittedStart(
-            model,
-            found.rmse,
-            found.rmse_held_out,
-            search.converged,
-            search.outcome,
-            end.evaluations,
-        )
+        errors = found.rmse, found.rmse_held_out
+        return FittedStart(model, *errors, search.converged, search.outcome, end.evaluations)
 
     ended: dict[int, FittedStart | StribeckError] = {}
     fits = []

@@ -40,7 +40,7 @@ def fit(
     """Identify the parameters of `spec` on `recording` by bounded least squares.
 
     Linear parameters are eliminated (variable projection); the others are searched from `starts`
-    seeded starts. The measured torque is the target as recorded: it is not filtered or shifted.
+    seeded starts. The measured torque is the target as recorded.
 
     Parameters
     ----------
@@ -48,15 +48,13 @@ def fit(
         ``"coulomb+load"``, a law by formula (``"c1*v + c2*tanh(v/c3)"``), or a model. The values of
         a model are the first start.
     starts, seed : int
-        Number of random starts of the nonlinear parameters, and the seed of their generator. The
-        default of 20 is that of the review of 25 models (eqs 4-5).
+        Random starts of the nonlinear parameters (20 in the UR5e review, eqs 4-5), and their seed.
     start, bounds, fix : mapping from parameter name or symbol
         Start values, bounds (infinite: unbounded) and fixed values of single parameters:
         ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``.
     errors : {"robust", "independent"}
-        Noise assumed by the standard errors. ``"robust"`` allows noise that is correlated in time,
-        as in a sampled motion. ``"independent"`` assumes independent noise of equal variance, as
-        in separately measured points, and gives ``s^2 (J'J)^-1``.
+        Noise assumed by the standard errors: correlated in time, as in a sampled motion, or
+        independent with equal variance, as in separate points, which gives ``s^2 (J'J)^-1``.
     transient : bool array [n], optional
         Samples that are scored but excluded from the fit. Detected by default.
     effort : Effort
@@ -64,20 +62,13 @@ def fit(
         roughly known.
     passive : bool
         If true, the friction is fitted under passivity conditions until passivity is proved over
-        the operating box (`check`). `Fit.passive_cost` states the increase of the error. A fit
-        that is passive without conditions is returned unchanged.
-
-    Returns
-    -------
-    Fit
+        the operating box. `Fit.passive_cost` states the increase of the error.
 
     Raises
     ------
-    SpecError
-        The law or an effect is unknown.
-    FitError
-        The recording lacks a channel that the model needs, has too few moving samples, or no values
-        with a proof of passivity were found.
+    SpecError, FitError
+        The law or an effect is unknown; the recording lacks a channel that the model needs, has too
+        few moving samples, or no values with a proof of passivity were found.
     """
     began = time.perf_counter()
     choices = Choices(start or {}, bounds or {}, fix or {})

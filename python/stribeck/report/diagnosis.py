@@ -100,8 +100,8 @@ def likely_effects(diagnosis: Diagnosis) -> list[str]:
 def less_likely_sentence(likely: Sequence[str]) -> str:
     """Heading of the findings that the likely effects make improbable."""
     return (
-        f"Added instead of {listed(likely, 'or')}, each of these also lowers the held-out error, "
-        f"but is less likely to be the cause:"
+        f"Added instead of {listed(list(likely), 'or')}, each of these also lowers the held-out "
+        f"error, but is less likely to be the cause:"
     )
 
 
