@@ -158,9 +158,10 @@ def _missing(improvement: Improvement) -> str:
     lines = ["3. What is missing", ""]
     if not improvement.steps:
         lines.append(paragraph(summary_sentence(improvement), 3))
-    for step in improvement.steps:
+    added = [step.finding.effect for step in improvement.steps]
+    for k, step in enumerate(improvement.steps):
         finding = step.finding
-        before = "" if step is improvement.steps[0] else "With that added: "
+        before = f"With {listed(added[:k])} added, " if k else ""
         text = f"{before}{finding.effect}: {confidence_words(finding.confidence)}."
         lines.append(paragraph(text, 3))
         lines.append(paragraph(physically(finding.effect, finding.fit.model), 5))
@@ -195,7 +196,7 @@ def _left(last: Diagnosis, truth: Truth, final: Fit) -> str:
     noise = f"{plain(truth['noise_rms'])} {truth['torque_unit']}"
     verdict = (
         f"Effects hidden in the recording: {listed(hidden)}; torque noise {noise}. "
-        f"{'They are what was found.' if found else 'They are not what was found.'}"
+        f"{'The same effects were found.' if found else 'Other effects were found.'}"
     )
     return paragraph(verdict, 0) + "\n\n" + table(rows)
 

@@ -91,7 +91,7 @@ def plan(
     seed: int,
     as_json: bool,
 ) -> None:
-    """Plan a motion that shows effects which MODEL lacks on DATA, or tells them apart.
+    """Plan a motion that shows effects that DATA cannot show, or distinguishes them.
 
     Without data: stribeck plan MODEL.toml.
     """

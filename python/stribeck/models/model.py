@@ -364,7 +364,9 @@ class Model:
         if not np.isfinite(self.values).all():
             pairs = zip(self.names, self.values, strict=True)
             unknown = [name for name, value in pairs if not np.isfinite(value)]
-            raise SpecError(f"{self.spec} has no value for {', '.join(unknown)}: fit it or give it")
+            raise SpecError(
+                f"{self.spec} has no value for {', '.join(unknown)}: fit the model or give values"
+            )
         return self._friction_values
 
     @property

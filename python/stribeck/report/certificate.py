@@ -27,7 +27,7 @@ def certificate_text(certificate: Certificate) -> str:
     unit = certificate.friction.torque_unit
     shown = [m for m in certificate.margins if m.lower is not None]
     if shown:
-        lines.append("  Conditions, with proved bounds of their margins over the whole box:")
+        lines.append("  Smallest margin of each condition over the whole box, as a proved bound:")
         lines += [f"    {_bound(m, unit):>12}  {MEANING[m.condition]}" for m in shown]
     if certificate.passive and certificate.condition in ("storage", "cycle", "elements"):
         lines.append(paragraph(f"The proof uses this condition: {MEANING[certificate.condition]}."))

@@ -33,7 +33,7 @@ def test_the_demo_tells_four_steps(told: tuple[str, Path, float]) -> None:
     shown, _, seconds = told
     for k, title in enumerate(("Compare", "Where it fails", "What is missing", "Add"), 1):
         assert f"\n{k}. {title}" in shown
-    assert "They are what was found." in " ".join(shown.split())
+    assert "The same effects were found." in " ".join(shown.split())
     assert "█" in shown
     assert max(map(len, shown.splitlines())) <= 100
     assert seconds < 60
