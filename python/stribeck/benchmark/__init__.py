@@ -1,7 +1,8 @@
-"""How far the diagnosis can be trusted, on recordings with a known truth.
+"""Benchmark of the diagnosis on synthetic recordings whose friction is known.
 
-``open_loop`` and ``closed_loop`` make the recordings; they share no formula with the laws or with
-each other. ``cases`` lists what is asked, ``answer`` asks, ``judge`` says what an answer is worth,
-``score`` counts, ``text`` and ``figures`` show it; ``run`` and ``store`` keep it going and keep it.
-``coverage`` looks at the intervals of parameters under noise with memory.
+``open_loop`` and ``closed_loop`` generate the recordings; they share no formula with the laws or
+with each other. ``cases`` lists the recordings, ``answer`` runs the diagnosis on one, ``judge``
+checks the result, ``score`` computes the statistics, ``text`` and ``figures`` show them; ``run``
+runs all cases, and ``store`` writes the results to disk. ``coverage`` tests the confidence
+intervals of parameters under autocorrelated noise.
 """

@@ -1,4 +1,4 @@
-"""What the diagnosis answers on one case, as it is stored."""
+"""Run the diagnosis on one case; the stored result."""
 
 from __future__ import annotations
 
@@ -29,22 +29,23 @@ class NamedEffect:
 
 @dataclass(frozen=True)
 class CaseAnswer:
-    """Truth and answer of one case.
+    """Truth and result of one case.
 
     Attributes
     ----------
     hidden, implied, cannot_show
-        The truth: what was hidden, what else that contains, and what the motion cannot show.
+        The truth: the hidden effects, the simpler effects that they contain, and those that the
+        motion cannot show.
     sizes
-        Of each hidden effect over the noise, as they came out.
+        Actual size of each hidden effect relative to the noise.
     verdict
-        Of the last diagnosis.
+        Verdict of the last diagnosis.
     rmse_held_out, oracle_rmse
-        At the end, and by the generator's own formula.
+        Held-out RMSE of the final model, and of the generator's own formula.
     intervals
         In the group "coverage": whether each parameter's interval covers the truth.
     failure
-        What went wrong, or an empty string.
+        The error, or an empty string.
     """
 
     case: Case
@@ -65,23 +66,23 @@ class CaseAnswer:
 
     @property
     def ratio(self) -> float | None:
-        """Final held-out RMSE over the oracle's."""
+        """Final held-out RMSE divided by that of the oracle."""
         if self.rmse_held_out is None or not self.oracle_rmse:
             return None
         return self.rmse_held_out / self.oracle_rmse
 
     def to_dict(self) -> dict[str, object]:
-        """As JSON, and as `from_dict` reads it back."""
+        """As JSON, which `from_dict` reads."""
         return {"name": self.case.name, **asdict(self)}
 
     @classmethod
     def from_dict(cls, stored: dict[str, Any]) -> CaseAnswer:
-        """Read back what `to_dict` gave.
+        """Read the JSON of `to_dict`.
 
         Raises
         ------
         KeyError, TypeError
-            It is something else.
+            The JSON is not that of a case.
         """
         fields: dict[str, Any] = {k: v for k, v in stored.items() if k != "name"}
         for key in ("hidden", "implied", "cannot_show", "sizes", "untestable"):
@@ -97,7 +98,7 @@ class CaseAnswer:
 
 
 def answer(case: Case) -> CaseAnswer:
-    """Make the recording of a case and ask the product; a failure is an answer too."""
+    """Generate the recording of a case and diagnose it; an error is part of the result."""
     began = time.perf_counter()
     try:
         if case.group == "coverage":
@@ -106,7 +107,7 @@ def answer(case: Case) -> CaseAnswer:
             )
         else:
             made = _diagnosed(case)
-    except Exception as error:  # one broken case must not end a run of hours
+    except Exception as error:  # one failed case must not end a run of hours
         made = CaseAnswer(case, failure=f"{type(error).__name__}: {error}")
     return CaseAnswer(**{**vars(made), "seconds": time.perf_counter() - began})
 

@@ -1,7 +1,8 @@
-"""The recordings that the diagnosis is judged on.
+"""The recordings of the benchmark.
 
-Every effect alone in three sizes, two and three together, nothing at all, motions that cannot show
-an effect, effects outside the library, and noise with memory for the intervals.
+They contain each effect alone in three sizes, two or three effects together, no effect, motions
+that cannot show an effect, effects outside the library, and autocorrelated noise for the confidence
+intervals.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from stribeck.base.errors import StribeckError, nearest
 from stribeck.benchmark.generators import GENERATORS, Generator
 from stribeck.benchmark.sample import Sample
 
-#: Size of a single effect over the noise.
+#: Size of a single effect relative to the noise.
 SIZES = (5.0, 1.0, 0.3)
 #: Size of each of several effects, and of one outside the library.
 SIZE_OF_SEVERAL = 2.0
@@ -44,7 +45,7 @@ TRIPLES = (
     ("spring", "stribeck", "temperature_dry"),
     ("gravity", "nonlinear_viscous", "position"),
 )
-#: Hidden in a limited motion: nothing, what it cannot show, or something that it can.
+#: Hidden in a limited motion: no effect, one that it cannot show, or one that it can.
 HIDDEN_IN_LIMITED = {
     "isothermal": ("none", "temperature_dry", "load"),
     "one_direction": ("none", "direction", "load"),
@@ -53,28 +54,28 @@ HIDDEN_IN_LIMITED = {
     "warm_up_only": ("none", "drift", "load"),
     "short_range": ("none", "load"),
 }
-#: Recordings without any effect, of a generator, for each seed that is asked for.
+#: Number of recordings without an effect, per generator and seed.
 NONE_PER_SEED = 4
-#: Recordings for the coverage of intervals, of one correlation, for each seed.
+#: Number of recordings for the coverage of intervals, per correlation and seed.
 COVERAGE_PER_SEED = 20
 CORRELATIONS = (0.0, 0.9, 0.99)
 AUTOREGRESSIVE = "autoregressive"
 
-#: Seeds below this are those of the tests: the benchmark's recordings were never looked at there.
+#: Smaller seeds are used by the tests, so that the recordings of the benchmark are independent.
 FIRST_SEED = 100_000
 
 
 @dataclass(frozen=True)
 class Case:
-    """One recording to make, and what is asked of it.
+    """One recording of the benchmark.
 
     Attributes
     ----------
     group : {"one", "two", "three", "none", "limited", "outside", "coverage"}
     correlation
-        Of the noise from row to row, in the group "coverage".
+        Autocorrelation of the noise at lag one, in the group "coverage".
     quick
-        Part of the subset that runs in minutes.
+        Whether it belongs to the subset that runs in minutes.
     """
 
     group: str
@@ -88,7 +89,7 @@ class Case:
 
     @property
     def name(self) -> str:
-        """A name that no other case has."""
+        """A unique name."""
         parts = [self.generator, self.limit, "+".join(self.effects)]
         if self.size:
             parts.append(f"{self.size:g}x")
@@ -97,7 +98,7 @@ class Case:
         return "-".join([p for p in parts if p] + [str(self.seed)])
 
     def make(self) -> Sample:
-        """The recording and the truth about it."""
+        """Generate the recording and its truth."""
         limits = {self.limit: True} if self.limit else {}
         return GENERATORS[self.generator].make(self.effects, self.seed, self.size, **limits)
 
@@ -110,25 +111,25 @@ def cases(
     quick: bool = False,
     seed: int = 0,
 ) -> list[Case]:
-    """The cases to run.
+    """Return the cases to run.
 
     Parameters
     ----------
     seeds : int
-        Recordings of each kind; 10 is the full bar.
+        Number of recordings of each kind; the full benchmark has 10.
     generators
         Names in `GENERATORS`.
     only
         A group, an effect, a limit, or part of a case's name.
     quick
-        The subset that runs in minutes.
+        Only the subset that runs in minutes.
     seed
-        Another one gives other recordings of every kind.
+        Seed of all recordings.
 
     Raises
     ------
     StribeckError
-        There is no such generator, `only` leaves no case, or the seed is negative.
+        A generator is unknown, `only` matches no case, or the seed is negative.
     """
     names = tuple(generators)
     for name in names:
@@ -181,9 +182,9 @@ def _of_generator(generator: Generator, seeds: int, first: int) -> Iterator[Case
 
 
 class _Seeds:
-    """Seeds that do not depend on how many recordings of a kind are asked for."""
+    """Seeds that are independent of the number of recordings of a kind."""
 
-    #: Most recordings of one kind.
+    #: Largest number of recordings of one kind.
     ROOM = 1000
 
     def __init__(self, first: int) -> None:

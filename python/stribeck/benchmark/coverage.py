@@ -1,4 +1,4 @@
-"""Whether 95 % intervals hold the truth in 95 % of recordings, under noise with memory."""
+"""Coverage of the 95 % intervals of parameters under autocorrelated noise."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ class Interval:
     Attributes
     ----------
     covers
-        Of the product's 95 % interval.
+        For the 95 % interval of the fit.
     covers_ordinary
-        Of ordinary least squares, which takes every row for independent; None where the law is
-        not linear in its parameters.
+        For ordinary least squares, which treats samples as independent; None if the law is not
+        linear in its parameters.
     width, width_ordinary
-        Half the interval over the parameter.
+        Half-width of the interval divided by the parameter.
     """
 
     parameter: str
@@ -46,14 +46,14 @@ class Interval:
 
 
 def intervals(law: str, seed: int, correlation: float | None) -> tuple[Interval, ...]:
-    """Fit one recording whose friction has exactly the law's form, and look at its intervals.
+    """Fit one recording whose friction is exactly the law, and check the intervals.
 
     Parameters
     ----------
     law : {"coulomb", "stribeck"}
-        Coulomb and viscous friction, and with a Stribeck curve.
+        Coulomb and viscous friction, without or with a Stribeck curve.
     correlation
-        Of the noise from one row to the next.
+        Autocorrelation of the noise at lag one.
     """
     from stribeck.fitting.fit import fit
     from stribeck.recording.load import read
@@ -85,7 +85,7 @@ def intervals(law: str, seed: int, correlation: float | None) -> tuple[Interval,
 def autoregressive_recording(
     law: str, seed: int, correlation: float
 ) -> tuple[pl.DataFrame, dict[str, float]]:
-    """A joint with known parameters and AR(1) noise, and those parameters by name."""
+    """Return a recording with known parameters and AR(1) noise, and the parameters by name."""
     rng = np.random.default_rng([seed, round(1000 * correlation)])
     joint = draw_joint(rng, (), None)
     motion, _ = schedule(rng, joint, DURATION + 1.0, None)
@@ -125,7 +125,7 @@ def _friction(
 
 
 def _autoregressive(rng: np.random.Generator, n: int, correlation: float) -> Array:
-    """Unit noise in which each row keeps a share of the row before; stationary from the start."""
+    """Unit AR(1) noise, stationary from the start."""
     warm = 2000
     innovation = math.sqrt(1 - correlation**2) * rng.standard_normal(n + warm)
     return np.asarray(scipy.signal.lfilter([1.0], [1.0, -correlation], innovation))[warm:]

@@ -1,4 +1,4 @@
-"""Random numbers that every generator draws, and the size of what they add up to."""
+"""Random numbers and RMS values for the generators."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Array = NDArray[np.float64]
 
 
 def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
-    """A number whose logarithm is uniform between those of `low` and `high`."""
+    """Draw a number between `low` and `high` whose logarithm is uniform."""
     return float(np.exp(rng.uniform(math.log(low), math.log(high))))
 
 
@@ -21,5 +21,5 @@ def root_mean_square(values: Array) -> float:
 
 
 def size_beyond(values: Array, basis: Array) -> float:
-    """RMS of what a least-squares fit of the columns of `basis` leaves of `values`."""
+    """RMS of the residual of a least-squares fit of `values` with the columns of `basis`."""
     return root_mean_square(values - basis @ np.linalg.lstsq(basis, values, rcond=None)[0])

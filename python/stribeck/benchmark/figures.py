@@ -14,14 +14,14 @@ from matplotlib.patches import Rectangle
 from stribeck.benchmark.score import Confusion, Reliability
 from stribeck.report.style import AFTER, BEFORE, DPI, MEASURED
 
-#: From no answer to all answers of a row.
+#: Colours of shares from 0 to 1.
 SHADES = LinearSegmentedColormap.from_list("shares", ["#ffffff", AFTER])
 #: Share above which a number in a cell is written in white.
 DARK = 0.55
 
 
 def confusion_figure(confusion: Confusion) -> Figure:
-    """Shares of each row in colour, counts as numbers; the right cell is framed."""
+    """Shares of each row in colour, counts as numbers; the correct cell is framed."""
     rows, columns = len(confusion.rows), len(confusion.columns)
     figure = _figure(3.2 + 0.42 * columns, 2.6 + 0.34 * rows)
     axes = figure.subplots()
@@ -62,7 +62,7 @@ def confusion_figure(confusion: Confusion) -> Figure:
 
 
 def calibration_figure(bins: Sequence[Reliability]) -> Figure:
-    """Share of right findings against their mean confidence, with 95 % intervals."""
+    """Share of correct findings against their mean confidence, with 95 % intervals."""
     figure = _figure(5.4, 5.0)
     axes: Any = figure.subplots()
     axes.plot([0, 1], [0, 1], color=MEASURED, linewidth=0.9, linestyle="--", label="calibrated")

@@ -11,14 +11,14 @@ from stribeck.benchmark.sample import Sample
 
 @dataclass(frozen=True)
 class Generator:
-    """What the benchmark asks of a generator.
+    """A generator of recordings.
 
     Attributes
     ----------
     effects, outside
-        What it can hide, of the library of effects and outside it.
+        Effects that it can hide, inside and outside the library.
     limits
-        Restricted motions, and the effects that each cannot show.
+        Limited motions, and the effects that each cannot show.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""What an answer is worth."""
+"""Check the result of a case against its truth."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ NONE, UNEXPLAINED, FAILED = "none", "unexplained", "failed"
 
 @dataclass(frozen=True)
 class Judgement:
-    """Right or wrong, and why.
+    """Whether a result is correct, and why not.
 
     Attributes
     ----------
     right
-        By the rule of the case's group.
+        Correct by the rule of the group.
     exact
         Every hidden effect was named and nothing else.
     named
-        The top answer: an effect, "none" or "unexplained"; the hidden effect where the two were
-        said to be indistinguishable.
+        The first result: an effect, "none" or "unexplained". It is the hidden effect if that was
+        reported as indistinguishable from the first one.
     problem
-        What is wrong, or an empty string.
+        The error, or an empty string.
     """
 
     right: bool
@@ -35,17 +35,17 @@ class Judgement:
 
 
 def judge(answer: CaseAnswer) -> Judgement:
-    """Judge an answer of any group but "coverage".
+    """Judge a result of any group except "coverage".
 
     one
-        The first effect is the hidden one, or an equivalent that lists it. An effect that contains
-        a simpler one may come after that one.
+        The first effect is the hidden one, or one reported as indistinguishable from it. An effect
+        that contains a simpler one may come after the simpler one.
     two, three
-        All are found, and nothing else.
+        All hidden effects are found, and no others.
     none
         No effect is added and the verdict is "none".
     limited
-        What the motion cannot show is listed as untestable and not claimed.
+        The effects that the motion cannot show are listed as untestable and not found.
     outside
         No effect is added and the verdict is "unexplained".
     """
@@ -89,7 +89,7 @@ def _compare(answer: CaseAnswer) -> tuple[list[str], list[str]]:
 
 
 def _top(answer: CaseAnswer) -> str:
-    """The answer to "what is missing", as the confusion matrix counts it."""
+    """The first result, as used in the confusion matrix."""
     if not answer.steps:
         return UNEXPLAINED if answer.verdict == "unexplained" else NONE
     hidden = visible(answer)

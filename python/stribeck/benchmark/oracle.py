@@ -1,4 +1,4 @@
-"""The held-out error of a generator's own formula, its parameters refitted on the recording."""
+"""The held-out error of the generator's formula with parameters fitted to the recording."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ Array = NDArray[np.float64]
 def held_out_rmse(
     oracle: Oracle, torque: Array, scored: NDArray[np.bool_], block: NDArray[np.integer]
 ) -> float:
-    """RMSE over the scored rows, each block predicted by parameters refitted without it.
+    """RMSE over the scored samples, each block predicted by parameters fitted without it.
 
     Parameters
     ----------
     torque : array [n]
-        As recorded.
+        Recorded torque.
     scored : bool array [n]
-        Rows that count.
+        Scored samples.
     block : int array [n]
         Held-out block of each row: the same blocks as the diagnosis uses.
     """

@@ -1,4 +1,4 @@
-"""Run the benchmark: every case in its turn, on all cores."""
+"""Run all cases of the benchmark in worker processes."""
 
 from __future__ import annotations
 
@@ -22,22 +22,22 @@ def run(
     workers: int | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> tuple[list[CaseAnswer], Score]:
-    """Answer every case and score the answers.
+    """Run all cases and score the results.
 
     Parameters
     ----------
     folder
-        Where answers are kept as they are given; those that it holds already are not asked for
-        again. Tables and figures are written there at the end, also when stopped.
+        Folder of the results. Each is written when its case ends; cases with a result are not run
+        again. Tables and figures are written at the end, also when stopped.
     workers
-        Processes; default: one for each core.
+        Number of processes; default: one for each core.
     progress
-        Told how many of how many cases are answered.
+        Called with the number of finished cases and of all cases.
 
     Raises
     ------
     Stopped
-        On Ctrl-C; what is done is in `folder`.
+        On Ctrl-C; finished cases are in `folder`.
     StribeckError
         The folder cannot be used.
     """

@@ -1,4 +1,4 @@
-"""What every generator hands over: a recording, the truth about it, and its own best model."""
+"""The output of a generator: a recording, its truth, and the true model."""
 
 from __future__ import annotations
 
@@ -19,15 +19,16 @@ Truth: TypeAlias = dict[str, Any]
 
 @dataclass(frozen=True)
 class Oracle:
-    """The generator's own formula about its true parameters, evaluated at the recorded channels.
+    """The generator's formula linearised at its true parameters, at the recorded channels.
 
     Attributes
     ----------
     prediction : array [n]
-        Torque of every row at the true parameters.
+        Torque at the true parameters.
     tangents : dict of arrays [n]
-        Change of the torque for each parameter by name, per its true value. Amplitudes enter
-        linearly or nearly so, and start at the truth: one step of least squares refits them.
+        Derivative of the torque with respect to each parameter, by name, relative to its true
+        value. The torque is nearly linear in the amplitudes, so one least-squares step from the
+        true values refits them.
     """
 
     prediction: Array
@@ -46,7 +47,7 @@ class Sample:
         ``hidden`` (or ``["none"]``), ``implied`` (simpler effects that a hidden one contains),
         ``cannot_show``, ``sizes`` over the noise, ``noise_rms`` and what was drawn.
     oracle : Oracle
-        The best model there is of this recording.
+        The best possible model of this recording.
     """
 
     frame: pl.DataFrame
@@ -60,7 +61,7 @@ def tangents(
     prediction: Array,
     step: float = 1e-3,
 ) -> dict[str, Array]:
-    """Relative change of a prediction with each of its parameters, by a forward difference."""
+    """Derivatives of a prediction with respect to relative changes of its parameters."""
     return {
         name: (predict({**values, name: value * (1 + step)}) - prediction) / step
         for name, value in values.items()

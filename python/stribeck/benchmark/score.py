@@ -1,4 +1,4 @@
-"""The scoreboard: answers put together."""
+"""Statistics over the results of all cases."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from stribeck.benchmark.cases import CORRELATIONS, SIZES
 from stribeck.benchmark.judge import FAILED, NONE, UNEXPLAINED, Judgement, is_right, judge
 from stribeck.models.catalog import effect_ids
 
-#: Least share right of each group, and of a single effect by its size over the noise.
+#: Smallest share of correct results of each group, and of single effects by relative size.
 BARS = {"two": 0.90, "three": 0.75, "none": 0.97, "limited": 1.0, "outside": 0.90}
 BARS_BY_SIZE = dict(zip(SIZES, (0.98, 0.95, 0.80), strict=True))
 TITLES = {
@@ -26,28 +26,28 @@ TITLES = {
     "limited": "limited motion: untestable, not claimed",
     "outside": "effect outside the library: unexplained",
 }
-#: Share of 95 % intervals that may cover the truth.
+#: Smallest and largest acceptable coverage of the 95 % intervals.
 COVERAGE_BAR = (0.90, 0.98)
-#: Most by which the final held-out error may exceed that of the generator's own formula, over
+#: Largest acceptable ratio of the final held-out error to that of the generator's formula, for
 #: single effects of these sizes.
 RATIO_BAR = 1.03
 RATIO_SIZES = (1.0, 0.3)
 #: Edges of the bins of `confidence`.
 CONFIDENCE_EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
-#: Row of the confusion matrix for what no library holds.
+#: Row of the confusion matrix for effects outside the library.
 OUTSIDE = "outside the library"
 
 
 @dataclass(frozen=True)
 class Share:
-    """How many of how many, with the 95 % interval of the share (Wilson)."""
+    """A count out of a total, with the 95 % interval of the share (Wilson)."""
 
     count: int
     total: int
 
     @property
     def value(self) -> float:
-        """The share; NaN of nothing."""
+        """The share; NaN if the total is 0."""
         return self.count / self.total if self.total else float("nan")
 
     @property
@@ -84,7 +84,7 @@ class ScoreGroup:
 
 @dataclass(frozen=True)
 class Reliability:
-    """Findings whose confidence is in one bin, and how many of them are right."""
+    """Findings whose confidence is in one bin, and how many of them are correct."""
 
     low: float
     high: float
@@ -94,7 +94,7 @@ class Reliability:
 
 @dataclass(frozen=True)
 class Ratio:
-    """Final held-out RMSE over the oracle's, over some answers."""
+    """Statistics of the final held-out RMSE divided by that of the oracle."""
 
     title: str
     count: int
@@ -106,7 +106,7 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Coverage:
-    """Share of 95 % intervals that hold the truth, by correlation of the noise."""
+    """Share of 95 % intervals that contain the true value, for one correlation of the noise."""
 
     correlation: float
     recordings: int
@@ -115,24 +115,24 @@ class Coverage:
 
     @property
     def passed(self) -> bool:
-        """Whether the share is between its bars."""
+        """Whether the share is within its limits."""
         return COVERAGE_BAR[0] <= self.share.value <= COVERAGE_BAR[1]
 
 
 @dataclass(frozen=True)
 class Confusion:
-    """How often each hidden effect (row) got each name (column)."""
+    """How often each effect (column) was named for each hidden effect (row)."""
 
     rows: tuple[str, ...]
     columns: tuple[str, ...]
     counts: NDArray[np.int64]
 
     def right_column(self, hidden: str) -> str:
-        """The name that is right in a row."""
+        """Return the correct name of a row."""
         return UNEXPLAINED if hidden == OUTSIDE else hidden
 
     def to_frame(self) -> pl.DataFrame:
-        """One row a hidden effect."""
+        """One row per hidden effect."""
         return pl.DataFrame(
             {"hidden": list(self.rows)}
             | {name: self.counts[:, k] for k, name in enumerate(self.columns)}
@@ -205,12 +205,12 @@ class Score:
         }
 
 
-#: Title of the ratio that is reported and has no bar.
+#: Title of a ratio that is reported only, without a limit.
 OVER_NOISE_5 = "one effect at 5 x the noise"
 
 
 def score(answers: Iterable[CaseAnswer]) -> Score:
-    """Judge answers and count."""
+    """Judge results and compute the statistics."""
     every = list(answers)
     judged = [(a, judge(a)) for a in every if a.case.group != "coverage"]
     wrong = [(a, j) for a, j in judged if not j.right]
@@ -248,7 +248,7 @@ def _right(judgements: Sequence[Judgement]) -> Share:
 
 
 def _confusion(judged: Judged) -> Confusion:
-    """Rows by what is hidden: single effects, nothing, and what is outside the library."""
+    """Rows: single hidden effects, no effect, and effects outside the library."""
     pairs = []
     for a, j in judged:
         if a.case.group in ("one", "none"):
@@ -257,7 +257,7 @@ def _confusion(judged: Judged) -> Confusion:
             pairs.append((OUTSIDE, j.named))
     hidden, named = {row for row, _ in pairs}, {column for _, column in pairs}
     effects = tuple(effect_ids())
-    # A generator may hide what the catalog does not know yet.
+    # A generator may hide effects that are not in the catalog yet.
     effects += tuple(sorted(hidden - {*effects, NONE, OUTSIDE}))
     rows = tuple(r for r in (*effects, NONE, OUTSIDE) if r in hidden)
     columns = tuple(c for c in effects if c in hidden | named)
@@ -269,7 +269,7 @@ def _confusion(judged: Judged) -> Confusion:
 
 
 def _reliability(judged: Judged) -> Iterable[Reliability]:
-    """Of findings by confidence, how many name what is hidden."""
+    """Numbers of correct findings by confidence."""
     found = [(step.confidence, is_right(step, a)) for a, _ in judged for step in a.steps]
     for low, high in pairwise(CONFIDENCE_EDGES):
         last = high == CONFIDENCE_EDGES[-1]

@@ -1,4 +1,4 @@
-"""The folder of a run: every answer, then the tables and figures.
+"""The folder of a benchmark run: all results, then tables and figures.
 
 ``manifest.json`` identifies the program. ``answers.jsonl`` gets one line when a case ends, so that
 nothing is lost when the run is stopped; the same command continues from there.
@@ -65,8 +65,7 @@ class AnswerStore:
     Raises
     ------
     StribeckError
-        The folder holds answers of another version of the program, or something else, or cannot
-        be written to.
+        The folder contains results of another version or other files, or cannot be written to.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -80,7 +79,8 @@ class AnswerStore:
                 self.answers = {a.case.name: a for a in _read(folder / ANSWERS)}
             elif any(folder.iterdir()):
                 raise StribeckError(
-                    f"{folder} is not empty and holds no benchmark: give another {option('output')}"
+                    f"{folder} is not empty and contains no benchmark: "
+                    f"give another {option('output')}"
                 )
             else:
                 write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
@@ -99,7 +99,9 @@ class AnswerStore:
         except ValueError:
             found = None
         if not isinstance(found, dict) or found.get("kind") != KIND:
-            raise StribeckError(f"{path} is not of a benchmark: give another {option('output')}")
+            raise StribeckError(
+                f"{path} does not belong to a benchmark: give another {option('output')}"
+            )
         if found != manifest:
             raise StribeckError(
                 f"{self.folder} holds answers of another version of stribeck: give another "

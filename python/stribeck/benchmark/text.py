@@ -18,12 +18,12 @@ from stribeck.benchmark.score import (
 )
 from stribeck.report.layout import table
 
-#: Wrong answers that are listed one by one.
+#: Largest number of wrong results that are listed.
 MOST_LISTED = 40
 
 
 def score_text(score: Score) -> str:
-    """The whole scoreboard."""
+    """Return all statistics as text."""
     parts = [
         _part("Share of answers that are right", _groups(score.groups)),
         _part("Hidden effect, and what was named first", _confusion(score.confusion)),
@@ -78,7 +78,7 @@ def _groups(groups: Sequence[ScoreGroup]) -> str:
 
 
 def _confusion(confusion: Confusion) -> str:
-    """One line a hidden effect: how often it was named, and what was named instead."""
+    """One line per hidden effect: how often it was named, and what was named instead."""
     if not confusion.rows:
         return ""
     rows = [["hidden", "cases", "right", "named instead"]]

@@ -96,7 +96,7 @@ def test_answers_of_another_program_are_not_added_to(tmp_path: Path) -> None:
         AnswerStore(tmp_path / "board")
     (tmp_path / "other").mkdir()
     (tmp_path / "other" / "notes.txt").write_text("mine")
-    with pytest.raises(StribeckError, match="holds no benchmark"):
+    with pytest.raises(StribeckError, match="contains no benchmark"):
         AnswerStore(tmp_path / "other")
 
 

@@ -1,4 +1,4 @@
-"""Recordings of a joint under PD control that sticks and slips, as its drive sees it."""
+"""Recordings of a joint with stick-slip under PD control, as measured by its drive."""
 
 from __future__ import annotations
 

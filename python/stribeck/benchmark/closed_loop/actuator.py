@@ -1,4 +1,4 @@
-"""From the torque that the drive's current stands for to the torque that acts, and back."""
+"""Conversion between the torque computed from the current and the torque that acts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Actuator:
-    """A motor whose torque constant is not the one that the recording assumes.
+    """A motor whose torque constant differs from the one assumed in the recording.
 
     Attributes
     ----------
@@ -28,12 +28,12 @@ class Actuator:
     largest: float
 
     def acting(self, shown: float) -> float:
-        """Torque that acts where the current stands for `shown`."""
+        """Return the acting torque for the torque `shown` by the current."""
         lost = self.saturation * min((shown / self.largest) ** 2, 0.3)
         return shown * (1 + self.gain) * (1 - lost)
 
     def shown(self, acting: Array) -> Array:
-        """Torque that the current stands for where `acting` acts."""
+        """Return the torque shown by the current for the `acting` torque."""
         if not self.saturation:
             return acting / (1 + self.gain)
         grid = np.linspace(-1.5, 1.5, 6001) * 2 * self.largest

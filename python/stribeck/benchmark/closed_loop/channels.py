@@ -1,8 +1,7 @@
-"""What the drive records: all channels through the same causal filters, so that they agree in time.
+"""The channels recorded by the drive, all with the same causal filters and so the same delay.
 
-Two first-order low-pass filters in a row, at the controller's rate. Position is the encoder's,
-velocity its filtered difference; the current passes the same filters, as drives do that show
-torque and speed together.
+Two first-order low-pass filters in a row, at the controller's rate. Position comes from the
+encoder, and velocity is its filtered difference. The current passes the same filters.
 """
 
 from __future__ import annotations
@@ -27,11 +26,11 @@ class Channels:
     Attributes
     ----------
     exact
-        The velocity before the drive's link adds its noise.
+        The velocity without the noise of the communication with the drive.
     direction, carried
-        Of the contact and the transmission (`Course`), seen through the same filters.
+        Filtered state of the contact and torque of the transmission (`Course`).
     velocity_noise
-        RMS error of the velocity: the encoder's steps, and what the drive's link adds.
+        RMS error of the velocity: encoder quantisation, and the added noise.
     """
 
     seen: Array
@@ -46,7 +45,7 @@ class Channels:
 
 
 def low_pass(values: Array, machine: Machine) -> Array:
-    """Through both filters, starting from rest."""
+    """Apply both filters, starting from rest."""
     share = 1 - math.exp(-machine.cutoff * STEP)
     once = values - values[0]
     for _ in range(2):
@@ -55,10 +54,10 @@ def low_pass(values: Array, machine: Machine) -> Array:
 
 
 def channels(machine: Machine, course: Course, noise: Array) -> Channels:
-    """What is seen of a course, with unit `noise` of the speed."""
+    """Return the channels of a course, with unit `noise` of the speed."""
 
     def last(values: Array) -> Array:
-        """What held during the step that ends at a row, as the difference of positions does."""
+        """Value during the step that ends at a row, as for the difference of positions."""
         return np.concatenate([values[:1], values[:-1]])
 
     def speed(q: Array) -> Array:

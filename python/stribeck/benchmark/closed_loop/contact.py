@@ -1,4 +1,4 @@
-"""Presliding as an Iwan assembly: sliders that break away one after the other."""
+"""Presliding as an Iwan model: sliders that break away one after the other."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ SLIDERS = 12
 
 
 class Iwan:
-    """Share of the dry friction that a contact carries, by displacement alone.
+    """Share of the dry friction carried by a contact, a function of displacement only.
 
-    The first loading follows ``x/sqrt(1 + x^2)`` of displacement over `reach`, up to the last
-    slider; after a reversal every slider has to be unloaded first.
+    The initial loading is ``x/sqrt(1 + x^2)`` of displacement divided by `reach`, up to the last
+    slider. After a reversal every slider is first unloaded.
     """
 
     def __init__(self, reach: float) -> None:
@@ -25,7 +25,7 @@ class Iwan:
         self._states = [0.0] * SLIDERS
 
     def move(self, way: float) -> float:
-        """Share of the dry friction, in -1..1, after another `way`."""
+        """Return the share of the dry friction, in -1..1, after a displacement `way`."""
         states, total = self._states, 0.0
         for k, limit in enumerate(self._limits):
             z = states[k] + way

@@ -1,4 +1,4 @@
-"""What can be hidden in a controlled joint, and how large it gets."""
+"""Effects that can be hidden in a controlled joint, and their amplitudes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ EFFECTS = (
     "saturation",
 )
 
-#: Effects that no library of effects holds.
+#: Effects outside the library.
 OUTSIDE = (
     "acceleration_sign",
     "humidity",
@@ -36,17 +36,17 @@ OUTSIDE = (
     "restart",
 )
 
-#: What each limited motion cannot show.
+#: Effects that each limited motion cannot show.
 LIMITS: dict[str, list[str]] = {
     "isothermal": ["temperature_viscous", "temperature_dry"],
     "warm_up_only": ["drift"],
 }
 
-#: Simpler effects that one contains: naming them too is no mistake.
+#: Simpler effects that an effect contains; naming them too is not an error.
 IMPLIED = {"quadrant": ["load"], "frictional_lag": ["stribeck"]}
 
-#: Amplitudes, each in its own measure (`Friction`, `Actuator`, `Transmission`): where the search
-#: for the size that is asked for begins, and the largest that is physical.
+#: Amplitudes, in the units of `Friction`, `Actuator` and `Transmission`: start of the search for
+#: the wanted size, and the largest physical one.
 AMPLITUDES: dict[str, tuple[float, float]] = {
     "stribeck": (0.2, 1.2),
     "nonlinear_viscous": (0.8, 5.0),
@@ -72,7 +72,7 @@ AMPLITUDES: dict[str, tuple[float, float]] = {
     **dict.fromkeys(OUTSIDE, (0.15, 0.7)),
 }
 
-#: Least amplitude of what hardly any row would show below it: a presliding distance under the
-#: encoder's steps, a gap crossed between two rows, a resonance faster than the rows. There the
-#: noise is raised instead, as far as that is physical.
+#: Smallest amplitude that the samples can show: a presliding distance above the encoder resolution,
+#: a gap not crossed between two samples, a resonance slower than the sampling. For smaller sizes
+#: the noise is raised instead, within physical limits.
 LEAST_AMPLITUDES = {"presliding": 1.5e-3, "backlash": 5e-4, "elasticity": 0.03}

@@ -1,7 +1,7 @@
-"""Friction of the joint, and what else acts at it without being known.
+"""Friction of the joint, and other unknown torques.
 
-Dry friction is a sum: Coulomb and Stribeck friction, which temperature, place and age scale, plus
-friction per load. Amplitudes are relative to Coulomb friction unless said otherwise.
+Dry friction is the sum of Coulomb and Stribeck friction, scaled by temperature, position and age,
+and of friction per load. Amplitudes are relative to Coulomb friction unless stated otherwise.
 """
 
 from __future__ import annotations
@@ -20,33 +20,34 @@ from stribeck.benchmark.draws import log_uniform
 Array = NDArray[np.float64]
 Shape = Callable[[Array], Array]
 Amplitudes = Mapping[str, float]
-#: Least share of dry friction that any change leaves.
+#: Smallest factor that a change can apply to dry friction.
 LEAST = 0.05
-#: Height of the Stribeck curve under which friction lags.
+#: Height of the Stribeck curve if friction lags.
 LAGGING_HEIGHT = 0.8
 
 
 @dataclass(frozen=True)
 class Shapes:
-    """One random form of each dependence; all of size one or so.
+    """One random form of each dependence, with magnitudes of about one.
 
     Attributes
     ----------
     falls
-        Stribeck curve of speed: Popp and Stelter's ``1/(1 + x)``, logistic, or a raised cosine.
+        Stribeck curve against speed: Popp and Stelter's ``1/(1 + x)``, logistic, or a raised
+        cosine.
     bends
-        Speed, bent: Eyring's ``asinh``, rational, or ``sinh``; of share of the top speed and
-        amplitude.
+        Nonlinear function of the speed: Eyring's ``asinh``, rational, or ``sinh``. Arguments: speed
+        divided by top speed, and amplitude.
     per_load
-        Friction per load: with a preload that hides it, or a Hertzian contact's 4/3 power.
+        Friction against load: with a preload, or the 4/3 power of a Hertzian contact.
     film
-        Speed at which motoring and generating no longer differ.
+        Speed above which motoring and generating do not differ.
     thins
-        Viscosity of temperature and amplitude: Slotte's power, or Walther's double logarithm.
+        Viscosity against temperature and amplitude: Slotte's power, or Walther's double logarithm.
     dry_of_temperature
         Seals that soften over a few kelvin (logistic), or a hyperbola.
     of_place
-        Tight spot with flat flanks, or a bent screw's triangle wave.
+        Tight spot with flat flanks, or the triangle wave of a bent screw.
     of_age
         Linear wear, diffusion ``sqrt t``, or a run-in ``1/(1 + t/c)^2``.
     """
@@ -72,14 +73,14 @@ class Shapes:
 
 @dataclass(frozen=True)
 class State:
-    """Where the joint is, row by row: as it truly is, or as the drive sees it.
+    """State of the joint at each row: the true one, or the one measured by the drive.
 
     Attributes
     ----------
     direction : array [n]
-        What multiplies the dry friction: the sign of speed, or the state of the contact.
+        Factor of the dry friction: the sign of speed, or the state of the contact.
     falls : array [n]
-        Value of the Stribeck curve: of speed now, or a while ago.
+        Value of the Stribeck curve at the present or a past speed.
     """
 
     time: Array
@@ -94,13 +95,13 @@ class State:
 
 @dataclass(frozen=True)
 class Friction:
-    """Friction of one machine with one set of forms."""
+    """Friction of one machine, with one set of shapes."""
 
     machine: Machine
     shapes: Shapes
 
     def torque(self, s: State, x: Amplitudes) -> Array:
-        """Friction and unknown torques of position at each row."""
+        """Friction and unknown position-dependent torques at each row."""
         dry = self.dry(s, x) * (
             1 + x.get("direction", 0.0) * self.shapes.directions[0] * s.direction
         )
@@ -108,7 +109,7 @@ class Friction:
         return np.asarray(dry * s.direction + rate + self.conservative(s.position, x))
 
     def dry(self, s: State, x: Amplitudes) -> Array:
-        """Magnitude of dry friction, directions apart."""
+        """Magnitude of dry friction, without the asymmetry of the directions."""
         return np.asarray(
             self.machine.coulomb
             * (
@@ -121,7 +122,7 @@ class Friction:
         )
 
     def change(self, t: Array, temperature: Array, x: Amplitudes) -> Array:
-        """Factor of dry friction that only time decides."""
+        """Factor of dry friction that depends on time only."""
         made = 1 + x.get("temperature_dry", 0.0) * self.shapes.dry_of_temperature(temperature)
         made = made * (1 + x.get("drift", 0.0) * self.shapes.of_age(t))
         for name, shape in self.shapes.outside_of_time.items():
@@ -130,7 +131,7 @@ class Friction:
         return np.asarray(made + 0.0 * t)
 
     def per_load(self, v: Array, load: Array, x: Amplitudes) -> Array:
-        """Friction per load; with `quadrant` one that differs for a driven joint."""
+        """Friction per load; with `quadrant`, different for a driving and a driven joint."""
         made = x.get("load", 0.0) * self.shapes.per_load(np.abs(load))
         if y := x.get("quadrant", 0.0):
             uneven = self.shapes.uneven * np.sign(v * load) * self.fades(np.abs(v))
@@ -138,11 +139,11 @@ class Friction:
         return np.asarray(made)
 
     def fades(self, speed: Array) -> Array:
-        """How much of the difference between the quadrants is left at a speed."""
+        """Share of the difference between the quadrants that remains at a speed."""
         return np.asarray(1 / (1 + (speed / self.shapes.film) ** 2))
 
     def outside_change(self, s: State, x: Amplitudes) -> Array:
-        """Factor of dry friction by what no library holds, of place, speed and acceleration."""
+        """Factor of dry friction from effects outside the library."""
         made = np.ones_like(s.velocity)
         speed = np.abs(s.velocity)
         if y := x.get("position_speed"):
@@ -161,20 +162,20 @@ class Friction:
         return np.asarray(one * np.sign(s.velocity) * self.bent(np.abs(s.velocity), x) * uneven)
 
     def bent(self, speed: Array, x: Amplitudes) -> Array:
-        """Speed as the lubricant feels it."""
+        """Nonlinear function of the speed in the friction of the lubricant."""
         if y := x.get("nonlinear_viscous"):
             top = self.shapes.bends(np.ones(1), y)
             return self.machine.vmax * self.shapes.bends(speed / self.machine.vmax, y) / top
         return speed
 
     def thinned(self, temperature: Array, x: Amplitudes) -> Array:
-        """Viscosity over the one at the middle temperature."""
+        """Viscosity relative to that at the middle temperature."""
         if y := x.get("temperature_viscous"):
             return self.shapes.thins(temperature, y)
         return np.ones_like(temperature)
 
     def conservative(self, q: Array, x: Amplitudes) -> Array:
-        """Torques that do not care about motion: offset, spring, ripple."""
+        """Torques that are independent of velocity: offset, spring, ripple."""
         made = self.shapes.signs["offset"] * x.get("offset", 0.0) + 0.0 * q
         if y := x.get("spring"):
             made = made + y * self.shapes.spring(q)
@@ -184,12 +185,12 @@ class Friction:
 
 
 def speeding_up(machine: Machine, power: Array) -> Array:
-    """From -1 to 1, as speed falls or rises; `power` is velocity times acceleration."""
+    """Return -1 to 1 for falling to rising speed; `power` is velocity times acceleration."""
     return np.tanh(power / (0.03 * machine.vmax**2 / machine.ramp))
 
 
 def stribeck_height(x: Amplitudes) -> float:
-    """Height of the Stribeck curve over Coulomb friction; lagging friction has one to lag."""
+    """Height of the Stribeck curve relative to Coulomb friction; larger if friction lags."""
     return x.get("stribeck", LAGGING_HEIGHT if "frictional_lag" in x else 0.0)
 
 
@@ -201,7 +202,7 @@ def draw_shapes(
     dwells: Array,
     duration: float,
 ) -> Shapes:
-    """One random member of each family."""
+    """Draw one random member of each family."""
     vs = machine.vmax * log_uniform(rng, 0.02, 0.06)
     falls: list[Shape] = [
         lambda s: 1 / (1 + 1.4 * s / vs),
@@ -291,7 +292,7 @@ def _of_age(rng: np.random.Generator, duration: float) -> Shape:
 
 
 def _outside_of_time(rng: np.random.Generator, dwells: Array, duration: float) -> dict[str, Shape]:
-    """Humidity as a slow triangle wave, a neighbour's moves, and luck at every start."""
+    """Humidity (a slow triangle wave), moves of another joint, and random starts."""
     period = duration / float(rng.uniform(4.0, 8.0))
     phase = float(rng.random())
     nodes = np.sort(rng.uniform(0.0, duration, 4 * len(dwells) + 8))
@@ -314,7 +315,7 @@ def _square_wave(rng: np.random.Generator, machine: Machine) -> Shape:
 
 
 def _about_zero(middle: float) -> Shape:
-    """Of speed: below zero when slow, above when fast."""
+    """Function of speed: negative at low speed, positive at high speed."""
     return lambda s: (s - middle) / (s + middle)
 
 
@@ -324,9 +325,9 @@ def _gap(rng: np.random.Generator, machine: Machine) -> tuple[float, float]:
 
 
 def _spring(rng: np.random.Generator, machine: Machine) -> Shape:
-    """A cable that is slack up to a point, or a hose that stiffens; its mean over the stroke out.
+    """A cable that is slack up to a point, or a hose that stiffens.
 
-    Neither is a sine of the angle: that would be gravity.
+    The mean over the stroke is subtracted. Neither is a sine of the angle, as gravity is.
     """
     rest, towards = float(rng.uniform(-0.3, 0.3)), float(rng.choice([-1.0, 1.0]))
     slack = bool(rng.random() < 0.5)
@@ -341,7 +342,7 @@ def _spring(rng: np.random.Generator, machine: Machine) -> Shape:
 
 
 def _ripple(rng: np.random.Generator, machine: Machine) -> Shape:
-    """Six-step commutation that rounds off, without its mean."""
+    """Rounded six-step commutation, without its mean."""
     period = 2 * machine.half / log_uniform(rng, 6.0, 30.0)
     shift = float(rng.random())
     steep = float(rng.uniform(0.6, 1.2))

@@ -1,4 +1,4 @@
-"""The joint, its load and its drive, before anything is hidden."""
+"""The joint, its load and its drive, without hidden effects."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from stribeck.benchmark.draws import log_uniform
 
 #: Control and integration step, s.
 STEP = 1e-3
-#: Rows of a recording a second, each a whole number of steps.
+#: Sampling rates, Hz; each sampling period is a whole number of steps.
 RATES = (100, 125, 200)
 
 
@@ -27,17 +27,17 @@ class Machine:
     vmax, ramp
         Top speed of the reference, and the time in which it is reached.
     inertia, motor_share
-        Of motor and link together, and the motor's share of it.
+        Inertia of motor and link, and the share of the motor.
     gravity, phase
         Largest gravity torque at unit payload, and the angle at which it acts.
     count
-        Encoder step at the joint; the motor's encoder counts gear ratio times as finely.
+        Encoder resolution at the joint side.
     speed_noise
-        Of the speed that the drive sends, beyond what the encoder's steps make.
+        Noise of the speed sent by the drive, in addition to encoder quantisation.
     cutoff
-        Of each of the two low-pass filters of the drive's channels, 1/s.
+        Cut-off of both low-pass filters of the channels, 1/s.
     stiffness, damping
-        Of the position controller.
+        Gains of the position controller.
     """
 
     kind: str
@@ -59,14 +59,14 @@ class Machine:
     rate: int
 
     def gravity_torque(self, q: np.ndarray, payload: np.ndarray) -> np.ndarray:
-        """Torque of the payload; a vertical prismatic axis feels it everywhere alike."""
+        """Torque of the payload; constant along a vertical prismatic axis."""
         if self.kind == "prismatic":
             return payload * self.gravity + 0.0 * q
         return np.asarray(payload * self.gravity * np.cos(q + self.phase))
 
 
 def draw_machine(rng: np.random.Generator, effects: Collection[str]) -> Machine:
-    """A joint with magnitudes over decades, on which the hidden effects can be seen at all."""
+    """Draw a joint with magnitudes over decades on which the hidden effects are visible."""
     turns = {"gravity", "backlash", "elasticity"} & set(effects)
     kind = "prismatic" if rng.random() < 0.15 and not turns else "revolute"
     half = log_uniform(rng, 0.6, 1.8) if kind == "revolute" else log_uniform(rng, 0.08, 0.4)
@@ -83,10 +83,10 @@ def draw_machine(rng: np.random.Generator, effects: Collection[str]) -> Machine:
     centre = float(rng.uniform(-1.0, 1.0))
     phase = float(rng.uniform(-math.pi, math.pi))
     if "backlash" in effects:
-        # Gravity changes its sign within the stroke, and the load torque with it.
+        # Gravity, and so the load torque, changes its sign within the stroke.
         phase = math.pi / 2 - centre + float(rng.uniform(-0.3, 0.3)) * half
-    # Of the motion inside the presliding distance enough must count as motion; rows whose direction
-    # a delay leaves undecided must not.
+    # Enough samples inside the presliding distance must be moving samples; samples whose direction
+    # is uncertain because of a delay must not.
     coarser = 0.25 if "presliding" in effects else 3.0 if "delay" in effects else 1.0
     natural = 2 * math.pi * float(rng.uniform(5.0, 9.0))
     return Machine(

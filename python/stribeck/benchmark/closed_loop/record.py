@@ -37,27 +37,27 @@ from stribeck.benchmark.sample import Oracle, Sample, tangents
 
 Array = NDArray[np.float64]
 
-#: Rows of a recording.
+#: Smallest and largest number of rows.
 ROWS = (8_000, 12_000)
-#: Of the payload, in dwells.
+#: Payloads, which change in dwells.
 PAYLOADS = (0.3, 1.0, 1.7, 0.6)
-#: Time in which a payload is taken over, s.
+#: Duration of a change of the payload, s.
 TAKEN_OVER = 0.12
-#: Effects whose size only a simulation shows.
+#: Effects whose size is known only after a simulation.
 SIMULATED = ("presliding", "backlash", "elasticity")
-#: Simulations at most, and the logarithm of a size over the asked one that is close enough.
+#: Largest number of simulations, and tolerances of the logarithm of the size ratio.
 ROUNDS, CLOSE, CLOSE_ALONE = 3, 0.15, 0.25
-#: Noise over Coulomb friction: where it is drawn, and how far it may go to meet the size.
+#: Noise relative to Coulomb friction: range of the draw, and limits for adjusting the size.
 NOISE, NOISE_LIMITS = (0.015, 0.05), (0.01, 0.12)
 
 
 def sample(
     effects: Sequence[str], seed: int, size: float | Sequence[float] = 1.0, **limits: bool
 ) -> Sample:
-    """A recording that hides `effects`, each with its size over the noise.
+    """Generate a recording with hidden `effects`, each of a size relative to the noise.
 
-    The size is that in the recorded motion, over what the friction's true formula leaves when it is
-    evaluated at the recorded channels.
+    The size is the RMS in the recorded motion, divided by the residual RMS of the true friction
+    formula evaluated at the recorded channels.
 
     Raises
     ------
@@ -76,11 +76,11 @@ def sample(
 
 
 class _Session:
-    """What is drawn for one seed."""
+    """The random quantities of one seed."""
 
     def __init__(self, wanted: dict[str, float], seed: int, limit: str | None) -> None:
         self.wanted, self.seed, self.limit = wanted, seed, limit
-        # The size of a single effect is met by the noise in the end.
+        # The exact size of a single effect is set by the noise at the end.
         self.close = CLOSE_ALONE if len(wanted) == 1 else CLOSE
         self.cannot = LIMITS.get(limit or "", [])
         rng = np.random.default_rng([seed, 71])
@@ -105,7 +105,7 @@ class _Session:
         self.time = r.time[self.rows]
 
     def sample(self) -> Sample:
-        """Simulate until the sizes are met, and record."""
+        """Simulate until the sizes are close enough, and record."""
         x = self._first_amplitudes()
         for left in reversed(range(ROUNDS)):
             seen = self._simulate(x)
@@ -126,7 +126,7 @@ class _Session:
         return min(max(amplitude, LEAST_AMPLITUDES.get(effect, 1e-4 * most)), most)
 
     def _first_amplitudes(self) -> dict[str, float]:
-        """Amplitudes that have the sizes on the reference, or the first guess."""
+        """Amplitudes that give the sizes on the reference motion, or a first guess."""
         r = self.reference
         still = 0 * r.velocity
         seen = Channels(
@@ -175,15 +175,15 @@ class _Session:
         return Actuator(gain, x.get("saturation", 0.0), self.largest)
 
     def _known_load(self, seen: Channels, x: Amplitudes) -> Array:
-        """Load torque by the robot's own model, whose inertia or gravity may be wrong."""
+        """Load torque of the robot's model, whose inertia or gravity may be wrong."""
         known = self.machine.inertia * (1 - x.get("inertia", 0.0))
         gravity = self.machine.gravity_torque(seen.position, self.payload)
         return np.asarray(known * seen.acceleration + gravity)
 
     def _predict(self, seen: Channels, x: Amplitudes, known: Array | None = None) -> Array:
-        """Torque of each row by the true formula, at what the drive sees.
+        """Torque of each row by the true formula, at the measured channels.
 
-        `known` is the load torque that is given; default: what it is with the amplitudes `x`.
+        `known` is the recorded load torque; default: that for the amplitudes `x`.
         """
         m = self.machine
         load = m.inertia * seen.acceleration + m.gravity_torque(seen.position, self.payload)
@@ -196,7 +196,8 @@ class _Session:
         return self._at_rows(shown, x)
 
     def _state(self, seen: Channels, load: Array, x: Amplitudes) -> State:
-        # A delayed row that moves may show a reversal, where filters pass between the directions.
+        # A moving, delayed sample may be at a reversal, where filtered values are between the
+        # directions.
         turning = "presliding" in x or "delay" in x
         direction = seen.direction if turning else np.sign(seen.exact)
         speed = np.abs(seen.velocity)
@@ -215,19 +216,19 @@ class _Session:
         )
 
     def _at_rows(self, values: Array, x: Amplitudes) -> Array:
-        """The torque channel at the rows, late or early where a delay is hidden."""
+        """The torque channel at the rows, shifted in time if a delay is hidden."""
         late = self.friction.shapes.signs["delay"] * x.get("delay", 0.0)
         return (
             np.interp(self.time - late, self.reference.time, values) if late else values[self.rows]
         )
 
     def _left_over(self, seen: Channels, x: Amplitudes, *without: str) -> Array:
-        """What the given load leaves of the predicted torque, without some of the effects."""
+        """Predicted torque minus the recorded load torque, without some of the effects."""
         kept = {e: a for e, a in x.items() if e not in without}
         if {"backlash", "elasticity"} & set(without):
             kept["carried"] = 0.0
         if "frictional_lag" in without:
-            # The curve that lagged stays, and lags no more.
+            # The Stribeck curve remains, without lag.
             kept["stribeck"] = stribeck_height(x)
         return self._predict(seen, kept) - self._known_load(seen, kept)[self.rows]
 
@@ -236,7 +237,7 @@ class _Session:
         return np.asarray(fast & (self.time > 1.0))
 
     def _base(self, seen: Channels, *names: str) -> Array:
-        """Columns of the base, and of the simpler effects that those in `names` contain."""
+        """Columns of the base model, and of the simpler effects contained in those of `names`."""
         v = seen.velocity[self.rows]
         columns = [np.sign(v), v]
         if "direction" in names:
@@ -248,13 +249,13 @@ class _Session:
         return np.stack(columns, 1)
 
     def _size(self, seen: Channels, x: Amplitudes, effect: str) -> float:
-        """RMS of one effect beyond the base."""
+        """RMS of one effect outside the span of the base model."""
         on = self._moving(seen)
         part = self._left_over(seen, x) - self._left_over(seen, x, effect)
         return max(size_beyond(part[on], self._base(seen, effect)[on]), 1e-300)
 
     def _noise_and_sizes(self, seen: Channels, x: Amplitudes) -> tuple[float, dict[str, float]]:
-        """RMS of what the true formula leaves, and of each effect beyond the base."""
+        """RMS of the residual of the true formula, and of each effect outside the base model."""
         on = self._moving(seen)
         level = root_mean_square((self._torque(seen, x) - self._predict(seen, x))[on])
         return level, {e: self._size(seen, x, e) for e in self.wanted}
@@ -266,7 +267,7 @@ class _Session:
     def _meet_by_noise(
         self, seen: Channels, x: Amplitudes, effect: str, sizes: Mapping[str, float]
     ) -> None:
-        """Scale the noise so that the one effect has its size exactly, within limits."""
+        """Scale the noise, within limits, so that a single effect has exactly its size."""
         on = self._moving(seen)
         quiet = (self._at_rows(seen.torque, x) - self._predict(seen, x))[on]
         asked = (sizes[effect] / self.wanted[effect]) ** 2 - root_mean_square(quiet) ** 2
@@ -313,7 +314,7 @@ class _Session:
         }
 
     def _oracle(self, seen: Channels, x: Amplitudes, known: Array) -> Oracle:
-        """The true formula at what the drive sees; its amplitudes are free."""
+        """The true formula at the measured channels, with free amplitudes."""
         values = {"coulomb": 1.0, "viscous": 1.0, **x}
         if "backlash" in x or "elasticity" in x:
             values["carried"] = 1.0
@@ -328,7 +329,7 @@ class _Session:
 
 
 def _current_noise(rng: np.random.Generator, rate: int, rows: int) -> Array:
-    """Unit noise of the current: white, and a share that wanders over tens of milliseconds."""
+    """Unit noise of the current: white noise, and a part correlated over tens of milliseconds."""
     memory = math.exp(-1 / (rate * float(rng.uniform(0.005, 0.05))))
     share = float(rng.uniform(0.0, 0.6))
     drive = rng.standard_normal(rows + 300)

@@ -1,8 +1,8 @@
-"""The motion that the controller is asked for.
+"""The reference motion of the controller.
 
-Rectangular pulses of speed pass two moving averages, as many controllers shape their moves: speed
-rises along an S, and each move ends where the pulse's area says. Between them stand sums of sines
-that fade in and out.
+Rectangular pulses of speed are filtered by two moving averages, as in many controllers. This gives
+S-shaped speed profiles, and the area of a pulse is the length of the move. Between the moves there
+are sums of sines that fade in and out.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Reference:
-    """What is asked for, every `STEP`; `dwells` are times at rest."""
+    """Reference motion at intervals of `STEP`; `dwells` are times at rest."""
 
     time: Array
     position: Array
@@ -69,13 +69,13 @@ class _Pulses:
         return self.machine.centre + self.machine.half * float(self.rng.uniform(-1.0, 1.0))
 
     def moves(self) -> None:
-        """From place to place, with dwells."""
+        """Add point-to-point moves with dwells."""
         for _ in range(5):
             self._go(self._place(), self.machine.vmax * float(self.rng.uniform(0.2, 1.0)))
             self.wait(float(self.rng.uniform(0.05, 0.5)))
 
     def scans(self) -> None:
-        """Slow motion to and fro, speeds over a decade and more."""
+        """Add slow motion back and forth, with speeds over more than a decade."""
         side = 1.0 if self.q < self.machine.centre else -1.0
         for _ in range(5):
             speed = self.machine.vmax * log_uniform(self.rng, 0.012, 0.15)
@@ -84,7 +84,7 @@ class _Pulses:
                 side = -side
 
     def strokes(self) -> None:
-        """Reversals without a dwell."""
+        """Add reversals without a dwell."""
         first = self._place()
         way = self.machine.half * log_uniform(self.rng, 0.1, 0.8)
         other = first - math.copysign(way, first - self.machine.centre)
@@ -95,7 +95,7 @@ class _Pulses:
             self._go(first, speed)
 
     def sines(self) -> None:
-        """A sum of sines about the middle of the stroke."""
+        """Add a sum of sines about the middle of the stroke."""
         self._go(self.machine.centre, 0.5 * self.machine.vmax)
         self.wait(3 * self.machine.ramp)
         length = float(self.rng.uniform(7.0, 11.0))
@@ -112,7 +112,7 @@ class _Pulses:
         self.wait(length)
 
     def reference(self, steps: int) -> Reference:
-        """Everything up to `steps`, shaped."""
+        """Return the filtered motion up to `steps`."""
         pulses = np.concatenate(self.speeds)
         for seconds in (self.machine.ramp, 0.5 * self.machine.ramp):
             pulses = np.asarray(

@@ -1,8 +1,8 @@
 """The joint under PD control, step by step.
 
-Dry friction is set-valued: each step finds the impulse that brings the joint to rest, and the
-joint sticks where dry friction can give it (Moreau's time stepping). Motor and link are one body,
-or two with a torsional spring or lost motion between them, stepped more finely.
+Dry friction is set-valued: each step computes the impulse that brings the joint to rest, and the
+joint sticks if dry friction can supply it (Moreau's time stepping). Motor and link are one body, or
+two connected by a torsional spring or backlash and integrated with smaller steps.
 """
 
 from __future__ import annotations
@@ -27,26 +27,26 @@ from stribeck.benchmark.closed_loop.reference import Reference
 from stribeck.benchmark.closed_loop.transmission import Transmission
 
 Array = NDArray[np.float64]
-#: How fast friction follows the load torque or the acceleration: share of a step.
+#: Coefficient per step of the low-pass filters of load torque and acceleration in the friction.
 FOLLOWS = 0.3
 
 
 @dataclass(frozen=True)
 class Course:
-    """What happened, every `STEP`.
+    """The simulated motion, at intervals of `STEP`.
 
     Attributes
     ----------
     shown : array [n]
-        Torque that the current stands for.
+        Torque computed from the current.
     seen : array [n]
-        Position of the encoder.
+        Position measured by the encoder.
     direction : array [n]
-        What multiplied the dry friction, in -1..1.
+        Factor of the dry friction, in -1..1.
     falls : array [n]
         Value of the Stribeck curve.
     carried : array [n]
-        Torque in the transmission beyond that of a rigid one; zero where motor and link are one.
+        Torque in the transmission minus that of a rigid one; zero for a single body.
     """
 
     position: Array
@@ -68,7 +68,7 @@ def simulate(
     temperature: Array,
     x: Amplitudes,
 ) -> Course:
-    """Run the joint along its reference."""
+    """Simulate the joint along its reference."""
     joint = _Joint(machine, friction, payload, temperature, reference.time, x)
     drive = _Drive(machine, actuator, reference, payload)
     n = reference.time.size
@@ -91,7 +91,7 @@ def simulate(
 
 
 def _rigid_torque(machine: Machine, position: Array, payload: Array) -> Array:
-    """Torque at the link if it moved as the motor does."""
+    """Torque at the link of a rigid transmission."""
     ends = np.pad(position, 1, mode="edge")
     acceleration = (ends[2:] - 2 * position + ends[:-2]) / STEP**2
     link = (1 - machine.motor_share) * machine.inertia
@@ -99,7 +99,7 @@ def _rigid_torque(machine: Machine, position: Array, payload: Array) -> Array:
 
 
 class _Drive:
-    """Sampled PD control with feed-forward of inertia and gravity."""
+    """Sampled PD control with feedforward of inertia and gravity."""
 
     def __init__(
         self, machine: Machine, actuator: Actuator, reference: Reference, payload: Array
@@ -114,7 +114,7 @@ class _Drive:
         self._once = self._twice = 0.0
 
     def command(self, i: int, position: float) -> float:
-        """Torque that the controller asks the motor for."""
+        """Torque commanded by the controller."""
         seen = round(position / self._count) * self._count
         self._once += self._share * ((seen - self.seen) / STEP - self._once)
         self._twice += self._share * (self._once - self._twice)
@@ -128,7 +128,7 @@ class _Drive:
 
 
 class _Joint:
-    """Motor side of the joint with its friction, from scalar tables of the same formulas."""
+    """Motor side of the joint with its friction, from tables of the same formulas."""
 
     def __init__(
         self,
@@ -171,12 +171,12 @@ class _Joint:
         self.direction, self.fallen = 0.0, float(shapes.falls(np.zeros(1))[0])
 
     def load_at(self, i: int, position: float | None = None) -> float:
-        """Torque of gravity, at the joint's own position or the link's."""
+        """Torque of gravity at the given position; default: that of the joint."""
         q = self.position if position is None else position
         return self._payload[i] * self._gravity(q) + self._error(q)
 
     def step(self, i: int, acting: float, step: float, inertia: float, against: float) -> None:
-        """Move on by `step`: `acting` drives, `against` is what load or transmission holds."""
+        """Integrate one `step` with the torque `acting` of the motor and `against` of the load."""
         speed = abs(self.velocity)
         if self._late:
             self._speeds.append(speed)
@@ -222,14 +222,14 @@ class _Joint:
 
 
 def gravity_error(machine: Machine, q: Array, x: Amplitudes) -> Array:
-    """What acts beyond the gravity that the robot knows: a mass off the known centre."""
+    """Torque of gravity missing in the robot's model: a mass with another centre."""
     return np.asarray(x.get("gravity", 0.0) * machine.gravity * np.sin(q + machine.phase + 0.9))
 
 
 def table(
     f: Callable[[Array], Array], low: float, high: float, n: int = 6001
 ) -> Callable[[float], float]:
-    """A fast scalar version of `f` on [low, high], held beyond it."""
+    """Return a fast scalar version of `f` on [low, high], constant outside."""
     values: list[float] = np.broadcast_to(f(np.linspace(low, high, n)), (n,)).tolist()
     scale, last = (n - 1) / (high - low), n - 1
 

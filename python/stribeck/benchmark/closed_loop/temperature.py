@@ -11,9 +11,9 @@ Array = NDArray[np.float64]
 
 
 def draw_temperature(rng: np.random.Generator, time: Array, limit: str | None = None) -> Array:
-    """Temperature of each row: load cycles that warm the joint and let it cool again.
+    """Temperature of each row: load cycles warm the joint, and it cools between them.
 
-    With a `limit` it is constant ("isothermal") or only ever rises ("warm_up_only").
+    With a `limit` it is constant ("isothermal") or only rises ("warm_up_only").
     """
     start, span = float(rng.uniform(18.0, 32.0)), float(rng.uniform(15.0, 27.0))
     u = time / time[-1]

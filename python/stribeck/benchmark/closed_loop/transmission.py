@@ -1,4 +1,4 @@
-"""Motor and link as two bodies: a torsional spring that stiffens, or lost motion."""
+"""Motor and link as two bodies: a stiffening torsional spring, or backlash."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import Protocol
 
 from stribeck.benchmark.closed_loop.machine import STEP, Machine
 
-#: Steps of two bodies within one of the controller.
+#: Integration steps of the two bodies in one controller step.
 FINER = 2
-#: Resonance of a transmission that counts as rigid, and of the softest, rad/s.
+#: Resonance of a transmission that is treated as rigid, and of the softest one, rad/s.
 STIFF, SOFT = 2 * math.pi * 150.0, 2 * math.pi * 6.0
 #: Share of critical damping.
 DAMPED = {"stiff": 1.0, "soft": 0.1}
 
 
 class MotorSide(Protocol):
-    """What the transmission needs of the motor's side."""
+    """Interface of the motor side."""
 
     position: float
     velocity: float
@@ -25,18 +25,18 @@ class MotorSide(Protocol):
         """Torque of gravity on the link."""
 
     def step(self, i: int, acting: float, step: float, inertia: float, against: float) -> None:
-        """Move the motor on."""
+        """Integrate the motor over one step."""
 
 
 class Transmission:
-    """The link, and what joins it to the motor.
+    """The link and its connection to the motor.
 
     Parameters
     ----------
     compliance
         From 0 (rigid) to 1 (softest): ``elasticity``.
     gap
-        Angle that is lost between one flank and the other: ``backlash``.
+        Angle between the flanks: ``backlash``.
     """
 
     def __init__(self, machine: Machine, compliance: float, gap: float, start: float) -> None:
@@ -52,7 +52,7 @@ class Transmission:
         self._q, self._v = start, 0.0
 
     def step(self, i: int, motor: MotorSide, acting: float) -> float:
-        """Move motor and link on by `STEP`; the mean torque between them."""
+        """Integrate motor and link over `STEP`; return the mean torque between them."""
         h = STEP / FINER
         carried = 0.0
         for _ in range(FINER):
@@ -64,13 +64,13 @@ class Transmission:
         return carried
 
     def _torque(self, twist: float, rate: float) -> float:
-        """Torque of a spring that stiffens with twist; none within the gap."""
+        """Torque of a spring that stiffens with twist; zero within the gap."""
         if self._gap:
             if abs(twist) <= self._gap:
                 return 0.0
             pressed = twist - math.copysign(self._gap, twist)
             torque = self._stiffness * pressed + self._damping * rate
-            # Flanks push, they never pull.
+            # Flanks can only push.
             return torque if torque * pressed > 0 else 0.0
         stiffer = 1 + (twist / (4 * self._bends)) ** 2
         return self._stiffness * twist * stiffer + self._damping * rate

@@ -1,4 +1,4 @@
-"""The amplitudes at which hidden effects have the sizes that were asked for."""
+"""Amplitudes at which hidden effects have the wanted sizes."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from collections.abc import Callable, Collection, Mapping
 
 from stribeck.benchmark.open_loop.effects import CAPS, SHORTEST_REACH
 
-#: Bisections of the logarithm of an amplitude, and the relative error of the size that is enough.
+#: Number of bisections of the logarithm of an amplitude, and relative tolerance of the size.
 ROUNDS = 22
 CLOSE = 2e-3
-#: Of an effect that the motion cannot show there is no size: it gets this share of the largest.
+#: Share of the largest amplitude, used for effects that the motion cannot show.
 UNSEEN = 0.4
 
 
@@ -20,18 +20,18 @@ def find_amplitudes(
     size: Callable[[str, float], float],
     unseen: Collection[str],
 ) -> tuple[dict[str, float], float]:
-    """An amplitude for each effect, and the noise, which gives way where no amplitude will do.
+    """Return an amplitude for each effect, and the noise, adjusted if no amplitude is suitable.
 
     Parameters
     ----------
     wanted
-        Size of each effect over the noise.
+        Size of each effect relative to the noise.
     noise
         Level of the noise, in the unit of `size`.
     size
-        RMS that an effect of an amplitude leaves beyond the base.
+        Function that returns the RMS of an effect outside the base model, for an amplitude.
     unseen
-        Effects that leave no trace in this motion.
+        Effects that this motion cannot show.
     """
     amplitudes: dict[str, float] = {}
     for name, over_noise in wanted.items():
@@ -46,7 +46,7 @@ def find_amplitudes(
 def _reachable(
     name: str, over_noise: float, noise: float, size: Callable[[str, float], float]
 ) -> float:
-    """The noise over which the effect has the size within its bounds of amplitude."""
+    """Return the noise for which the effect has its size within its bounds of amplitude."""
     top = size(name, CAPS[name]) / noise
     if top < 1.02 * over_noise:
         noise *= top / (1.02 * over_noise)

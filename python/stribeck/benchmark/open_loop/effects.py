@@ -1,4 +1,4 @@
-"""What can be hidden in a recording, in which motion it leaves no trace, and how large it gets."""
+"""Effects that can be hidden in a recording, motions that cannot show them, and amplitudes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ EFFECTS = (
     "quadrant",
 )
 
-#: What each limited motion cannot show, by the column "needs" of the table of effects.
+#: Effects that each limited motion cannot show, from the column "needs" of the table of effects.
 LIMITS: dict[str, list[str]] = {
     "isothermal": ["temperature_viscous", "temperature_dry"],
     "one_direction": ["direction", "offset", "position", "ripple", "spring"],
@@ -43,10 +43,10 @@ LIMITS: dict[str, list[str]] = {
     "short_range": ["gravity"],
 }
 
-#: Simpler effects that one contains: naming them too is no mistake.
+#: Simpler effects that an effect contains; naming them too is not an error.
 IMPLIED = {"quadrant": ["load"]}
 
-#: Largest amplitude tried; where it does not reach the asked size, the noise is lowered instead.
+#: Largest amplitude tried; if it does not reach the wanted size, the noise is lowered.
 CAPS = {
     "stribeck": 1.2,
     "nonlinear_viscous": 4.0,
@@ -70,14 +70,15 @@ CAPS = {
     "restart": 0.3,
 }
 
-#: Shorter presliding distances (in half strokes) drown in the encoder: raise the noise instead.
+#: Smallest presliding distance (in half strokes) that the encoder resolves; otherwise the noise is
+#: raised.
 SHORTEST_REACH = 1.2e-3
 
 
 def check(
     effects: Sequence[str], size: float | Sequence[float], limits: dict[str, bool]
 ) -> tuple[list[str], list[float], str | None]:
-    """Effect names, a size for each, and the one limit, if any."""
+    """Return the names of the effects, a size for each, and the limit, if any."""
     names = [e for e in effects if e != "none"]
     known = (*EFFECTS, *OUTSIDE)
     unknown = [e for e in names if e not in known] + [k for k in limits if k not in LIMITS]

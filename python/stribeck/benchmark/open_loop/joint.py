@@ -1,4 +1,4 @@
-"""The joint before anything is hidden: its size, friction, inertia and gravity."""
+"""The joint without hidden effects: size, friction, inertia and gravity."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from stribeck.benchmark.draws import log_uniform
 
 @dataclass
 class SimulatedJoint:
-    """The base joint: what is known before anything is hidden."""
+    """The joint without hidden effects."""
 
     kind: str
     coulomb: float
@@ -31,7 +31,7 @@ class SimulatedJoint:
 def draw_joint(
     rng: np.random.Generator, effects: Sequence[str], limit: str | None
 ) -> SimulatedJoint:
-    """A joint with magnitudes over decades; gravity and one-way rotation need a revolute one."""
+    """Draw a joint with magnitudes over decades; revolute for gravity and one-way rotation."""
     kind = "prismatic" if rng.random() < 0.15 else "revolute"
     if "gravity" in effects or limit in ("one_direction", "short_range"):
         kind = "revolute"

@@ -1,4 +1,4 @@
-"""Dry friction with a presliding hysteresis, as Maxwell slip."""
+"""Dry friction with presliding hysteresis: the Maxwell slip model."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ ELEMENTS = 24
 
 
 def maxwell_slip(q: Array, reach: float, exponent: float) -> Array:
-    """Direction of dry friction, in -1..1, of parallel elastic-slip elements along a path `q`.
+    """Factor of dry friction, in -1..1, of parallel elastic-slip elements along a path `q`.
 
-    Between two reversals every element is min(spring, slip), hence exact for the path as sampled.
+    Between two reversals every element is min(spring, slip), so the result is exact for the sampled
+    path.
     """
     nodes = np.arange(1, ELEMENTS + 1) / ELEMENTS
     curve = 1 - (1 - np.concatenate([[0.0], nodes])) ** exponent

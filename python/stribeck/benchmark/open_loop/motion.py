@@ -11,7 +11,7 @@ from stribeck.benchmark.open_loop.moves import Array, Move
 
 @dataclass
 class MoveChain:
-    """A chain of moves, each analytic in its own time; at rest before and after them."""
+    """A sequence of moves, each an analytic function of time, at rest before and after."""
 
     starts: list[float] = field(default_factory=list)
     moves: list[Move] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""Single moves, each analytic in its own time and at rest before and after."""
+"""Single moves, each an analytic function of time, at rest before and after."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-#: Position, velocity and acceleration at times since the move began.
+#: Position, velocity and acceleration at times since the start of the move.
 Move = Callable[[Array], tuple[Array, Array, Array]]
 
 
 def trapezoid(delta: float, vmax: float, amax: float) -> tuple[float, Move]:
-    """A move of `delta` with a trapezoid of speed."""
+    """A move of `delta` with trapezoidal speed."""
     d, s = abs(delta), math.copysign(1.0, delta)
     top = min(vmax, math.sqrt(d * amax))
     ramp = top / amax
@@ -47,7 +47,7 @@ def quintic(delta: float, total: float) -> Move:
 
 
 def stroke(delta: float, total: float) -> Move:
-    """Half a cosine: it leaves and reaches rest with full acceleration."""
+    """Half a cosine, with full acceleration at both ends."""
     w = math.pi / total
 
     def move(t: Array) -> tuple[Array, Array, Array]:

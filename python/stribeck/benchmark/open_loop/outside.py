@@ -1,4 +1,4 @@
-"""Effects that no library of effects holds: the right answer is that something is unexplained."""
+"""Effects outside the library: the correct result is "unexplained"."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from stribeck.benchmark.draws import log_uniform
 from stribeck.benchmark.open_loop.joint import SimulatedJoint
 from stribeck.benchmark.open_loop.moves import Array
 
-#: Relative change of the dry friction at time, position, speed and acceleration.
+#: Relative change of the dry friction as a function of time, position, speed and acceleration.
 Change = Callable[[Array, Array, Array, Array], Array]
 
 OUTSIDE = (
@@ -27,20 +27,20 @@ OUTSIDE = (
 def draw_outside(
     rng: np.random.Generator, joint: SimulatedJoint, duration: float, swaps: Array
 ) -> dict[str, Change]:
-    """One form of each.
+    """Draw one form of each effect.
 
     acceleration_sign
-        Dry friction is higher while the joint speeds up than while it slows down.
+        Dry friction is higher during acceleration than during deceleration.
     humidity
-        Dry friction swings slowly, with a period that no channel shows.
+        Dry friction oscillates slowly, with a period that is in no channel.
     second_axis_load
-        A bearing also carries a neighbour's load, which changes with each pose of that neighbour.
+        A bearing also carries the load of another joint, which changes with the pose of that joint.
     speed_gap
         Dry friction steps up in a band of speed.
     position_speed
-        Tight spots change sides with speed: no curve of position alone, none of speed alone.
+        Tight spots move with speed, so the effect is not a function of position or speed alone.
     restart
-        Every start after a stop has its own friction.
+        Friction changes randomly at every start after a stop.
     """
     swing = duration / rng.uniform(4.0, 9.0)
     phase = float(rng.uniform(0, 2 * math.pi))

@@ -1,4 +1,4 @@
-"""One recording: the joint is drawn, moved, and its channels get their noise."""
+"""One recording: draw the joint, evaluate its motion, and add noise to the channels."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ from stribeck.benchmark.sample import Oracle, Sample, Truth, tangents
 
 Rows = NDArray[np.bool_]
 RATES = (125.0, 160.0, 200.0, 250.0)
-#: The first second is left out of all sizes: filters settle in it.
+#: Time excluded from all sizes, s, in which filters settle.
 SETTLED = 1.0
 
 
 @dataclass
 class Recording:
-    """A finished recording with what tests of the generator itself need.
+    """A recording, with additional data for tests of the generator.
 
     Attributes
     ----------
     moving : bool array [n]
-        Rows of `frame` over which sizes are meant.
+        Rows of `frame` over which sizes are computed.
     clean : array [n]
         The torque channel without noise.
     contributions : dict of arrays [n]
-        What each hidden effect alone changes of it.
+        Change of `clean` by each hidden effect alone.
     """
 
     frame: pl.DataFrame
@@ -58,18 +58,18 @@ class Recording:
 def record(
     effects: Sequence[str], seed: int, size: float | Sequence[float] = 1.0, **limits: bool
 ) -> Recording:
-    """A recording that hides `effects`, with all that is known of it.
+    """Generate a recording with hidden `effects`, with its truth.
 
     Parameters
     ----------
     effects
         Names of `EFFECTS` or `OUTSIDE`, or ``("none",)``.
     size
-        RMS of an effect over the moving rows, beyond what a refitted Coulomb and viscous friction
-        takes up, in units of the noise: one figure, or one for each effect.
+        RMS of an effect over the moving rows, after a refit of Coulomb and viscous friction,
+        relative to the noise: one number, or one for each effect.
     limits
-        One restriction of the motion (see `LIMITS`) set to true. Effects in
-        ``truth["cannot_show"]`` leave no trace there, so they get a fixed, physical amplitude.
+        One limit of the motion (see `LIMITS`) set to true. Effects in ``truth["cannot_show"]`` are
+        not visible then, so they have a fixed, physical amplitude.
 
     Raises
     ------
@@ -83,10 +83,10 @@ def record(
 def make(
     effects: Sequence[str], seed: int, size: float | Sequence[float] = 1.0, **limits: bool
 ) -> tuple[pl.DataFrame, Truth]:
-    """The rows and the truth of `record`.
+    """Return the rows and the truth of `record`.
 
-    ``truth["noise_rms"]`` is what the true friction, evaluated at the recorded velocity, leaves
-    over the moving rows.
+    ``truth["noise_rms"]`` is the residual RMS of the true friction, evaluated at the recorded
+    velocity, over the moving rows.
     """
     made = record(effects, seed, size, **limits)
     return made.frame, made.truth
@@ -95,7 +95,7 @@ def make(
 def sample(
     effects: Sequence[str], seed: int, size: float | Sequence[float] = 1.0, **limits: bool
 ) -> Sample:
-    """The same as every generator hands it over."""
+    """Generate a recording in the common form of all generators."""
     made = record(effects, seed, size, **limits)
     return Sample(made.frame, made.truth, made.oracle)
 
@@ -110,7 +110,7 @@ def coloured_noise(rng: np.random.Generator, n: int) -> Array:
 
 
 class _Session:
-    """What is drawn for one seed, in the order in which it is drawn."""
+    """The random quantities of one seed, in the order in which they are drawn."""
 
     def __init__(self, names: list[str], sizes: list[float], limit: str | None, seed: int) -> None:
         self.names, self.sizes, self.limit, self.seed = names, sizes, limit, seed
@@ -142,7 +142,7 @@ class _Session:
         world, joint = self.world, self.joint
         loads = world.true_load(self.t, self.q, self.a)
         world.shapes = draw_shapes(rng, joint, loads, world.temperature(self.t))
-        # Drawn apart, so that recordings without these effects stay what they were.
+        # Drawn from another generator, so that recordings without these effects do not change.
         apart = {k: np.random.default_rng([self.seed, k]) for k in (11, 13, 17)}
         world.shapes |= draw_additive_shapes(apart[11], joint, loads, duration)
         world.shapes |= draw_quadrant_shape(apart[13], joint, loads)
@@ -168,23 +168,23 @@ class _Session:
         self._turn = float(np.max(np.abs(turns), initial=0.0))
 
     def sigma(self, amplitudes: Amplitudes) -> float:
-        """Velocity noise; rows whose direction a delay leaves undecided must not be moving."""
+        """Velocity noise; samples with an uncertain direction under a delay must not be moving."""
         slip = self._turn * amplitudes.get("delay", 0.0) / self.rate
         return max(self.base_sigma, 1.05 * slip / 5)
 
     def rows(self, amplitudes: Amplitudes) -> Rows:
-        """Rows that move, by the recorded velocity."""
+        """Moving rows, by the recorded velocity."""
         s = self.sigma(amplitudes)
         moving = np.abs(self.v + s * self.unit_v) > 5 * s
         return np.asarray(self.keep & moving & (self.t > SETTLED))
 
     def contribution(self, amplitudes: Amplitudes) -> Array:
-        """What hidden effects change of the torque that the given load leaves."""
+        """Change of measured torque minus recorded load torque by the hidden effects."""
         torque, given = self.world.measured(self.t, amplitudes)
         return (torque - given) - (self._plain[0] - self._plain[1])
 
     def _base(self, *names: str) -> Array:
-        """Columns of the base, and of the simpler effects that those in `names` contain."""
+        """Columns of the base model, and of the simpler effects contained in those of `names`."""
         columns = [np.sign(self.v), self.v]
         if "direction" in names:
             columns.append(np.ones_like(self.v))
@@ -193,13 +193,13 @@ class _Session:
         return np.stack(columns, 1)
 
     def size(self, name: str, amplitude: float) -> float:
-        """RMS of one effect beyond the base."""
+        """RMS of one effect outside the span of the base model."""
         one = {name: amplitude}
         on = self.rows(one)
         return size_beyond(self.contribution(one)[on], self._base(name)[on])
 
     def recording(self) -> Recording:
-        """The recording of this session."""
+        """Return the recording."""
         world, joint, rng, t = self.world, self.joint, self._rng, self.t
         cannot = LIMITS.get(self.limit or "", [])
         wanted = dict(zip(self.names, self.sizes, strict=True))
@@ -274,7 +274,7 @@ class _Session:
         return truth
 
     def _oracle(self, amplitudes: Mapping[str, float], velocity_error: Array) -> Oracle:
-        """The friction of this joint at the recorded velocity; its amplitudes are free."""
+        """The true friction at the recorded velocity, with free amplitudes."""
         values = {"coulomb": 1.0, "viscous": 1.0, **amplitudes}
         _, given = self.world.measured(self.t, amplitudes)
 

@@ -1,4 +1,4 @@
-"""The motion of a recording: a random chain of sines, moves, slow scans and strokes."""
+"""The motion of a recording: a random sequence of sines, moves, slow scans and strokes."""
 
 from __future__ import annotations
 
@@ -21,17 +21,18 @@ def schedule(
     brisk: bool = False,
     smooth: bool = False,
 ) -> tuple[MoveChain, Array]:
-    """The motion, and the times at which the payload may change (the middle of dwells).
+    """Return the motion, and the times at which the payload may change (the middle of dwells).
 
-    A `brisk` motion has few slow reversals: few rows are inside the presliding distance. In a
-    `smooth` one the acceleration never jumps: no row near a jump is undecided under a delay.
+    A `brisk` motion has few slow reversals, so that few samples are inside the presliding distance.
+    A `smooth` motion has no jumps of acceleration, near which the direction is uncertain under a
+    delay.
     """
     scheduler = _Scheduler(rng, joint, brisk, smooth)
     return scheduler.fill(duration, scheduler.kinds(limit))
 
 
 class _Scheduler:
-    """Appends stretches of one kind of motion each."""
+    """Appends parts of one kind of motion each."""
 
     def __init__(
         self, rng: np.random.Generator, joint: SimulatedJoint, brisk: bool, smooth: bool
@@ -41,7 +42,7 @@ class _Scheduler:
         self.motion.rest(0.5)
 
     def kinds(self, limit: str | None) -> list[Callable[[float], None]]:
-        """The kinds of stretches, in one of which `limit` is kept."""
+        """Return the kinds of motion that are allowed under `limit`."""
         if limit == "one_direction":
             return [self.one_way]
         if limit == "no_slow_motion":
@@ -62,7 +63,7 @@ class _Scheduler:
     def fill(
         self, duration: float, kinds: list[Callable[[float], None]]
     ) -> tuple[MoveChain, Array]:
-        """Stretches of all kinds in random order, with a dwell after each."""
+        """Append parts of all kinds in random order, with a dwell after each."""
         rng, motion = self.rng, self.motion
         swaps: list[float] = []
         while motion.end < duration:
@@ -73,7 +74,7 @@ class _Scheduler:
         return motion, np.asarray(swaps)
 
     def go(self, q: float, vmax: float, amax: float) -> None:
-        """Move to `q`, unless it is as good as there."""
+        """Move to `q`, unless it is already there."""
         delta = q - self.motion.q
         if abs(delta) <= 1e-3 * self.joint.half:
             return
@@ -84,7 +85,7 @@ class _Scheduler:
         self.motion.add(total, move, delta)
 
     def sines(self, length: float) -> None:
-        """A multi-sine within the limits of position, speed and acceleration."""
+        """Append a multi-sine within the limits of position, speed and acceleration."""
         rng, joint = self.rng, self.joint
         start = joint.centre + 0.1 * joint.half * rng.uniform(-1, 1)
         self.go(start, 0.5 * joint.vmax, joint.amax / 2)
@@ -102,7 +103,7 @@ class _Scheduler:
         self.motion.add(length, multisine(amp * scale, omega, phase, length, length / 8), 0.0)
 
     def moves(self, length: float) -> None:
-        """Point-to-point moves at all speeds, with dwells."""
+        """Append point-to-point moves at all speeds, with dwells."""
         rng, joint, motion = self.rng, self.joint, self.motion
         end = motion.end + length
         while motion.end < end:
@@ -119,7 +120,7 @@ class _Scheduler:
             motion.rest(rng.uniform(0.1, 0.6))
 
     def slow(self, length: float) -> None:
-        """Slow scans to and fro."""
+        """Append slow scans back and forth."""
         rng, joint, motion = self.rng, self.joint, self.motion
         end, side = motion.end + length, 1.0 if motion.q < joint.centre else -1.0
         while motion.end < end:
@@ -133,7 +134,7 @@ class _Scheduler:
                 motion.rest(rng.uniform(0.1, 0.4))
 
     def strokes(self, length: float) -> None:
-        """Cosine strokes whose reversals differ in acceleration."""
+        """Append cosine strokes with different accelerations at the reversals."""
         rng, joint, motion = self.rng, self.joint, self.motion
         end = motion.end + length
         while motion.end < end:
@@ -149,7 +150,7 @@ class _Scheduler:
                 motion.add(total, stroke(back, total), back)
 
     def one_way(self, length: float) -> None:
-        """Moves that only go forward."""
+        """Append forward moves only."""
         rng, joint, motion = self.rng, self.joint, self.motion
         end = motion.end + length
         while motion.end < end:
@@ -166,7 +167,7 @@ class _Scheduler:
             motion.rest(rng.uniform(0.1, 0.5))
 
     def fast(self, length: float) -> None:
-        """Moves near the top speed over the whole stroke."""
+        """Append moves near the top speed over the whole stroke."""
         rng, joint, motion = self.rng, self.joint, self.motion
         end = motion.end + length
         while motion.end < end:

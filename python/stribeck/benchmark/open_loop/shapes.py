@@ -1,4 +1,4 @@
-"""One random member of each family of forms; amplitudes come later."""
+"""Random members of families of functions; amplitudes are set later."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from stribeck.benchmark.open_loop.moves import Array
 #: Functions and numbers by name, drawn at random.
 Shapes: TypeAlias = dict[str, Any]
 Shape = Callable[[Array], Array]
-#: Zero of the Vogel equation below 0 degC, and of kelvin.
+#: Constant of the Vogel equation, and absolute zero, K below 0 degC.
 VOGEL, KELVIN = 95.0, 273.15
 
 
 def draw_shapes(
     rng: np.random.Generator, joint: SimulatedJoint, loads: Array, temperatures: Array
 ) -> Shapes:
-    """Forms of friction against speed, load, temperature and position, and of what is not known."""
+    """Draw functions of speed, load, temperature and position, and of unknown torques."""
     vs = joint.vmax * log_uniform(rng, 0.02, 0.06)
     falls = _falls_with_speed(vs, rng.uniform(0.93, 1.07, 5))
     scale = float(np.sqrt(np.mean(loads**2))) * rng.uniform(0.3, 1.5) + 1e-12
@@ -63,7 +63,7 @@ def draw_shapes(
 
 
 def _falls_with_speed(vs: float, jitter: Array) -> list[Shape]:
-    """Hess and Soom's fraction, a hyperbolic secant, and a monotone table."""
+    """Hess and Soom's rational function, a hyperbolic secant, and a monotone table."""
     fall = np.clip(np.array([0.9, 0.6, 0.3, 0.1, 0.03]) * jitter, 0, 1)
     knots = _table([0, 0.4, 0.9, 1.5, 2.4, 3.6, 5], [1, *fall, 0])
     return [
@@ -88,7 +88,7 @@ def _grows_with_load(scale: float) -> list[Shape]:
 
 
 def _thins_with_temperature(middle: float) -> list[Callable[[Array, float], Array]]:
-    """Viscosity after Vogel and after Arrhenius, over the one at the middle temperature."""
+    """Viscosity after Vogel and Arrhenius, relative to that at the middle temperature."""
     return [
         lambda x, a: np.exp(1500 * a * (1 / (x + VOGEL) - 1 / (middle + VOGEL))),
         lambda x, a: np.exp(9000 * a * (1 / (x + KELVIN) - 1 / (middle + KELVIN))),
@@ -96,7 +96,7 @@ def _thins_with_temperature(middle: float) -> list[Callable[[Array, float], Arra
 
 
 def _rate(joint: SimulatedJoint, curve: int, v: Array, alpha: float) -> Array:
-    """Friction of the lubricant: two that flatten with speed, and one that steepens."""
+    """Friction of the lubricant: two curves that saturate with speed, and one that steepens."""
     if alpha == 0:
         return joint.viscous * v
     x = np.abs(v) / joint.vmax
@@ -112,7 +112,7 @@ def _rate(joint: SimulatedJoint, curve: int, v: Array, alpha: float) -> Array:
 def draw_additive_shapes(
     rng: np.random.Generator, joint: SimulatedJoint, loads: Array, end: float
 ) -> Shapes:
-    """Forms of what is no part of the friction's dependence on speed, load and temperature."""
+    """Draw functions of effects other than those of speed, load and temperature."""
     neutral, stiff = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.8, 1.6))
     springs: list[Shape] = [
         lambda u: np.sinh(stiff * (u - neutral)),
@@ -153,10 +153,10 @@ def _ageing(end: float, slow: float) -> list[Shape]:
 
 
 def draw_quadrant_shape(rng: np.random.Generator, joint: SimulatedJoint, loads: Array) -> Shapes:
-    """Tooth friction per load, for a joint that drives its load and one that is driven by it.
+    """Draw tooth friction per load, for a joint that drives its load or is driven by it.
 
-    A driven gear train carries its load over more of the sliding, so it loses more; with speed the
-    film takes over, sooner on one side than on the other.
+    A driven gear train has a larger sliding share under load, so its losses are larger. With speed
+    the lubricant film carries the load, at a lower speed in one direction of power.
     """
     share, film = float(rng.uniform(0.3, 0.9)), joint.vmax * float(rng.uniform(0.2, 0.6))
     scale = float(np.sqrt(np.mean(loads**2))) + 1e-12

@@ -13,7 +13,7 @@ from stribeck.benchmark.open_loop.moves import Array
 def joint_temperature(
     rng: np.random.Generator, duration: float, limit: str | None
 ) -> Callable[[Array], Array]:
-    """Joint temperature: a duty cycle heats and cools, so that it is not a function of time."""
+    """Joint temperature: it rises and falls with a duty cycle, so it is not monotone in time."""
     grid = np.arange(-1.0, duration + 1.0, 0.05)
     start, span = rng.uniform(19.0, 30.0), rng.uniform(14.0, 28.0)
     if limit == "isothermal":

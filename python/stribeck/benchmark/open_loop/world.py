@@ -1,4 +1,4 @@
-"""The joint of one seed, evaluated at any time for given amplitudes of what is hidden."""
+"""The joint of one seed, evaluated at any time for given amplitudes of the hidden effects."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ Amplitudes = Mapping[str, float]
 
 @dataclass
 class World:
-    """Everything drawn for one seed.
+    """All random quantities of one seed.
 
-    Amplitudes are by effect; ``coulomb`` and ``viscous`` are factors of the joint's own friction.
+    Amplitudes are by effect; ``coulomb`` and ``viscous`` are factors of the basic friction.
     """
 
     joint: SimulatedJoint
@@ -37,7 +37,7 @@ class World:
     coarse: bool = False
 
     def true_load(self, t: Array, q: Array, a: Array) -> Array:
-        """Load torque: inertia and a gravity-like part with a payload that changes in dwells."""
+        """Load torque: inertia, and gravity with a payload that changes in dwells."""
         j = self.joint
         if self.limit == "constant_load":
             return np.full_like(q, j.gravity)
@@ -47,7 +47,7 @@ class World:
         return np.asarray(j.inertia * a + mass * j.gravity * np.cos(q + j.phase))
 
     def direction(self, t: Array, v: Array, amplitudes: Amplitudes) -> Array:
-        """What multiplies the dry friction: sgn v, a hold at rest, or the Maxwell-slip state."""
+        """Factor of the dry friction: sgn v, sticking at rest, or the Maxwell-slip state."""
         if amplitudes.get("presliding"):
             m = 1 if self.coarse else self.oversampling
             fine = (t[:, None] + self.dt * (np.arange(1 - m, 1) / m)).ravel()
@@ -65,7 +65,7 @@ class World:
     def friction(
         self, t: Array, q: Array, v: Array, a: Array, tl: Array, amplitudes: Amplitudes
     ) -> Array:
-        """Friction torque, and what else acts without being known: offset, spring, ripple."""
+        """Friction and other unknown torques: offset, spring, ripple."""
         j, s = self.joint, self.shapes
         dry = np.full_like(q, j.coulomb * amplitudes.get("coulomb", 1.0))
         if x := amplitudes.get("stribeck"):
@@ -98,7 +98,7 @@ class World:
         return np.asarray(dry * self.direction(t, v, amplitudes) + rate + constant)
 
     def known_load(self, q: Array, a: Array, tl: Array, amplitudes: Amplitudes) -> Array:
-        """The load torque as the recording gives it: wrong by a hidden inertia or gravity error."""
+        """The recorded load torque, with a hidden error of inertia or gravity."""
         j = self.joint
         given = tl - amplitudes.get("inertia", 0.0) * (j.inertia or j.coulomb / j.amax) * a
         return np.asarray(
@@ -111,10 +111,10 @@ class World:
     def measured(
         self, t: Array, amplitudes: Amplitudes, velocity_error: Array | float = 0.0
     ) -> tuple[Array, Array]:
-        """Noise-free torque channel and the given load torque, both at the rows `t`.
+        """Noise-free torque channel and the recorded load torque, both at the times `t`.
 
-        With a `velocity_error` the friction is that of the velocity as it is recorded, in the true
-        direction: what a perfect model would say.
+        With a `velocity_error` friction is evaluated at the recorded velocity, in the true
+        direction: the prediction of a perfect model.
         """
         q, v, a = self.motion(t)
         given = self.known_load(q, a, self.true_load(t, q, a), amplitudes)
@@ -128,7 +128,7 @@ class World:
         return self.shown(torque, amplitudes), given
 
     def shown(self, torque: Array, amplitudes: Amplitudes) -> Array:
-        """The torque channel where `torque` acts: current times a nominal torque constant."""
+        """The torque channel for an acting `torque`: current times a nominal torque constant."""
         if x := amplitudes.get("saturation"):
             torque = self.shapes["saturation"](torque, x)
         if x := amplitudes.get("gain"):

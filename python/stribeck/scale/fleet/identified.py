@@ -125,8 +125,7 @@ def _identified(fitted: Fit, found: tuple[Found, ...], floor: float | None) -> I
 
 
 def _covariance(fitted: Fit) -> NDArray[np.float64]:
-    """Covariance [p, p] of the parameters, with the squares of `Estimate.stderr` on its
-    diagonal."""
+    """Covariance [p, p] of the parameters; its diagonal is the square of the standard errors."""
     problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
     residual, jacobian = problem.linearise(fitted.model.values)
     free = np.array([e.stderr is not None for e in fitted.estimates.values()], dtype=bool)
