@@ -30,8 +30,8 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     if changes >= FEWEST_REVERSALS:
         return None
     return Obstacle(
-        f"the load torque changes its sign {changes} times in motion, so that the teeth hardly "
-        "leave their flank",
+        f"the load torque changes its sign {changes} times in motion, so that the teeth "
+        "seldom cross the gap",
         "move through the angle at which the load is balanced, back and forth",
     )
 

@@ -11,7 +11,7 @@ from stribeck.effect.inertia import hardly_accelerates
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     if facts.recording.averaged:
-        return Obstacle("steady-state points hold no timing", "record accelerated motion")
+        return Obstacle("steady-state points contain no timing", "record accelerated motion")
     return hardly_accelerates(facts)
 
 

@@ -31,7 +31,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     r = facts.recording
     if r.averaged:
         return Obstacle(
-            "steady motion holds no change of the load torque", "record accelerated motion"
+            "steady motion contains no change of the load torque", "record accelerated motion"
         )
     curvature, load = facts.scored(r.load_torque_curvature), facts.scored(r.load_torque)
     if curvature is None or load is None:
@@ -49,7 +49,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     return Obstacle(
         f"the load torque changes so slowly that even a drive train that resonates at "
         f"{SOFT_DRIVE:.0f} Hz would look rigid",
-        "add moves that start and stop hard, or record positions at motor and joint",
+        "add motions that start and stop abruptly, or record positions at motor and joint",
     )
 
 

@@ -27,7 +27,7 @@ SLOW_PASS = 2.0
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     if facts.recording.averaged:
         return Obstacle(
-            "steady-state points hold no change of speed",
+            "steady-state points contain no change of speed",
             "record slow passes that speed up and slow down",
         )
     if (why := no_slow_motion(facts)) is not None:
@@ -58,8 +58,8 @@ def _refusal(model: Model, recording: Recording) -> str | None:
 
 def _where(before: Identified, after: Identified) -> str:
     return (
-        "the fall of friction with speed comes "
-        f"{number(1e3 * after.model.value('frictional_lag'))} ms late: at the same low speed "
+        "the decrease of friction with speed is delayed by "
+        f"{number(1e3 * after.model.value('frictional_lag'))} ms: at the same low speed "
         "friction is higher while the joint speeds up than while it slows down"
     )
 

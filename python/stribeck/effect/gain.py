@@ -28,7 +28,7 @@ def motor_torque_is_not_known(facts: RecordingFacts) -> Obstacle | None:
         return why
     if facts.recording.load_torque is None:
         return Obstacle(
-            "the load torque is identified together with the friction, and takes up any error of "
+            "the load torque is identified together with the friction, and absorbs any error of "
             "the torque constant",
             "give the load torque, or inertia and gravity from a weighing or a CAD model",
         )

@@ -32,7 +32,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
         return Obstacle("no position was recorded", "record the joint's position")
     if float(np.ptp(q)) < GRAVITY_RANGE:
         return Obstacle(
-            f"the joint moves through {np.ptp(q):.2g} rad only, where gravity is "
+            f"the joint moves through only {np.ptp(q):.2g} rad, where gravity is "
             "indistinguishable from an offset",
             "move through at least a quarter of a turn",
         )

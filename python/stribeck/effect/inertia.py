@@ -25,9 +25,9 @@ def hardly_accelerates(facts: RecordingFacts) -> Obstacle | None:
     """The motion is steady, or nearly so."""
     a = facts.scored(facts.recording.acceleration)
     if a is None or facts.recording.averaged:
-        return Obstacle("steady motion holds no acceleration", "record accelerated motion")
+        return Obstacle("steady motion contains no acceleration", "record accelerated motion")
     if float(np.sqrt(np.mean(a**2))) < facts.top_speed / SLOWEST_START:
-        return Obstacle("the joint hardly accelerates", "record accelerated motion")
+        return Obstacle("the joint accelerates too little", "record accelerated motion")
     return None
 
 

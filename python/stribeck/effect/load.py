@@ -45,14 +45,14 @@ def load_is_too_uniform(facts: RecordingFacts) -> Obstacle | None:
     scale = float(np.sqrt(np.mean(torque**2))) or 1.0
     if spread(size) < LOAD_SPREAD * max(scale, float(np.quantile(size, 0.99))):
         return Obstacle(
-            "the load torque hardly varies",
+            "the load torque varies too little",
             "repeat the motion in other poses or with other payloads",
         )
     share = float(np.mean(np.sign(facts.velocity) * load > 0))
     if not BOTH_SIGNS <= share <= 1.0 - BOTH_SIGNS:
         return Obstacle(
-            "velocity and load torque keep the same relative sign, where load-dependent friction "
-            "is indistinguishable from an error of gravity or inertia",
+            "the load torque always has the same sign relative to the velocity, so load-dependent "
+            "friction is indistinguishable from an error of gravity or inertia",
             "move up and down under the same load",
         )
     return None

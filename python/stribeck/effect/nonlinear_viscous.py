@@ -27,7 +27,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
         return None
     return Obstacle(
         f"the speeds lie between {low:.3g} and {high:.3g} {facts.recording.position_unit}/s, too "
-        "narrow to show a curve",
+        "narrow a range to show a curve",
         "move at speeds from a tenth of the top speed to the top speed",
     )
 

@@ -40,7 +40,7 @@ def stroke_is_not_repeated(facts: RecordingFacts) -> Obstacle | None:
     path = float(np.sum(np.abs(facts.recording.velocity) * facts.recording.dt))
     if path < FEWEST_PASSES * stroke:
         return Obstacle(
-            f"the stroke is passed {path / stroke:.1f} times only",
+            f"the stroke is passed only {path / stroke:.1f} times",
             "pass the same stroke several times in both directions",
         )
     return None

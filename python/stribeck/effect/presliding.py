@@ -21,7 +21,7 @@ FEWEST_REVERSALS = 4
 
 #: What to say of averaged points where reversals are needed.
 NO_REVERSALS = Obstacle(
-    "steady-state points hold no reversals", "record the motion through reversals"
+    "steady-state points contain no reversals", "record the motion through reversals"
 )
 
 
@@ -70,7 +70,7 @@ EFFECT = Effect(
     # The stiffer the bristles, the smaller the effect.
     size_range=(1.0, 1e4),
     design_note=(
-        "presliding lasts micrometres to millimetres: record at the highest rate and at the finest "
-        "resolution of the encoder"
+        "presliding ends after micrometres to millimetres: record at the highest rate and at the "
+        "finest resolution of the encoder"
     ),
 )

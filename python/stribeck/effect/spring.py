@@ -27,7 +27,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     assert q is not None
     if facts.recording.joint_kind == "revolute" and float(np.ptp(q)) < GRAVITY_RANGE:
         return Obstacle(
-            f"the joint moves through {np.ptp(q):.2g} rad only, where a spring is "
+            f"the joint moves through only {np.ptp(q):.2g} rad, where a spring is "
             "indistinguishable from the slope of gravity",
             "move through at least a quarter of a turn",
         )

@@ -39,7 +39,7 @@ def no_slow_motion(facts: RecordingFacts) -> Obstacle | None:
     if fewest >= needed or (averaged and fewest >= ENOUGH_SLOW_POINTS):
         return None
     return Obstacle(
-        f"hardly any motion is slower than {SLOW * top:.3g} {facts.recording.position_unit}/s "
+        f"almost no motion is slower than {SLOW * top:.3g} {facts.recording.position_unit}/s "
         f"({SLOW:.0%} of the top speed)",
         "add slow passes in both directions, down to a few per cent of the top speed",
     )

@@ -29,7 +29,7 @@ def temperature_hardly_varies(facts: RecordingFacts) -> Obstacle | None:
     if span >= TEMPERATURE_SPAN:
         return None
     return Obstacle(
-        f"the temperature varies by {span:.1f} K only",
+        f"the temperature varies by only {span:.1f} K",
         f"record from cold to warm, at least {TEMPERATURE_SPAN:.0f} K, and cool down again",
     )
 

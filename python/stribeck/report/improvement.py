@@ -120,7 +120,7 @@ def _above_the_floor(fitted: Fit, floor: NoiseFloor) -> str:
     return (
         f"Fitted to all samples, {spec} has an error of {plain(fitted.rmse)} {unit}, the noise "
         f"floor. The held-out error is larger because a part of the recording shows what no other "
-        f"part does. A longer recording would settle it."
+        f"part does. A longer recording would decide."
     )
 
 

@@ -93,8 +93,8 @@ def unexplained(
 
 def _varying(fit: Fit, varying: VaryingFriction) -> str:
     return (
-        f"friction varies by {varying.rms:.2g} {fit.model.torque_unit} (RMS) along the recording, "
-        f"forward and backward alike, for no recorded reason"
+        f"friction varies by {varying.rms:.2g} {fit.model.torque_unit} (RMS) during the recording, "
+        f"equally in both directions, and no recorded channel explains it"
     )
 
 

@@ -113,12 +113,12 @@ def _hidden(one: VisibleEffect, space: ModelSpace, unit: str) -> Untestable:
     why = reason(names, alike)
     if sine_to_span(one.torque, space.basis) > NOT_ABSORBED:
         why = (
-            "a part of it shows in one stretch of the recording only, and no refit without that "
-            "stretch predicts it"
+            "a part of it shows in only one stretch of the recording, and a model fitted without "
+            "that stretch cannot predict it"
         )
     elif np.isfinite(one.smallest):
         why = (
-            f"it would be visible from {one.smallest:.2g} {unit} RMS on, more than all the "
+            f"it would only be found above {one.smallest:.2g} {unit} RMS, more than all the "
             f"friction ({why}, or nearly)"
         )
     row = effect_row(one.effect)
