@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from stribeck.benchmark.answer import CaseAnswer, NamedEffect
 from stribeck.models.catalog import effect_ids
 
-#: Names in the confusion matrix where no effect was named.
+#: Columns of the confusion matrix for results without an effect.
 NONE, UNEXPLAINED, FAILED = "none", "unexplained", "failed"
 
 

@@ -45,7 +45,7 @@ class Sample:
         The recording: time, position, velocity, acceleration, torque, load_torque, temperature.
     truth : dict
         ``hidden`` (or ``["none"]``), ``implied`` (simpler effects that a hidden one contains),
-        ``cannot_show``, ``sizes`` over the noise, ``noise_rms`` and what was drawn.
+        ``cannot_show``, ``sizes`` relative to the noise, ``noise_rms`` and the random quantities.
     oracle : Oracle
         The best possible model of this recording.
     """

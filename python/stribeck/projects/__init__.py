@@ -1,6 +1,6 @@
-"""Projects: the loop of diagnosis by hand, with every branch in one file.
+"""Projects: interactive diagnosis, with all models of one recording in one file.
 
-The walk through it: `source` is the data and how it was read, `kept` a fitted model as it is
-stored, `findings` what a diagnosis said, `node` a model with how it came about, `tree` the nodes,
-`project` the verbs, `sides` two nodes beside each other, `write` and `read` the TOML.
+`source` has the data and the reading options, `kept` a stored model, `findings` the results of a
+diagnosis, `node` a model with its origin, `tree` all nodes, `project` the operations, `sides` the
+comparison of two nodes; `write` and `read` handle the TOML file.
 """

@@ -1,4 +1,4 @@
-"""What a diagnosis said of a node, as far as a project remembers it."""
+"""The results of a diagnosis that a project stores."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ class Found:
     Attributes
     ----------
     confidence
-        0..1, of a diagnosis; None where a person added the effect without one.
+        0..1, from a diagnosis; None if the user added the effect without one.
     rmse_held_out
         Held-out error with the effect, in the unit of torque.
     share
-        Of the squared error above the noise floor, 0..1; None where there is no floor.
+        Share of the squared error above the noise floor, 0..1; None if there is no noise floor.
     where
-        One sentence: where the data shows it.
+        One sentence: where in the data the effect is visible.
     ties
-        Effects that this data cannot tell from it.
+        Effects indistinguishable from it with this data.
     """
 
     effect: str
@@ -34,7 +34,7 @@ class Found:
 
     @classmethod
     def of(cls, finding: Finding) -> Found:
-        """Remember a finding."""
+        """Return the stored part of a finding."""
         return cls(
             finding.effect,
             finding.confidence,
@@ -45,7 +45,7 @@ class Found:
         )
 
     def to_dict(self) -> dict[str, object]:
-        """For JSON, with the names that a diagnosis uses."""
+        """As JSON, with the keys of a diagnosis."""
         return {
             "effect": self.effect,
             "confidence": self.confidence,
@@ -66,10 +66,10 @@ class Remembered:
     noise_floor
         In the unit of torque; None where it cannot be estimated.
     left, left_where
-        Share of the squared error that is structure with the best finding added, and where it
-        sits.
+        Share of the squared error that is unexplained structure with the best finding added, and
+        where it occurs.
     full
-        The diagnosis itself, if this session has made it.
+        The full diagnosis, if it was made in this session.
     """
 
     verdict: str
@@ -81,7 +81,7 @@ class Remembered:
 
     @classmethod
     def of(cls, diagnosis: Diagnosis) -> Remembered:
-        """Remember a diagnosis."""
+        """Return the summary of a diagnosis."""
         return cls(
             diagnosis.verdict,
             diagnosis.noise_floor.value,
@@ -92,7 +92,7 @@ class Remembered:
         )
 
     def finding(self, effect: str) -> Found | None:
-        """What was found of one effect."""
+        """Return the finding of an effect, if there is one."""
         return next((found for found in self.findings if found.effect == effect), None)
 
     def to_dict(self) -> dict[str, object]:

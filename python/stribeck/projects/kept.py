@@ -1,4 +1,4 @@
-"""A fitted model as a project keeps it: the model file's contents, and the fit behind them."""
+"""A fitted model as stored by a project: the contents of its model file, and the fit."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stribeck.projects.source import Source
 
 
 class Kept:
-    """A model file's contents; the fit behind them is there at once or made when needed."""
+    """The contents of a model file; the fit is given, or computed when needed."""
 
     def __init__(self, file: ModelFile, fitted: Fit | None = None) -> None:
         self.file = file
@@ -23,7 +23,7 @@ class Kept:
 
     @classmethod
     def of(cls, fitted: Fit, source: Source) -> Kept:
-        """Keep a fit on the project's data."""
+        """Store a fit to the data of the project."""
         file = ModelFile.of(fitted)
         return cls(replace(file, fitted_on={**file.fitted_on, "path": source.path}), fitted)
 
@@ -34,35 +34,35 @@ class Kept:
 
     @property
     def rmse(self) -> float:
-        """Error over the rows that count."""
+        """RMSE over the scored samples."""
         return float(self.file.fitted_on["rmse"])
 
     @property
     def rmse_held_out(self) -> float | None:
-        """The same, each block predicted by a refit without it."""
+        """RMSE with each block predicted by a fit without it."""
         value = self.file.fitted_on.get("rmse_held_out")
         return None if value is None else float(value)
 
     @property
     def estimates(self) -> dict[str, Estimate]:
-        """The parameters with what the file says about them; it keeps no intervals."""
+        """The parameters as stored in the file, without intervals."""
         return {
             p.name: _estimate(self.file, p.name, p.symbol, p.unit) for p in self.model.parameters
         }
 
     def holds(self, fitted: Fit) -> bool:
-        """Whether this very fit is kept here."""
+        """Whether this is the stored fit object."""
         return self._fitted is fitted
 
     def fit(self, source: Source, seed: int) -> Fit:
-        """The fit, made again from the kept values where this session has not made it."""
+        """Return the fit; it is fitted again from the stored values if not made in this session."""
         if self._fitted is None:
             self._fitted = fit(self.model, source.recording, starts=1, seed=seed)
         return self._fitted
 
 
 def _estimate(file: ModelFile, name: str, symbol: str, unit: str) -> Estimate:
-    """One parameter: without an error it is held, at a bound, or not identifiable."""
+    """One parameter; without a standard error it is fixed, at its bound, or not identifiable."""
     value, error = file.model.value(name), file.stderr.get(name)
     lower, upper = file.model.bounds.get(name, (-np.inf, np.inf))
     held = lower == upper

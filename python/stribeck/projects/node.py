@@ -1,4 +1,4 @@
-"""One model of a project, and how it came about."""
+"""One model of a project, and its origin."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ CHANGES = ("base", "add", "drop")
 
 @dataclass(frozen=True)
 class Node:
-    """A fitted model: the base, or its parent's with one effect more or fewer.
+    """A fitted model: the base, or the model of its parent with one effect added or dropped.
 
     Attributes
     ----------
@@ -24,13 +24,14 @@ class Node:
         The parent of the base is None.
     change : {"base", "add", "drop"}
     found
-        The effect that was added or dropped, with what is known of it; None of the base.
+        The effect that was added or dropped, with its finding; None for the base.
     name
-        Of the branch that begins here; may be empty.
+        Name of the branch that begins here; may be empty.
     rejected
-        Effects that are not tried from here on, with the reason, which may be empty.
+        Effects that are not tested at this node and its descendants, with the reason, which may be
+        empty.
     diagnosis
-        What is missing here, if it has been asked.
+        Summary of the diagnosis, if there is one.
     """
 
     number: int
@@ -55,7 +56,7 @@ class Node:
         return f"{'+' if self.change == 'add' else '-'} {self.found.effect}"
 
     def check_formula(self, effect: str) -> None:
-        """Refuse an effect by formula that differs from the one of this node but has its name.
+        """Raise if an effect by formula has the name of this node's effect but another formula.
 
         Raises
         ------

@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Project(Plotted):
-    """The loop of diagnosis by hand: every method returns a new project, `save` writes it.
+    """Interactive diagnosis: every method returns a new project, `save` writes it.
 
     Attributes
     ----------
@@ -159,7 +159,7 @@ class Project(Plotted):
         candidates: Collection[str] = (),
         seed: int = 0,
     ) -> Project:
-        """Diagnose the current node, and keep the findings.
+        """Diagnose the current node, and store the findings.
 
         Parameters are those of `stribeck.diagnose`; rejected effects are not tested.
         """
@@ -284,7 +284,7 @@ class Project(Plotted):
         return replace(self, current=self.node.parent)
 
     def named(self, name: str) -> Project:
-        """Name the branch that begins at the current node; an empty name removes the name.
+        """Name the branch that begins at the current node; an empty text removes the name.
 
         Raises
         ------
@@ -293,7 +293,7 @@ class Project(Plotted):
         """
         word = name.strip()
         if word.isdecimal():
-            raise ProjectError(f"{word} is a number, as nodes have: give a word")
+            raise ProjectError(f"{word} is a number, which could be that of a node: give a word")
         taken = [n.number for n in self.tree if n.name == word and word]
         if taken and taken != [self.current]:
             raise ProjectError(f"node {taken[0]} has the name {word!r} already: give another")
@@ -311,8 +311,8 @@ class Project(Plotted):
     ) -> Project:
         """Diagnose and add effects from the current node until none passes; each step is a node.
 
-        An effect that becomes superfluous stays as a branch. The search continues without it, where
-        it is rejected with the reason.
+        An effect that becomes superfluous stays as a branch. The search continues without it at a
+        node where it is rejected, with the reason.
 
         Parameters
         ----------
@@ -377,7 +377,7 @@ class Project(Plotted):
             return replace(self, current=known.number)
         found = Found.of(step.finding)
         known = self.tree.child(self.current, "add", found.effect)
-        # The search did not know what was rejected there, so its steps form another branch.
+        # The search did not use the rejections at that node, so its steps form another branch.
         if known is None or known.rejected:
             return self._with_node("add", found, step.after)
         kept = Kept.of(step.after, self.source)
@@ -385,7 +385,7 @@ class Project(Plotted):
         return replace(self, tree=tree, current=known.number)
 
     def to_dict(self) -> dict[str, object]:
-        """Return what the commands print as JSON."""
+        """Return the JSON that the commands print."""
         return project_dict(self)
 
     def to_frame(self) -> pl.DataFrame:

@@ -1,4 +1,4 @@
-"""Reading a project file: everything that is not understood is refused with its line."""
+"""Reading a project file: invalid contents are refused, with the line."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def read_project(path: Path) -> StoredProject:
     Raises
     ------
     ProjectError, ModelFileError
-        The file cannot be read, or is not a project; with the line.
+        The file cannot be read, or is not a project; the message names the line.
     """
     text = TomlText(path, read_text(path, "project", ProjectError), ProjectError)
     return _Reader(text).project(text.parsed())
@@ -61,7 +61,7 @@ class _Reader:
             )
         if data.get("schema") != SCHEMA:
             raise self.stop(
-                f"schema {data.get('schema')!r} is not known here, {SCHEMA} is", "schema"
+                f"schema {data.get('schema')!r} is unknown, {SCHEMA} is needed", "schema"
             )
         self.text.check_keys(data, TOP_KEYS)
         tables = {key: self._table(data, key) for key in ("data", "nodes")}
@@ -128,11 +128,11 @@ class _Reader:
         return node
 
     def _check_place(self, node: Node, before: list[Node], header: str) -> None:
-        """A node must be what its parent and its change make of it."""
+        """Raise if the model of a node does not follow from its parent and its change."""
         if (node.change == "base") != (not before):
-            raise self.stop("the first node is the base, and no other", header, "change")
+            raise self.stop("the first node, and no other, must be the base", header, "change")
         if node.number in [other.number for other in before]:
-            raise self.stop(f"node {node.number} is there twice", header)
+            raise self.stop(f"node {node.number} is given twice", header)
         if not before:
             if node.parent is not None or node.found is not None:
                 raise self.stop("the base has neither a parent nor an effect", header)
@@ -141,7 +141,7 @@ class _Reader:
         if parent is None:
             raise self.stop(f"parent is {node.parent!r}, and no such node is above", header)
         if node.effect is None:
-            raise self.stop(f"node {node.number} does not say which effect was found", header)
+            raise self.stop(f"node {node.number} names no effect", header)
         effects = set(parent.kept.model.spec.split("+"))
         effects = effects | {node.effect} if node.change == "add" else effects - {node.effect}
         if effects != set(node.kept.model.spec.split("+")):

@@ -1,4 +1,4 @@
-"""Two nodes side by side."""
+"""Comparison of two nodes."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from stribeck.recording.recording import Recording
 
 @dataclass(frozen=True, repr=False)
 class Sides(Plotted):
-    """Two models of one recording, and whether their held-out errors differ by more than chance.
+    """Two models of one recording, and whether their held-out errors differ significantly.
 
     Attributes
     ----------
     nodes
-        In the order in which they were named.
+        The two nodes, in the order given.
     better
-        Place of the one with the smaller held-out error, 0 or 1.
+        Index of the node with the smaller held-out error, 0 or 1.
     difference
-        Of the held-out squared errors.
+        Difference of the held-out squared errors.
     """
 
     nodes: tuple[Node, Node]
@@ -52,7 +52,7 @@ class Sides(Plotted):
         }
 
     def to_frame(self) -> pl.DataFrame:
-        """One row a model and regime."""
+        """One row per model and regime."""
         return self.comparison.to_frame()
 
 

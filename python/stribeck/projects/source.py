@@ -1,4 +1,4 @@
-"""The data of a project: which file, which bytes, and how it was read."""
+"""The data of a project: the file, its hash, and the options that read it."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ class Source:
     Attributes
     ----------
     folder
-        Of the project file; `path` and a sidecar that is named are relative to it.
+        Folder of the project file; `path` and the path of a given sidecar are relative to it.
     sha256, sidecar_sha256
-        Of the file's bytes, and of its sidecar's where there is one.
+        Hash of the file, and of its sidecar if there is one.
     reading
         Options of `stribeck.read` that were given.
     """
@@ -55,12 +55,12 @@ class Source:
 
     @property
     def file(self) -> Path:
-        """Where the data file is, seen from here."""
+        """Path of the data file from the working directory."""
         return self.folder / self.path
 
     @property
     def sidecar(self) -> Path | None:
-        """The sidecar that reading the file uses, seen from here."""
+        """Path of the sidecar used to read the file, from the working directory."""
         named = self.reading.get("sidecar")
         return find_sidecar(self.file) if named is None else self.folder / str(named)
 
@@ -85,13 +85,13 @@ class Source:
 
     @cached_property
     def recording(self) -> Recording:
-        """The data, read as they were when the project was made."""
+        """The data, read with the options of the project."""
         self.check()
         named = {} if self.sidecar is None else {"sidecar": self.sidecar}
         return read(self.file, **{**self.reading, **named})
 
     def to_dict(self) -> dict[str, object]:
-        """For JSON."""
+        """As JSON."""
         return {
             "path": self.path,
             "sha256": self.sha256,
@@ -113,12 +113,12 @@ def _sha256(path: Path) -> str:
 
 
 def _is_said(option: object) -> bool:
-    """Whether an option says something; an inertia of 0 does."""
+    """Whether an option has a value; an inertia of 0 is one."""
     return not (option is None or option is False or option == [])
 
 
 def _plain(said: object) -> object:
-    """An option as TOML keeps it: a text, a number or a list of texts."""
+    """Return an option in the form of the TOML file: a text, a number or a list of texts."""
     if isinstance(said, Mapping):
         return [f"{name}={value}" for name, value in said.items()]
     if isinstance(said, list | tuple):

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from stribeck.projects.project import Project
     from stribeck.projects.tree import Tree
 
-#: Columns of the table, with the keys of a node's JSON that they come from.
+#: Columns of the table, with the corresponding keys in the JSON of a node.
 COLUMNS = {
     "node": ("node", pl.Int64),
     "parent": ("parent", pl.Int64),
@@ -27,7 +27,7 @@ COLUMNS = {
 
 
 def project_dict(project: Project) -> dict[str, object]:
-    """The JSON of a project: its data, its nodes, and which is current."""
+    """Return the JSON of a project: its data, its nodes, and the number of the current one."""
     model = project.node.kept.model
     return {
         "project": str(project.path),
@@ -41,7 +41,7 @@ def project_dict(project: Project) -> dict[str, object]:
 
 
 def project_frame(project: Project) -> pl.DataFrame:
-    """One row a node."""
+    """Return a table with one row per node."""
     rows = [
         {**_node(n, project.tree), "current": n.number == project.current} for n in project.tree
     ]

@@ -48,41 +48,41 @@ class Tree:
         raise ProjectError(f"there is no node {word!r}{nearest(word, names)}; there are {known}")
 
     def children(self, number: int) -> tuple[Node, ...]:
-        """What was made from a node."""
+        """The nodes whose parent is this node."""
         return tuple(node for node in self.nodes if node.parent == number)
 
     def child(self, number: int, change: str, effect: str) -> Node | None:
-        """The node that this change of a node has led to, if it was made."""
+        """The child with this change of a node, if there is one."""
         return next(
             (n for n in self.children(number) if (n.change, n.effect) == (change, effect)), None
         )
 
     def path(self, number: int) -> tuple[Node, ...]:
-        """From the base to a node."""
+        """The nodes from the base to a node."""
         node = self.node(number)
         before = () if node.parent is None else self.path(node.parent)
         return (*before, node)
 
     def rejected(self, number: int) -> dict[str, str]:
-        """Effects that are not tried at a node, with reasons: its own and those before it."""
+        """Effects rejected at a node or its ancestors, with the reasons."""
         return {e: why for node in self.path(number) for e, why in node.rejected.items()}
 
     def holding(self, fitted: Fit) -> Node | None:
-        """The node that keeps this very fit."""
+        """The node that stores this fit object, if there is one."""
         return next((node for node in self.nodes if node.kept.holds(fitted)), None)
 
     def with_node(self, **said: Any) -> tuple[Tree, Node]:
-        """The tree with one node more, and the node."""
+        """Return the tree with a new node, and the node."""
         node = Node(number=max(n.number for n in self.nodes) + 1, **said)
         return Tree((*self.nodes, node)), node
 
     def with_changed(self, number: int, **said: Any) -> Tree:
-        """The tree with one node changed."""
+        """Return the tree with one node changed."""
         return Tree(tuple(replace(n, **said) if n.number == number else n for n in self.nodes))
 
     @property
     def noise_floor(self) -> float | None:
-        """The noise floor, as estimated with the best model that was diagnosed."""
+        """The noise floor estimated with the best of the diagnosed models."""
         known = [n for n in self.nodes if n.diagnosis and n.diagnosis.noise_floor is not None]
         if not known:
             return None

@@ -30,14 +30,14 @@ def write_project(project: Project, path: Path) -> None:
     """
     if path.resolve().parent != project.source.folder.resolve():
         raise ProjectError(
-            f"cannot write {path}: a project names its data from its own folder "
-            f"{project.source.folder.resolve()}, so write it there"
+            f"cannot write {path}: a project stores the path of its data relative to "
+            f"{project.source.folder.resolve()}, so write it to this folder"
         )
     write_whole(path, project_toml(project), ProjectError)
 
 
 def project_toml(project: Project) -> str:
-    """The file's text; numbers read back with the same bits."""
+    """Return the text of the file, from which numbers are read back exactly."""
     source = project.source
     document = tomlkit.document()
     document.add("kind", tomlkit.item("project"))
@@ -55,7 +55,7 @@ def project_toml(project: Project) -> str:
 
 
 def _table(values: Mapping[str, object]) -> Table:
-    """A table of what is known."""
+    """Return a TOML table without the empty values."""
     table = tomlkit.table()
     for key, value in values.items():
         if value is not None and value != "" and value != []:

@@ -96,7 +96,7 @@ def test_other_data_are_refused_in_one_line(written: Path) -> None:
     ("old", "new", "said"),
     [
         ('kind = "project"', 'kind = "model"', "not a project"),
-        ("schema = 1", "schema = 9", "schema 9 is not known"),
+        ("schema = 1", "schema = 9", "schema 9 is unknown"),
         ("current = 2", "current = 7", "no such node"),
         ('change = "add"', 'change = "ad"', "base or add or drop"),
         ("parent = 0", "parent = 5", "no such node is above"),
@@ -135,6 +135,6 @@ def test_a_wrong_model_inside_is_refused_with_its_line(written: Path) -> None:
 def test_a_project_is_written_beside_its_data_or_not_at_all(
     branched: sb.Project, tmp_path: Path
 ) -> None:
-    with pytest.raises(ProjectError, match="write it there"):
+    with pytest.raises(ProjectError, match="write it to this folder"):
         branched.save(tmp_path / "elsewhere.toml")
     assert list(tmp_path.iterdir()) == []

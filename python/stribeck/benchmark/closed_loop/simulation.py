@@ -222,7 +222,7 @@ class _Joint:
 
 
 def gravity_error(machine: Machine, q: Array, x: Amplitudes) -> Array:
-    """Torque of gravity missing in the robot's model: a mass with another centre."""
+    """Torque of gravity missing in the robot's model, because of a wrong centre of mass."""
     return np.asarray(x.get("gravity", 0.0) * machine.gravity * np.sin(q + machine.phase + 0.9))
 
 

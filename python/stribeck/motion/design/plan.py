@@ -114,7 +114,7 @@ def _setting(
 
 
 def _reference(setting: Setting, moves: PassMotions, rate: float) -> Problem:
-    """Return the model on a first motion, where there are no data."""
+    """Return the model on a first motion, used if there are no data."""
     return setting.problem(setting.recording(moves.motion(moves.start, rate), rate))
 
 
@@ -125,7 +125,7 @@ def _sights(
     fitted: Fit | None,
     present: Problem | None,
 ) -> tuple[Sight | None, Sight]:
-    """Return what the present data and the planned recording show of the wanted effects."""
+    """Return the visibility of the wanted effects in the present data and the planned recording."""
     demand = Demand(SIGNIFICANCE / len(effect_ids()), LEAST_FALL)
     after = sight(wanted, setting.problem(planned), setting.expected_noise(planned), demand)
     if fitted is None or present is None:

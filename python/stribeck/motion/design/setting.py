@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 #: Temperature if none is known, degC.
 ROOM = 25.0
-#: Share of the largest speed below which a joint counts as at rest, if no noise is known.
+#: Share of the largest speed below which a joint is treated as at rest, if the noise is unknown.
 STANDSTILL = 1e-3
 #: Share of a recorded load torque that inertia and gravity of one payload must explain.
 EXPLAINED = 0.95
@@ -49,7 +49,7 @@ class Setting:
     temperatures
         The motion is recorded once at each of these temperatures, degC.
     slowest
-        Speed below which a sample counts as at rest.
+        Speed below which a sample is treated as at rest.
     """
 
     model: Model

@@ -136,7 +136,7 @@ class _Hidden:
         described = GeneratedRecording(joint, seconds, COLD + 0.5 * warming)
         for effect in effects:
             constants.update(of_catalog(effect).generated_constants(described))
-        # A delay is made by evaluating the joint at another time, so that nothing is interpolated.
+        # A delay evaluates the joint at another time, so no interpolation is needed.
         inner = tuple(effect for effect in effects if effect != "delay")
         torque_unit, position_unit = joint.units
         model = Model(law, inner, constants, torque_unit=torque_unit, position_unit=position_unit)

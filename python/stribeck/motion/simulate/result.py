@@ -26,8 +26,7 @@ class Simulation(Plotted):
     instants
         The times between steps, s, array [steps + 1].
     instant_position, instant_velocity
-        Position and velocity at those times, of the motor if there is a transmission, arrays [steps
-        + 1].
+        States at those times, of the motor if there is a transmission, arrays [steps + 1].
     instant_load_position
         Position of the load at those times; equal to that of the motor without a transmission.
     torque, load_torque, friction_torque
@@ -95,7 +94,7 @@ class Simulation(Plotted):
 
     @property
     def energy(self) -> dict[str, float]:
-        """Energies of the whole motion, J: ``imbalance`` is the rounding error.
+        """Energies over the motion, J; ``imbalance`` is the rounding error.
 
         Kinetic energy is that of the motor inertia; a load behind a transmission belongs to the
         environment.

@@ -18,7 +18,7 @@ CONTINUES = "finished tasks are kept, and the same command continues from there"
 
 
 class Backend(Protocol):
-    """An executor, and what to do when it loses workers.
+    """An executor, and its behaviour when workers are lost.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Backend(Protocol):
         """Return whether an error means that a worker died, and not that the task failed."""
 
     def renew(self) -> None:
-        """Replace a broken executor; raises StribeckError where the caller owns it."""
+        """Replace a broken executor; raises StribeckError if the caller owns it."""
 
     def lost(self) -> StribeckError:
         """Return the error of an executor that dropped its tasks."""
@@ -194,7 +194,7 @@ def backend_of(
     scheduler: str | None,
     note: Callable[[str], None],
 ) -> Backend:
-    """Return the backend that the arguments of `fleet` ask for.
+    """Return the backend that the arguments of `fleet` select.
 
     Raises
     ------
@@ -209,7 +209,7 @@ def backend_of(
 
 
 def _check_address(address: str, seconds: float) -> None:
-    """Connect once: a Dask client that cannot connect would keep trying until the process ends.
+    """Check the connection first, because a Dask client would try forever to connect.
 
     Raises
     ------

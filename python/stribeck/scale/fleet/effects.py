@@ -14,7 +14,8 @@ from stribeck.scale.fleet.store import DONE, as_name
 
 #: An effect stands out if no more than this share of the other joints have it.
 FEW = 0.25
-#: Smallest number of joints of the same name to compare with; otherwise the whole fleet is used.
+#: Smallest number of joints of the same name to compare with; otherwise all joints of the fleet are
+#: used.
 FEWEST_PEERS = 3
 
 #: Why there is no result for effects if one model was fitted everywhere.

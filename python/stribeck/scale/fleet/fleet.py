@@ -109,7 +109,7 @@ def _work(
     seed: int,
     reading: ReadArguments,
 ) -> Work:
-    """Check the arguments and return what to do with every joint."""
+    """Check the arguments and return the work to do on every joint."""
     if starts < 1 or seed < 0:
         raise SpecError(f"{starts} starts, seed {seed}: give at least 1 start and a seed from 0 on")
     options = ReadOptions(**reading)
@@ -155,7 +155,7 @@ def _model_text(model: str | Model) -> str:
 
 
 def _refuse_without_answers(rows: pl.DataFrame) -> None:
-    """Raise where nothing could be identified."""
+    """Raise if nothing could be identified."""
     if (rows["status"] == FAILED).all():
         raise StribeckError(
             f"nothing could be identified in any of the {rows['file'].n_unique()} files; the first "

@@ -26,7 +26,7 @@ DRAWN = 1200
 class Spread:
     """Distribution of the torque error e = measured - modelled over some samples.
 
-    Quartiles and whiskers are those of the review's box plots: whiskers reach to the last
+    Quartiles and whiskers are defined as in the box plots of the review: whiskers reach the last
     sample within 1.5 times the interquartile range of the box. NaN if there are no samples.
     """
 

@@ -1,4 +1,4 @@
-"""Where the fits of a study run: this process, or worker processes that keep recordings at hand."""
+"""The fits of a study run in this process, or in worker processes that cache recordings."""
 
 from __future__ import annotations
 
