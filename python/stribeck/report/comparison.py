@@ -45,7 +45,8 @@ def noise_floor_sentence(floor: float, unit: str) -> str:
     """The noise floor, and what it is."""
     return (
         f"Noise floor {plain(floor)} {unit}: the smallest error that any function of the recorded "
-        f"channels can have, estimated from repeats of the same state."
+        f"channels can have, estimated from repeats of the same state. The estimate improves with "
+        f"the model."
     )
 
 
