@@ -53,8 +53,8 @@ class Teaching(Shown):
     ----------
     friction
         True friction of the joint.
-        step
-            Time step, s.
+    step
+        Time step, s.
     motions
         Motions, whose `controller_torque` is the torque of the hand.
     """
@@ -116,8 +116,8 @@ def teach(
     ----------
     friction : Model, ModelFile or Fit
         True friction of the joint.
-        joint : Joint, optional
-            The joint; None: with the inertia and gravity identified together with the friction.
+    joint : Joint, optional
+        The joint; None: with the inertia and gravity identified together with the friction.
     guidance : Guidance
     compensators : sequence of Compensator
         Compensators with feedback: the motor does not know the desired motion.

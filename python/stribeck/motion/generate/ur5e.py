@@ -2,17 +2,17 @@
 
 The review of 25 friction models (2024/25, section 4) moves a UR5e through trapezoidal speed
 profiles between six way points (Test 1), and through fifth-degree polynomials between twenty way
-points in sixty seconds, repeated ninety times while the joints warm up (Test 2), recorded at 500
-Hz. This module makes recordings of this kind:
+points in sixty seconds, repeated ninety times while the joints warm up (Test 2), recorded at 500 Hz.
+This module makes recordings of this kind:
 
 - load torques from gravity, inertia and the coupling of the joints (`arm`), with the kinematics
   and masses that the manufacturer publishes; links are point masses, so loads are approximate;
 - friction from `true_friction`, which is not a law of the catalog, with magnitudes like the
-friction torques of the review's figures 6 and 10; - joint temperatures from one heat capacity and
-one thermal resistance per joint, heated by
+  friction torques of the review's figures 6 and 10;
+- joint temperatures from one heat capacity and one thermal resistance per joint, heated by
   friction and by the copper losses of the motor;
-- currents with correlated noise, quantised by the converter; positions quantised by the encoder of
-the motor; velocities as differences of positions.
+- currents with correlated noise, quantised by the converter; positions quantised by the encoder
+  of the motor; velocities as differences of positions.
 
 Motor constants and friction are plausible for motors and strain-wave gears of these sizes; they
 are not measurements of a UR5e.

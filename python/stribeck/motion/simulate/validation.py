@@ -146,8 +146,8 @@ def validate(
         its inertial part.
     joint : Joint, optional
         Default: the inertia and gravity identified with the friction.
-        horizons : sequence of float
-            Prediction horizons, s.
+    horizons : sequence of float
+        Prediction horizons, s.
 
     Raises
     ------
