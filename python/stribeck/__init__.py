@@ -1,7 +1,7 @@
 """stribeck: which physical effect is a friction model missing?
 
-Load the measurements, compare models with them, learn which effect is missing, add it, and
-watch the error fall on data that the fit never saw.
+Read a recording, compare models with it, find the missing effect, add it, and compare the error on
+data that the fit did not use.
 
 Names are imported when they are first used; `__init__.pyi` says where each of them lives.
 

@@ -1,4 +1,4 @@
-"""Print the README's table of real measurements, from running the commands it names.
+"""Print the table of real measurements of docs/results.md, from running the commands it names.
 
 python tests/real/table.py          # needs ../shared/data
 """
@@ -39,7 +39,7 @@ def percent(value: float | None) -> str:
 
 def main() -> None:
     """Run every recording and print the table, then the commands."""
-    findings = "found, in this order, with its confidence (tied with)"
+    findings = "effects found, in this order, with confidence (indistinguishable from)"
     print(f"| recording | {findings} | held-out RMSE | relative residual |")
     print("|---|---|---|---|")
     commands = []

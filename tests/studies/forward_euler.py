@@ -152,8 +152,10 @@ def draw(path: str) -> None:
 def main() -> None:
     """Print both comparisons."""
     rec = recording()
-    print("| law, table 7 | largest r dt | Euler is lost above | random starts lost by Euler | "
-          "by the exact step |")  # fmt: skip
+    print(
+        "| law, table 7 | largest r dt | Euler diverges above | random starts that diverge, Euler "
+        "| exact step |"
+    )
     print("|---|---|---|---|---|")
     for law in TABLE_7:
         rate, speed = limit(law)

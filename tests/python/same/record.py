@@ -1,4 +1,4 @@
-"""Write the references anew: python tests/python/same/record.py [STORY...]
+"""Write the references again: python tests/python/same/record.py [STORY...]
 
 They say what the commands answered before a change that must not alter an answer. So run this with
 the product as it was, never with the code under test:
