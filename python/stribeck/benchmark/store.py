@@ -104,7 +104,7 @@ class AnswerStore:
             )
         if found != manifest:
             raise StribeckError(
-                f"{self.folder} holds answers of another version of stribeck: give another "
+                f"{self.folder} contains answers of another version of stribeck: give another "
                 f"{option('output')}, so that answers of two versions are not mixed"
             )
 

@@ -68,7 +68,7 @@ class _Reader:
         tree = Tree(self._nodes(tables["nodes"]))
         current = data.get("current")
         if not isinstance(current, int) or current not in [node.number for node in tree]:
-            raise self.stop(f"current is {current!r}, and there is no such node", "current")
+            raise self.stop(f"current is {current!r}, but there is no such node", "current")
         return StoredProject(self._source(tables["data"], data.get("reading", {})), tree, current)
 
     def _table(self, data: Mapping[str, object], key: str) -> Mapping[str, object]:
@@ -104,7 +104,7 @@ class _Reader:
         if not isinstance(change, str) or change not in CHANGES:
             raise self.stop(f"change is {change!r}; it is {' or '.join(CHANGES)}", header, "change")
         if not isinstance(parent, int | None):
-            raise self.stop(f"parent is {parent!r}, and no such node is above", header)
+            raise self.stop(f"parent is {parent!r}, but no earlier node has this number", header)
         model = table.get("model")
         if not isinstance(model, dict):
             raise self.stop(f"node {number} has no model", header)
@@ -139,15 +139,17 @@ class _Reader:
             return
         parent = next((other for other in before if other.number == node.parent), None)
         if parent is None:
-            raise self.stop(f"parent is {node.parent!r}, and no such node is above", header)
+            raise self.stop(
+                f"parent is {node.parent!r}, but no earlier node has this number", header
+            )
         if node.effect is None:
             raise self.stop(f"node {node.number} names no effect", header)
         effects = set(parent.kept.model.spec.split("+"))
         effects = effects | {node.effect} if node.change == "add" else effects - {node.effect}
         if effects != set(node.kept.model.spec.split("+")):
             raise self.stop(
-                f"the model {node.kept.model.spec} is not that of node {node.parent}, "
-                f"{parent.kept.model.spec}, {node.label}",
+                f"the model {node.kept.model.spec} does not follow from node {node.parent}, "
+                f"{parent.kept.model.spec}, and the change {node.label}",
                 header,
             )
 

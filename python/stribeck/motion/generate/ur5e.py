@@ -2,8 +2,8 @@
 
 The review of 25 friction models (2024/25, section 4) moves a UR5e through trapezoidal speed
 profiles between six way points (Test 1), and through fifth-degree polynomials between twenty way
-points in sixty seconds, repeated ninety times while the joints warm up (Test 2), recorded at 500 Hz.
-This module makes recordings of this kind:
+points in sixty seconds, repeated ninety times while the joints warm up (Test 2). The sampling rate
+is 500 Hz. This module makes recordings of this kind:
 
 - load torques from gravity, inertia and the coupling of the joints (`arm`), with the kinematics
   and masses that the manufacturer publishes; links are point masses, so loads are approximate;

@@ -25,7 +25,7 @@ from stribeck.scale.fleet.task import (
 #: A task that takes this many times the median is run a second time.
 STRAGGLER = 5.0
 #: Why a task is given up.
-POISONED = "two workers died with it: given up"
+POISONED = "given up: two workers died while running it"
 #: Called after each task with the numbers of tasks done and in all.
 Progress = Callable[[int, int], None]
 
