@@ -32,7 +32,8 @@ def main() -> None:
     fitted_on, other = recording("emps"), recording("emps_pulses")
     controller = Controller.cascade(POSITION_GAIN, VELOCITY_GAIN * FORCE_PER_VOLT)
     desired = pl.read_parquet(EMPS / "emps.parquet")["q_ref_m"].to_numpy()
-    print("| model | error after 0.1, 0.3, 1, 3 s | over 24.8 s | with force pulses | closed loop |")
+    first = "| model | error after 0.1, 0.3, 1, 3 s | over 24.8 s "
+    print(f"{first}| with force pulses | closed loop |")
     print("|---|---|---|---|---|")
     for spec in SPECS:
         fit = sb.fit(spec, fitted_on)

@@ -135,7 +135,7 @@ def _joint(
     """A fit to DATA, or the model file that stands in its place."""
     if model is not None:
         if noise is not None:
-            raise SpecError("--noise is for a model file alone: DATA says how large the noise is")
+            raise SpecError("--noise is for a model file only: with DATA the noise is estimated")
         recording = read_recording(data, reading)
         return written_fit(model, Written(), recording, starts=starts, seed=seed)
     if not is_model_file(data) or not data.endswith(".toml"):
