@@ -24,7 +24,7 @@ impl<S: Real> FrictionEffect<S> for Drift<S> {
         what: "Surfaces run in or wear and grease spreads, so dry friction changes slowly with \
                time, whatever the temperature.",
         formula: "D (1 + d (1 - exp(-kt t/duration))/(1 - exp(-kt)))",
-        needs: "a time that temperature does not follow",
+        needs: "temperature that does not change steadily with time",
         beyond: None,
         channels: &[Channel::Time],
         constants: &["duration"],

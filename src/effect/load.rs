@@ -27,7 +27,7 @@ impl<S: Real> FrictionEffect<S> for Load<S> {
         title: "Load",
         what: "The load presses teeth and bearings together, so dry friction grows with its size.",
         formula: "D + (lc + ls exp(-|v/(lv vs)|^alpha)) |tl/tr|^lp tr",
-        needs: "load varied independently of speed, with both signs of v tl",
+        needs: "load varied independently of speed, motion with and against it",
         beyond: None,
         channels: &[Channel::LoadTorque],
         constants: &["reference_load"],

@@ -22,7 +22,7 @@ impl<S: Real> FrictionEffect<S> for Presliding<S> {
         title: "Presliding",
         what: "Contacts bend before they slide, so torque follows displacement after a reversal.",
         formula: "s0 z + s1 dz/dt + V; dz/dt = v - s0 |v|/D z",
-        needs: "samples inside the presliding distance",
+        needs: "several samples within the presliding distance after a reversal",
         beyond: None,
         channels: &[],
         constants: &[],

@@ -24,8 +24,8 @@ impl<S: Real> FrictionEffect<S> for Spring<S> {
         id: "spring",
         group: "rigid body",
         title: "Spring",
-        what: "A cable pack, a hose or a balancer exerts a torque that depends on position \
-               alone that gravity does not explain.",
+        what: "A cable pack, a hose or a balancer exerts a torque that depends only on \
+               position and is not gravity.",
         formula: "tf + k1 u + k2 (3 u^2 - 1)/2 + k3 (5 u^3 - 3 u)/2, \
                   u = 2 (q - start)/length - 1",
         needs: "a range of position, passed in both directions",

@@ -29,7 +29,7 @@ VERDICTS = {
     "unexplained": "Unexplained structure remains, but none of the known effects explains it.",
 }
 #: Headings of the two lists of a diagnosis.
-VISIBLE = "Not found; each would have been found (19 times in 20) with an RMS torque of at least"
+VISIBLE = "Not found. Smallest RMS torque that would have been found 19 times in 20"
 ALIKE = "Indistinguishable from each other on this data"
 
 
