@@ -13,5 +13,6 @@ mod triangle;
 pub use bounded::bounded_least_squares;
 pub use problem::{NOT_SCORED, Problem};
 pub use separable::{Bounds, LeastSquares, Outcome, Search, Steps, minimise};
-pub use threads::side_by_side;
+#[cfg(feature = "python")]
+pub(crate) use threads::side_by_side;
 pub use triangle::{Triangle, triangles};
