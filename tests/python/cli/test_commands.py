@@ -158,7 +158,7 @@ def test_models_and_effects() -> None:
 
 def test_progress_goes_to_stderr(plain_file: Path) -> None:
     done = stribeck("improve", plain_file, "--json")
-    assert "fitting coulomb" in done.stderr and "looking for" in done.stderr
+    assert "fitting coulomb" in done.stderr and "searching for" in done.stderr
     assert done.stdout.startswith("{")
 
 

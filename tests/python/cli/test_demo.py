@@ -12,6 +12,8 @@ import polars as pl
 import pytest
 import stribeck as sb
 
+ROOT = Path(__file__).resolve().parents[3]
+
 
 def run(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
@@ -37,6 +39,15 @@ def test_the_demo_tells_four_steps(told: tuple[str, Path, float]) -> None:
     assert "█" in shown
     assert max(map(len, shown.splitlines())) <= 100
     assert seconds < 60
+
+
+def test_the_readme_shows_the_demo(told: tuple[str, Path, float]) -> None:
+    """Its output in the README is that of today, but for the time and the folder."""
+    shown = told[0]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    block = readme.partition("```text\n")[2].partition("\n```")[0]
+    ours, theirs = (text.partition("\nWritten in")[0].strip() for text in (shown, block))
+    assert ours == theirs
 
 
 def test_the_demo_writes_a_report(told: tuple[str, Path, float]) -> None:

@@ -55,7 +55,8 @@ class SteadyPoints(Shown):
 
     Examples
     --------
-    >>> from stribeck.fitting.methods import segment_points
+    >>> import stribeck as sb
+    >>> from stribeck.fitting.methods.segments import segment_points
     >>> points = segment_points(sb.read("log.csv", joint_kind="prismatic"))  # doctest: +SKIP
     >>> points.write("points.csv")  # doctest: +SKIP
     >>> sb.fit("gantry_map", sb.read("points.csv"))  # doctest: +SKIP
