@@ -157,8 +157,10 @@ def _channels(prepared: Prepared) -> tuple[dict[str, Column], str | None]:
             continue
         finite = values[np.isfinite(values)]
         dimensions = CHANNELS[channel]
-        # A channel's list begins with angle or torque, then length or force.
-        si = unit_named or SI[dimensions[1 if slides and len(dimensions) > 1 else 0]]
+        # A channel's list begins with angle or torque, then length or force; a switch has none.
+        si = unit_named or "1"
+        if unit_named is None and dimensions:
+            si = SI[dimensions[1 if slides and len(dimensions) > 1 else 0]]
         if finite.size:
             derived = choice.source in prepared.derived
             channels[channel] = Column.of(channel, choice.source, si, derived, finite)

@@ -154,3 +154,13 @@ def test_the_command_drives_and_holds_out(tmp_path: Path, frame: pl.DataFrame) -
     assert said["parameters"]["resistance"]["unit"] == "ohm"
     assert said["rmse_held_out"] > 0
     assert "held out: the samples with gain 1, predicted from all others" in said["notes"]
+
+
+def test_inspect_lists_the_channel_that_switches_the_drive(
+    tmp_path: Path, frame: pl.DataFrame
+) -> None:
+    recorded(tmp_path, frame)
+    words = ["inspect", str(tmp_path / "servo.parquet"), "--drive", "voltage", "--json"]
+    done = CliRunner().invoke(cli, words)
+    assert done.exit_code == 0, done.output
+    assert json.loads(done.stdout)["columns"]["enabled"]["unit"] == "1"
