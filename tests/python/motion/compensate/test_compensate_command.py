@@ -92,13 +92,13 @@ def test_a_hand_needs_less_with_compensation(files: tuple[Path, Path]) -> None:
     [
         (("--factor", "most"), "give a number from 0 to 1, or largest"),
         (("--factor", "2"), "give 0 to 1"),
-        (("--box", "velocity=-1:1"), "give both or none"),
+        (("--box", "velocity=-1:1"), "give both or neither"),
         (("--kp", "1", "--ki", "1"), "must exceed 2 KI"),
         (("--observer", "0"), "bandwidth is 0 Hz"),
-        (("--guided", "--observer", "5"), "leave out --guided"),
+        (("--guided", "--observer", "5"), "omit --guided"),
         (("--guided", "--feedforward"), "use feedback"),
         (("--seconds", "1e300"), "steps: give 1 to"),
-        (("--encoder", "-1"), "encoder's step is -1"),
+        (("--encoder", "-1"), "resolution of the encoder is -1"),
     ],
 )
 def test_bad_input_is_one_sentence(

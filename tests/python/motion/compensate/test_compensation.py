@@ -135,7 +135,7 @@ def test_too_much_compensation_shows() -> None:
         (lambda: compensate(COULOMB, None, PATH, []), "no inertia to move"),
         (lambda: compensate(COULOMB, JOINT, PATH, [], observer=-1.0), "bandwidth is -1"),
         (lambda: compensate(COULOMB, JOINT, PATH, [], step=0.0), "step 0 is invalid"),
-        (lambda: compensate(COULOMB, JOINT, PATH, [], encoder=math.nan), "encoder's step is nan"),
+        (lambda: compensate(COULOMB, JOINT, PATH, [], encoder=math.nan), "resolution of the encoder is nan"),
         (lambda: compensate(sb.model("tadese_t"), JOINT, PATH, []), "has no value"),
         (
             lambda: teach(

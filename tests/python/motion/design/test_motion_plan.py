@@ -205,7 +205,7 @@ def test_command_without_data(tmp_path: Path, plain: sb.Recording) -> None:
     ("arguments", "word"),
     [
         (("--position", "1", "--speed", "1", "--acceleration", "1"), "LOW:HIGH"),
-        (("--position", "1:0", "--speed", "1", "--acceleration", "1"), "no range"),
+        (("--position", "1:0", "--speed", "1", "--acceleration", "1"), "are not a range"),
         (("--position", "0:1", "--speed", "-1", "--acceleration", "1"), "above 0"),
         ((*COMMAND, "-o", "motion.xlsx"), ".csv or .parquet"),
         ((*COMMAND, "-o", "nowhere/motion.csv"), "does not exist"),

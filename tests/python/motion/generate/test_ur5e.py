@@ -118,7 +118,7 @@ def test_the_command_writes_recording_sidecar_and_truth(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("--robot", "ur5e", "--law", "lugre"), "--law is for one joint"),
+        (("--robot", "ur5e", "--law", "lugre"), "--law is for a single joint"),
         (("--every", 2), "--every needs --robot"),
     ],
 )

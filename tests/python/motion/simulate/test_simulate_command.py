@@ -78,10 +78,10 @@ def test_a_model_file_with_its_own_inertia_needs_no_joint(tmp_path):
         ([*COULOMB, "--inertia", "1", "--period", "0", "--trajectory", "fourier"], "above 0"),
         ([*COULOMB, "--inertia", "1", "--seconds", "nan"], "seconds nan is invalid"),
         ([*COULOMB, "--inertia", "1", "--torque", "1e308"], "the motion is not finite"),
-        ([*COULOMB, "--inertia", "1", "--to", "0"], "give two places"),
+        ([*COULOMB, "--inertia", "1", "--to", "0"], "give two positions"),
         ([*COULOMB, "--inertia", "1", "--value", "a2"], "write --value NAME=NUMBER"),
         ([*COULOMB, "--inertia", "1", "-o", "moved.txt"], ".csv or .parquet"),
-        ([*COULOMB, "--inertia", "1", "--torque", "nan"], "not a number"),
+        ([*COULOMB, "--inertia", "1", "--torque", "nan"], "not finite"),
     ],
 )
 def test_bad_input_is_one_sentence(words, said):

@@ -46,7 +46,7 @@ def test_one_file_needs_the_flag(folder: Path) -> None:
 def test_what_needs_memory_is_refused(folder: Path) -> None:
     done = CliRunner().invoke(cli, ["fit", str(folder), "--model", "coulomb", "--passive"])
     assert isinstance(done.exception, sb.SpecError)
-    assert "--passive needs all rows in memory" in str(done.exception)
+    assert "--passive needs all samples in memory" in str(done.exception)
 
 
 def test_progress_tells_the_rate_and_the_time_left(
