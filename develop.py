@@ -118,7 +118,8 @@ def check() -> None:
     run(BIN / "lint-imports", "--no-logo")
     run(PYTHON, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir", "target/site")
     os.environ["RUSTDOCFLAGS"] = "-D warnings"
-    run("cargo", "doc", "--quiet", "--locked", "--no-deps", "--all-features")
+    for features in ("--all-features", "--no-default-features"):
+        run("cargo", "doc", "--quiet", "--locked", "--no-deps", features)
 
 
 def docs() -> None:

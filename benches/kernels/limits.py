@@ -35,8 +35,11 @@ def main() -> int:
         print(f"skipped: the limits of the kernels, because {reason}")
         return 0
     path, rows, times, peaks = (
-        program.build(), program.kernels(), program.times(), program.peaks(),
-    )  # fmt: skip
+        program.build(),
+        program.kernels(),
+        program.times(),
+        program.peaks(),
+    )
     print("| kernel | ns a row | + - < | x | / | root | limit, ns | share |")
     print("|---|---|---|---|---|---|---|---|")
     for kernel, count in rows.items():

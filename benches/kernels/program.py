@@ -13,8 +13,16 @@ ROOT = Path(__file__).resolve().parents[2]
 @cache
 def build() -> Path:
     """The program, built as a release is."""
-    command = ["cargo", "build", "--release", "--locked", "--quiet", "--package",
-               "stribeck-kernels", "--message-format=json"]  # fmt: skip
+    command = [
+        "cargo",
+        "build",
+        "--release",
+        "--locked",
+        "--quiet",
+        "--package",
+        "stribeck-kernels",
+        "--message-format=json",
+    ]
     done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
     messages = map(json.loads, done.stdout.splitlines())
     return Path(next(path for path in (m.get("executable") for m in messages) if path))

@@ -38,10 +38,15 @@ class Slsqp:
         cube = [(0.0, 1.0)] * self.lower.size
         options = {"maxiter": 300, "ftol": 1e-12}
         self.errors = [
-            float(np.sqrt(minimize(self._cost, start, jac=True, method="SLSQP", bounds=cube,
-                                   options=options).fun))
+            float(
+                np.sqrt(
+                    minimize(
+                        self._cost, start, jac=True, method="SLSQP", bounds=cube, options=options
+                    ).fun
+                )
+            )
             for start in self.starts
-        ]  # fmt: skip
+        ]
         return min(self.errors)
 
     def at_optimum(self) -> int:

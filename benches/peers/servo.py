@@ -72,8 +72,10 @@ def version(folder: Path) -> str:
     """Commit of the checkout, or nothing where it is no repository."""
     said = subprocess.run(
         ["git", "-C", folder, "rev-parse", "--short=9", "HEAD"],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     return said.stdout.strip()
 
 
@@ -133,8 +135,9 @@ class Servo:
 
     def ours(self) -> Simulation:
         """The same motion, here."""
-        return simulate(self.friction, self.joint, self.drive, step=self.step, position=0.0,
-                        velocity=0.0)  # fmt: skip
+        return simulate(
+            self.friction, self.joint, self.drive, step=self.step, position=0.0, velocity=0.0
+        )
 
 
 def apart(servo: Servo) -> float:

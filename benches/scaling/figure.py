@@ -36,19 +36,31 @@ def drawn(samples: list[Curve], parameters: list[Curve], threads: list[Curve]) -
     for axes in (left, middle, right):
         style(axes)
         axes.legend(
-            loc="upper center", bbox_to_anchor=(0.5, -0.14), frameon=False, fontsize=8,
+            loc="upper center",
+            bbox_to_anchor=(0.5, -0.14),
+            frameon=False,
+            fontsize=8,
             ncols=2 if axes is middle else 1,
-        )  # fmt: skip
+        )
     return figure
 
 
 def _lines(axes: Axes, curves: list[Curve]) -> None:
     for curve, colour, marker in zip(curves, COLOURS, MARKERS, strict=False):
-        axes.loglog(curve.at, curve.time, color=colour, marker=marker, ms=4, lw=1.3,
-                    label=curve.name)  # fmt: skip
+        axes.loglog(
+            curve.at, curve.time, color=colour, marker=marker, ms=4, lw=1.3, label=curve.name
+        )
 
 
 def _dots(axes: Axes, curves: list[Curve]) -> None:
     for curve, colour, marker in zip(curves, COLOURS, MARKERS, strict=False):
-        axes.loglog(curve.at, curve.time, color=colour, marker=marker, ms=4, ls="", alpha=0.8,
-                    label=curve.name)  # fmt: skip
+        axes.loglog(
+            curve.at,
+            curve.time,
+            color=colour,
+            marker=marker,
+            ms=4,
+            ls="",
+            alpha=0.8,
+            label=curve.name,
+        )

@@ -56,10 +56,14 @@ def _write(folder: Path, models: dict[str, sb.Model], number: str) -> list[Path]
     """The exported sources, and the header that lists them."""
     _, real, bits = NUMBERS[number]
     lines = [
-        '#include "board.h"', f"typedef {real} number;", f"typedef {bits} bits;",
+        '#include "board.h"',
+        f"typedef {real} number;",
+        f"typedef {bits} bits;",
         f"#define STEPS {STEPS}U",
-        "typedef struct {", *(f"    number {channel};" for channel in CHANNELS), "} reading;",
-    ]  # fmt: skip
+        "typedef struct {",
+        *(f"    number {channel};" for channel in CHANNELS),
+        "} reading;",
+    ]
     sources = []
     for name, model in models.items():
         written = sb.export(model, "c", folder, precision=number, name=name)
@@ -97,10 +101,18 @@ def _for_board(folder: Path, sources: list[Path], board: images.Board) -> Path:
     program = folder / f"on_{board.name}"
     link, reset = images.FIRMWARE / "link.ld", images.FIRMWARE / "src" / "reset.s"
     _compile(
-        "arm-none-eabi-gcc", *board.c_flags, *WARNINGS, "-nostartfiles", "-Wl,-z,noexecstack",
-        f"-Wl,--defsym=memory_size={board.memory}", f"-T{link}", reset,
-        *_files(folder, sources, "board.c"), "-o", program,
-    )  # fmt: skip
+        "arm-none-eabi-gcc",
+        *board.c_flags,
+        *WARNINGS,
+        "-nostartfiles",
+        "-Wl,-z,noexecstack",
+        f"-Wl,--defsym=memory_size={board.memory}",
+        f"-T{link}",
+        reset,
+        *_files(folder, sources, "board.c"),
+        "-o",
+        program,
+    )
     return program
 
 

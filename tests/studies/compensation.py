@@ -45,13 +45,18 @@ BOX = {"velocity": (-1.8, 1.8), "temperature": (20.0, 60.0), "load_torque": (-60
 #: Of the friction observer, Hz.
 OBSERVER = 5.0
 QUADRANTS = {
-    (1, 1): "forward_motoring", (-1, 1): "backward_generating",
-    (-1, -1): "backward_motoring", (1, -1): "forward_generating",
-}  # fmt: skip
+    (1, 1): "forward_motoring",
+    (-1, 1): "backward_generating",
+    (-1, -1): "backward_motoring",
+    (1, -1): "forward_generating",
+}
 LOAD_NAMES = ("load_rise", "load_rise_rate", "load_jump", "load_friction", "load_viscous")
 VISCOUS_NAMES = (
-    "viscous_level", "viscous_level_slope", "viscous_speed", "viscous_speed_slope",
-)  # fmt: skip
+    "viscous_level",
+    "viscous_level_slope",
+    "viscous_speed",
+    "viscous_speed_slope",
+)
 
 
 def truth() -> sb.Model:
@@ -134,9 +139,11 @@ def print_factors(models: Sequence[tuple[str, Fit]], full: Fit) -> list[Factor]:
     for name, fit in models:
         factor = largest_factor(fit, full, BOX)
         factors.append(factor)
-        at = "" if factor.point is None else ", ".join(
-            f"{side} {factor.point[side]:.3g}" for side in factor.box
-        )  # fmt: skip
+        at = (
+            ""
+            if factor.point is None
+            else ", ".join(f"{side} {factor.point[side]:.3g}" for side in factor.box)
+        )
         print(f"| {name} | {factor.value:.3f} | {at} |")
     return factors
 
@@ -170,10 +177,14 @@ def main() -> None:
     print_tracking(friction, models, sys.argv[1] if len(sys.argv) > 1 else "")
     factors = print_factors(models, full)
     names = [name for name, _ in models]
-    paper = [Compensator(fit.model, a, name=f"{name}, as in the paper")
-             for (name, fit), a in zip(models, (0.35, 0.85), strict=True)]  # fmt: skip
-    proved = [Compensator(fit.model, f.value, name=f"{name}, proved")
-              for (name, fit), f in zip(models, factors, strict=True)]  # fmt: skip
+    paper = [
+        Compensator(fit.model, a, name=f"{name}, as in the paper")
+        for (name, fit), a in zip(models, (0.35, 0.85), strict=True)
+    ]
+    proved = [
+        Compensator(fit.model, f.value, name=f"{name}, proved")
+        for (name, fit), f in zip(models, factors, strict=True)
+    ]
     taught = print_teaching(friction, [*paper, *proved])
     rms = np.array([taught.interaction(motion)[0] for motion in taught.motions[1:]])
     for title, (simple, comprehensive) in (("as in the paper", rms[:2]), ("proved", rms[2:])):

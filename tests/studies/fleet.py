@@ -36,9 +36,11 @@ def answer(folder: Path) -> None:
     if not (folder / "logs").exists():
         write_logs(folder / "logs", robots=6, days=10, rows=1500)
     found = sb.fleet(
-        [folder / "logs" / "*" / "*.parquet"], folder / "fleet", "improve",
+        [folder / "logs" / "*" / "*.parquet"],
+        folder / "fleet",
+        "improve",
         question=Question(window=4),
-    )  # fmt: skip
+    )
     print(found)
     save_figure(found.plot(), ROOT / "docs" / "fleet.png")
 

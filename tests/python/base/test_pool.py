@@ -146,8 +146,10 @@ def test_workers_end_with_their_parent(tmp_path: Path, sent: signal.Signals) -> 
     (tmp_path / "program.py").write_text(PROGRAM)
     process = subprocess.Popen(
         [sys.executable, str(tmp_path / "program.py"), str(marker)],
-        stderr=subprocess.PIPE, start_new_session=True, text=True,
-    )  # fmt: skip
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+        text=True,
+    )
     try:
         assert eventually(marker.exists, 60.0)
         assert len(processes_of(process.pid)) >= 3

@@ -19,9 +19,13 @@ def one(
 ) -> CaseAnswer:
     case = Case("one", "open_loop", (effect,), seed, 1.0)
     made = CaseAnswer(
-        case, hidden=(effect,), steps=(NamedEffect(named, confidence),), verdict="none",
-        rmse_held_out=1.01, oracle_rmse=1.0,
-    )  # fmt: skip
+        case,
+        hidden=(effect,),
+        steps=(NamedEffect(named, confidence),),
+        verdict="none",
+        rmse_held_out=1.01,
+        oracle_rmse=1.0,
+    )
     return dataclasses.replace(made, **rest)
 
 
@@ -48,9 +52,10 @@ def test_groups_are_counted_against_their_bars() -> None:
 def test_the_confusion_matrix_holds_every_single_effect() -> None:
     none = CaseAnswer(Case("none", "open_loop", ("none",), 1), verdict="none")
     outside = CaseAnswer(
-        Case("outside", "open_loop", ("humidity",), 2, 3.0), hidden=("humidity",),
+        Case("outside", "open_loop", ("humidity",), 2, 3.0),
+        hidden=("humidity",),
         verdict="unexplained",
-    )  # fmt: skip
+    )
     answers = [one("load", "load"), one("load", "gain"), none, outside]
     confusion = score(answers).confusion
     assert confusion.rows == ("load", "none", OUTSIDE)

@@ -12,9 +12,17 @@ import pytest
 import stribeck as sb
 
 COMMANDS = (
-    "demo", "inspect", "models", "effects", "fit", "compare", "diagnose", "add", "improve",
+    "demo",
+    "inspect",
+    "models",
+    "effects",
+    "fit",
+    "compare",
+    "diagnose",
+    "add",
+    "improve",
     "generate",
-)  # fmt: skip
+)
 
 
 def stribeck(*words: object) -> subprocess.CompletedProcess[str]:
@@ -54,16 +62,29 @@ def test_help_waits_for_no_library_that_it_does_not_use() -> None:
     slow = {"scipy.special", "scipy.optimize", "scipy.stats", "sklearn", "matplotlib"}
     said = subprocess.run(
         [sys.executable, "-X", "importtime", "-m", "stribeck", "--help"],
-        capture_output=True, text=True, check=True,
-    ).stderr  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stderr
     loaded = {line.rsplit("|", 1)[-1].strip() for line in said.splitlines()}
     assert "stribeck.cli" in loaded and not loaded & slow
 
 
 def test_fit(plain_file: Path) -> None:
     made = answer("fit", plain_file, "--model", "coulomb+offset")
-    assert {"model", "parameters", "rmse", "rmse_held_out", "relative_residual", "starts",
-            "converged", "evaluations", "seconds", "passive", "scored"} <= set(made)  # fmt: skip
+    assert {
+        "model",
+        "parameters",
+        "rmse",
+        "rmse_held_out",
+        "relative_residual",
+        "starts",
+        "converged",
+        "evaluations",
+        "seconds",
+        "passive",
+        "scored",
+    } <= set(made)
     assert made["model"] == "coulomb+offset"
     for row in made["parameters"].values():
         assert {"symbol", "value", "unit", "stderr", "ci95", "at_bound", "identifiable"} <= set(row)
@@ -90,8 +111,18 @@ def test_compare(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
     assert {"data", "models", "noise_floor", "scored"} <= set(made)
     spec, stored = made["models"]
     for row in made["models"]:
-        assert {"model", "rmse", "rmse_held_out", "relative_residual", "mean", "std", "r2",
-                "rmse_low_speed", "energy", "regimes"} <= set(row)  # fmt: skip
+        assert {
+            "model",
+            "rmse",
+            "rmse_held_out",
+            "relative_residual",
+            "mean",
+            "std",
+            "r2",
+            "rmse_low_speed",
+            "energy",
+            "regimes",
+        } <= set(row)
         assert {"regime", "share", "rmse", "bias"} <= set(row["regimes"][0])
     assert spec["rmse"] == stored["rmse"]
     assert spec["rmse_held_out"] is not None and stored["rmse_held_out"] is None
@@ -107,8 +138,17 @@ def test_diagnose(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
     made = answer("diagnose", plain_file, model_file, "--report", page, "--figures", figures)
     assert "No effect that this recording can show is missing" in page.read_text()
     assert not figures.exists()
-    assert {"model", "rmse", "rmse_held_out", "noise_floor", "verdict", "findings", "untestable",
-            "unexplained", "scored"} <= set(made)  # fmt: skip
+    assert {
+        "model",
+        "rmse",
+        "rmse_held_out",
+        "noise_floor",
+        "verdict",
+        "findings",
+        "untestable",
+        "unexplained",
+        "scored",
+    } <= set(made)
     assert made["verdict"] == "none" and made["findings"] == []
     assert set(made["unexplained"]) == {"share", "where"}
 
@@ -116,8 +156,15 @@ def test_diagnose(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
 def test_add(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
     output = tmp_path / "wider.toml"
     made = answer("add", model_file, "offset", plain_file, "-o", output)
-    assert {"model", "effect", "rmse_before", "rmse_after", "rmse_held_out_before",
-            "rmse_held_out_after", "parameters"} <= set(made)  # fmt: skip
+    assert {
+        "model",
+        "effect",
+        "rmse_before",
+        "rmse_after",
+        "rmse_held_out_before",
+        "rmse_held_out_after",
+        "parameters",
+    } <= set(made)
     assert made["model"] == "coulomb+offset" and made["effect"] == "offset"
     assert made["rmse_after"] <= made["rmse_before"]
     assert sb.load(output).spec == "coulomb+offset"
@@ -127,8 +174,16 @@ def test_improve(plain_file: Path, tmp_path: Path) -> None:
     output = tmp_path / "best.toml"
     words = ("improve", plain_file, "--base", "coulomb", "-o", output)
     made = answer(*words)
-    assert {"base", "noise_floor", "steps", "final", "stopped", "untestable", "unexplained",
-            "scored"} <= set(made)  # fmt: skip
+    assert {
+        "base",
+        "noise_floor",
+        "steps",
+        "final",
+        "stopped",
+        "untestable",
+        "unexplained",
+        "scored",
+    } <= set(made)
     assert {"model", "rmse", "rmse_held_out", "relative_residual"} <= set(made["final"])
     assert made["steps"] == [] and made["stopped"] == "noise_floor"
     assert sb.load(output).spec == made["final"]["model"]
@@ -138,8 +193,16 @@ def test_improve(plain_file: Path, tmp_path: Path) -> None:
 
 def test_inspect(plain_file: Path) -> None:
     made = answer("inspect", plain_file)
-    assert {"rows", "joints", "runs", "columns", "rate_hz", "gaps", "testable",
-            "untestable"} <= set(made)  # fmt: skip
+    assert {
+        "rows",
+        "joints",
+        "runs",
+        "columns",
+        "rate_hz",
+        "gaps",
+        "testable",
+        "untestable",
+    } <= set(made)
     assert made["rows"] == 1500
     for column in made["columns"].values():
         assert {"from", "unit", "min", "max"} <= set(column)

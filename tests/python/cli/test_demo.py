@@ -18,8 +18,12 @@ ROOT = Path(__file__).resolve().parents[3]
 def run(*words: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", "stribeck", *words],
-        capture_output=True, text=True, timeout=300, cwd=folder, check=False,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        timeout=300,
+        cwd=folder,
+        check=False,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -73,9 +77,22 @@ def test_the_demo_as_json(tmp_path: Path) -> None:
 def test_generate_writes_what_can_be_read(tmp_path: Path, ending: str, kind: str) -> None:
     name = f"made.{ending}"
     done = run(
-        "generate", "-o", name, "--effect", "load", "--effect", "stribeck", "--seconds", "20",
-        "--rate", "50", "--joint-kind", kind, "--json", folder=tmp_path,
-    )  # fmt: skip
+        "generate",
+        "-o",
+        name,
+        "--effect",
+        "load",
+        "--effect",
+        "stribeck",
+        "--seconds",
+        "20",
+        "--rate",
+        "50",
+        "--joint-kind",
+        kind,
+        "--json",
+        folder=tmp_path,
+    )
     assert done.returncode == 0, done.stderr
     answer = json.loads(done.stdout)
     recording = sb.read(tmp_path / answer["path"])
@@ -87,8 +104,9 @@ def test_generate_writes_what_can_be_read(tmp_path: Path, ending: str, kind: str
 
 def test_csv_and_parquet_hold_the_same_bits(tmp_path: Path) -> None:
     for ending in ("csv", "parquet"):
-        done = run("generate", "-o", f"a.{ending}", "--seconds", "20", "--rate", "50",
-                   folder=tmp_path)  # fmt: skip
+        done = run(
+            "generate", "-o", f"a.{ending}", "--seconds", "20", "--rate", "50", folder=tmp_path
+        )
         assert done.returncode == 0, done.stderr
         assert f"a.{ending}.truth.json" in done.stdout
     assert pl.read_csv(tmp_path / "a.csv").equals(pl.read_parquet(tmp_path / "a.parquet"))

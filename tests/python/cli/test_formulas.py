@@ -32,9 +32,19 @@ def answer(*words: object) -> dict[str, Any]:
 def test_fit_writes_a_file_that_every_command_takes(plain_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "own.toml"
     fitted = answer(
-        "fit", plain_file, "--law", LAW, "--parameter", "c3: rad/s, 1e-4..1, start 0.01",
-        "--fix", "c1=1.2", "--bound", "c2=0:", "-o", out,
-    )  # fmt: skip
+        "fit",
+        plain_file,
+        "--law",
+        LAW,
+        "--parameter",
+        "c3: rad/s, 1e-4..1, start 0.01",
+        "--fix",
+        "c1=1.2",
+        "--bound",
+        "c2=0:",
+        "-o",
+        out,
+    )
     assert fitted["model"] == "formula" and fitted["formulas"] == {"formula": LAW}
     assert fitted["parameters"]["c1"]["held"] and fitted["parameters"]["c1"]["value"] == 1.2
     assert fitted["parameters"]["c3"]["unit"] == "rad/s"

@@ -71,15 +71,29 @@ class TwoInertias:
             after = np.copysign(held, free) / (1.0 + step * VISCOUS / self.motor)
             if k % STEPS == 0:
                 made.append(
-                    (motor, motor_speed, (after - motor_speed) / step, torque,
-                     load, load_speed, load_acceleration)
-                )  # fmt: skip
+                    (
+                        motor,
+                        motor_speed,
+                        (after - motor_speed) / step,
+                        torque,
+                        load,
+                        load_speed,
+                        load_acceleration,
+                    )
+                )
             motor_speed = float(after)
             motor += step * motor_speed
             load_speed += step * load_acceleration
             load += step * load_speed
-        names = ("motor", "motor_speed", "motor_acceleration", "torque",
-                 "load", "load_speed", "load_acceleration")  # fmt: skip
+        names = (
+            "motor",
+            "motor_speed",
+            "motor_acceleration",
+            "torque",
+            "load",
+            "load_speed",
+            "load_acceleration",
+        )
         return dict(zip(names, np.array(made).T, strict=True))
 
     def recorded(self, side: str, rows: int = 6000, seed: int = 4) -> pl.DataFrame:
@@ -110,8 +124,11 @@ def reference(t: Array) -> tuple[Array, Array, Array]:
     """Position, velocity and acceleration of four sines that never repeat together."""
     q, v, a = np.zeros_like(t), np.zeros_like(t), np.zeros_like(t)
     for size, frequency, phase in (
-        (0.8, 0.13, 0.3), (0.35, 0.41, 1.1), (0.12, 0.97, 2.0), (0.025, 2.3, 0.7),
-    ):  # fmt: skip
+        (0.8, 0.13, 0.3),
+        (0.35, 0.41, 1.1),
+        (0.12, 0.97, 2.0),
+        (0.025, 2.3, 0.7),
+    ):
         w = 2.0 * np.pi * frequency
         q += size * np.sin(w * t + phase)
         v += size * w * np.cos(w * t + phase)

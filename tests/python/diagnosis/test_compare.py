@@ -68,9 +68,19 @@ def test_regimes(bent: sb.Recording, comparison: sb.Comparison) -> None:
     moving, v = bent.moving, bent.velocity
     by_name = {row.regime: row for row in comparison.models[0].regimes}
     assert set(by_name) == {
-        "reversal", "low_speed", "high_speed", "cold", "hot", "start", "end", "forward",
-        "backward", "motoring", "generating", "standstill",
-    }  # fmt: skip
+        "reversal",
+        "low_speed",
+        "high_speed",
+        "cold",
+        "hot",
+        "start",
+        "end",
+        "forward",
+        "backward",
+        "motoring",
+        "generating",
+        "standstill",
+    }
     e = comparison.models[0].fit.residual
     power = bent.torque * v
     temperature = bent.temperature[moving]
@@ -146,8 +156,18 @@ def test_contract_keys(comparison: sb.Comparison) -> None:
     answer = json.loads(json.dumps(comparison.to_dict()))
     assert {"data", "models", "noise_floor", "scored"} <= set(answer)
     for row in answer["models"]:
-        assert {"model", "rmse", "rmse_held_out", "relative_residual", "mean", "std", "r2",
-                "rmse_low_speed", "energy", "regimes"} <= set(row)  # fmt: skip
+        assert {
+            "model",
+            "rmse",
+            "rmse_held_out",
+            "relative_residual",
+            "mean",
+            "std",
+            "r2",
+            "rmse_low_speed",
+            "energy",
+            "regimes",
+        } <= set(row)
         for regime in row["regimes"]:
             assert set(regime) == {"regime", "share", "rmse", "bias"}
     assert [row["model"] for row in answer["models"]] == list(SPECS)

@@ -45,12 +45,28 @@ def test_load_is_found(diagnosis: sb.Diagnosis) -> None:
 
 def test_contract_keys(diagnosis: sb.Diagnosis) -> None:
     answer = json.loads(json.dumps(diagnosis.to_dict()))
-    assert {"model", "rmse", "rmse_held_out", "noise_floor", "verdict", "findings", "untestable",
-            "unexplained", "scored"} <= set(answer)  # fmt: skip
+    assert {
+        "model",
+        "rmse",
+        "rmse_held_out",
+        "noise_floor",
+        "verdict",
+        "findings",
+        "untestable",
+        "unexplained",
+        "scored",
+    } <= set(answer)
     assert answer["verdict"] in ("missing", "none", "unexplained")
     for row in answer["findings"]:
-        assert {"effect", "confidence", "rmse_held_out_before", "rmse_held_out_after",
-                "share_of_unexplained", "where", "indistinguishable_from"} <= set(row)  # fmt: skip
+        assert {
+            "effect",
+            "confidence",
+            "rmse_held_out_before",
+            "rmse_held_out_after",
+            "share_of_unexplained",
+            "where",
+            "indistinguishable_from",
+        } <= set(row)
         assert 0.0 <= row["confidence"] <= 1.0 and 0.0 <= row["share_of_unexplained"] <= 1.0
         assert row["effect"] in effect_ids() and row["where"]
     assert {row["effect"] for row in answer["untestable"]} == {

@@ -56,12 +56,27 @@ def test_no_error_is_below_the_noise(improvement: sb.Improvement) -> None:
 
 def test_contract_keys(improvement: sb.Improvement) -> None:
     answer = json.loads(json.dumps(improvement.to_dict()))
-    assert {"base", "noise_floor", "steps", "final", "stopped", "untestable", "unexplained",
-            "scored"} <= set(answer)  # fmt: skip
+    assert {
+        "base",
+        "noise_floor",
+        "steps",
+        "final",
+        "stopped",
+        "untestable",
+        "unexplained",
+        "scored",
+    } <= set(answer)
     for step in answer["steps"]:
-        assert {"effect", "confidence", "rmse_before", "rmse_after", "rmse_held_out_before",
-                "rmse_held_out_after", "indistinguishable_from",
-                "parameters"} <= set(step)  # fmt: skip
+        assert {
+            "effect",
+            "confidence",
+            "rmse_before",
+            "rmse_after",
+            "rmse_held_out_before",
+            "rmse_held_out_after",
+            "indistinguishable_from",
+            "parameters",
+        } <= set(step)
     assert {"model", "rmse", "rmse_held_out", "relative_residual"} <= set(answer["final"])
     assert answer["base"] == "coulomb" and answer["final"]["model"] == "coulomb+stribeck+load"
     assert answer["stopped"] in ("noise_floor", "nothing_passes", "max_steps")
@@ -111,8 +126,15 @@ def test_add_refits_with_one_more_effect(recording: sb.Recording) -> None:
     after = sb.add(before, "load", recording)
     assert after.model.spec == "coulomb+load" and after.rmse < before.rmse
     addition = sb.Addition("load", before, after).to_dict()
-    assert {"model", "effect", "rmse_before", "rmse_after", "rmse_held_out_before",
-            "rmse_held_out_after", "parameters"} <= set(addition)  # fmt: skip
+    assert {
+        "model",
+        "effect",
+        "rmse_before",
+        "rmse_after",
+        "rmse_held_out_before",
+        "rmse_held_out_after",
+        "parameters",
+    } <= set(addition)
     # A wider model never fits worse than the one it contains. A bristle contains none: it is
     # carried by the mean velocity of a step, sgn v by the velocity at its end.
     for effect in set(sb.effects()["id"]) - {"presliding"}:

@@ -23,8 +23,16 @@ def write(folder: Path, frame: pl.DataFrame, name: str = "made.csv") -> str:
 def test_contract_keys(tmp_path: Path) -> None:
     frame = joint(rows=1500)
     answer = json.loads(json.dumps(inspect(write(tmp_path, frame)).to_dict()))
-    assert {"rows", "joints", "runs", "columns", "rate_hz", "gaps", "testable",
-            "untestable"} <= set(answer)  # fmt: skip
+    assert {
+        "rows",
+        "joints",
+        "runs",
+        "columns",
+        "rate_hz",
+        "gaps",
+        "testable",
+        "untestable",
+    } <= set(answer)
     assert answer["rows"] == 1500 and answer["runs"] == 1 and answer["gaps"] == 0
     assert answer["rate_hz"] == pytest.approx(100.0)
     for name, column in answer["columns"].items():

@@ -21,9 +21,13 @@ def moved(seed: int, swing: float, slow_noise: float) -> pl.DataFrame:
     noise = ar1(rng, t.size, 0.99, slow_noise) + 0.05 * rng.standard_normal(t.size)
     torque = (3.0 + varying) * np.sign(v) + 1.5 * v + noise
     return pl.DataFrame(
-        {"time": t, "velocity": v + 1e-4 * rng.standard_normal(t.size),
-         "torque": torque, "load_torque": np.zeros_like(t)}
-    )  # fmt: skip
+        {
+            "time": t,
+            "velocity": v + 1e-4 * rng.standard_normal(t.size),
+            "torque": torque,
+            "load_torque": np.zeros_like(t),
+        }
+    )
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -14,9 +14,15 @@ import stribeck as sb
 from stribeck.models.catalog import effect_ids, law_ids
 
 FLAGS = (
-    "-std=c99", "-Wall", "-Wextra", "-Wconversion", "-Werror", "-pedantic", "-O2",
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Wconversion",
+    "-Werror",
+    "-pedantic",
+    "-O2",
     "-ffp-contract=off",
-)  # fmt: skip
+)
 
 #: An effect by formula that no effect of the catalog has.
 CREEP = "creep = creep_torque*tanh(v/creep_speed) + exp(-abs(q))*creep_bias"

@@ -48,9 +48,7 @@ def test_the_platforms_functions_are_close(tmp_path: Path) -> None:
 
 
 def test_a_delay_is_left_out(tmp_path: Path) -> None:
-    model = sb.model(
-        "coulomb+delay", coulomb_friction=2.0, viscous_friction=0.5, delay=0.003
-    )  # fmt: skip
+    model = sb.model("coulomb+delay", coulomb_friction=2.0, viscous_friction=0.5, delay=0.003)
     written = sb.export(model, "c", tmp_path)
     assert "left out" in (tmp_path / "coulomb_delay.h").read_text()
     assert compile_and_run(needs("gcc"), written.files) == 0

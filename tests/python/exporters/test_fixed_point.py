@@ -20,11 +20,19 @@ BOX = {
 }
 
 SPECS = [
-    ("coulomb", "q31"), ("bittencourt_a", "q31"), ("dong", "q31"), ("makkar", "q31"),
-    ("bittencourt_b", "q31"), ("grotjahn_a", "q31"), ("coulomb+stribeck+gravity+offset", "q31"),
-    ("coulomb+temperature_viscous", "q31"), ("coulomb", "q15"), ("dong", "q15"), ("hao_a", "q15"),
+    ("coulomb", "q31"),
+    ("bittencourt_a", "q31"),
+    ("dong", "q31"),
+    ("makkar", "q31"),
+    ("bittencourt_b", "q31"),
+    ("grotjahn_a", "q31"),
+    ("coulomb+stribeck+gravity+offset", "q31"),
+    ("coulomb+temperature_viscous", "q31"),
+    ("coulomb", "q15"),
+    ("dong", "q15"),
+    ("hao_a", "q15"),
     ("grotjahn_b", "q15"),
-]  # fmt: skip
+]
 
 SWEPT = 100_000
 
@@ -74,9 +82,7 @@ def worst_error(model: sb.Model, header: Path, bits: int, seed: int) -> tuple[fl
 @pytest.mark.parametrize(("spec", "precision"), SPECS)
 def test_the_error_stays_within_its_bound(spec: str, precision: str, tmp_path: Path) -> None:
     model = valued(sb.model(spec), np.random.default_rng(5))
-    written = sb.export(
-        model, "c", tmp_path, precision=precision, name="joint", box=box_of(model)
-    )  # fmt: skip
+    written = sb.export(model, "c", tmp_path, precision=precision, name="joint", box=box_of(model))
     assert compile_and_run(needs("gcc"), written.files) == 0
     bits = 32 if precision == "q31" else 16
     worst, bound = worst_error(model, tmp_path / "joint.h", bits, seed=6)

@@ -218,8 +218,11 @@ def test_held_out_is_a_refit_without_each_block(plain: sb.Recording) -> None:
         predicted[rows] = columns[rows] @ values
     error = np.sqrt(np.mean((target - predicted)[plain.moving] ** 2))
     assert fit.rmse_held_out == pytest.approx(error, rel=1e-9)
-    np.testing.assert_allclose(fit.held_out[plain.moving] - plain.load_torque[plain.moving],
-                               predicted[plain.moving], rtol=1e-9)  # fmt: skip
+    np.testing.assert_allclose(
+        fit.held_out[plain.moving] - plain.load_torque[plain.moving],
+        predicted[plain.moving],
+        rtol=1e-9,
+    )
 
 
 def test_held_out_of_a_nonlinear_model_is_near_a_full_refit(curved: sb.Recording) -> None:
@@ -234,9 +237,16 @@ def test_held_out_of_a_nonlinear_model_is_near_a_full_refit(curved: sb.Recording
         curve = p[2] * np.exp(-((np.abs(v[rows]) / p[3]) ** p[4]))
         return (p[1] + curve) * np.sign(v[rows]) + p[0] * v[rows]
 
-    start = [fit.estimates[n].value for n in (
-        "viscous_friction", "coulomb_friction", "stribeck_height", "stribeck_velocity",
-        "stribeck_exponent")]  # fmt: skip
+    start = [
+        fit.estimates[n].value
+        for n in (
+            "viscous_friction",
+            "coulomb_friction",
+            "stribeck_height",
+            "stribeck_velocity",
+            "stribeck_exponent",
+        )
+    ]
     for b in range(curved.block_count):
         kept, out = curved.moving & (block != b), curved.moving & (block == b)
         solved = least_squares(lambda p: formula(p, kept) - target[kept], start, xtol=1e-12)  # noqa: B023
@@ -276,8 +286,12 @@ def test_number_of_threads_changes_nothing(tmp_path: Path) -> None:
     joint(stribeck_part(v), rows=3000).write_parquet(path)
     answers = []
     for threads in ("1", "2"):
-        names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "POLARS_MAX_THREADS",
-                 "RAYON_NUM_THREADS")  # fmt: skip
+        names = (
+            "OPENBLAS_NUM_THREADS",
+            "OMP_NUM_THREADS",
+            "POLARS_MAX_THREADS",
+            "RAYON_NUM_THREADS",
+        )
         done = subprocess.run(
             [sys.executable, "-c", THREADS, str(path)],
             env={**os.environ, **dict.fromkeys(names, threads)},
@@ -311,8 +325,19 @@ def test_model_values_are_the_first_start(curved: sb.Recording) -> None:
 
 def test_contract_keys(plain: sb.Recording) -> None:
     answer = json.loads(json.dumps(sb.fit("coulomb", plain).to_dict()))
-    assert {"model", "parameters", "rmse", "rmse_held_out", "relative_residual", "starts",
-            "converged", "evaluations", "seconds", "passive", "scored"} <= set(answer)  # fmt: skip
+    assert {
+        "model",
+        "parameters",
+        "rmse",
+        "rmse_held_out",
+        "relative_residual",
+        "starts",
+        "converged",
+        "evaluations",
+        "seconds",
+        "passive",
+        "scored",
+    } <= set(answer)
     for row in answer["parameters"].values():
         assert {"symbol", "value", "unit", "stderr", "ci95", "at_bound", "identifiable"} <= set(row)
     assert set(answer["scored"]) == {"rows", "share", "velocity_threshold"}

@@ -36,8 +36,9 @@ def test_bounds_hold_the_start_and_scale_with_the_machine(
         assert np.all(lower <= start) and np.all(start <= upper) and np.all(lower < upper), spec
         assert np.all(np.isfinite([*lower, *upper])), spec
         big_lower, big_upper, _ = bounds(model_for(spec, larger), larger)
-        factor = np.array([50.0 if "N m" in p.unit or p.unit == "kg m2" else 1.0
-                           for p in m.parameters])  # fmt: skip
+        factor = np.array(
+            [50.0 if "N m" in p.unit or p.unit == "kg m2" else 1.0 for p in m.parameters]
+        )
         np.testing.assert_allclose(big_upper, factor * upper, rtol=1e-9, err_msg=spec)
         np.testing.assert_allclose(big_lower, factor * lower, rtol=1e-9, err_msg=spec)
 

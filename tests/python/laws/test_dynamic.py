@@ -312,9 +312,14 @@ def smooth_torque(spec: str, parameters: dict[str, float], constants: dict[str, 
     tolerance = 1e-10 * law.dry(velocity(0.0), p, inputs(0.0)) / law.stiffness(p)
     solved = solve_ivp(
         lambda t, z: law.rate(z, velocity(t), p, inputs(t)),
-        (0.0, DURATION), z, method="Radau", rtol=1e-11, atol=tolerance,
-        t_eval=times, max_step=0.02,
-    )  # fmt: skip
+        (0.0, DURATION),
+        z,
+        method="Radau",
+        rtol=1e-11,
+        atol=tolerance,
+        t_eval=times,
+        max_step=0.02,
+    )
     assert solved.success, solved.message
     return np.array(
         [

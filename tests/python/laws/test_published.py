@@ -147,9 +147,13 @@ def test_load_and_temperature_parts_of_the_full_model_are_independent() -> None:
     """Figure 8: what load adds is the same cold and warm, and equals m1's load terms."""
     p = published.M_STAR
     m1 = {
-        "Fc0": 0.0, "Fc_load": p["Fc_load"], "Fs0": 0.0, "Fs_load": p["Fs_load"],
-        "vs": p["vs_load"], "Fv": 0.0,
-    }  # fmt: skip
+        "Fc0": 0.0,
+        "Fc_load": p["Fc_load"],
+        "Fs0": 0.0,
+        "Fs_load": p["Fs_load"],
+        "vs": p["vs_load"],
+        "Fv": 0.0,
+    }
     for v in (2.0, 9.07, 100.0):
         by_load = torque(at("m1", m1, v, tl=-0.7))
         for T in (38.0, 80.0):

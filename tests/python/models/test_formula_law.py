@@ -38,9 +38,14 @@ def test_a_law_written_out_is_the_catalogs_law() -> None:
 def test_every_channel_reaches_the_formula() -> None:
     own = sb.law("c*(v + 10*q + 100*a + 1000*T + 1e4*load + 1e5*tm + 1e6*te)", c=1.0)
     torque = own.torque(
-        1.0, position=2.0, acceleration=3.0, temperature=4.0, load_torque=5.0, motor_torque=6.0,
+        1.0,
+        position=2.0,
+        acceleration=3.0,
+        temperature=4.0,
+        load_torque=5.0,
+        motor_torque=6.0,
         external_torque=7.0,
-    )  # fmt: skip
+    )
     assert torque == 7654321.0
 
 
@@ -193,8 +198,9 @@ def test_a_formula_without_a_finite_torque_is_refused(recording: sb.Recording) -
 def test_model_file_round_trip_with_the_same_bits(recording: sb.Recording, tmp_path: Path) -> None:
     fitted = sb.fit(
         sb.law(f"mine = {STRIBECK}", "offset", parameters=["a4: rad/s, 0.001..10", "a3: N m, 0.."]),
-        recording, fix={"a5": 2.0},
-    )  # fmt: skip
+        recording,
+        fix={"a5": 2.0},
+    )
     fitted = sb.add(fitted, "creep = c*abs(v)^d*sgn(v)", recording)
     assert fitted.model.spec == "mine+creep+offset"
     path = tmp_path / "own.toml"

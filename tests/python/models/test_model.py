@@ -77,9 +77,13 @@ def test_torque_is_the_formula_of_each_law() -> None:
     bittencourt = sb.model("bittencourt_a", a1=fc, a2=fs, a3=vs, a4=al, a5=fv)
     np.testing.assert_allclose(bittencourt.torque(V), (fc + fs * curve) * s + fv * V, rtol=1e-13)
     gantry = sb.model(
-        "gantry_map", coulomb_friction=fc, static_friction=fs + fc, stribeck_velocity=vs,
-        viscous_friction_forward=fv, viscous_friction_backward=2 * fv,
-    )  # fmt: skip
+        "gantry_map",
+        coulomb_friction=fc,
+        static_friction=fs + fc,
+        stribeck_velocity=vs,
+        viscous_friction_forward=fv,
+        viscous_friction_backward=2 * fv,
+    )
     slope = np.where(V > 0, fv, 2 * fv)
     dry = fc + fs * np.exp(-((V / vs) ** 2))
     np.testing.assert_allclose(gantry.torque(V), dry * s + slope * V, rtol=1e-13)
@@ -98,9 +102,14 @@ def test_torque_of_effects_is_their_formula() -> None:
     m = sb.model(
         "coulomb+inertia+offset+direction+load",
         constants={"reference_load": 4.0},
-        coulomb_friction=2.0, viscous_friction=0.5, load_coulomb=0.1, load_exponent=1.5,
-        direction_viscous=0.2, offset=-0.7, inertia=0.3,
-    )  # fmt: skip
+        coulomb_friction=2.0,
+        viscous_friction=0.5,
+        load_coulomb=0.1,
+        load_exponent=1.5,
+        direction_viscous=0.2,
+        offset=-0.7,
+        inertia=0.3,
+    )
     dry = 2.0 + 0.1 * 4.0 * np.abs(tl / 4.0) ** 1.5
     expected = dry * np.sign(v) + 0.5 * v + 0.2 * np.abs(v) - 0.7 + 0.3 * rows["acceleration"]
     given = {k: rows[k] for k in ("velocity", "load_torque", "acceleration")}
@@ -145,9 +154,7 @@ def test_gradient_is_the_slope_of_the_torque(spec: str) -> None:
 def test_a_state_is_stepped_to_the_end_of_each_step() -> None:
     """z = 0 at first; sample i ends a step with velocity[i] held, solved here in closed form."""
     stiffness, damping, fv, fc = 800.0, 3.0, 0.4, 2.0
-    m = sb.model(
-        "lugre", a1=stiffness, a2=damping, a3=fv, a4=fc, a5=fc, a6=0.1, a7=2.0
-    )  # fmt: skip
+    m = sb.model("lugre", a1=stiffness, a2=damping, a3=fv, a4=fc, a5=fc, a6=0.1, a7=2.0)
     v = np.array([0.1, 0.1, -0.05, 0.0, 0.3])
     dt = np.array([0.01, 0.02, 0.01, 0.5, 0.001])
     z, expected = 0.0, []
@@ -225,14 +232,38 @@ def test_unknown_and_unusable_values() -> None:
 @pytest.mark.parametrize(
     ("torque_unit", "position_unit", "units"),
     [
-        ("N m", "rad", {"coulomb_friction": "N m", "viscous_friction": "N m s/rad",
-                        "stribeck_velocity": "rad/s", "inertia": "kg m2"}),
-        ("N", "m", {"coulomb_friction": "N", "viscous_friction": "N s/m",
-                    "stribeck_velocity": "m/s", "inertia": "kg"}),
-        ("V", "rad", {"coulomb_friction": "V", "viscous_friction": "V s/rad",
-                      "stribeck_velocity": "rad/s", "inertia": "V s2/rad"}),
+        (
+            "N m",
+            "rad",
+            {
+                "coulomb_friction": "N m",
+                "viscous_friction": "N m s/rad",
+                "stribeck_velocity": "rad/s",
+                "inertia": "kg m2",
+            },
+        ),
+        (
+            "N",
+            "m",
+            {
+                "coulomb_friction": "N",
+                "viscous_friction": "N s/m",
+                "stribeck_velocity": "m/s",
+                "inertia": "kg",
+            },
+        ),
+        (
+            "V",
+            "rad",
+            {
+                "coulomb_friction": "V",
+                "viscous_friction": "V s/rad",
+                "stribeck_velocity": "rad/s",
+                "inertia": "V s2/rad",
+            },
+        ),
     ],
-)  # fmt: skip
+)
 def test_units_are_those_of_the_joint(
     torque_unit: str, position_unit: str, units: dict[str, str]
 ) -> None:

@@ -21,9 +21,11 @@ def example() -> sb.ModelFile:
     m = sb.model(
         "coulomb+load",
         constants={"reference_load": 1.0 / 3.0},
-        coulomb_friction=2.1, viscous_friction=np.nextafter(0.5, 1.0),
-        load_coulomb=0.1, load_exponent=1.0,
-    )  # fmt: skip
+        coulomb_friction=2.1,
+        viscous_friction=np.nextafter(0.5, 1.0),
+        load_coulomb=0.1,
+        load_exponent=1.0,
+    )
     m = replace(
         m,
         bounds={"coulomb_friction": (0.0, 30.000000000000004)},
@@ -108,12 +110,16 @@ def test_file_is_readable_by_people(path: Path) -> None:
         ("stderr = 0.0123", "sdterr = 0.0123", "sdterr", "did you mean 'stderr'"),
         ('unit = "N m"\nbounds', 'unit = "N"\nbounds', 'unit = "N"\n', "N m"),
         ("rmse = 0.1", "rmes = 0.1", "rmes", "did you mean 'rmse'"),
-        ("[parameters.load_exponent]", "[parameters.load_exponnt]", "load_exponnt",
-         "did you mean 'load_exponent'"),
+        (
+            "[parameters.load_exponent]",
+            "[parameters.load_exponnt]",
+            "load_exponnt",
+            "did you mean 'load_exponent'",
+        ),
         ("bounds = [0.0, 30.000000000000004]", "bounds = [0.0]", "bounds = [0.0]", "two numbers"),
         ("velocity = [-1.1, 1.3]", "velocity = [-1.1, nan]", "velocity = [-1.1", "finite"),
     ],
-)  # fmt: skip
+)
 def test_what_is_wrong_is_refused_with_its_line(
     path: Path, old: str, new: str, line_with: str, said: str
 ) -> None:

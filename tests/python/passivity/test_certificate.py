@@ -13,10 +13,14 @@ from stribeck import _core
 from stribeck.base.errors import SpecError
 
 LUGRE_1995 = {
-    "bristle_stiffness": 1e5, "bristle_damping": np.sqrt(1e5), "viscous_friction": 0.4,
-    "coulomb_friction": 1.0, "static_friction": 1.5, "stribeck_velocity": 1e-3,
+    "bristle_stiffness": 1e5,
+    "bristle_damping": np.sqrt(1e5),
+    "viscous_friction": 0.4,
+    "coulomb_friction": 1.0,
+    "static_friction": 1.5,
+    "stribeck_velocity": 1e-3,
     "stribeck_exponent": 2.0,
-}  # fmt: skip
+}
 
 
 def limited(speed: float) -> sb.Certificate:
@@ -60,9 +64,12 @@ def test_counterexample_by_the_torque_alone() -> None:
 
 def test_what_is_no_friction_is_left_out() -> None:
     model = sb.model(
-        "coulomb+offset+inertia", viscous_friction=0.5, coulomb_friction=2.0, offset=9.0,
+        "coulomb+offset+inertia",
+        viscous_friction=0.5,
+        coulomb_friction=2.0,
+        offset=9.0,
         inertia=1.0,
-    )  # fmt: skip
+    )
     certificate = sb.check(model, {"velocity": (-1.0, 1.0)})
     assert certificate.passive is True
     assert certificate.left_out == ("offset", "inertia")
@@ -73,9 +80,12 @@ def test_what_is_no_friction_is_left_out() -> None:
 def test_direction_beside_an_offset() -> None:
     """A direction has one parameter fewer beside an offset; it counts as zero."""
     model = sb.model(
-        "coulomb+direction+offset", viscous_friction=0.5, coulomb_friction=2.0,
-        direction_viscous=-0.1, offset=9.0,
-    )  # fmt: skip
+        "coulomb+direction+offset",
+        viscous_friction=0.5,
+        coulomb_friction=2.0,
+        direction_viscous=-0.1,
+        offset=9.0,
+    )
     assert sb.check(model, {"velocity": (-1.0, 1.0)}).passive is True
 
 
@@ -96,8 +106,9 @@ def test_load_dependence_that_wins_over_dry_friction() -> None:
     constants = {"reference_load": 10.0}
     good = sb.model("coulomb+load", constants=constants, load_coulomb=0.1, **values)
     assert sb.check(good, box).passive is True
-    bad = good.with_values([-0.1 if name == "load_coulomb" else good.value(name)
-                            for name in good.names])  # fmt: skip
+    bad = good.with_values(
+        [-0.1 if name == "load_coulomb" else good.value(name) for name in good.names]
+    )
     broken = sb.check(bad, box)
     assert broken.passive is False
     assert broken.counterexample is not None
@@ -120,16 +131,25 @@ def test_tadese_full_at_different_loads() -> None:
     """Load terms of the right signs are passive, a term that pushes while generating is not."""
     zero = dict.fromkeys(sb.model("tadese_full").names, 0.0)
     values = zero | {
-        "bristle_stiffness": 1e4, "bristle_damping": 5.0, "damping_velocity": 0.01,
-        "coulomb_friction_forward": 2.0, "coulomb_friction_backward": 2.2,
-        "viscous_level_forward": 3.0, "viscous_speed_forward": 1.0,
-        "viscous_level_backward": 3.0, "viscous_speed_backward": 1.0,
-    }  # fmt: skip
+        "bristle_stiffness": 1e4,
+        "bristle_damping": 5.0,
+        "damping_velocity": 0.01,
+        "coulomb_friction_forward": 2.0,
+        "coulomb_friction_backward": 2.2,
+        "viscous_level_forward": 3.0,
+        "viscous_speed_forward": 1.0,
+        "viscous_level_backward": 3.0,
+        "viscous_speed_backward": 1.0,
+    }
     for name in values:
         if name.startswith("load_rise_rate"):
             values[name] = 3.0
-    along = {"forward_motoring": 0.1, "backward_generating": -0.05, "backward_motoring": 0.1,
-             "forward_generating": -0.05}  # fmt: skip
+    along = {
+        "forward_motoring": 0.1,
+        "backward_generating": -0.05,
+        "backward_motoring": 0.1,
+        "forward_generating": -0.05,
+    }
     values |= {f"load_friction_{quadrant}": x for quadrant, x in along.items()}
     box = {"velocity": (-1.0, 1.0), "temperature": (20.0, 40.0), "load_torque": (-30.0, 30.0)}
     assert sb.check(sb.model("tadese_full", **values), box).passive is True

@@ -59,9 +59,12 @@ def test_words(lugre: str) -> None:
 
 def test_cannot_decide_is_neither(tmp_path: Path) -> None:
     model = sb.model(
-        "bliman_sorine", coulomb_friction=1.0, overshoot_ratio=0.3, distance_ratio=0.2,
+        "bliman_sorine",
+        coulomb_friction=1.0,
+        overshoot_ratio=0.3,
+        distance_ratio=0.2,
         sliding_distance=1e-3,
-    )  # fmt: skip
+    )
     path = tmp_path / "model.toml"
     model.save(str(path))
     result = run(str(path), "--box", "velocity=-1:1", "--json")

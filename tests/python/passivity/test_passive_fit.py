@@ -28,9 +28,13 @@ def recorded(
     load = 4.0 * np.sin(1.9 * t + 1.0) + 2.0 * np.sin(0.7 * t)
     noise = 0.02 * np.random.default_rng(5).standard_normal(rows)
     frame = {
-        "time": t, "position": q, "velocity": v, "acceleration": a, "load_torque": load,
+        "time": t,
+        "position": q,
+        "velocity": v,
+        "acceleration": a,
+        "load_torque": load,
         "torque": load + friction(t, v, load) + noise,
-    }  # fmt: skip
+    }
     return record(folder, pl.DataFrame(frame))
 
 

@@ -18,8 +18,11 @@ STRENGTH, SPEED = 2.0, 0.01
 LIMIT = 4.0 * math.e * STRENGTH / SPEED
 BOX = {"velocity": (-1.0, 1.0), "temperature": (20.0, 40.0), "load_torque": (-30.0, 30.0)}
 QUADRANTS = (
-    "forward_motoring", "backward_generating", "backward_motoring", "forward_generating",
-)  # fmt: skip
+    "forward_motoring",
+    "backward_generating",
+    "backward_motoring",
+    "forward_generating",
+)
 
 
 def tadese(
@@ -27,11 +30,16 @@ def tadese(
 ) -> sb.Model:
     """`tadese_full` with this s1, load coefficients by quadrant and dry friction backward."""
     values = dict.fromkeys(sb.model("tadese_full").names, 0.0) | {
-        "bristle_stiffness": 1e4, "bristle_damping": damping, "damping_velocity": SPEED,
-        "coulomb_friction_forward": STRENGTH, "coulomb_friction_backward": backward,
-        "viscous_level_forward": 3.0, "viscous_speed_forward": 1.0,
-        "viscous_level_backward": 3.0, "viscous_speed_backward": 1.0,
-    }  # fmt: skip
+        "bristle_stiffness": 1e4,
+        "bristle_damping": damping,
+        "damping_velocity": SPEED,
+        "coulomb_friction_forward": STRENGTH,
+        "coulomb_friction_backward": backward,
+        "viscous_level_forward": 3.0,
+        "viscous_speed_forward": 1.0,
+        "viscous_level_backward": 3.0,
+        "viscous_speed_backward": 1.0,
+    }
     for quadrant, slope in zip(QUADRANTS, load, strict=True):
         values[f"load_rise_rate_{quadrant}"] = 3.0
         values[f"load_friction_{quadrant}"] = slope

@@ -8,9 +8,12 @@ import stribeck as sb
 from laws.published import TABLE_7
 
 BOX = {
-    "velocity": (-3.14, 3.14), "temperature": (25.0, 45.0), "load_torque": (-50.0, 50.0),
-    "acceleration": (-5.0, 5.0), "motor_torque": (-80.0, 80.0),
-}  # fmt: skip
+    "velocity": (-3.14, 3.14),
+    "temperature": (25.0, 45.0),
+    "load_torque": (-50.0, 50.0),
+    "acceleration": (-5.0, 5.0),
+    "motor_torque": (-80.0, 80.0),
+}
 
 #: Helped by an offset; below zero near rest; by the load squared (twice); slow to unwind.
 ACTIVE = ("gaz_a", "wolf", "li", "nevmerzhitskiy", "indri_b")

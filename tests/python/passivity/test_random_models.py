@@ -42,11 +42,15 @@ def lugre(bristle: Bristle) -> sb.Model:
 def around_a_curve(bristle: Bristle) -> sb.Model:
     """The same bristle, put around a law with a Stribeck curve."""
     return sb.model(
-        "coulomb+stribeck+presliding", viscous_friction=bristle.viscous,
-        coulomb_friction=bristle.coulomb, stribeck_height=bristle.static - bristle.coulomb,
-        stribeck_velocity=bristle.speed, stribeck_exponent=bristle.exponent,
-        presliding_stiffness=bristle.stiffness, presliding_damping=bristle.damping,
-    )  # fmt: skip
+        "coulomb+stribeck+presliding",
+        viscous_friction=bristle.viscous,
+        coulomb_friction=bristle.coulomb,
+        stribeck_height=bristle.static - bristle.coulomb,
+        stribeck_velocity=bristle.speed,
+        stribeck_exponent=bristle.exponent,
+        presliding_stiffness=bristle.stiffness,
+        presliding_damping=bristle.damping,
+    )
 
 
 # Passive by construction.
@@ -130,9 +134,14 @@ def giving_bristle(rng: Random) -> tuple[Bristle, float]:
     while True:
         coulomb = rng.uniform(0.5, 3.0)
         bristle = Bristle(
-            10 ** rng.uniform(4.0, 5.5), rng.uniform(10.0, 500.0), rng.uniform(0.0, 0.05), coulomb,
-            coulomb + rng.uniform(0.3, 2.0), rng.uniform(1e-3, 0.05), rng.uniform(1.0, 2.5),
-        )  # fmt: skip
+            10 ** rng.uniform(4.0, 5.5),
+            rng.uniform(10.0, 500.0),
+            rng.uniform(0.0, 0.05),
+            coulomb,
+            coulomb + rng.uniform(0.3, 2.0),
+            rng.uniform(1e-3, 0.05),
+            rng.uniform(1.0, 2.5),
+        )
         limit = rng.uniform(0.1, 1.0)
         cycles = Cycles.inside(bristle, limit, 4000, rng)
         if np.any(cycles.work < -1e-6 * cycles.energy):
@@ -166,9 +175,13 @@ def pushed_by_load(rng: Random) -> Case:
     """Dry friction that a load in the box turns into a push."""
     coulomb, slope = rng.uniform(0.5, 3.0), rng.uniform(0.05, 0.5)
     model = sb.model(
-        "coulomb+load", constants={"reference_load": 10.0}, viscous_friction=rng.uniform(0.0, 0.2),
-        coulomb_friction=coulomb, load_coulomb=-slope, load_exponent=1.0,
-    )  # fmt: skip
+        "coulomb+load",
+        constants={"reference_load": 10.0},
+        viscous_friction=rng.uniform(0.0, 0.2),
+        coulomb_friction=coulomb,
+        load_coulomb=-slope,
+        load_exponent=1.0,
+    )
     reach = 1.2 * coulomb / slope * 10.0
     at = model.torque([1e-3], load_torque=[reach])
     assert at[0] < 0.0

@@ -25,9 +25,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def begun(folder: Path) -> sb.Project:
     """The base alone."""
     return sb.Project.new(
-        folder / "joint.toml", folder / "data" / "joint.csv", "coulomb",
-        joint_kind="revolute", map=["torque=torque"],
-    )  # fmt: skip
+        folder / "joint.toml",
+        folder / "data" / "joint.csv",
+        "coulomb",
+        joint_kind="revolute",
+        map=["torque=torque"],
+    )
 
 
 @pytest.fixture(scope="session")

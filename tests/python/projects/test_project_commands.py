@@ -58,8 +58,9 @@ def refused(*words: object) -> str:
 def path(folder: Path) -> Path:
     """A project that the command made."""
     target = folder / "walked.toml"
-    made = answer("new", target, folder / "data" / "joint.csv", "--joint-kind", "revolute",
-                  "--starts", "2")  # fmt: skip
+    made = answer(
+        "new", target, folder / "data" / "joint.csv", "--joint-kind", "revolute", "--starts", "2"
+    )
     assert made["model"] == "coulomb" and made["nodes"][0]["change"] == "base"
     assert made["data"]["reading"] == {"joint_kind": "revolute"}
     return target

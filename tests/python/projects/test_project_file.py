@@ -36,14 +36,25 @@ def test_how_the_file_was_read_is_kept_as_it_was_said(folder: Path, tmp_path: Pa
     sidecar = tmp_path / "said.toml"
     sidecar.write_text('kind = "recording"\njoint_kind = "revolute"\n')
     made = sb.Project.new(
-        tmp_path / "p.toml", data, "coulomb", starts=1, sidecar=sidecar, inertia=0.0,
-        map={"load_torque": "none"}, where="time > 1.0", unit=(), km=None,
-    )  # fmt: skip
+        tmp_path / "p.toml",
+        data,
+        "coulomb",
+        starts=1,
+        sidecar=sidecar,
+        inertia=0.0,
+        map={"load_torque": "none"},
+        where="time > 1.0",
+        unit=(),
+        km=None,
+    )
     made.save()
     again = sb.project(tmp_path / "p.toml")
     assert again.source.reading == {
-        "sidecar": "said.toml", "inertia": 0.0, "map": ["load_torque=none"], "where": "time > 1.0",
-    }  # fmt: skip
+        "sidecar": "said.toml",
+        "inertia": 0.0,
+        "map": ["load_torque=none"],
+        "where": "time > 1.0",
+    }
     assert again.source.path == "sub/joint.csv"
     assert len(again.recording) == len(made.recording)
     sidecar.write_text(sidecar.read_text() + "gear_ratio = 2.0\n")

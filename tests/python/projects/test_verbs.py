@@ -119,9 +119,11 @@ def test_a_way_that_drops_an_effect_keeps_it_as_a_branch(begun: sb.Project) -> N
     step = ImprovementStep(first, begun.fit, first.fit)
     grown = ImprovementPath(begun.fit, said, (step, ImprovementStep(other, first.fit, later)))
     pruned = ImprovementPath(
-        begun.fit, said, (ImprovementStep(other, begun.fit, alone),),
+        begun.fit,
+        said,
+        (ImprovementStep(other, begun.fit, alone),),
         (Superfluous("load", begun.fit, "offset"),),
-    )  # fmt: skip
+    )
     made = begun._along(0, grown)._along(0, pruned)
     assert len(made.tree) == 4 and made.node.kept.holds(alone) and made.node.parent == 0
     assert made.tree.rejected(0) == {"load": "superfluous once offset is in the model"}

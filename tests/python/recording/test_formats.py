@@ -132,7 +132,7 @@ def test_truncated(tmp_path, frame, name):
         ("x.mcap", b"\x89MCAP", "MCAP and ROS bags are not read yet"),
         ("x.npz", b"PK nonsense", "not a whole .npz"),
     ],
-)  # fmt: skip
+)
 def test_damaged(write, name, content, sentence):
     with pytest.raises(RecordingError, match=sentence) as refused:
         read(write(content, name))

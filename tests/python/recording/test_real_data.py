@@ -76,9 +76,12 @@ def test_screw_drives(drive, runs):
     assert recording.moving.all() and np.abs(recording.torque).max() < 0.01
     assert recording.joint == str(drive)
     by_flags = read(
-        path, joint=str(drive), where="test=='steady_state'", average="run",
+        path,
+        joint=str(drive),
+        where="test=='steady_state'",
+        average="run",
         map=("run=file", "joint=drive"),
-    )  # fmt: skip
+    )
     np.testing.assert_array_equal(by_flags.torque, recording.torque)
     assert scan(path, map=("run=file", "joint=drive")).joints == ("1", "2", "3")
 

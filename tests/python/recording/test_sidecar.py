@@ -63,7 +63,7 @@ def test_beside_the_file(path, frame):
         ('kind = "recording"\njoint_kind = "screwed"', "joint_kind screwed: unknown kind of joint"),
         ('kind = "recording"\naverage = "joint"', "average joint: unknown value; give run or row"),
     ],
-)  # fmt: skip
+)
 def test_mistakes(path, tmp_path, text, sentence):
     sidecar = tmp_path / "s.toml"
     sidecar.write_text(text)

@@ -48,9 +48,16 @@ def test_the_figure_shows_the_effect_and_that_it_is_gone(effect: str, tmp_path: 
     before = sb.fit(base, recording, starts=2)
     after = sb.add(before, effect, starts=2)
     finding = sb.Finding(
-        effect, 0.9, before.rmse_held_out or 0.0, after.rmse_held_out or 0.0, None,
-        where(effect, before, after), (), after, before,
-    )  # fmt: skip
+        effect,
+        0.9,
+        before.rmse_held_out or 0.0,
+        after.rmse_held_out or 0.0,
+        None,
+        where(effect, before, after),
+        (),
+        after,
+        before,
+    )
     axes = finding.plot().axes[0]
     (x, without), (_, with_it) = curves(axes)
     third = max(x.size // 3, 1)
@@ -73,9 +80,7 @@ def test_the_figure_gives_the_reason_and_the_held_out_errors(improvement: sb.Imp
 
 def test_few_rows_are_drawn_one_by_one(improvement: sb.Improvement, steady: sb.Fit) -> None:
     offset = sb.add(steady, "offset", starts=1)
-    finding = replace(
-        improvement.steps[0].finding, effect="offset", before=steady, fit=offset
-    )  # fmt: skip
+    finding = replace(improvement.steps[0].finding, effect="offset", before=steady, fit=offset)
     axes = finding.plot().axes[0]
     dots = [line for line in axes.get_lines() if line.get_marker() == "."]
     assert len(dots) == 2 and len(dots[0].get_xdata()) == steady.rows.size

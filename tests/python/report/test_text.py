@@ -121,10 +121,19 @@ def test_digits_follow_the_error(value: float, error: float | None, shown: tuple
 
 def test_numbers_as_people_read_them() -> None:
     assert [plain(x) for x in (0.0, 0.1234, 12.34, 1234.0, 1e-9)] == [
-        "0", "0.123", "12.3", "1234", "1e-09",
-    ]  # fmt: skip
+        "0",
+        "0.123",
+        "12.3",
+        "1234",
+        "1e-09",
+    ]
     assert [percent(x) for x in (0.0, 0.5, 0.9999, 1.0, 3.0, 1e-5)] == [
-        "0 %", "50 %", "> 99 %", "100 %", "300 %", "< 0.1 %",
-    ]  # fmt: skip
+        "0 %",
+        "50 %",
+        "> 99 %",
+        "100 %",
+        "300 %",
+        "< 0.1 %",
+    ]
     assert listed(["a", "b", "c"]) == "a, b and c"
     assert confidence_words(0.3) == "possible (confidence 0.30)"

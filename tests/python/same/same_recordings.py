@@ -97,8 +97,12 @@ def _point(run: int, v: float, temperature: float, load: float, noise: random.Ra
         friction += sign(v) * (1.0 - math.exp(-4.0 * abs(v)) + 0.3) + (0.1 + 0.02 * v) * load
     torque = friction + load + noise.gauss(0.0, 0.01)
     return {
-        "run": run, "velocity": v, "temperature": temperature, "load_torque": load, "torque": torque
-    }  # fmt: skip
+        "run": run,
+        "velocity": v,
+        "temperature": temperature,
+        "load_torque": load,
+        "torque": torque,
+    }
 
 
 def no_load() -> list[Row]:

@@ -17,9 +17,13 @@ Array = NDArray[np.float64]
 
 #: Table 2, joints 1 to 6: N m/rad, N m s/rad.
 BRISTLES = (
-    (16804.0, 270.0), (12930.0, 233.0), (1820.0, 105.0), (1649.0, 81.0), (1106.0, 72.0),
+    (16804.0, 270.0),
+    (12930.0, 233.0),
+    (1820.0, 105.0),
+    (1649.0, 81.0),
+    (1106.0, 72.0),
     (985.0, 68.0),
-)  # fmt: skip
+)
 JOINT_2 = BRISTLES[1]
 #: Section IV: v_d in rad/s.
 DAMPING_VELOCITY = 0.001
@@ -79,8 +83,9 @@ def points(rows: list[tuple[float, float, float]], seed: int) -> pl.DataFrame:
     )
 
 
-SPEEDS = [way * s for s in (0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.2, 1.5, 1.8)
-          for way in (1, -1)]  # fmt: skip
+SPEEDS = [
+    way * s for s in (0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.7, 0.9, 1.2, 1.5, 1.8) for way in (1, -1)
+]
 
 
 def no_load_points() -> pl.DataFrame:

@@ -23,8 +23,14 @@ def gravity(position: Array) -> Array:
     return 14.0 * np.cos(position - 0.3) + 2.0 * np.sin(2.0 * position)
 
 
-def log(speeds: list[float], *, rate: float = 200.0, seed: int = 3, stroke: float = 0.8,
-        load_share: float = 0.0) -> pl.DataFrame:  # fmt: skip
+def log(
+    speeds: list[float],
+    *,
+    rate: float = 200.0,
+    seed: int = 3,
+    stroke: float = 0.8,
+    load_share: float = 0.0,
+) -> pl.DataFrame:
     """Time, position, torque and temperature of one pass each way at each speed [rad/s].
 
     `load_share` of the gravity torque's size adds to the dry friction.
@@ -34,9 +40,13 @@ def log(speeds: list[float], *, rate: float = 200.0, seed: int = 3, stroke: floa
     parts = [rest]
     for speed in speeds:
         level = np.concatenate(
-            [np.linspace(0, 1, ramp), np.ones(int(stroke / speed * rate)),
-             np.linspace(1, 0, ramp), rest]
-        )  # fmt: skip
+            [
+                np.linspace(0, 1, ramp),
+                np.ones(int(stroke / speed * rate)),
+                np.linspace(1, 0, ramp),
+                rest,
+            ]
+        )
         parts += [speed * level, -speed * level]
     velocity = np.concatenate(parts)
     position = -0.2 + np.cumsum(velocity) / rate

@@ -65,8 +65,12 @@ def test_m0_comes_back_to_its_standard_errors(tmp_path: Path) -> None:
 
 def test_m0_with_its_exponent_of_1_3(tmp_path: Path) -> None:
     """Section III-D: the instance of M0 that the paper compares M* with."""
-    truth = {"coulomb_friction": 4.90e-2, "stribeck_height": 8.44e-2,
-             "viscous_friction": 5.00e-4, "stribeck_velocity": 6.50}  # fmt: skip
+    truth = {
+        "coulomb_friction": 4.90e-2,
+        "stribeck_height": 8.44e-2,
+        "viscous_friction": 5.00e-4,
+        "stribeck_velocity": 6.50,
+    }
     rng = np.random.default_rng(6)
     v = np.repeat(np.geomspace(1.0, 280.0, 24), 4)
     dry = truth["coulomb_friction"] + truth["stribeck_height"] * np.exp(-((v / 6.50) ** 1.3))
@@ -101,8 +105,11 @@ def test_a_parameter_that_is_held_stays(tmp_path: Path) -> None:
 
 def test_a_grid_too_large_is_refused(tmp_path: Path) -> None:
     with pytest.raises(FitError, match="30000 points"):
-        grid_fit("bittencourt_a", points(tmp_path, noise=0.0),
-                 grid={"a3": Axis(1.0, 50.0, 300), "a4": Axis(0.5, 3.0, 100)})  # fmt: skip
+        grid_fit(
+            "bittencourt_a",
+            points(tmp_path, noise=0.0),
+            grid={"a3": Axis(1.0, 50.0, 300), "a4": Axis(0.5, 3.0, 100)},
+        )
 
 
 def test_the_grid_is_the_users(tmp_path: Path) -> None:

@@ -79,8 +79,16 @@ def test_points_by_averaging_and_a_grid_upon_them(folder: Path) -> None:
     assert {"velocity", "friction_torque", "friction_stderr", "load_torque", "temperature"} <= set(
         made["points"][0]
     )
-    fitted = answer("fit", points, "--model", "coulomb+stribeck", "--method", "grid",
-                    "--grid", "stribeck_velocity=0.02:0.5:15")  # fmt: skip
+    fitted = answer(
+        "fit",
+        points,
+        "--model",
+        "coulomb+stribeck",
+        "--method",
+        "grid",
+        "--grid",
+        "stribeck_velocity=0.02:0.5:15",
+    )
     value = fitted["parameters"]["coulomb_friction"]["value"]
     assert value == pytest.approx(passes.COULOMB, rel=0.05)
     assert any("least absolute error" in note for note in fitted["notes"])
@@ -96,16 +104,25 @@ def test_rms_is_the_default_method(folder: Path) -> None:
 
 def test_points_by_segments(folder: Path) -> None:
     points = folder / "map.csv"
-    made = answer("points", folder / "gantry.parquet", "--joint-kind", "prismatic",
-                  "--method", "segments", "-o", points)  # fmt: skip
+    made = answer(
+        "points",
+        folder / "gantry.parquet",
+        "--joint-kind",
+        "prismatic",
+        "--method",
+        "segments",
+        "-o",
+        points,
+    )
     assert len(made["points"]) == 6 and made["torque_unit"] == "N"
     recording = sb.read(points)
     assert recording.averaged and recording.joint_kind == "prismatic" and recording.rows == 6
 
 
 def test_arm(folder: Path, tmp_path: Path) -> None:
-    made = answer("arm", folder / "arm.parquet", "--first-link-length", 0.35,
-                  "-o", tmp_path / "friction")  # fmt: skip
+    made = answer(
+        "arm", folder / "arm.parquet", "--first-link-length", 0.35, "-o", tmp_path / "friction"
+    )
     assert len(made["parameters"]) == 12 and len(made["relative_errors"]) == 2
     assert made["parameters"]["inertia_1"]["value"] == pytest.approx(3.689, rel=0.02)
     for joint in (1, 2):

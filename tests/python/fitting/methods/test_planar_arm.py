@@ -59,8 +59,11 @@ def test_the_trajectory_keeps_to_the_arm_and_its_derivatives_to_calculus() -> No
 def test_the_nominal_inertia_comes_back(arm: ArmFit) -> None:
     assert inertial_error(arm) == pytest.approx(0.0, abs=0.02)
     assert [p.name for p in arm.parameters[:4]] == [
-        "inertia_1", "moment_2x", "moment_2y", "inertia_2",
-    ]  # fmt: skip
+        "inertia_1",
+        "moment_2x",
+        "moment_2y",
+        "inertia_2",
+    ]
     assert len(arm.parameters) == 12
 
 

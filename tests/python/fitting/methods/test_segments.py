@@ -14,8 +14,20 @@ from stribeck.fitting.methods.segments import segment_points
 from stribeck.fitting.methods.stretches import Search
 
 SPEEDS = [
-    0.0005, 0.001, 0.0015, 0.002, 0.003, 0.004, 0.006, 0.01, 0.02, 0.05, 0.1, 0.15, 0.2,
-]  # fmt: skip
+    0.0005,
+    0.001,
+    0.0015,
+    0.002,
+    0.003,
+    0.004,
+    0.006,
+    0.01,
+    0.02,
+    0.05,
+    0.1,
+    0.15,
+    0.2,
+]
 
 
 def read(folder: Path, frame: pl.DataFrame, **options: object) -> sb.Recording:

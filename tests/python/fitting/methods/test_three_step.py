@@ -72,12 +72,17 @@ def test_the_curve_comes_back_where_no_point_was(fit: ThreeStepFit) -> None:
 def test_each_step_gives_its_parameters_and_reaches_the_noise(fit: ThreeStepFit) -> None:
     first, second, third = fit.steps
     assert first.parameters == (
-        "coulomb_friction_forward", "coulomb_friction_backward",
-        "viscous_level_forward", "viscous_level_slope_forward",
-        "viscous_speed_forward", "viscous_speed_slope_forward",
-        "viscous_level_backward", "viscous_level_slope_backward",
-        "viscous_speed_backward", "viscous_speed_slope_backward",
-    )  # fmt: skip
+        "coulomb_friction_forward",
+        "coulomb_friction_backward",
+        "viscous_level_forward",
+        "viscous_level_slope_forward",
+        "viscous_speed_forward",
+        "viscous_speed_slope_forward",
+        "viscous_level_backward",
+        "viscous_level_slope_backward",
+        "viscous_speed_backward",
+        "viscous_speed_slope_backward",
+    )
     assert len(second.parameters) == 20
     assert all(name.startswith("load_") for name in second.parameters)
     assert third.parameters == ("bristle_stiffness", "bristle_damping")
@@ -108,12 +113,25 @@ def test_the_command_writes_a_model_that_reads_back(files: dict[str, Path], tmp_
             'kind = "recording"\njoint_kind = "revolute"\naverage = "run"\n'
         )
     stored = tmp_path / "indy.toml"
-    made = answer("fit", files["no_load"], "--model", "tadese_full", "--method", "three_step",
-                  "--loaded", files["loaded"], "--presliding", files["presliding"],
-                  "-o", stored)  # fmt: skip
+    made = answer(
+        "fit",
+        files["no_load"],
+        "--model",
+        "tadese_full",
+        "--method",
+        "three_step",
+        "--loaded",
+        files["loaded"],
+        "--presliding",
+        files["presliding"],
+        "-o",
+        stored,
+    )
     assert [step["name"] for step in made["steps"]] == [
-        "speed and temperature", "load", "presliding",
-    ]  # fmt: skip
+        "speed and temperature",
+        "load",
+        "presliding",
+    ]
     assert json.dumps(made["rmse_held_out"]) == "null"
     model = sb.load(stored)
     for name, row in made["parameters"].items():

@@ -76,12 +76,17 @@ def servo(seed: int = 0, noise: float = 0.02) -> pl.DataFrame:
         frames.append(
             pl.DataFrame(
                 {
-                    "t_s": t, "q_rad": q, "qd_radps": v + 1e-3 * rng.standard_normal(rows),
-                    "qdd_radps2": a, "effort_V": effort, "enabled": run < 6,
-                    "run": run, "gain": run % 3,
+                    "t_s": t,
+                    "q_rad": q,
+                    "qd_radps": v + 1e-3 * rng.standard_normal(rows),
+                    "qdd_radps2": a,
+                    "effort_V": effort,
+                    "enabled": run < 6,
+                    "run": run,
+                    "gain": run % 3,
                 }
             )
-        )  # fmt: skip
+        )
     return pl.concat(frames)
 
 

@@ -25,8 +25,13 @@ def test_all_constants_are_found_where_the_servo_is_also_off(whole: sb.Recording
         error = abs(estimate.value - TRUTH[estimate.symbol])
         assert error < 0.05 * TRUTH[estimate.symbol], (estimate.symbol, estimate.value)
     assert [e.unit for e in fit.estimates.values()] == [
-        "N m", "1", "N m s/rad", "kg m2", "N m/A", "ohm",
-    ]  # fmt: skip
+        "N m",
+        "1",
+        "N m s/rad",
+        "kg m2",
+        "N m/A",
+        "ohm",
+    ]
 
 
 def test_driven_rows_alone_give_back_emf_and_viscous_friction_together(

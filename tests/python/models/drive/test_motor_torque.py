@@ -25,9 +25,16 @@ def joint(noise: float = 1e-3) -> pl.DataFrame:
     external = -GRAVITY * np.sin(q)
     motor = balanced(external, INERTIA * a - external, v) + noise * rng.standard_normal(t.size)
     return pl.DataFrame(
-        {"time": t, "position": q, "velocity": v, "acceleration": a, "torque": motor,
-         "load_torque": INERTIA * a - external, "external_torque": external}
-    )  # fmt: skip
+        {
+            "time": t,
+            "position": q,
+            "velocity": v,
+            "acceleration": a,
+            "torque": motor,
+            "load_torque": INERTIA * a - external,
+            "external_torque": external,
+        }
+    )
 
 
 def test_friction_is_found_with_the_loads_given(tmp_path: Path) -> None:

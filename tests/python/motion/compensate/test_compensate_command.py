@@ -49,10 +49,19 @@ def test_the_largest_factor_is_proved_and_used(files: tuple[Path, Path]) -> None
     cold, warm = files
     answer = json.loads(
         run(
-            "compensate", cold, "--plant", warm, "--inertia", 0.5, "--factor", "largest",
-            "--box", "velocity=-1:1", "--json",
+            "compensate",
+            cold,
+            "--plant",
+            warm,
+            "--inertia",
+            0.5,
+            "--factor",
+            "largest",
+            "--box",
+            "velocity=-1:1",
+            "--json",
         )
-    )  # fmt: skip
+    )
     (factor,) = answer["factors"]
     least = (1.5 + 0.2 - 1.96 * (0.02 + 0.01)) / 2.5
     assert factor["factor"] == pytest.approx(least, rel=5e-3)
@@ -106,7 +115,9 @@ def test_bad_input_is_one_sentence(
 ) -> None:
     with pytest.raises(SpecError, match=sentence) as refused:
         CliRunner().invoke(
-            cli, ["compensate", str(files[0]), "--inertia", "0.5", *words],
-            catch_exceptions=False, standalone_mode=False,
-        )  # fmt: skip
+            cli,
+            ["compensate", str(files[0]), "--inertia", "0.5", *words],
+            catch_exceptions=False,
+            standalone_mode=False,
+        )
     assert "\n" not in str(refused.value)

@@ -20,9 +20,15 @@ from stribeck.motion.simulate.trajectory import Quintic, Trapezoid
 COULOMB = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
 NONE = COULOMB.with_values([0.0, 0.0])
 BRISTLE = sb.model(
-    "lugre", bristle_stiffness=2e4, bristle_damping=20.0, viscous_friction=0.5,
-    coulomb_friction=2.0, static_friction=3.0, stribeck_velocity=0.05, stribeck_exponent=2.0,
-)  # fmt: skip
+    "lugre",
+    bristle_stiffness=2e4,
+    bristle_damping=20.0,
+    viscous_friction=0.5,
+    coulomb_friction=2.0,
+    static_friction=3.0,
+    stribeck_velocity=0.05,
+    stribeck_exponent=2.0,
+)
 PATH = Quintic(0.0, 1.0, 2.0)
 JOINT = Joint.revolute(0.5, gravity_cos=4.0)
 
@@ -135,7 +141,10 @@ def test_too_much_compensation_shows() -> None:
         (lambda: compensate(COULOMB, None, PATH, []), "no inertia to move"),
         (lambda: compensate(COULOMB, JOINT, PATH, [], observer=-1.0), "bandwidth is -1"),
         (lambda: compensate(COULOMB, JOINT, PATH, [], step=0.0), "step 0 is invalid"),
-        (lambda: compensate(COULOMB, JOINT, PATH, [], encoder=math.nan), "resolution of the encoder is nan"),
+        (
+            lambda: compensate(COULOMB, JOINT, PATH, [], encoder=math.nan),
+            "resolution of the encoder is nan",
+        ),
         (lambda: compensate(sb.model("tadese_t"), JOINT, PATH, []), "has no value"),
         (
             lambda: teach(

@@ -14,11 +14,18 @@ WARM = sb.model("coulomb", coulomb_friction=1.5, viscous_friction=0.2)
 LOADED = sb.model(
     "coulomb+stribeck+load+temperature_viscous",
     constants={"reference_temperature": 30.0, "reference_load": 10.0},
-    coulomb_friction=5.0, viscous_friction=3.0, stribeck_height=2.0, stribeck_velocity=0.1,
-    stribeck_exponent=1.4, load_coulomb=0.1, load_exponent=1.0,
-    load_stribeck=0.02, load_stribeck_ratio=1.0,
-    temperature_viscous_slope=0.02, temperature_viscous_curvature=0.0,
-)  # fmt: skip
+    coulomb_friction=5.0,
+    viscous_friction=3.0,
+    stribeck_height=2.0,
+    stribeck_velocity=0.1,
+    stribeck_exponent=1.4,
+    load_coulomb=0.1,
+    load_exponent=1.0,
+    load_stribeck=0.02,
+    load_stribeck_ratio=1.0,
+    temperature_viscous_slope=0.02,
+    temperature_viscous_curvature=0.0,
+)
 BOX = {"velocity": (-1.0, 1.0), "temperature": (20.0, 50.0), "load_torque": (-30.0, 30.0)}
 
 

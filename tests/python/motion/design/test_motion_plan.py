@@ -176,9 +176,22 @@ def test_command_with_data(tmp_path: Path) -> None:
     joint(rows=1500).write_csv(log)
     result = CliRunner().invoke(
         cli,
-        ["plan", str(log), "coulomb", "--separate", "offset,gravity", *COMMAND, "--json",
-         "--joint-kind", "revolute", "-o", str(out), "--plot", str(picture)],
-    )  # fmt: skip
+        [
+            "plan",
+            str(log),
+            "coulomb",
+            "--separate",
+            "offset,gravity",
+            *COMMAND,
+            "--json",
+            "--joint-kind",
+            "revolute",
+            "-o",
+            str(out),
+            "--plot",
+            str(picture),
+        ],
+    )
     assert result.exit_code == 0
     answer = json.loads(result.stdout)
     assert answer["motion"]["speed"] <= 2.0 and answer["motion"]["acceleration"] <= 8.0

@@ -17,8 +17,15 @@ from stribeck.motion.generate.files import write_robot
 from stribeck.motion.generate.ur5e import JOINTS, LIMITS, RobotRecording
 
 COLUMNS = [
-    "joint", "run", "time", "position", "velocity", "current", "load_torque", "temperature",
-]  # fmt: skip
+    "joint",
+    "run",
+    "time",
+    "position",
+    "velocity",
+    "current",
+    "load_torque",
+    "temperature",
+]
 
 
 def test_the_same_seed_makes_the_same_recording_and_another_another() -> None:
@@ -101,8 +108,11 @@ def test_what_makes_no_recording_is_refused(wrong: dict, word: str) -> None:
 def command(*words: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", "stribeck", "generate", *map(str, words)],
-        capture_output=True, text=True, check=False, timeout=120,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
 
 
 def test_the_command_writes_recording_sidecar_and_truth(tmp_path: Path) -> None:

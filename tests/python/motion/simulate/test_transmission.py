@@ -62,9 +62,25 @@ def test_play_shows_as_lost_motion():
 
 
 def test_the_command_takes_a_transmission():
-    words = ["simulate", "coulomb", "--value", "a1=0.4", "--value", "a2=1", "--inertia", "0.6",
-             "--motor-inertia", "0.2", "--transmission", "5e4", "--transmission-damping", "50",
-             "--backlash", "0.01", "--json"]  # fmt: skip
+    words = [
+        "simulate",
+        "coulomb",
+        "--value",
+        "a1=0.4",
+        "--value",
+        "a2=1",
+        "--inertia",
+        "0.6",
+        "--motor-inertia",
+        "0.2",
+        "--transmission",
+        "5e4",
+        "--transmission-damping",
+        "50",
+        "--backlash",
+        "0.01",
+        "--json",
+    ]
     done = CliRunner().invoke(cli, words, standalone_mode=False)
     assert done.exception is None
     assert json.loads(done.stdout)["tracking_error"]["largest"] < 0.1

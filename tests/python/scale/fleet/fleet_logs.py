@@ -24,11 +24,14 @@ def joint_log(
     friction = np.sign(v) * (coulomb + stribeck * np.exp(-np.abs(v) / 0.1)) + viscous * v
     return pl.DataFrame(
         {
-            "time": t, "position_rad": q, "velocity": v + 1e-4 * rng.standard_normal(rows),
-            "acceleration": a, "load_torque": 0.3 * a,
+            "time": t,
+            "position_rad": q,
+            "velocity": v + 1e-4 * rng.standard_normal(rows),
+            "acceleration": a,
+            "load_torque": 0.3 * a,
             "torque": 0.3 * a + friction + 0.05 * rng.standard_normal(rows),
         }
-    )  # fmt: skip
+    )
 
 
 def write_logs(
@@ -58,8 +61,11 @@ def command(*words: object, timeout: float = 300.0) -> subprocess.CompletedProce
     """`stribeck fleet` as a user runs it."""
     return subprocess.run(
         [sys.executable, "-m", "stribeck", "fleet", *map(str, words)],
-        capture_output=True, text=True, check=False, timeout=timeout,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=timeout,
+    )
 
 
 def answers(folder: Path) -> pl.DataFrame:

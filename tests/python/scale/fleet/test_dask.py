@@ -54,9 +54,13 @@ class Cluster:
     def _start(self, *words: str) -> subprocess.Popen[bytes]:
         with (self._folder / f"{len(self._processes)}.log").open("wb") as log:
             process = subprocess.Popen(
-                [sys.executable, "-m", "dask", *words], stdout=log, stderr=log, cwd=self._folder,
-                env=ENVIRONMENT, start_new_session=True,
-            )  # fmt: skip
+                [sys.executable, "-m", "dask", *words],
+                stdout=log,
+                stderr=log,
+                cwd=self._folder,
+                env=ENVIRONMENT,
+                start_new_session=True,
+            )
         self._processes.append(process)
         return process
 
@@ -157,10 +161,23 @@ def test_a_scheduler_that_is_lost_ends_the_run_in_one_line(
     cluster: Cluster, logs: list[Path], tmp_path: Path
 ) -> None:
     process = subprocess.Popen(
-        [sys.executable, "-m", "stribeck", "fleet", *map(str, logs), "--model", LAW, "--scheduler",
-         cluster.address, "-o", str(tmp_path / "fleet")],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "stribeck",
+            "fleet",
+            *map(str, logs),
+            "--model",
+            LAW,
+            "--scheduler",
+            cluster.address,
+            "-o",
+            str(tmp_path / "fleet"),
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
     deadline = time.monotonic() + 120.0
     while not any((tmp_path / "fleet").glob("results/*.parquet")):
         assert process.poll() is None and time.monotonic() < deadline

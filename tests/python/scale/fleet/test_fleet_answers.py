@@ -103,10 +103,14 @@ def test_speeds_and_conditions_are_those_that_days_have_in_common() -> None:
 
 
 BOX = {
-    "velocity": (-2.0, 2.0), "position": (-1.0, 1.0), "acceleration": (-3.0, 5.0),
-    "temperature": (25.0, 40.0), "load_torque": (-9.0, 9.0), "motor_torque": (-15.0, 15.0),
+    "velocity": (-2.0, 2.0),
+    "position": (-1.0, 1.0),
+    "acceleration": (-3.0, 5.0),
+    "temperature": (25.0, 40.0),
+    "load_torque": (-9.0, 9.0),
+    "motor_torque": (-15.0, 15.0),
     "external_torque": (-9.0, 9.0),
-}  # fmt: skip
+}
 JOINT = GeneratedJoint("revolute", 1.0, 2.0, 3.0, 1.0, 0.3, 6.0)
 
 
@@ -128,7 +132,10 @@ def found_rows(
     """Rows of a data set: by robot and joint, for each day the effects found."""
     rows = [
         {
-            **dict.fromkeys(SCHEMA), "robot": robot, "joint": joint, "status": DONE,
+            **dict.fromkeys(SCHEMA),
+            "robot": robot,
+            "joint": joint,
+            "status": DONE,
             "found": [
                 {"effect": effect, "confidence": confidence, "tied": tied}
                 for effect, confidence, tied in day
@@ -136,7 +143,7 @@ def found_rows(
         }
         for (robot, joint), days in found.items()
         for day in days
-    ]  # fmt: skip
+    ]
     return pl.DataFrame(rows, schema=SCHEMA)
 
 
@@ -151,8 +158,9 @@ def test_what_few_joints_have_comes_first() -> None:
     assert (odd.peers, odd.peers_with) == (5, 0)
     assert effects.joints[0] == odd
     assert [(s.effect, s.having, s.joints) for s in effects.shares] == [
-        ("load", 6, 6), ("ripple", 1, 6),
-    ]  # fmt: skip
+        ("load", 6, 6),
+        ("ripple", 1, 6),
+    ]
 
 
 def test_a_tie_counts_as_what_it_may_be() -> None:

@@ -29,10 +29,20 @@ def test_json_and_files_that_cannot_be_used(logs: list[Path], tmp_path: Path) ->
         robot / "2026-03-03.parquet"
     )
     done = command(
-        str(tmp_path / "*" / "*.parquet"), tmp_path / "r1" / "gone.csv", "--model", "coulomb",
-        "--workers", 1, "-o", tmp_path / "fleet", "--json", "--plot", tmp_path / "fleet.png",
-        "--report", tmp_path / "fleet.html",
-    )  # fmt: skip
+        str(tmp_path / "*" / "*.parquet"),
+        tmp_path / "r1" / "gone.csv",
+        "--model",
+        "coulomb",
+        "--workers",
+        1,
+        "-o",
+        tmp_path / "fleet",
+        "--json",
+        "--plot",
+        tmp_path / "fleet.png",
+        "--report",
+        tmp_path / "fleet.html",
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("\n") == 1 and "Traceback" not in done.stderr
     said = json.loads(done.stdout)
@@ -51,9 +61,18 @@ def test_the_days_of_a_column_and_the_joint_of_a_path(logs: list[Path], tmp_path
         log = log.with_columns(date=pl.lit(f"2026-03-0{day}T06:00:00"))
         log.write_csv(tmp_path / f"arm-j{day}.csv")
     done = command(
-        tmp_path / "*.csv", "--model", "coulomb", "--name", "{robot}-{joint}.csv", "--day", "date",
-        "--workers", 1, "-o", tmp_path / "fleet",
-    )  # fmt: skip
+        tmp_path / "*.csv",
+        "--model",
+        "coulomb",
+        "--name",
+        "{robot}-{joint}.csv",
+        "--day",
+        "date",
+        "--workers",
+        1,
+        "-o",
+        tmp_path / "fleet",
+    )
     assert done.returncode == 0, done.stderr
     rows = answers(tmp_path / "fleet").select("robot", "joint", pl.col("day").cast(pl.String))
     assert rows.rows() == [("arm", "j1", "2026-03-01"), ("arm", "j2", "2026-03-02")]
@@ -97,9 +116,7 @@ def test_dask_is_not_imported_unless_it_is_asked_for() -> None:
         "sys.argv = ['stribeck', 'fleet', 'a.csv', '--scheduler', 'tcp://127.0.0.1:1']\n"
         "stribeck.cli.main.main()\n"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=False
-    )  # fmt: skip
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 2 and done.stderr.count("\n") == 1
     assert "pip install stribeck[fleet]" in done.stderr
 
@@ -107,10 +124,27 @@ def test_dask_is_not_imported_unless_it_is_asked_for() -> None:
 def start(logs: list[Path], folder: Path) -> subprocess.Popen[str]:
     """A run of two processes in a group of its own, once its first part is on disk."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "stribeck", "fleet", *map(str, logs), "--model", "bittencourt_a",
-         "--starts", str(STARTS), "--workers", "2", "-o", str(folder), "--json"],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "stribeck",
+            "fleet",
+            *map(str, logs),
+            "--model",
+            "bittencourt_a",
+            "--starts",
+            str(STARTS),
+            "--workers",
+            "2",
+            "-o",
+            str(folder),
+            "--json",
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
     deadline = time.monotonic() + 120.0
     while not any((folder / "results").glob("*.parquet")):
         assert process.poll() is None and time.monotonic() < deadline
@@ -125,9 +159,10 @@ def workers_of(group: int) -> list[int]:
     )
     rows = [line.split(None, 3) for line in listed.stdout.splitlines()]
     return [
-        int(pid) for pid, of, state, words in rows
+        int(pid)
+        for pid, of, state, words in rows
         if of == str(group) and not state.startswith("Z") and "popen_loky" in words
-    ]  # fmt: skip
+    ]
 
 
 @pytest.mark.slow
@@ -142,9 +177,16 @@ def test_a_process_that_is_killed_costs_only_its_task(logs: list[Path], tmp_path
     assert (said["done"], said["failed"]) == (48, 0)
     assert workers_of(process.pid) == []
     done = command(
-        *logs, "--model", "bittencourt_a", "--starts", STARTS, "--workers", 1,
-        "-o", tmp_path / "alone",
-    )  # fmt: skip
+        *logs,
+        "--model",
+        "bittencourt_a",
+        "--starts",
+        STARTS,
+        "--workers",
+        1,
+        "-o",
+        tmp_path / "alone",
+    )
     assert done.returncode == 0, done.stderr
     assert answers(tmp_path / "killed").equals(answers(tmp_path / "alone"))
 

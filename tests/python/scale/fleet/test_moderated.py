@@ -29,9 +29,7 @@ def draw(rng: np.random.Generator, scatter: float, days: int = 4, shift: float =
 
 
 def test_the_difference_of_weighted_means() -> None:
-    found = difference(
-        np.array([1.0, 3.0]), np.array([4.0]), np.array([1.0, 0.5]), np.array([0.5])
-    )  # fmt: skip
+    found = difference(np.array([1.0, 3.0]), np.array([4.0]), np.array([1.0, 0.5]), np.array([0.5]))
     assert found.before == pytest.approx((1.0 + 4.0 * 3.0) / 5.0)
     assert found.change == pytest.approx(4.0 - 2.6)
     assert found.stderr == pytest.approx(math.sqrt(1.0 / 5.0 + 1.0 / 4.0))

@@ -44,9 +44,13 @@ def test_a_piece_that_ends_its_workers_is_given_up_alone(two_processes: Processe
     given_up: list[int] = []
     notes: list[str] = []
     run_tasks(
-        square_unless_three, range(8), two_processes, done.append, given_up.append,
+        square_unless_three,
+        range(8),
+        two_processes,
+        done.append,
+        given_up.append,
         note=notes.append,
-    )  # fmt: skip
+    )
     assert sorted(done) == [n * n for n in range(8) if n != 3]
     assert given_up == [3]
     assert notes and "worker was killed" in notes[0]
@@ -75,9 +79,14 @@ def test_a_straggler_is_handed_out_again_and_the_first_answer_counts() -> None:
     with ThreadPoolExecutor(2) as threads:
         try:
             run_tasks(
-                dawdle, range(10), GivenExecutor(threads), done.append, pytest.fail, straggler=3.0,
+                dawdle,
+                range(10),
+                GivenExecutor(threads),
+                done.append,
+                pytest.fail,
+                straggler=3.0,
                 note=notes.append,
-            )  # fmt: skip
+            )
         finally:
             stuck.set()
     assert sorted(done) == [n * n for n in range(10)]

@@ -118,10 +118,14 @@ def test_options_of_reading_are_kept(tmp_path: Path) -> None:
     """Formulas, units and conditions hold in every window."""
     frame = joint(rows=12_000)
     changed = frame.select(
-        "time", "position", "acceleration", "load_torque",
-        velocity_rpm=pl.col("velocity") * 30.0 / np.pi, current=pl.col("torque") / 4.0,
+        "time",
+        "position",
+        "acceleration",
+        "load_torque",
+        velocity_rpm=pl.col("velocity") * 30.0 / np.pi,
+        current=pl.col("torque") / 4.0,
         ok=pl.col("time") % 10.0 < 7.0,
-    )  # fmt: skip
+    )
     folder = written(tmp_path / "set", changed)
     options = {"derive": ["torque=current*4"], "where": "ok"}
     streamed = sb.stream(folder, sample_rows=3000, window_rows=512, **options).fit("coulomb")

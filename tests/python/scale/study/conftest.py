@@ -18,8 +18,12 @@ def command(*words: object, cwd: Path | None = None) -> subprocess.CompletedProc
     """`stribeck study` as a user runs it."""
     return subprocess.run(
         [sys.executable, "-m", "stribeck", "study", *map(str, words)],
-        capture_output=True, text=True, check=False, timeout=300, cwd=cwd,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+        cwd=cwd,
+    )
 
 
 @pytest.fixture(scope="session")

@@ -18,9 +18,19 @@ from .conftest import command
 
 def test_json_alone_on_stdout(two_joints: Path, tmp_path: Path) -> None:
     done = command(
-        two_joints, "--law", "coulomb", "--law", "bittencourt_a", "--starts", 2, "--json",
-        "-o", tmp_path / "out", "--workers", 1,
-    )  # fmt: skip
+        two_joints,
+        "--law",
+        "coulomb",
+        "--law",
+        "bittencourt_a",
+        "--starts",
+        2,
+        "--json",
+        "-o",
+        tmp_path / "out",
+        "--workers",
+        1,
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout.count("\n") == 1
     assert json.loads(done.stdout)["output"] == str(tmp_path / "out")
@@ -78,10 +88,25 @@ LONG = ("--law", "lugre", "--law", "bittencourt_a")
 def start_long_study(data: Path, folder: Path, workers: int) -> subprocess.Popen[str]:
     """A study in a process group of its own, once it has made some of its 800 fits."""
     process = subprocess.Popen(
-        [sys.executable, "-m", "stribeck", "study", str(data), *LONG, "--starts", "200",
-         "-o", str(folder), "--workers", str(workers)],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
-    )  # fmt: skip
+        [
+            sys.executable,
+            "-m",
+            "stribeck",
+            "study",
+            str(data),
+            *LONG,
+            "--starts",
+            "200",
+            "-o",
+            str(folder),
+            "--workers",
+            str(workers),
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
     deadline = time.monotonic() + 120.0
     while fits_in(folder) < 3:
         assert process.poll() is None and time.monotonic() < deadline

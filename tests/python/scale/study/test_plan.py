@@ -42,11 +42,15 @@ def test_a_law_without_its_channel_is_skipped_with_the_reason(tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("spec", "group"),
     [
-        ("coulomb", STATIC), ("gaz_a", STATIC), ("coulomb+temperature_viscous", THERMAL),
-        ("coulomb+load", THERMAL), ("dahl", DYNAMIC), ("tadese_t", DYNAMIC),
+        ("coulomb", STATIC),
+        ("gaz_a", STATIC),
+        ("coulomb+temperature_viscous", THERMAL),
+        ("coulomb+load", THERMAL),
+        ("dahl", DYNAMIC),
+        ("tadese_t", DYNAMIC),
         ("coulomb+presliding", DYNAMIC),
     ],
-)  # fmt: skip
+)
 def test_laws_stand_in_the_tables_of_the_review(tmp_path: Path, spec: str, group: object) -> None:
     assert group_of(model_for(spec, record(tmp_path, joint()))) == group
 

@@ -120,9 +120,13 @@ def test_a_finished_study_is_only_read_again(made: Study, two_joints: Path, tmp_
     shutil.copytree(made.folder, tmp_path / "out")
     told: list[tuple[int, int]] = []
     again = study(
-        two_joints, tmp_path / "out", LAWS, starts=STARTS, low_speed=0.05,
+        two_joints,
+        tmp_path / "out",
+        LAWS,
+        starts=STARTS,
+        low_speed=0.05,
         progress=lambda *at: told.append(at),
-    )  # fmt: skip
+    )
     assert told == [] and again.frame.equals(made.frame)
     slow = {t.low_speed for t in again.joints.values()}
     assert slow == {0.05}
@@ -190,8 +194,19 @@ def test_json_is_plain_and_complete(made: Study) -> None:
     row = answer["tables"][0]["rows"][0]
     assert {"measured_J", "model_J", "error_J", "error_percent"} == set(row["energy"])
     of_joint = row["joints"][0]
-    assert {"joint", "mean", "std", "rmse", "rmse_held_out", "low_speed", "quartiles", "whiskers",
-            "best_start", "starts", "parameters"} <= set(of_joint)  # fmt: skip
+    assert {
+        "joint",
+        "mean",
+        "std",
+        "rmse",
+        "rmse_held_out",
+        "low_speed",
+        "quartiles",
+        "whiskers",
+        "best_start",
+        "starts",
+        "parameters",
+    } <= set(of_joint)
     assert made.to_frame().height == 6
 
 
