@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -11,7 +12,7 @@ from typing import Protocol
 import click
 
 from stribeck.base.errors import RecordingError
-from stribeck.base.files import write_whole
+from stribeck.base.files import check_replaceable, write_whole
 from stribeck.cli.flags import with_flags
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.diagnosis.result import Finding
@@ -190,10 +191,27 @@ def save_page(page: str, path: str) -> None:
     say(f"wrote {path}")
 
 
-def check_output(path: str | None) -> None:
-    """Refuse an output in a folder that does not exist, before any work is done."""
+def check_output(
+    path: str | None, kind: str | None = None, *inputs: str | os.PathLike[str] | None
+) -> None:
+    """Refuse, before any work is done, an output that cannot be written or replaces an input.
+
+    Parameters
+    ----------
+    kind
+        Kind of the output (`stribeck.base.files.kind_of`), where it is known.
+    inputs
+        Files that the command reads; their sidecars count too.
+    """
     if path is None:
         return
     folder = Path(path).resolve().parent
     if not folder.is_dir():
         raise RecordingError(f"cannot write {path}: the folder {folder} does not exist, make it")
+    beside = [f"{given}.sidecar.toml" for given in inputs if given is not None]
+    for given in (*inputs, *beside):
+        if given is not None and os.path.exists(given) and os.path.exists(path):
+            if os.path.samefile(path, given):
+                raise RecordingError(f"cannot write {path}: it is an input; give another path")
+    if kind is not None:
+        check_replaceable(path, kind, RecordingError)

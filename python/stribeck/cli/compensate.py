@@ -127,7 +127,7 @@ def compensate(
     simulated joint has the friction of --plant. Without --inertia or --mass, the rigid body is the
     one that was identified with the friction.
     """
-    check_output(picture)
+    check_output(picture, None, model, plant, *others)
     asked = _known(model, values)
     friction = asked if plant is None else _known(plant)
     joint = joint_of(sizes)

@@ -94,7 +94,7 @@ def fit(
     A folder of Parquet files, or a pattern, is one recording that is read in passes (--stream does
     so for a single file): all samples are fitted, few are in memory.
     """
-    check_output(output)
+    check_output(output, "model file", data, reading.sidecar)
     if streaming.wanted(data):
         streaming.refuse(method=method.name != "rms", passive=passive, errors=errors != "robust")
         model = written.choices.applied(written.model(spec))
@@ -140,7 +140,7 @@ def compare(
     as_json: bool,
 ) -> None:
     """Compare MODELS (specs, model files or formulas) with DATA, and show where each fails."""
-    check_output(picture)
+    check_output(picture, None, data, reading.sidecar)
     own = written.by_formula()
     if not (models or own):
         raise SpecError("no model is given: name laws or model files, or write laws by --law")
@@ -192,8 +192,8 @@ def diagnose(
 
     For a folder of Parquet files, or with --stream, effects are searched on stretches of the data.
     """
-    for path in (report, figures):
-        check_output(path)
+    check_output(report, "HTML", data, reading.sidecar)
+    check_output(figures)
     check_candidates(candidates)
     streamed: StreamedDiagnosis | None = None
     if streaming.wanted(data):
@@ -256,7 +256,7 @@ def add(
 
     MODEL may be a law by formula, EFFECT an effect by formula, 'NAME = FORMULA'.
     """
-    check_output(output)
+    check_output(output, "model file", data, reading.sidecar)
     recording = read_recording(data, reading)
     before = written_fit(model, written, recording, starts=starts, seed=seed)
     after = add_to(before, effect, recording, starts=starts, seed=seed)
@@ -311,8 +311,10 @@ def improve(
 
     For a folder of Parquet files, or with --stream, effects are searched on stretches of the data.
     """
-    for path in (output, report, picture, figures):
-        check_output(path)
+    check_output(output, "model file", data, reading.sidecar)
+    check_output(report, "HTML", data, reading.sidecar)
+    check_output(picture, None, data, reading.sidecar)
+    check_output(figures)
     check_candidates(candidates)
     for effect in reject:
         check_effect(effect)

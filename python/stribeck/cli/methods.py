@@ -180,7 +180,7 @@ def points(
     averaging needs no gravity model (Bittencourt et al. 2010, eq 4); segments takes the mean torque
     of each pass (Gantry, section 3). `stribeck fit POINTS` then identifies a static law.
     """
-    check_output(output)
+    check_output(output, None, data, reading.sidecar)
     # A pass below the velocity threshold still shows in a line through many samples.
     recording = read_recording(data, replace(reading, standstill=True))
     search = Search(tolerance=tolerance, shortest=shortest, trim=trim)

@@ -97,7 +97,7 @@ def plan(
     """
     limits = _range(position)
     for path in (output, picture):
-        check_output(path)
+        check_output(path, None, data, reading.sidecar)
     if output is not None and Path(output).suffix.lower() not in FORMATS:
         raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
     joint = _joint(data, model, noise, starts=starts, seed=seed, reading=reading)

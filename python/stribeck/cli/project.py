@@ -230,7 +230,7 @@ def compare(path: str, nodes: tuple[str, str], seed: int, as_json: bool) -> None
 @json_option
 def save(path: str, output: str, as_json: bool) -> None:
     """Write the current model as a model file (TOML)."""
-    check_output(output)
+    check_output(output, "model file", path)
     made = Project.open(path)
     made.save_model(output)
     say(f"wrote {output}")

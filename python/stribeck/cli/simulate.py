@@ -111,7 +111,7 @@ def simulate(
     Without --inertia or --mass, the rigid body is the one that was identified with the friction.
     """
     for path in (output, picture):
-        check_output(path)
+        check_output(path, None, model)
     if output is not None and Path(output).suffix.lower() not in FORMATS:
         raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
     asked = model_of(model, values)

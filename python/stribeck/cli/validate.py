@@ -42,7 +42,7 @@ def validate(
 
     A spec is fitted to DATA first. Without --inertia, the identified rigid body is used.
     """
-    check_output(picture)
+    check_output(picture, None, data, reading.sidecar)
     recording = read_recording(data, reading)
     fitted = model_fit(model, recording, starts=starts, seed=seed, refit=False)
     inertia = reading.inertia
