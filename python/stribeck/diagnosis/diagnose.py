@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from stribeck.base.checks import check_share
 from stribeck.diagnosis.all_samples import FROM_NEARBY, with_errors_on_all_samples
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import noise_floor
@@ -58,6 +59,7 @@ def diagnose(
         Where there are findings, return only those, without the smallest visible effects and the
         explainable share.
     """
+    check_share("least_fall", least_fall)
     fitted = on_recording(fitted, recording, seed)
     few = excerpt(fitted.recording, sample_rows, seed)
     if few is fitted.recording:

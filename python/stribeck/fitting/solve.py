@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base.checks import check_count
 from stribeck.effect.constants import effect_constants
 from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.identify.figures import rms
@@ -80,6 +81,7 @@ def solve(
     effort: Effort,
 ) -> Solution:
     """Search the best values; iterate while friction depends on the identified rigid body."""
+    check_count("starts", starts)
     lower, upper, first = scaled_bounds(made, recording)
     known = made.values
     start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)

@@ -97,6 +97,8 @@ def _with_values(made: Model, values: Mapping[str, float]) -> Model:
                 f"{made.spec} has no parameter {given!r}{nearest(given, (*placed, *symbols))}; "
                 f"it has {', '.join(placed)}"
             )
+        if np.isfinite(placed[name]):
+            raise SpecError(f"parameter {name} of {made.spec} is given twice: omit {given}")
         if not np.isfinite(value):
             raise SpecError(f"parameter {given} of {made.spec} is {value}: give a finite number")
         placed[name] = float(value)

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
+from stribeck.base.checks import check_choice
 from stribeck.base.errors import SpecError
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
 from stribeck.models.channels import columns, split_columns
@@ -304,6 +305,7 @@ class Model:
         ValueError
             A channel that the model reads is missing.
         """
+        check_choice("precision", precision, ("double", "single"))
         # In the order of `OTHER_CHANNELS`.
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
