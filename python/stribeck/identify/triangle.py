@@ -58,10 +58,10 @@ class Triangle:
         return cls.of(
             np.concatenate([part.factor for part in parts]),
             np.concatenate([part.right for part in parts]),
-        )._with_rests(parts)
+        )._with_residual_of(parts)
 
-    def _with_rests(self, parts: list[Triangle]) -> Triangle:
-        """Add the rests of the parts."""
+    def _with_residual_of(self, parts: list[Triangle]) -> Triangle:
+        """Include the part of the residual that no parameters can reduce, of every part."""
         rest = np.linalg.norm([self.rest, *(part.rest for part in parts)])
         return Triangle(self.factor, self.right, float(rest))
 

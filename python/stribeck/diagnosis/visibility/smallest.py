@@ -48,7 +48,10 @@ class VisibleEffect:
         return self.added.effect
 
     def is_tested(self, found: Collection[str]) -> bool:
-        """Whether a diagnosis tests it: one that contains a simpler effect only beside that."""
+        """Whether a diagnosis tests the effect.
+
+        An effect that contains a simpler one is tested only if that one was found.
+        """
         return self.added.simpler.size == 0 or simpler_effect(self.effect) in found
 
     @property
