@@ -159,7 +159,7 @@ def _channels(prepared: Prepared) -> tuple[dict[str, Column], str | None]:
         dimensions = CHANNELS[channel]
         # A channel's list begins with angle or torque, then length or force; a switch has none.
         si = unit_named or "1"
-        if unit_named is None and dimensions:
+        if not unit_named and dimensions:
             si = SI[dimensions[1 if slides and len(dimensions) > 1 else 0]]
         if finite.size:
             derived = choice.source in prepared.derived

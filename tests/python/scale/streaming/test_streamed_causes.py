@@ -37,7 +37,7 @@ def test_what_is_missing_is_found_on_a_part_and_counted_on_all(folder: Path) -> 
     assert answer["steps"][0]["rmse_held_out_after"] == after.rmse_held_out
     assert after.rmse_held_out == pytest.approx(0.03, rel=0.1)
     assert after.model.value("load_coulomb") == pytest.approx(0.15, rel=0.05)
-    assert "8 000 rows, contiguous stretches spread over all 24 000" in repr(way)
+    assert "8 000 samples: contiguous parts, spread over all 24 000" in repr(way)
 
 
 @pytest.mark.slow
