@@ -47,6 +47,11 @@ PARENT_CHECK = 0.5
 REPLACED = "A worker stopped while some jobs"
 
 
+#: Warning filter for loky's tracker of semaphores, which is a process of its own. After a worker was
+#: killed, it warns of semaphores that no longer exist.
+TRACKER = "ignore:resource_tracker"
+
+
 class Stopped(Exception):
     """The user stopped the work with Ctrl-C; finished results were handed over."""
 
@@ -101,6 +106,7 @@ class ProcessPool(Executor):
         from joblib.externals.loky import ProcessPoolExecutor
 
         warnings.filterwarnings("ignore", REPLACED, UserWarning)
+        _silence_tracker()
         self.workers = workers
         self._pool = ProcessPoolExecutor(
             workers, initializer=_begin, initargs=(os.getpid(), begin), env=ONE_THREAD
@@ -135,6 +141,13 @@ class ProcessPool(Executor):
             self.shutdown()
         else:
             self.end()
+
+
+def _silence_tracker() -> None:
+    """Have the tracker, which loky starts with the first worker, print no warnings."""
+    filters = [text for text in os.environ.get("PYTHONWARNINGS", "").split(",") if text]
+    if TRACKER not in filters:
+        os.environ["PYTHONWARNINGS"] = ",".join([*filters, TRACKER])
 
 
 def run_each(

@@ -39,7 +39,7 @@ def fleet_text(fleet: Fleet) -> str:
         f"{ODD}\n\n{_effects(fleet.effects)}",
         "\n".join(paragraph(f"Note: {note}.", 0, 2) for note in fleet.reading_notes()),
         _failures(fleet.failures),
-        f"The results of every joint and day are in {fleet.to_dict()['output']}",
+        f"Results of every joint and day:\n  {fleet.to_dict()['output']}",
     )
 
 
