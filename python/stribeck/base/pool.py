@@ -47,8 +47,8 @@ PARENT_CHECK = 0.5
 REPLACED = "A worker stopped while some jobs"
 
 
-#: Warning filter for loky's tracker of semaphores, which is a process of its own. After a worker was
-#: killed, it warns of semaphores that no longer exist.
+#: Warning filter for loky's tracker of semaphores, which is a process of its own. After a worker
+#: was killed, it warns of semaphores that no longer exist.
 TRACKER = "ignore:resource_tracker"
 
 
