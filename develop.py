@@ -9,6 +9,7 @@
     python3 develop.py docs          serve the documentation at http://127.0.0.1:8000
     python3 develop.py lock          update requirements.lock to the newest versions
     python3 develop.py embedded      compare and count steps on emulated microcontrollers
+    python3 develop.py processors    compare an identification on emulated processors
     python3 develop.py instructions  count the instructions of each kernel (--write: keep the table)
     python3 develop.py peers         measure times against other packages (--bam FOLDER: also BAM)
     python3 develop.py scaling       measure how times grow, and how close they are to the limit
@@ -96,7 +97,7 @@ def demo() -> None:
 
 
 def test() -> None:
-    run("cargo", "test", "--quiet", "--locked")
+    run("cargo", "test", "--quiet", "--locked", "--features", "identify")
     run("cargo", "test", "--quiet", "--locked", "--package", "stribeck-c")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
     run(PYTHON, "-m", "pytest", "-q", "--doctest-modules", "python/stribeck")
@@ -137,6 +138,10 @@ def embedded() -> None:
     run(PYTHON, "tests/embedded/run.py", *sys.argv[2:])
 
 
+def processors() -> None:
+    run(PYTHON, "tests/embedded/processors.py", *sys.argv[2:])
+
+
 def instructions() -> None:
     run(PYTHON, "benches/kernels/instructions.py", *sys.argv[2:])
 
@@ -171,6 +176,7 @@ TASKS = {
     "docs": docs,
     "lock": lock,
     "embedded": embedded,
+    "processors": processors,
     "instructions": instructions,
     "peers": peers,
     "scaling": scaling,

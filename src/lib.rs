@@ -20,7 +20,7 @@
 //! | [`joint`] | friction coupled to an inertia: joints in motion |
 //! | `graph` (`std`) | the operations of a law, recorded, differentiated and vectorised |
 //! | `batch` (`std`) | whole recordings: torque, gradient, delay |
-//! | `identify` (`std`) | parameters from recordings: separable least squares |
+//! | `identify` (`identify`) | parameters from recordings: separable least squares |
 //! | `passivity` (`std`) | proofs over a box of operating points, and counterexamples |
 //! | `export`, `units`, `python` (`python`) | the extension module `stribeck._core` |
 #![cfg_attr(not(test), no_std)]
@@ -51,7 +51,7 @@ mod fixed;
 mod formula;
 #[cfg(feature = "std")]
 mod graph;
-#[cfg(feature = "std")]
+#[cfg(feature = "identify")]
 pub mod identify;
 pub mod joint;
 pub mod law;
@@ -73,7 +73,7 @@ pub use dynamics::{Interval, Memory, State, Step};
 pub use error::ModelError;
 pub use feedforward::{Feed, Feedforward, Friction, Limits, Source};
 pub use fixed::FixedLaw;
-pub use formula::{Formula, FormulaError, FormulaNames};
+pub use formula::{Expression, Formula, FormulaError, FormulaNames};
 pub use sample::Sample;
 pub use scalar::{Choice, Dual, Mask, Real, Scalar};
 pub use table::Channel;

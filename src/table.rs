@@ -194,7 +194,10 @@ pub struct ParameterInfo {
     pub upper: f64,
     /// Start of a fit, in multiples of `scale`.
     pub start: f64,
-    /// The quantity that scales bounds and start.
+    /// Range of the random starts of a fit, in multiples of `scale`: the values to expect, where
+    /// the bounds also admit every published value.
+    pub drawn: (f64, f64),
+    /// The quantity that scales bounds, start and random starts.
     pub scale: Scale,
     /// How it enters the torque.
     pub role: Role,
@@ -334,7 +337,8 @@ pub trait Parameters<S>: Sized {
 }
 
 /// Generates a struct of parameters and its table: field, symbol, unit, bounds, start, scale and
-/// role of each parameter; the doc comment of a field is its description.
+/// role of each parameter; the doc comment of a field is its description. Random starts lie between
+/// the bounds, or in a narrower range that is stated after `drawn`.
 macro_rules! parameters {
     (
         $(#[$meta:meta])*
@@ -342,7 +346,8 @@ macro_rules! parameters {
             $(
                 #[doc = $description:literal]
                 $field:ident: $symbol:literal [$unit:literal]
-                    $lower:literal .. $upper:literal, start $start:literal,
+                    $lower:literal .. $upper:literal, start $start:literal
+                    $(drawn $least:literal .. $most:literal)?,
                     $scale:ident, $role:ident $(, $presence:ident)?;
             )+
         }
@@ -365,6 +370,9 @@ macro_rules! parameters {
                     lower: $lower,
                     upper: $upper,
                     start: $start,
+                    drawn: $crate::table::parameters!(
+                        @drawn ($lower, $upper) $(($least, $most))?
+                    ),
                     scale: $crate::table::Scale::$scale,
                     role: $crate::table::Role::$role,
                     presence: $crate::table::parameters!(@presence $($presence)?),
@@ -380,6 +388,8 @@ macro_rules! parameters {
             }
         }
     };
+    (@drawn $bounds:tt) => { $bounds };
+    (@drawn $bounds:tt $range:tt) => { $range };
     (@presence) => { $crate::table::Presence::Always };
     (@presence $presence:ident) => { $crate::table::Presence::$presence };
 }

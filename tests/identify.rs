@@ -1,5 +1,5 @@
 //! Separable least squares: the bounded solution, the search, and the linearisation of a model.
-#![cfg(feature = "std")]
+#![cfg(feature = "identify")]
 #![allow(clippy::disallowed_methods)]
 
 mod common;
@@ -215,6 +215,7 @@ fn problem<'a>(
         spec,
         columns,
         target,
+        scale: None,
         group,
         groups: 2,
         begins,
@@ -222,6 +223,30 @@ fn problem<'a>(
         torque_norm: 1.0,
         threads: 1,
     }
+}
+
+#[test]
+fn a_weight_of_two_is_the_sample_twice() {
+    let velocity = motion(300);
+    let twice: Vec<f64> = velocity.iter().flat_map(|&v| [v, v]).collect();
+    let target = |velocity: &[f64]| velocity.iter().map(|v| 2.5 * v.signum() + v * v).collect();
+    let (once_target, twice_target): (Vec<f64>, Vec<f64>) = (target(&velocity), target(&twice));
+    let spec = Spec::parse("coulomb").unwrap();
+    let (group, moving) = (vec![0; 600], vec![true; 600]);
+    let root = vec![2.0_f64.sqrt(); 300];
+    let once = problem(&spec, &velocity, &once_target, &group[..300], &[], &moving[..300]);
+    let once = Problem { groups: 1, scale: Some(&root), ..once };
+    let double = problem(&spec, &twice, &twice_target, &group, &[], &moving);
+    let double = Problem { groups: 1, ..double };
+    let linearised = |problem: &Problem<'_>| {
+        problem.triangles(&[1.0, 0.5], &[0, 1], &[1.0, 1.0]).unwrap().unwrap().remove(0)
+    };
+    let (one, two) = (linearised(&once), linearised(&double));
+    for (x, y) in one.factor().iter().zip(two.factor()) {
+        assert!((x.abs() - y.abs()).abs() < 1e-11 * (1.0 + y.abs()), "{x} {y}");
+    }
+    let short = Problem { scale: Some(&root[..299]), ..once };
+    assert!(short.triangles(&[1.0, 0.5], &[0, 1], &[1.0, 1.0]).is_err());
 }
 
 #[test]

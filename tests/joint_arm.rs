@@ -51,6 +51,30 @@ fn a_free_arm_keeps_energy_and_angular_momentum() {
     assert!(steps.last().unwrap().0.position[1].abs() > 10.0);
 }
 
+/// In the limit of short steps the velocities change by the accelerations of forward dynamics.
+#[test]
+fn short_steps_follow_the_forward_dynamics() {
+    let free = model("coulomb", &[0.0, 0.0]);
+    for (second, velocity) in [(-0.4, [1.5, -4.0]), (2.0, [-2.0, 0.7]), (0.0, [0.0, 0.0])] {
+        let start = ArmPosture { position: [0.3, second], velocity };
+        let torque = [3.0, -1.2];
+        let expected = ARM.acceleration(&start, torque).unwrap();
+        let (dt, mut posture) = (1e-6, start);
+        let push = ArmPush { motor: torque, temperature: [30.0; 2], time: 0.0 };
+        ARM.step([&free; 2], &mut [State::default(); 2], &mut posture, &push, dt);
+        for (joint, expected) in expected.into_iter().enumerate() {
+            let taken = (posture.velocity[joint] - start.velocity[joint]) / dt;
+            assert!((taken - expected).abs() < 1e-4 * expected.abs(), "{taken} {expected}");
+        }
+    }
+}
+
+#[test]
+fn an_impossible_arm_has_no_acceleration() {
+    let arm = PlanarArm { inertia_2: 0.01, ..ARM };
+    assert_eq!(arm.acceleration(&SWINGING, [0.0; 2]), None);
+}
+
 #[test]
 fn motor_work_is_stored_or_dissipated() {
     let frictions = [

@@ -1,5 +1,5 @@
 //! Triangular factors of least-squares problems.
-#![cfg(feature = "std")]
+#![cfg(feature = "identify")]
 
 mod common;
 

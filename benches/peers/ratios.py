@@ -19,12 +19,19 @@ import pendulum
 import polars as pl
 import servo
 import stribeck as sb
-from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.scaling import model_for, scaled_parameters
 from timing import line
 
 SAMPLES = 30_000
 STARTS = 20
 DT = 0.002
+
+
+def expected(law: str, recording: sb.Recording) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The values to expect, which the peers search, and the first start: arrays [p]."""
+    rows = scaled_parameters(model_for(law, recording), recording)
+    lower, upper = np.array([p.drawn for p in rows]).T
+    return lower, upper, np.array([p.start for p in rows])
 
 
 def velocities(samples: int) -> np.ndarray:
@@ -94,7 +101,7 @@ def compare_fits() -> None:
         ("lugre", laws.LUGRE, lambda v, p: laws.lugre_gradient(v, DT, p)),
     ):
         velocity, torque, recording = recorded(law, values)
-        lower, upper, _ = bounds(model_for(law, recording), recording)
+        lower, upper, _ = expected(law, recording)
         made = []
         their = fits.Slsqp(gradient, velocity, torque, lower, upper, STARTS)
         line(
@@ -115,7 +122,7 @@ def compare_fits() -> None:
 def compare_one_start() -> None:
     """From a start near the optimum; here held-out error and robust standard errors follow."""
     velocity, torque, recording = recorded("bittencourt_a", laws.BITTENCOURT_A)
-    box = bounds(model_for("bittencourt_a", recording), recording)
+    box = expected("bittencourt_a", recording)
     their = fits.Levenberg(laws.bittencourt_a_gradient, velocity, torque, *box)
 
     def ours() -> float:

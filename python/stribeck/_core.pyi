@@ -9,6 +9,7 @@ from stribeck.models.rows import CoreCatalog, ParameterRow
 from stribeck.passivity.rows import AnswerRow
 
 __all__ = [
+    "Expression",
     "Formula",
     "Model",
     "ModelError",
@@ -23,17 +24,23 @@ __all__ = [
     "formula_functions",
     "fourier",
     "largest_factor",
+    "least_squares",
     "margins",
     "missed",
     "normal_equations",
     "passivity",
+    "pivots",
+    "reduced",
     "requirements",
     "search",
     "search_by",
     "simulate",
     "simulate_arm",
+    "singular",
     "slides",
+    "solve",
     "stroke",
+    "symmetric_eigen",
     "triangle",
     "triangles_of",
     "units",
@@ -98,12 +105,24 @@ def search(
     starts: ArrayLike,
     within: Mapping[str, object],
 ) -> list[tuple[NDArray[np.float64], float, bool, str, int, list[int]]]: ...
+def reduced(
+    model: Model,
+    measured: Mapping[str, object],
+    points: ArrayLike,
+    within: Mapping[str, object],
+    sloped: bool,
+) -> list[tuple[NDArray[np.float64], float, NDArray[np.float64]] | None]: ...
 def search_by(
     problem: object, start: ArrayLike, within: Mapping[str, object]
 ) -> tuple[NDArray[np.float64], float, bool, str, int, list[int]]: ...
 def bounded_least_squares(
     matrix: ArrayLike, right: ArrayLike, lower: ArrayLike, upper: ArrayLike
 ) -> NDArray[np.float64]: ...
+def least_squares(matrix: ArrayLike, right: ArrayLike, unseen: float) -> NDArray[np.float64]: ...
+def singular(matrix: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+def symmetric_eigen(matrix: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+def solve(matrix: ArrayLike, right: ArrayLike) -> NDArray[np.float64]: ...
+def pivots(matrix: ArrayLike) -> list[int]: ...
 def passivity(
     model: Model,
     values: ArrayLike,
@@ -200,6 +219,15 @@ class Formula:
     def operations(self) -> list[tuple[str, float | int | str | None]]: ...
     @property
     def terms(self) -> list[dict[str, Any]]: ...
+
+@final
+class Expression:
+    def __new__(cls, text: str, known: Sequence[str]) -> Expression: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def is_condition(self) -> bool: ...
+    def evaluate(self, values: Sequence[float]) -> tuple[float, list[float]]: ...
 
 @final
 class Model:

@@ -1,5 +1,6 @@
 //! Columns of a recording as input of a model, their checks, and the time axis.
 
+#[cfg(feature = "identify")]
 use core::ops::Range;
 use std::borrow::Cow;
 use std::vec;
@@ -50,6 +51,7 @@ impl<'a> Channels<'a> {
     }
 
     /// The columns of some samples; a shorter column becomes empty.
+    #[cfg(feature = "identify")]
     fn part(&self, rows: &Range<usize>) -> Self {
         let some = |column: &'a [f64]| column.get(rows.clone()).unwrap_or_default();
         Self {
@@ -153,6 +155,7 @@ impl<'a> Columns<'a> {
     }
 
     /// The columns of some samples.
+    #[cfg(feature = "identify")]
     pub(crate) fn part(&self, rows: &Range<usize>) -> Self {
         Self {
             dt: match self.dt {

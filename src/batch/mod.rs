@@ -11,6 +11,7 @@ pub use columns::{Channels, Columns, TimeStep};
 pub use error::BatchError;
 pub use normal::{NormalEquations, normal_equations};
 
+#[cfg(feature = "identify")]
 use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
@@ -18,7 +19,9 @@ use std::vec::Vec;
 use crate::catalog::EffectId;
 use crate::composed::{Composed, Spec};
 use crate::dynamics::Interval;
-use crate::graph::{Beginning, Numbers};
+use crate::graph::Beginning;
+#[cfg(feature = "identify")]
+use crate::graph::Numbers;
 use crate::scalar::{Dual, Real, Scalar};
 use balance::Balance;
 use columns::Rows;
@@ -27,6 +30,7 @@ use compiled::Compiled;
 /// Number of derivatives per pass over the samples.
 const MAX_DIRECTIONS: usize = 16;
 /// Samples per block passed to a sink.
+#[cfg(feature = "identify")]
 const BLOCK_LENGTH: usize = 256;
 
 /// The friction torque of every sample (T); for a model with memory at the end of the sample's
@@ -100,6 +104,7 @@ pub fn gradient(
 ///
 /// # Errors
 /// As for [`gradient`].
+#[cfg(feature = "identify")]
 pub(crate) fn blocks(
     spec: &Spec,
     values: &[f64],

@@ -47,6 +47,10 @@ pub(crate) enum Reason<'a> {
     Time(&'a str),
     /// A function without its arguments.
     NotCalled(Function),
+    /// A name that is none of the known parameters.
+    UnknownParameter(&'a str),
+    /// A comparison where none can stand, or of another kind.
+    Relation(&'a str),
     /// A function with too few or too many arguments.
     Arity(Function, usize),
     /// A constant expression that is infinite or NaN.
@@ -104,6 +108,10 @@ impl fmt::Display for FormulaError<'_> {
             Reason::NotCalled(function) => {
                 let name = function.name();
                 write!(f, "'{name}' is a function (write {name}(...)),")
+            }
+            Reason::UnknownParameter(name) => write!(f, "'{name}' is not a parameter,"),
+            Reason::Relation(text) => {
+                write!(f, "'{text}' cannot stand here (write one LEFT >= RIGHT or LEFT <= RIGHT),")
             }
             Reason::Arity(function, given) => {
                 let (name, needed) = (function.name(), function.arity());

@@ -34,24 +34,26 @@ impl<'a> FormulaNames<'a> {
 
 /// Parses a friction law.
 pub(super) fn parse(text: &str) -> Result<(Program, FormulaNames<'_>), FormulaError<'_>> {
-    let names = FormulaNames { names: [""; MAX_PARAMETERS], count: 0 };
-    let mut law = Law { program: Program::EMPTY, names };
+    let mut law = Law::EMPTY;
     parser::parse(text, &mut law)?;
     if law.names.count == 0 {
         return Err(FormulaError::at(text, 0, Reason::NoParameter));
     }
-    if law.program.depth() > MAX_DEPTH {
-        let reason = Reason::TooLarge("values at a time", MAX_DEPTH);
-        return Err(FormulaError::at(text, text.len(), reason));
-    }
-    law.program.parameter_count = law.names.count;
-    Ok((law.program, law.names))
+    law.finished(text)
 }
 
 /// A program while its text is parsed.
-struct Law<'a> {
-    program: Program,
-    names: FormulaNames<'a>,
+pub(super) struct Law<'a> {
+    pub(super) program: Program,
+    pub(super) names: FormulaNames<'a>,
+}
+
+impl Law<'_> {
+    /// Before the text is parsed.
+    pub(super) const EMPTY: Self = Self {
+        program: Program::EMPTY,
+        names: FormulaNames { names: [""; MAX_PARAMETERS], count: 0 },
+    };
 }
 
 impl<'a> Builder<'a> for Law<'a> {
@@ -93,6 +95,27 @@ impl<'a> Builder<'a> for Law<'a> {
 }
 
 impl<'a> Law<'a> {
+    /// The program of the whole text, and the names of its parameters.
+    pub(super) fn finished<'t>(
+        mut self,
+        text: &'t str,
+    ) -> Result<(Program, FormulaNames<'a>), FormulaError<'t>> {
+        if self.program.depth() > MAX_DEPTH {
+            let reason = Reason::TooLarge("values at a time", MAX_DEPTH);
+            return Err(FormulaError::at(text, text.len(), reason));
+        }
+        self.program.parameter_count = self.names.count;
+        Ok((self.program, self.names))
+    }
+
+    /// A known name of a parameter.
+    pub(super) fn known(&mut self, name: &'a str) -> Result<(), Reason<'a>> {
+        match self.names.index(name) {
+            Some(index) => self.push(Operation::Parameter(index)),
+            None => Err(Reason::TooLarge("parameters", MAX_PARAMETERS)),
+        }
+    }
+
     fn push(&mut self, operation: Operation) -> Result<(), Reason<'a>> {
         if self.program.push(operation) {
             return Ok(());
@@ -106,16 +129,13 @@ impl<'a> Law<'a> {
             "t" | "time" => Some(Reason::Time(name)),
             _ => vocabulary::probably_meant(name).map(|near| Reason::Mistyped(name, near)),
         };
-        if let Some(reason) = refusal {
-            return Err(reason);
-        }
-        match self.names.index(name) {
-            Some(index) => self.push(Operation::Parameter(index)),
-            None => Err(Reason::TooLarge("parameters", MAX_PARAMETERS)),
+        match refusal {
+            Some(reason) => Err(reason),
+            None => self.known(name),
         }
     }
 
-    fn constant(&mut self, number: f64) -> Result<(), Reason<'a>> {
+    pub(super) fn constant(&mut self, number: f64) -> Result<(), Reason<'a>> {
         if !number.is_finite() {
             return Err(Reason::NotFinite);
         }

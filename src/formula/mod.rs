@@ -9,6 +9,7 @@
 //! | [`vocabulary`](Function) | names of channels, functions and constants |
 //! | `tokens`, `parser` | the grammar, of laws and of formulas over the columns of a recording |
 //! | `law` | from text to program |
+//! | `expression` | formulas over parameters, and conditions on them |
 //! | [`program`](Operation) | operations in postfix order, and their evaluation |
 //! | [`terms`](TermKind) | terms: dry, rate-dependent or additive |
 //! | `linear` | the parameters in which the torque is linear |
@@ -25,6 +26,7 @@
 //! ```
 
 mod error;
+mod expression;
 mod law;
 mod linear;
 mod parser;
@@ -39,6 +41,7 @@ mod tests;
 pub use error::FormulaError;
 #[cfg(feature = "python")]
 pub(crate) use error::Reason;
+pub use expression::Expression;
 pub use law::FormulaNames;
 #[cfg(feature = "python")]
 pub(crate) use parser::{Builder, parse};

@@ -307,6 +307,7 @@ const fn table(role: Role) -> [ParameterInfo; MAX_PARAMETERS] {
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
         start: 1.0,
+        drawn: (f64::NEG_INFINITY, f64::INFINITY),
         scale: Scale::None,
         role,
         presence: Presence::InFormula,

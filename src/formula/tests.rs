@@ -13,7 +13,7 @@ use super::{FormulaTerms, TermKind};
 use crate::catalog::Role;
 use crate::common::close;
 use crate::common::random::hold;
-use crate::{Channel, Dual, Formula, Real, Sample, Spec, State};
+use crate::{Channel, Dual, Expression, Formula, Real, Sample, Spec, State};
 
 fn parse(text: &str) -> Formula {
     Formula::parse(text).unwrap_or_else(|error| panic!("{text}: {error}")).0
@@ -370,4 +370,36 @@ fn formula_terms_extend_any_law() {
     let more = parse(&(0..15).map(|i| format!("c{i}*v")).collect::<Vec<_>>().join("+"));
     let refused = spec.add_terms(&more).unwrap_err().to_string();
     assert!(refused.starts_with("the formula is too long"), "{refused}");
+}
+
+#[test]
+fn an_expression_is_a_condition_or_a_value_of_known_parameters() {
+    let known = ["static_friction", "a2", "v", "T"];
+    let (condition, names) = Expression::parse("static_friction >= 1.5*a2^2", &known).unwrap();
+    assert_eq!(names.as_slice(), ["static_friction", "a2"]);
+    assert!(condition.is_condition());
+    let (value, slopes) = condition.evaluate(&[10.0, 2.0]);
+    assert_eq!((value, &slopes[..2]), (4.0, &[1.0, -6.0][..]));
+    let (turned, _) = Expression::parse("static_friction <= 1.5*a2^2", &known).unwrap();
+    assert_eq!(turned.evaluate(&[10.0, 2.0]).0, -4.0);
+    // A parameter may have the name of a channel.
+    let (value, names) = Expression::parse("2*v + exp(T)", &known).unwrap();
+    assert_eq!(names.as_slice(), ["v", "T"]);
+    assert!(!value.is_condition());
+    assert_eq!(value.evaluate(&[3.0, 0.0]).0, 7.0);
+    for (text, position) in [
+        ("a2 >= b", 7),
+        ("a2 > v", 4),
+        ("a2 >= v >= T", 12),
+        ("(a2 >= v) + 1", 13),
+        ("a2 >= v and T >= v", 13),
+        ("not a2", 1),
+        ("a2 >= 'x'", 7),
+        ("a2 >=", 6),
+        ("q", 1),
+        ("", 1),
+    ] {
+        let error = Expression::parse(text, &known).unwrap_err();
+        assert_eq!(error.position, position, "{text}: {error}");
+    }
 }

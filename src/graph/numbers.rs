@@ -1,5 +1,6 @@
 //! The outputs of a graph for a block of samples.
 
+#[cfg(feature = "identify")]
 use core::ops::Range;
 use std::vec::Vec;
 
@@ -14,6 +15,7 @@ pub enum Numbers<'a> {
 
 impl Numbers<'_> {
     /// The values at some samples.
+    #[cfg(feature = "identify")]
     #[inline(always)]
     #[must_use]
     pub fn part(&self, rows: &Range<usize>) -> Self {
@@ -24,6 +26,7 @@ impl Numbers<'_> {
     }
 
     /// Writes the products with `factor`.
+    #[cfg(feature = "identify")]
     #[inline(always)]
     pub fn times(&self, factor: f64, out: &mut [f64]) {
         match self {
@@ -35,6 +38,7 @@ impl Numbers<'_> {
     }
 
     /// Writes `others` minus these numbers.
+    #[cfg(feature = "identify")]
     #[inline(always)]
     pub fn subtracted_from(&self, others: &[f64], out: &mut [f64]) {
         let others = out.iter_mut().zip(others);

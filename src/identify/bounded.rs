@@ -3,17 +3,12 @@
 use std::vec;
 use std::vec::Vec;
 
+use super::dense::Dense;
 use crate::scalar::Real;
 
 /// Directions with a singular value below this share of the largest, with all columns scaled to
 /// length one, are not identifiable.
 const UNIDENTIFIABLE: f64 = 1e-10;
-/// Where every pivot is at least this share of the largest, all directions are identifiable.
-const WELL_CONDITIONED: f64 = 1e-5;
-/// Jacobi rotations end when all pairs of columns are orthogonal to this accuracy, or after
-/// [`MAX_ROUNDS`].
-const ORTHOGONAL: f64 = 1e-15;
-const MAX_ROUNDS: usize = 40;
 /// A parameter leaves its bound where the slope of the error, with columns of length one, is this
 /// share of the right-hand side.
 const RELEASE_SLOPE: f64 = 1e-10;
@@ -47,8 +42,14 @@ pub fn bounded_least_squares(
         return vec![0.0; count];
     }
     let scaled = |bounds: &[f64]| bounds.iter().zip(&lengths).map(|(x, l)| x * l).collect();
-    let mut search =
-        Bounded { columns, right, lower: scaled(lower), upper: scaled(upper), x: vec![0.0; count] };
+    let mut search = Bounded {
+        dense: Dense::new(right.len(), count),
+        columns,
+        right,
+        lower: scaled(lower),
+        upper: scaled(upper),
+        x: vec![0.0; count],
+    };
     search.solve();
     let unscaled = |k: usize| {
         // At a bound return it exactly, without the rounding of the column scale.
@@ -85,6 +86,7 @@ fn unit_columns(matrix: &[f64], count: usize) -> Option<(Vec<Vec<f64>>, Vec<f64>
 }
 
 struct Bounded<'a> {
+    dense: Dense,
     columns: Vec<Vec<f64>>,
     right: &'a [f64],
     lower: Vec<f64>,
@@ -180,112 +182,17 @@ impl Bounded<'_> {
     }
 
     /// The minimum over the free parameters with the others fixed.
-    fn best(&self, free: &[bool]) -> Vec<f64> {
+    fn best(&mut self, free: &[bool]) -> Vec<f64> {
         let residual = self.residual(free);
         let own = (0..self.x.len()).filter(|&k| free[k]);
-        let columns: Vec<Vec<f64>> = own.clone().map(|k| self.columns[k].clone()).collect();
+        let columns = own.clone().map(|k| &self.columns[k][..]);
         let mut best = self.x.clone();
-        let solved = by_reflections(columns.clone(), &residual)
-            .unwrap_or_else(|| of_least_norm(columns, &residual));
-        for (k, x) in own.zip(solved) {
+        let solved = self.dense.least_squares(columns, &residual, UNIDENTIFIABLE);
+        // Finite columns of length one have singular values.
+        for (k, x) in own.zip(solved.unwrap_or_default()) {
             best[k] = x;
         }
         best
-    }
-}
-
-/// The minimum by Householder reflections with column pivoting (Golub and Van Loan, section 5.4.2);
-/// `None` where a direction is poorly determined.
-fn by_reflections(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Option<Vec<f64>> {
-    let (count, mut right) = (columns.len(), right.to_vec());
-    let mut order: Vec<usize> = (0..count).collect();
-    let mut largest = 0.0_f64;
-    for k in 0..count {
-        let square = |column: &[f64]| column.get(k..).map_or(0.0, |below| dot(below, below));
-        let longest = (k..count).fold((k, -1.0), |most, j| {
-            let own = square(&columns[j]);
-            if own > most.1 { (j, own) } else { most }
-        });
-        columns.swap(k, longest.0);
-        order.swap(k, longest.0);
-        let norm = Real::sqrt(longest.1);
-        largest = largest.max(norm);
-        if norm.is_nan() || norm <= WELL_CONDITIONED * largest {
-            return None;
-        }
-        let (done, rest) = columns.split_at_mut(k + 1);
-        let own = &mut done[k][k..];
-        let diagonal = if own[0] > 0.0 { -norm } else { norm };
-        own[0] -= diagonal;
-        let scale = 1.0 / (diagonal * own[0]);
-        for column in rest.iter_mut().map(|column| &mut column[k..]).chain([&mut right[k..]]) {
-            let product = dot(own, column) * scale;
-            for (x, entry) in column.iter_mut().zip(own.iter()) {
-                *x += entry * product;
-            }
-        }
-        own[0] = diagonal;
-    }
-    let mut x = vec![0.0; count];
-    for k in (0..count).rev() {
-        let known: f64 = (k + 1..count).map(|j| columns[j][k] * x[order[j]]).sum();
-        x[order[k]] = (right[k] - known) / columns[k][k];
-    }
-    Some(x)
-}
-
-/// The minimum of least norm by singular values: columns are rotated in pairs until they are
-/// orthogonal (one-sided Jacobi, Hestenes 1958).
-fn of_least_norm(mut columns: Vec<Vec<f64>>, right: &[f64]) -> Vec<f64> {
-    let count = columns.len();
-    let unit = |k: usize| (0..count).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
-    let mut basis: Vec<Vec<f64>> = (0..count).map(unit).collect();
-    for _ in 0..MAX_ROUNDS {
-        let mut rotated = false;
-        for p in 0..count {
-            for q in p + 1..count {
-                if let Some((cosine, sine)) = rotation(&columns[p], &columns[q]) {
-                    rotate(&mut columns, p, q, cosine, sine);
-                    rotate(&mut basis, p, q, cosine, sine);
-                    rotated = true;
-                }
-            }
-        }
-        if !rotated {
-            break;
-        }
-    }
-    let squares: Vec<f64> = columns.iter().map(|column| dot(column, column)).collect();
-    let largest = squares.iter().fold(0.0_f64, |most, &x| most.max(x));
-    let mut x = vec![0.0; count];
-    for ((column, basis), &square) in columns.iter().zip(&basis).zip(&squares) {
-        if square > UNIDENTIFIABLE * UNIDENTIFIABLE * largest {
-            let share = dot(column, right) / square;
-            for (x, basis) in x.iter_mut().zip(basis) {
-                *x += share * basis;
-            }
-        }
-    }
-    x
-}
-
-/// Cosine and sine of the rotation that makes two columns orthogonal, unless they are.
-fn rotation(x: &[f64], y: &[f64]) -> Option<(f64, f64)> {
-    let (first, second, both) = (dot(x, x), dot(y, y), dot(x, y));
-    if both.abs() <= ORTHOGONAL * Real::sqrt(first * second) {
-        return None;
-    }
-    let half = (second - first) / (2.0 * both);
-    let tangent = 1.0 / (half.abs() + Real::sqrt(1.0 + half * half));
-    let tangent = if half < 0.0 { -tangent } else { tangent };
-    let cosine = 1.0 / Real::sqrt(1.0 + tangent * tangent);
-    Some((cosine, cosine * tangent))
-}
-
-fn rotate(columns: &mut [Vec<f64>], p: usize, q: usize, cosine: f64, sine: f64) {
-    let (left, right) = columns.split_at_mut(q);
-    for (x, y) in left[p].iter_mut().zip(&mut right[0]) {
-        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
     }
 }
 

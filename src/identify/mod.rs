@@ -5,13 +5,18 @@
 //! parameters and solves for the linear ones, for a [`Problem`] or any other [`LeastSquares`].
 
 mod bounded;
+mod dense;
 mod problem;
+mod reduced;
 mod separable;
 mod threads;
 mod triangle;
 
 pub use bounded::bounded_least_squares;
+#[cfg(feature = "python")]
+pub(crate) use dense::SingularValues;
 pub use problem::{NOT_SCORED, Problem};
+pub use reduced::{Reduced, reduced};
 pub use separable::{Bounds, LeastSquares, Outcome, Search, Steps, minimise};
 #[cfg(feature = "python")]
 pub(crate) use threads::side_by_side;

@@ -28,6 +28,8 @@ pub struct Problem<'a> {
     pub columns: Columns<'a>,
     /// The torque to fit: measured minus known torque (T).
     pub target: &'a [f64],
+    /// The square root of the weight of each sample's squared error; `None`: all weights are 1.
+    pub scale: Option<&'a [f64]>,
     /// The group of each sample, or [`NOT_SCORED`].
     pub group: &'a [u32],
     /// Number of groups.
@@ -125,6 +127,7 @@ impl Problem<'_> {
         Self {
             columns: self.columns.part(rows),
             target: &self.target[rows.clone()],
+            scale: self.scale.map(|scale| &scale[rows.clone()]),
             group: &self.group[rows.clone()],
             moving: &self.moving[rows.clone()],
             begins: &[],
@@ -154,6 +157,10 @@ impl Problem<'_> {
                                 outputs[0].part(&rows).subtracted_from(target, out);
                             }
                         }
+                        if let Some(scale) = self.scale {
+                            let own = &scale[block.start..][rows];
+                            out.iter_mut().zip(own).for_each(|(x, scale)| *x *= scale);
+                        }
                     });
                 }
             })
@@ -177,6 +184,7 @@ impl Problem<'_> {
         fit("target", self.target.len())?;
         fit("group", self.group.len())?;
         fit("moving", self.moving.len())?;
+        fit("scale", self.scale.map_or(rows, <[f64]>::len))?;
         if let TimeStep::Each(steps) = self.columns.dt {
             fit("dt", steps.len())?;
         }

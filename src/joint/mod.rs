@@ -12,6 +12,7 @@
 //! | `root` | the scalar equation of a step |
 //! | `rigid`, `gravity`, `ball_screw` | one inertia: revolute, prismatic, with a ball screw |
 //! | `elastic` | motor and load with a spring and backlash between them |
+//! | `algebra` | vectors and matrices, by nalgebra |
 //! | `arm` | a planar arm with two joints, each with its friction |
 //! | `trajectory`, `controller` | the desired motion and a controller that follows it |
 //! | `compensator`, `observer` | friction compensation, and a disturbance observer for its error |
@@ -34,6 +35,7 @@
 //! # Ok::<(), stribeck::ModelError>(())
 //! ```
 
+mod algebra;
 mod arm;
 mod ball_screw;
 mod body;
@@ -47,6 +49,7 @@ mod rigid;
 mod root;
 mod trajectory;
 
+pub use algebra::Number;
 pub use arm::{ArmPosture, ArmPush, PlanarArm};
 pub use ball_screw::BallScrew;
 pub use body::{Body, Push};

@@ -10,15 +10,16 @@ parameters! {
     /// Coulomb, Stribeck and viscous friction; `a2` is the height above `a1`.
     BittencourtA {
         /// Dry friction in full sliding.
-        coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction: "a1" ["T"] -1e3 .. 1e3, start 0.5 drawn 0.0 .. 10.0, Torque, Dry;
         /// Height of the Stribeck curve above Coulomb friction at rest.
-        stribeck_height: "a2" ["T"] 0.0 .. 10.0, start 0.2, Torque, Dry;
+        stribeck_height: "a2" ["T"] -1e3 .. 1e3, start 0.2 drawn 0.0 .. 10.0, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
-        stribeck_velocity: "a3" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "a3" ["X/s"]
+            1e-4 .. 1e3, start 0.1 drawn 0.002 .. 20.0, Speed, Nonlinear;
         /// Exponent of the Stribeck curve.
         stribeck_exponent: "a4" ["1"] 0.5 .. 4.0, start 2.0, None, Nonlinear;
         /// Torque per speed.
-        viscous_friction: "a5" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        viscous_friction: "a5" ["T s/X"] -1e3 .. 1e3, start 0.1 drawn 0.0 .. 10.0, Damping, Rate;
     }
 }
 

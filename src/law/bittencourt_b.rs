@@ -12,29 +12,33 @@ parameters! {
     /// with temperature.
     BittencourtB {
         /// Dry friction in full sliding without load.
-        coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction: "a1" ["T"] -1e2 .. 1e2, start 0.5 drawn 0.0 .. 10.0, Torque, Dry;
         /// Dry friction in full sliding per load.
-        load_coulomb: "a2" ["1"] 0.0 .. 10.0, start 0.05, None, Dry;
+        load_coulomb: "a2" ["1"] -10.0 .. 10.0, start 0.05 drawn 0.0 .. 10.0, None, Dry;
         /// Height of the load's Stribeck curve per load.
-        load_stribeck: "a3" ["1"] 0.0 .. 10.0, start 0.02, None, Dry;
+        load_stribeck: "a3" ["1"] -10.0 .. 10.0, start 0.02 drawn 0.0 .. 10.0, None, Dry;
         /// Speed at which the load's Stribeck curve has fallen to 1/e.
-        load_stribeck_velocity: "a4" ["X/s"] 0.002 .. 10.0, start 0.1, Speed, Nonlinear;
+        load_stribeck_velocity: "a4" ["X/s"]
+            1e-4 .. 1e3, start 0.1 drawn 0.002 .. 20.0, Speed, Nonlinear;
         /// Exponent of both Stribeck curves.
-        stribeck_exponent: "a5" ["1"] 0.3 .. 4.0, start 1.3, None, Nonlinear;
+        stribeck_exponent: "a5" ["1"] 0.1 .. 2e3, start 1.3 drawn 0.3 .. 4.0, None, Nonlinear;
         /// Height of the temperature's Stribeck curve at 0 degC.
-        stribeck_height: "a6" ["T"] -10.0 .. 10.0, start 0.2, Torque, Dry;
+        stribeck_height: "a6" ["T"] -1e2 .. 1e2, start 0.2 drawn -10.0 .. 10.0, Torque, Dry;
         /// Growth of that height per kelvin.
-        stribeck_height_slope: "a7" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Dry;
+        stribeck_height_slope: "a7" ["T/K"] -5.0 .. 5.0, start 0.0 drawn -0.5 .. 0.5, Torque, Dry;
         /// Stribeck velocity of the temperature's curve at 0 degC.
-        stribeck_velocity: "a8" ["X/s"] -2.0 .. 2.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "a8" ["X/s"] -1e3 .. 1e3, start 0.1 drawn -2.0 .. 2.0, Speed, Nonlinear;
         /// Growth of that Stribeck velocity per kelvin.
-        stribeck_velocity_slope: "a9" ["X/s/K"] -0.05 .. 0.05, start 0.0, Speed, Nonlinear;
+        stribeck_velocity_slope: "a9" ["X/s/K"]
+            -1e3 .. 1e3, start 0.0 drawn -0.05 .. 0.05, Speed, Nonlinear;
         /// Torque per speed at high temperature.
-        viscous_friction: "a10" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        viscous_friction: "a10" ["T s/X"] -1e2 .. 1e2, start 0.1 drawn 0.0 .. 10.0, Damping, Rate;
         /// Additional torque per speed at 0 degC.
-        viscous_friction_cold: "a11" ["T s/X"] 0.0 .. 50.0, start 0.1, Damping, Rate;
+        viscous_friction_cold: "a11" ["T s/X"]
+            -1e3 .. 1e3, start 0.1 drawn 0.0 .. 50.0, Damping, Rate;
         /// Temperature over which that falls to 1/e.
-        thinning_temperature: "a12" ["K"] 3.0 .. 500.0, start 20.0, None, Nonlinear;
+        thinning_temperature: "a12" ["K"]
+            1.0 .. 500.0, start 20.0 drawn 3.0 .. 500.0, None, Nonlinear;
     }
 }
 
@@ -78,15 +82,17 @@ parameters! {
         /// Height of the load's Stribeck curve per load.
         load_stribeck: "Fs_load" ["1"] 0.0 .. 10.0, start 0.02, None, Dry;
         /// Speed at which the load's Stribeck curve has fallen to 1/e.
-        load_stribeck_velocity: "vs_load" ["X/s"] 0.002 .. 10.0, start 0.1, Speed, Nonlinear;
+        load_stribeck_velocity: "vs_load" ["X/s"]
+            1e-4 .. 1e3, start 0.1 drawn 0.002 .. 10.0, Speed, Nonlinear;
         /// Height of the temperature's Stribeck curve at 0 degC.
-        stribeck_height: "Fs0" ["T"] -10.0 .. 10.0, start 0.2, Torque, Dry;
+        stribeck_height: "Fs0" ["T"] -1e2 .. 1e2, start 0.2, Torque, Dry;
         /// Growth of that height per kelvin.
-        stribeck_height_slope: "Fs_T" ["T/K"] -0.5 .. 0.5, start 0.0, Torque, Dry;
+        stribeck_height_slope: "Fs_T" ["T/K"] -5.0 .. 5.0, start 0.0, Torque, Dry;
         /// Stribeck velocity of the temperature's curve at 0 degC.
-        stribeck_velocity: "vs0" ["X/s"] -2.0 .. 2.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "vs0" ["X/s"] -1e2 .. 1e2, start 0.1 drawn -2.0 .. 2.0, Speed, Nonlinear;
         /// Growth of that Stribeck velocity per kelvin.
-        stribeck_velocity_slope: "vs_T" ["X/s/K"] -0.05 .. 0.05, start 0.0, Speed, Nonlinear;
+        stribeck_velocity_slope: "vs_T" ["X/s/K"]
+            -10.0 .. 10.0, start 0.0 drawn -0.05 .. 0.05, Speed, Nonlinear;
         /// Torque per speed at high temperature.
         viscous_friction: "Fv0" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Additional torque per speed at 0 degC.

@@ -13,9 +13,9 @@ parameters! {
         /// Torque per deflection before sliding.
         bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
         /// Dry friction in full sliding.
-        coulomb_friction: "a2" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction: "a2" ["T"] 0.0 .. 1e2, start 0.5 drawn 0.0 .. 10.0, Torque, Dry;
         /// Exponent of the approach to sliding: exponential with 1, slower above 1.
-        dahl_exponent: "a3" ["1"] 0.1 .. 50.0, start 1.0, None, Nonlinear;
+        dahl_exponent: "a3" ["1"] 0.1 .. 100.0, start 1.0 drawn 0.1 .. 50.0, None, Nonlinear;
     }
 }
 

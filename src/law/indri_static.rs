@@ -17,7 +17,8 @@ parameters! {
         /// Dry friction that builds up with speed.
         coulomb_rise_forward: "c2_plus" ["T"] -10.0 .. 10.0, start 0.0, Torque, Dry;
         /// Torque per speed.
-        viscous_friction_forward: "c3_plus" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        viscous_friction_forward: "c3_plus" ["T s/X"]
+            -10.0 .. 10.0, start 0.1 drawn 0.0 .. 10.0, Damping, Rate;
         /// Torque per square of speed, with the same sign in both directions.
         quadratic_friction_forward: "c4_plus" ["T s2/X2"]
             -10.0 .. 10.0, start 0.0, SquareDamping, Rate;
@@ -32,7 +33,8 @@ parameters! {
         /// Dry friction that builds up with speed.
         coulomb_rise_backward: "c2_minus" ["T"] -10.0 .. 10.0, start 0.0, Torque, Dry;
         /// Torque per speed.
-        viscous_friction_backward: "c3_minus" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        viscous_friction_backward: "c3_minus" ["T s/X"]
+            -10.0 .. 10.0, start 0.1 drawn 0.0 .. 10.0, Damping, Rate;
         /// Torque per square of speed, with the same sign in both directions.
         quadratic_friction_backward: "c4_minus" ["T s2/X2"]
             -10.0 .. 10.0, start 0.0, SquareDamping, Rate;

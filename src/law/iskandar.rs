@@ -20,13 +20,16 @@ parameters! {
         /// Its quadratic coefficient in temperature.
         coulomb_friction_square: "a4" ["T/K2"] -0.1 .. 0.1, start 0.0, Torque, Dry;
         /// Stribeck velocity at 0 degC.
-        stribeck_velocity: "a5" ["X/s"] -5.0 .. 5.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "a5" ["X/s"] -1e3 .. 1e3, start 0.1 drawn -5.0 .. 5.0, Speed, Nonlinear;
         /// Its linear coefficient in temperature.
-        stribeck_velocity_slope: "a6" ["X/s/K"] -0.25 .. 0.25, start 0.0, Speed, Nonlinear;
+        stribeck_velocity_slope: "a6" ["X/s/K"]
+            -1e2 .. 1e2, start 0.0 drawn -0.25 .. 0.25, Speed, Nonlinear;
         /// Its quadratic coefficient in temperature.
-        stribeck_velocity_square: "a7" ["X/s/K2"] -0.005 .. 0.005, start 0.0, Speed, Nonlinear;
+        stribeck_velocity_square: "a7" ["X/s/K2"]
+            -1.0 .. 1.0, start 0.0 drawn -0.005 .. 0.005, Speed, Nonlinear;
         /// Torque per power of speed at 0 degC.
-        power_friction: "a8" ["T (s/X)^dv"] -100.0 .. 100.0, start 0.1, RootDamping, Rate;
+        power_friction: "a8" ["T (s/X)^dv"]
+            -1e3 .. 1e3, start 0.1 drawn -100.0 .. 100.0, RootDamping, Rate;
         /// Its linear coefficient in temperature.
         power_friction_slope: "a9" ["T (s/X)^dv/K"] -5.0 .. 5.0, start 0.0, RootDamping, Rate;
         /// Its quadratic coefficient in temperature.

@@ -14,11 +14,11 @@ parameters! {
         /// Constant torque.
         offset: "a1" ["T"] -10.0 .. 10.0, start 0.0, Torque, Additive;
         /// Dry friction without load.
-        coulomb_friction: "a2" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction: "a2" ["T"] -1e2 .. 1e2, start 0.5 drawn 0.0 .. 10.0, Torque, Dry;
         /// Torque per power of speed.
         power_friction: "a3" ["T (s/X)^a4"] 0.0 .. 1000.0, start 0.1, RootDamping, Rate;
         /// Exponent of speed.
-        power_exponent: "a4" ["1"] 0.05 .. 3.0, start 1.0, None, Nonlinear;
+        power_exponent: "a4" ["1"] 0.01 .. 5.0, start 1.0 drawn 0.05 .. 3.0, None, Nonlinear;
         /// Torque per root of speed, without the next two terms.
         root_friction: "a5" ["T (s/X)^(1/2)"] -100.0 .. 100.0, start 0.0, RootDamping, Rate;
         /// Its increase per kelvin.
@@ -27,7 +27,7 @@ parameters! {
         root_friction_inverse_cube: "a7" ["T (s/X)^(1/2) K3"]
             -1e6 .. 1e6, start 0.0, RootDamping, Rate;
         /// Dry friction per square of the load.
-        load_square: "a8" ["1/T"] 0.0 .. 10.0, start 0.01, InverseTorque, Dry;
+        load_square: "a8" ["1/T"] -10.0 .. 10.0, start 0.01 drawn 0.0 .. 10.0, InverseTorque, Dry;
     }
 }
 

@@ -13,15 +13,16 @@ parameters! {
         /// Torque per deflection before sliding.
         bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
         /// Torque per deflection rate.
-        bristle_damping: "a2" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;
+        bristle_damping: "a2" ["T s/X"] 0.0 .. 1e3, start 0.0 drawn 0.0 .. 5.0, Damping, Rate;
         /// Torque per speed.
-        viscous_friction: "a3" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
+        viscous_friction: "a3" ["T s/X"] -1e3 .. 1e3, start 0.1 drawn 0.0 .. 10.0, Damping, Rate;
         /// Dry friction in full sliding.
-        coulomb_friction: "a4" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction: "a4" ["T"] 0.0 .. 1e5, start 0.5 drawn 0.0 .. 10.0, Torque, Dry;
         /// Dry friction at break-away, Coulomb friction included.
-        static_friction: "a5" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
+        static_friction: "a5" ["T"] 0.0 .. 1e2, start 0.7 drawn 0.0 .. 10.0, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
-        stribeck_velocity: "a6" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "a6" ["X/s"]
+            1e-4 .. 1e4, start 0.1 drawn 0.002 .. 20.0, Speed, Nonlinear;
         /// Exponent of the Stribeck curve.
         stribeck_exponent: "a7" ["1"] 0.5 .. 4.0, start 2.0, None, Nonlinear;
     }

@@ -14,7 +14,8 @@ parameters! {
         /// Dry friction at break-away; it falls to zero in full sliding.
         static_friction: "a1" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
         /// Speed at which dry friction has fallen to 1/e.
-        stribeck_velocity: "a2" ["X/s"] 0.002 .. 1000.0, start 1.0, Speed, Nonlinear;
+        stribeck_velocity: "a2" ["X/s"]
+            0.002 .. 1000.0, start 1.0 drawn 0.002 .. 20.0, Speed, Nonlinear;
         /// Exponent of the Stribeck curve.
         stribeck_exponent: "a3" ["1"] 0.3 .. 4.0, start 1.0, None, Nonlinear;
         /// Torque per root of speed and kelvin above the base temperature.

@@ -2,9 +2,10 @@
 //!
 //! A new law is one file here, its `mod` row and its name in `every_law`.
 //!
-//! Bounds keep dry friction positive, except where the paper's coefficients need both signs:
-//! `indri_a`, `makkar`, `bittencourt_b`, `m_star`, `hao_b`, `iskandar`, `simoni` and `indri_static`
-//! can have negative dry friction outside the data. There a bristle for such a law is refused.
+//! Bounds admit every parameter set of the papers. They keep dry friction positive, except where
+//! those sets need both signs: `bittencourt_a`, `wolf`, `zhou`, `li`, `indri_a`, `makkar`,
+//! `bittencourt_b`, `m_star`, `hao_b`, `iskandar`, `simoni`, `nevmerzhitskiy` and `indri_static` can
+//! have negative dry friction outside the data. There a bristle for such a law is refused.
 
 mod bam;
 mod bittencourt_2010;

@@ -15,13 +15,16 @@ parameters! {
         /// Dry friction without load.
         coulomb_friction: "a1" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
         /// Dry friction per square of the load.
-        load_square: "a2" ["1/T"] 0.0 .. 10.0, start 0.01, InverseTorque, Dry;
+        load_square: "a2" ["1/T"] -10.0 .. 10.0, start 0.01 drawn 0.0 .. 10.0, InverseTorque, Dry;
         /// Torque per root of speed at high temperature.
-        root_friction: "a3" ["T (s/X)^(1/2)"] 0.0 .. 100.0, start 0.1, RootDamping, Rate;
+        root_friction: "a3" ["T (s/X)^(1/2)"]
+            -1e2 .. 1e2, start 0.1 drawn 0.0 .. 100.0, RootDamping, Rate;
         /// Additional torque per root of speed at 0 degC.
-        root_friction_cold: "a4" ["T (s/X)^(1/2)"] 0.0 .. 50.0, start 0.1, RootDamping, Rate;
+        root_friction_cold: "a4" ["T (s/X)^(1/2)"]
+            -1e3 .. 1e3, start 0.1 drawn 0.0 .. 50.0, RootDamping, Rate;
+        // The printed 309.89 has the torque of any value above 2 at room temperature: none.
         /// Relative decrease of that per kelvin.
-        thinning: "a5" ["1/K"] 0.001 .. 0.3, start 0.03, None, Nonlinear;
+        thinning: "a5" ["1/K"] 1e-3 .. 5.0, start 0.03 drawn 0.001 .. 0.3, None, Nonlinear;
     }
 }
 

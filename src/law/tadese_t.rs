@@ -14,25 +14,29 @@ parameters! {
         /// Torque per deflection before sliding.
         bristle_stiffness: "a1" ["T/X"] 0.5 .. 2e6, start 50.0, Stiffness, Nonlinear;
         /// Torque per deflection rate.
-        bristle_damping: "a2" ["T s/X"] 0.0 .. 5.0, start 0.0, Damping, Rate;
+        bristle_damping: "a2" ["T s/X"] 0.0 .. 1e3, start 0.0 drawn 0.0 .. 5.0, Damping, Rate;
         /// Dry friction in full sliding.
-        coulomb_friction: "a3" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction: "a3" ["T"] 0.0 .. 1e3, start 0.5 drawn 0.0 .. 10.0, Torque, Dry;
         /// Dry friction at break-away, Coulomb friction included.
-        static_friction: "a4" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
+        static_friction: "a4" ["T"] 0.0 .. 1e3, start 0.7 drawn 0.0 .. 10.0, Torque, Dry;
         /// Speed at which the Stribeck curve has fallen to 1/e.
-        stribeck_velocity: "a5" ["X/s"] 0.002 .. 1.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "a5" ["X/s"]
+            1e-4 .. 1e3, start 0.1 drawn 0.002 .. 20.0, Speed, Nonlinear;
         /// Limit of the viscous part at high speed, at 0 degC.
         viscous_level: "a6" ["T"] -10.0 .. 10.0, start 0.5, Torque, Rate;
         /// Change of that level with temperature.
-        viscous_level_slope: "a7" ["T/K"] -0.2 .. 0.2, start 0.0, Torque, Rate;
+        viscous_level_slope: "a7" ["T/K"] -10.0 .. 10.0, start 0.0 drawn -0.2 .. 0.2, Torque, Rate;
         /// How fast the viscous part rises with speed at 0 degC.
-        viscous_rise: "a8" ["s/X"] -100.0 .. 100.0, start 1.0, InverseSpeed, Nonlinear;
+        viscous_rise: "a8" ["s/X"]
+            -1e4 .. 1e4, start 1.0 drawn -100.0 .. 100.0, InverseSpeed, Nonlinear;
         /// Change of that rise with temperature.
-        viscous_rise_slope: "a9" ["s/X/K"] -2.0 .. 2.0, start 0.0, InverseSpeed, Nonlinear;
+        viscous_rise_slope: "a9" ["s/X/K"]
+            -1e5 .. 1e5, start 0.0 drawn -2.0 .. 2.0, InverseSpeed, Nonlinear;
         /// Exponent of speed in the viscous part at 0 degC.
-        viscous_exponent: "a10" ["1"] -10.0 .. 10.0, start 1.0, None, Nonlinear;
+        viscous_exponent: "a10" ["1"] -1e3 .. 1e3, start 1.0 drawn -10.0 .. 10.0, None, Nonlinear;
         /// Change of that exponent with temperature.
-        viscous_exponent_slope: "a11" ["1/K"] -0.2 .. 0.2, start 0.0, None, Nonlinear;
+        viscous_exponent_slope: "a11" ["1/K"]
+            -1e2 .. 1e2, start 0.0 drawn -0.2 .. 0.2, None, Nonlinear;
     }
 }
 

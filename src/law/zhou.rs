@@ -13,15 +13,16 @@ parameters! {
         /// Torque per power of speed.
         power_friction: "a1" ["T (s/X)^a2"] 0.0 .. 1000.0, start 0.1, RootDamping, Rate;
         /// Exponent of speed.
-        power_exponent: "a2" ["1"] 0.05 .. 3.0, start 1.0, None, Nonlinear;
+        power_exponent: "a2" ["1"] 0.01 .. 5.0, start 1.0 drawn 0.05 .. 3.0, None, Nonlinear;
         /// Dry friction in full sliding.
-        coulomb_friction: "a3" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction: "a3" ["T"] -1e3 .. 1e3, start 0.5 drawn 0.0 .. 10.0, Torque, Dry;
         /// Speed at which static friction has fallen to 1/e.
-        stribeck_velocity: "a4" ["X/s"] 0.002 .. 10.0, start 0.1, Speed, Nonlinear;
+        stribeck_velocity: "a4" ["X/s"]
+            1e-4 .. 1e4, start 0.1 drawn 0.002 .. 20.0, Speed, Nonlinear;
         /// Exponent of the Stribeck curve.
-        stribeck_exponent: "a5" ["1"] 0.3 .. 4.0, start 2.0, None, Nonlinear;
+        stribeck_exponent: "a5" ["1"] 0.1 .. 500.0, start 2.0 drawn 0.3 .. 4.0, None, Nonlinear;
         /// Dry friction at break-away, Coulomb friction included.
-        static_friction: "a6" ["T"] 0.0 .. 10.0, start 0.7, Torque, Dry;
+        static_friction: "a6" ["T"] -1e3 .. 1e3, start 0.7 drawn 0.0 .. 10.0, Torque, Dry;
     }
 }
 

@@ -76,6 +76,7 @@ pub(super) fn parameter<'py>(
     row.set_item("lower", info.lower)?;
     row.set_item("upper", info.upper)?;
     row.set_item("start", info.start)?;
+    row.set_item("drawn", info.drawn)?;
     row.set_item("scale", info.scale.name())?;
     row.set_item("role", info.role.name())?;
     row.set_item("description", info.description)?;

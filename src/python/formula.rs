@@ -91,6 +91,44 @@ impl Formula {
     }
 }
 
+/// A formula over parameters, or a condition on them. No text is executed as code.
+#[pyclass(frozen, module = "stribeck._core")]
+pub struct Expression {
+    expression: formula::Expression,
+    names: Vec<String>,
+}
+
+#[pymethods]
+impl Expression {
+    #[new]
+    #[allow(clippy::needless_pass_by_value)]
+    fn new(text: &str, known: Vec<String>) -> PyResult<Self> {
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        let (expression, names) = formula::Expression::parse(text, &known).map_err(refuse)?;
+        let names = names.as_slice().iter().map(ToString::to_string).collect();
+        Ok(Self { expression, names })
+    }
+
+    /// The names of the parameters that it uses, in the order of their first use.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+
+    /// Whether it is a condition.
+    #[getter]
+    fn is_condition(&self) -> bool {
+        self.expression.is_condition()
+    }
+
+    /// Its value, and its derivatives by these parameters.
+    #[allow(clippy::needless_pass_by_value)]
+    fn evaluate(&self, values: Vec<f64>) -> (f64, Vec<f64>) {
+        let (value, slopes) = self.expression.evaluate(&values);
+        (value, slopes.into_iter().take(self.names.len()).collect())
+    }
+}
+
 /// One step of a formula over columns, in postfix order.
 struct Step<'a> {
     name: &'static str,

@@ -19,6 +19,8 @@ use crate::identify::{self, Bounds, LeastSquares, Outcome, Problem, Search, Step
 pub struct Measured<'py> {
     columns: Arguments<'py>,
     target: Array<'py>,
+    /// The square root of the weight of each sample.
+    scale: Option<Array<'py>>,
     group: PyArrayLike1<'py, u32, AllowTypeChange>,
     begins: Vec<usize>,
     moving: PyArrayLike1<'py, bool, AllowTypeChange>,
@@ -38,6 +40,7 @@ impl Measured<'_> {
         work: impl Fn(&Problem<'_>) -> Result<T, BatchError> + Send + Sync,
     ) -> PyResult<T> {
         let target = contiguous(&self.target);
+        let scale = self.scale.as_ref().map(contiguous);
         let group = self.group.as_array().to_vec();
         let moving = self.moving.as_array().to_vec();
         let (begins, torque_norm) = (&self.begins[..], self.torque_norm);
@@ -46,6 +49,7 @@ impl Measured<'_> {
                 spec: &model.spec,
                 columns: *columns,
                 target: &target,
+                scale: scale.as_deref(),
                 group: &group,
                 groups,
                 begins,
@@ -191,6 +195,38 @@ pub fn search<'py>(
         })
     })??;
     Ok(ended.into_iter().map(|search| found(py, search)).collect())
+}
+
+/// Values with the best linear parameters, sum of squares, and its slope.
+type Reduced<'py> = (Bound<'py, PyArray1<f64>>, f64, Bound<'py, PyArray1<f64>>);
+
+/// The least sum of squares over the linear parameters at the nonlinear ones of each of `points`,
+/// array `[k, p]`, and its slope if `sloped`: a list with None where the model is not finite.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn reduced<'py>(
+    py: Python<'py>,
+    model: &Model,
+    measured: Measured<'py>,
+    points: PyArrayLike2<'py, f64, AllowTypeChange>,
+    within: Within<'py>,
+    sloped: bool,
+) -> PyResult<Vec<Option<Reduced<'py>>>> {
+    let points = points.as_array();
+    let size = points.ncols();
+    let points: Vec<Vec<f64>> = points.rows().into_iter().map(|row| row.to_vec()).collect();
+    let threads = measured.threads;
+    let made = within.with(size, |bounds, _| {
+        measured.detached(py, model, 1, threads / points.len().max(1), |problem| {
+            identify::side_by_side(points.len(), threads, |k| {
+                identify::reduced(problem, &points[k], bounds, sloped)
+            })
+        })
+    })??;
+    let given = |made: identify::Reduced| {
+        (made.values.into_pyarray(py), made.square, made.slope.into_pyarray(py))
+    };
+    Ok(made.into_iter().map(|made| made.map(given)).collect())
 }
 
 /// Like `search`, from one start, for any object with `triangle` and `torque_norm`.

@@ -4,6 +4,7 @@ mod arm;
 mod catalog;
 mod columns;
 mod compensation;
+mod decompositions;
 mod export;
 mod formula;
 mod identify;
@@ -41,12 +42,14 @@ mod _core {
     #[pymodule_export]
     use super::compensation::{compensate, largest_factor};
     #[pymodule_export]
+    use super::decompositions::{least_squares, pivots, singular, solve, symmetric_eigen};
+    #[pymodule_export]
     use super::export::{elementary, elementary_constants};
     #[pymodule_export]
-    use super::formula::{Formula, column_formula, formula_functions};
+    use super::formula::{Expression, Formula, column_formula, formula_functions};
     #[pymodule_export]
     use super::identify::{
-        bounded_least_squares, search, search_by, slides, triangle, triangles_of,
+        bounded_least_squares, reduced, search, search_by, slides, triangle, triangles_of,
     };
     #[pymodule_export]
     use super::joint::{fourier, simulate, stroke};

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import subprocess
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,6 +19,25 @@ FORBIDDEN = re.compile(
 FUSED = re.compile(r"\tvfn?m[as]")
 INSTRUCTION = re.compile(r"^ *([0-9a-f]+):\t(\S+)(.*)")
 BRANCH = re.compile(r"\t([0-9a-f]+) <")
+# Host programs with other features have the same path: one is built and run at a time.
+HOST = threading.Lock()
+
+
+@dataclass(frozen=True)
+class Tested:
+    """What an image steps, and how many of a board's steps are hashed: one in `share`."""
+
+    name: str
+    features: tuple[str, ...]
+    share: int
+
+    def steps(self, board: Board) -> int:
+        """The number of steps that are hashed."""
+        return board.hashed // self.share
+
+
+# A step of the arm solves equations, within each other, so it takes longer.
+TESTED = (Tested("every law", (), 1), Tested("the arm", ("arm",), 50))
 
 
 @dataclass(frozen=True)
@@ -68,10 +88,15 @@ class Answers:
     hash: str
 
 
-def build(board: Board, binary: str) -> Path:
-    """Build one of the firmware's images."""
-    features = "image,double" if board.number == "f64" else "image"
-    _cargo(board, "build", f"--bin={binary}", f"--features={features}", folder=FIRMWARE)
+def build(board: Board, binary: str, tested: Tested = TESTED[0]) -> Path:
+    """Build one of the firmware's images, in place of the one before."""
+    features = ",".join(("image", *_features(board.number, tested)))
+    _cargo(
+        board,
+        *("build", f"--bin={binary}", f"--features={features}"),
+        folder=FIRMWARE,
+        hashed=tested.steps(board),
+    )
     return toolchain.BUILD / board.name / board.target / "release" / binary
 
 
@@ -102,7 +127,11 @@ def build_interface(board: Board) -> Path:
     return program
 
 
-def _cargo(board: Board, *arguments: str, folder: Path) -> None:
+def _features(number: str, tested: Tested) -> tuple[str, ...]:
+    return (*tested.features, *(["double"] if number == "f64" else []))
+
+
+def _cargo(board: Board, *arguments: str, folder: Path, hashed: int = 0) -> None:
     root = toolchain.sysroot(board.target)
     subprocess.run(
         [
@@ -117,10 +146,15 @@ def _cargo(board: Board, *arguments: str, folder: Path) -> None:
             "RUSTFLAGS": f"--sysroot={root} -Clinker=arm-none-eabi-ld -Clinker-flavor=ld "
             f"-Clink-arg=--defsym=memory_size={board.memory} "
             f"-Clink-arg=-T{FIRMWARE / 'link.ld'} {board.flags}",
-            "HASHED_STEPS": str(board.hashed),
+            "HASHED_STEPS": str(hashed),
         },
         check=True,
     )
+
+
+def refused(board: Board, image: Path) -> list[str]:
+    """One sentence for everything that must not be in an image."""
+    return [f"{image.name} for {board.name} contains {name}" for name in forbidden(image)]
 
 
 def forbidden(image: Path) -> list[str]:
@@ -206,16 +240,18 @@ def run(board: Board, image: Path) -> dict[str, Answers]:
     return answers
 
 
-def on_the_host(number: str, steps: int) -> dict[str, str]:
+def on_the_host(number: str, steps: int, tested: Tested = TESTED[0]) -> dict[str, str]:
     """The hashes that the host finds."""
-    return dict(line.split() for line in host_program(number, "hash", str(steps)).splitlines())
+    said = host_program(number, "hash", str(steps), tested=tested)
+    return dict(line.split() for line in said.splitlines())
 
 
-def host_program(number: str, *arguments: str) -> str:
-    """What the firmware's laws and motion say on the host."""
+def host_program(number: str, *arguments: str, tested: Tested = TESTED[0]) -> str:
+    """What the firmware's steps and motion say on the host."""
     command = ["cargo", "run", "--quiet", "--locked", "--release", "--bin=stribeck-firmware"]
-    command += ["--features=double"] if number == "f64" else []
+    command += [f"--features={','.join(_features(number, tested))}"]
     environment = {**os.environ, "CARGO_TARGET_DIR": str(toolchain.BUILD / "host")}
-    return subprocess.check_output(
-        [*command, "--", *arguments], cwd=FIRMWARE, env=environment, text=True
-    )
+    with HOST:
+        return subprocess.check_output(
+            [*command, "--", *arguments], cwd=FIRMWARE, env=environment, text=True
+        )

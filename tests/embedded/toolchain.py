@@ -7,6 +7,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import debian
+
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "embedded"
 # A compiler beside rustup's, with the sources of its core.
@@ -51,10 +53,6 @@ BUILTINS_ENVIRONMENT = {
 }
 
 
-class Unavailable(Exception):
-    """What is missing on this machine, in one sentence."""
-
-
 def missing() -> list[str]:
     """Programs and files that are not there."""
     names = [name for name in PROGRAMS if shutil.which(name) is None]
@@ -71,22 +69,7 @@ def version() -> str:
 
 def install() -> None:
     """Install Debian's packages where something is missing; Unavailable where that cannot be."""
-    if not missing():
-        return
-    if shutil.which("apt-get") is None or os.geteuid() != 0:
-        raise Unavailable(f"{missing()[0]} is missing and apt-get cannot install it here")
-    # A mirror that does not answer would be waited for.
-    apt = ["timeout", "600", "apt-get", "--yes", "--quiet"]
-    install = [*apt, "install", "--no-install-recommends", *PACKAGES]
-    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for commands in ([install], [[*apt, "update"], install]):
-        for command in commands:
-            subprocess.run(
-                command, env=environment, stdin=subprocess.DEVNULL, capture_output=True, check=False
-            )
-        if not missing():
-            return
-    raise Unavailable(f"apt-get could not install {' '.join(PACKAGES)}: {missing()[0]} is missing")
+    debian.install(PACKAGES, missing)
 
 
 def sysroot(target: str) -> Path:

@@ -20,10 +20,10 @@ def check_share(name: str, value: float) -> None:
         raise SpecError(f"{option(name, value)}: give a number from 0 to 1")
 
 
-def check_count(name: str, value: int) -> None:
-    """Raise `SpecError` unless `value` is at least 1."""
-    if not value >= 1:
-        raise SpecError(f"{option(name, value)}: give a whole number from 1 on")
+def check_count(name: str, value: int, least: int = 1) -> None:
+    """Raise `SpecError` unless `value` is at least `least`."""
+    if not value >= least:
+        raise SpecError(f"{option(name, value)}: give a whole number from {least} on")
 
 
 def check_choice(name: str, value: str, choices: tuple[str, ...]) -> None:

@@ -12,6 +12,7 @@ import polars as pl
 import scipy
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.benchmark.draws import log_uniform
 from stribeck.benchmark.open_loop.joint import SimulatedJoint, draw_joint
 from stribeck.benchmark.open_loop.schedule import schedule
@@ -29,8 +30,8 @@ class Interval:
 
     Attributes
     ----------
-    covers
-        For the 95 % interval of the fit.
+    covers, covers_profile
+        For the 95 % interval of the fit, and for that of the profile likelihood.
     covers_ordinary
         For ordinary least squares, which treats samples as independent; None if the law is not
         linear in its parameters.
@@ -43,6 +44,7 @@ class Interval:
     covers_ordinary: bool | None
     width: float
     width_ordinary: float | None
+    covers_profile: bool | None = None
 
 
 def intervals(law: str, seed: int, correlation: float | None) -> tuple[Interval, ...]:
@@ -63,12 +65,14 @@ def intervals(law: str, seed: int, correlation: float | None) -> tuple[Interval,
         path = Path(folder) / "recording.parquet"
         frame.write_parquet(path)
         recording = read(path)
-    fitted = fit("coulomb" if law == "coulomb" else "coulomb+stribeck", recording, starts=3)
+    spec = "coulomb" if law == "coulomb" else "coulomb+stribeck"
+    fitted = fit(spec, recording, starts=3)
+    profiled = fit(spec, recording, starts=3, errors="profile")
     ordinary = _ordinary_intervals(frame, recording.moving) if law == "coulomb" else {}
     made = []
     for name, value in truth.items():
-        ci = fitted.estimates[name].ci95
-        low, high = ci if ci is not None else (math.nan, math.nan)
+        low, high = fitted.estimates[name].ci95 or (math.nan, math.nan)
+        from_profile = profiled.estimates[name].ci95 or (math.nan, math.nan)
         others = ordinary.get(name)
         made.append(
             Interval(
@@ -77,6 +81,7 @@ def intervals(law: str, seed: int, correlation: float | None) -> tuple[Interval,
                 None if others is None else bool(others[0] <= value <= others[1]),
                 (high - low) / 2 / abs(value),
                 None if others is None else (others[1] - others[0]) / 2 / abs(value),
+                bool(from_profile[0] <= value <= from_profile[1]),
             )
         )
     return tuple(made)
@@ -138,8 +143,8 @@ def _ordinary_intervals(
     v = frame["velocity"].to_numpy()[rows]
     y = (frame["torque"] - frame["load_torque"]).to_numpy()[rows]
     x = np.stack([np.sign(v), v], 1)
-    best = np.linalg.lstsq(x, y, rcond=None)[0]
-    variance = np.sum((y - x @ best) ** 2) / (y.size - 2) * np.linalg.inv(x.T @ x)
+    best = linear.least_norm(x, y)
+    variance = np.sum((y - x @ best) ** 2) / (y.size - 2) * linear.solve(x.T @ x, np.eye(2))
     half = NORMAL_95 * np.sqrt(np.diag(variance))
     names = ("coulomb_friction", "viscous_friction")
     return {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.benchmark.draws import root_mean_square
 from stribeck.benchmark.sample import Oracle
 
@@ -33,6 +34,6 @@ def held_out_rmse(
     for b in np.unique(group):
         inside = group == b
         others = ~inside if not inside.all() else inside
-        change = np.linalg.lstsq(columns[others], error[others], rcond=None)[0]
+        change = linear.least_norm(columns[others], error[others])
         left[inside] = error[inside] - columns[inside] @ change
     return root_mean_square(left)

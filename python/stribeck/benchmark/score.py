@@ -112,11 +112,13 @@ class Coverage:
     recordings: int
     share: Share
     ordinary: Share
+    profile: Share
 
     @property
     def passed(self) -> bool:
-        """Whether the share is within its limits."""
-        return COVERAGE_BAR[0] <= self.share.value <= COVERAGE_BAR[1]
+        """Whether the shares are within their limits, that of the profile if it was computed."""
+        known = [share for share in (self.share, self.profile) if share.total]
+        return all(COVERAGE_BAR[0] <= share.value <= COVERAGE_BAR[1] for share in known)
 
 
 @dataclass(frozen=True)
@@ -193,6 +195,8 @@ class Score:
                     "share": c.share.value,
                     "interval95": list(c.share.interval),
                     "ordinary_least_squares": c.ordinary.value,
+                    "profile": c.profile.value,
+                    "profile_interval95": list(c.profile.interval),
                     "bar": list(COVERAGE_BAR),
                     "passed": c.passed,
                 }
@@ -309,9 +313,11 @@ def _coverages(answers: Sequence[CaseAnswer]) -> Iterable[Coverage]:
             continue
         every = [i for a in of for i in a.intervals]
         ordinary = [i for i in every if i.covers_ordinary is not None]
+        profiled = [i for i in every if i.covers_profile is not None]
         yield Coverage(
             correlation,
             len(of),
             Share(sum(i.covers for i in every), len(every)),
             Share(sum(bool(i.covers_ordinary) for i in ordinary), len(ordinary)),
+            Share(sum(bool(i.covers_profile) for i in profiled), len(profiled)),
         )

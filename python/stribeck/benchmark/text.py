@@ -138,6 +138,7 @@ def _coverage(lines: Sequence[Coverage]) -> str:
             "recordings",
             "covered",
             "95 % interval",
+            "profile",
             "ordinary least squares",
             f"between {_percent(low)} and {_percent(high)}",
         ]
@@ -148,12 +149,13 @@ def _coverage(lines: Sequence[Coverage]) -> str:
             str(c.recordings),
             _percent(c.share.value),
             _interval(c.share),
+            _percent(c.profile.value) if c.profile.total else "-",
             _percent(c.ordinary.value) if c.ordinary.total else "-",
             _mark(c.passed),
         ]
         for c in lines
     ]
-    return table(rows, right=(0, 1, 2, 3, 4))
+    return table(rows, right=range(6))
 
 
 def _wrong(score: Score) -> str:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import click
 
 from stribeck.cli.common import echo_json, json_option, recording_options, say, seed_option
+from stribeck.cli.flags import with_flags
 from stribeck.diagnosis.inspect import inspect as inspect_file
+from stribeck.diagnosis.inspect import write_proposed
 from stribeck.models.catalog import catalog
 from stribeck.recording.options import ReadOptions
 from stribeck.report.catalog import catalog_text
@@ -38,15 +40,22 @@ def effects(seed: int, as_json: bool) -> None:
 
 @click.command()
 @click.argument("data")
+@click.option(
+    "--write-sidecar",
+    is_flag=True,
+    help="Write the proposed sidecar beside DATA, if there is none.",
+)
 @recording_options
 @seed_option
 @json_option
-def inspect(data: str, reading: ReadOptions, seed: int, as_json: bool) -> None:
-    """Show what DATA contains, and which effects it can and cannot show."""
+def inspect(data: str, write_sidecar: bool, reading: ReadOptions, seed: int, as_json: bool) -> None:
+    """Show what DATA contains, whether its channels agree, and which effects it can show."""
     inspection = inspect_file(data, **reading.given())
     for note in inspection.notes:
         say(f"note: {note}")
+    if write_sidecar:
+        say(f"wrote {write_proposed(inspection, reading)}")
     if as_json:
-        echo_json(inspection.to_dict())
+        echo_json(inspection.to_dict(with_flags))
     else:
-        click.echo(inspection_text(inspection))
+        click.echo(inspection_text(inspection, with_flags))

@@ -27,7 +27,9 @@ from stribeck.recording.recording import Recording
 
 
 def finite(value: object) -> object:
-    """Replace NaN and infinity, which JSON lacks, by null."""
+    """Replace NaN and infinity, which JSON lacks, by null, and write options as flags."""
+    if isinstance(value, str):
+        return with_flags(value)
     if isinstance(value, dict):
         return {key: finite(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -55,7 +57,7 @@ def echo_result(result: Result, as_json: bool) -> None:
     if as_json:
         echo_json(result.to_dict())
     else:
-        click.echo(repr(result))
+        click.echo(with_flags(repr(result)))
 
 
 def say(sentence: str) -> None:
@@ -115,6 +117,8 @@ def _click_option(entry: Entry) -> Callable[[Command], Command]:
     if entry.kind == "number":
         help = f"{entry.help} [{entry.unit}]" if entry.unit else entry.help
         return click.option(flag, type=float, default=None, help=help)
+    if entry.kind == "switch":
+        return click.option(flag, entry.name, is_flag=True, help=entry.help)
     if entry.choices:
         return click.option(flag, type=click.Choice(entry.choices), default=None, help=entry.help)
     kind = click.Path() if entry.kind == "path" else None
@@ -136,6 +140,12 @@ def read_recording(path: str, reading: ReadOptions) -> Recording:
     recording = read_with(path, reading)
     for note in recording.notes:
         say(f"note: {note}")
+    for check in recording.checks:
+        if check.ok:
+            say(f"note: checked: {check.said}")
+        elif recording.trusted:
+            say(f"note: accepted with --trust: {check.said}")
+    recording.require_consistent()
     return recording
 
 
@@ -144,23 +154,22 @@ def is_model_file(argument: str) -> bool:
     return argument.endswith(".toml") or Path(argument).is_file()
 
 
-def model_fit(argument: str, recording: Recording, *, starts: int, seed: int, refit: bool) -> Fit:
-    """The fit of a model argument on a recording.
-
-    A spec is fitted. A model file is evaluated unchanged, or refitted from its values if `refit`.
-    """
-    if not is_model_file(argument):
-        return fit(argument, recording, starts=starts, seed=seed)
-    stored = read_model_file(argument)
-    if refit:
-        say(f"note: the parameters of {argument} are refitted to {recording.path}")
-        return fit(stored.model, recording, starts=starts, seed=seed)
+def stored_model(path: str, recording: Recording) -> Fit:
+    """A model file on a recording, unchanged."""
+    stored = read_model_file(path)
     return evaluate(
         stored.model,
         recording,
         fitted_on=stored.fitted_on.get("sha256"),
         stderr=stored.stderr,
     )
+
+
+def model_fit(argument: str, recording: Recording, *, starts: int, seed: int) -> Fit:
+    """The fit of a model argument: a spec is fitted, a model file is evaluated unchanged."""
+    if is_model_file(argument):
+        return stored_model(argument, recording)
+    return fit(argument, recording, starts=starts, seed=seed)
 
 
 def save_fit(fitted: Fit, path: str) -> None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from stribeck.base.errors import spell_options
 
+#: Arguments that hold several values, and the flags that give one of them.
+_SINGULAR = {"bounds": "bound", "constraints": "constraint", "ties": "tie"}
+
 
 def with_flags(text: str) -> str:
     """A sentence with its options (`stribeck.base.errors.option`) as flags.
@@ -12,10 +15,12 @@ def with_flags(text: str) -> str:
     --------
     >>> with_flags('say which with `map="time=COLUMN"`')
     'say which with --map time=COLUMN'
+    >>> with_flags('widen it with `bounds="inertia=0:1"`')
+    'widen it with --bound inertia=0:1'
     """
     return spell_options(text, _flag)
 
 
 def _flag(name: str, value: str | None) -> str:
-    flag = "--" + name.replace("_", "-")
+    flag = "--" + _SINGULAR.get(name, name).replace("_", "-")
     return flag if value is None else f"{flag} {value}"

@@ -1,18 +1,21 @@
-"""Model options: laws and effects by formula, start values, bounds and fixed values."""
+"""Model options: laws and effects by formula, and what is stated about parameters."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import click
 
 from stribeck.base.errors import SpecError, nearest
+from stribeck.cli.choices import CHOICE_OPTIONS, taken_choices
 from stribeck.cli.common import is_model_file, say
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.choices import Choices
+from stribeck.identify.scaling import model_for
 from stribeck.models.build import law, model
 from stribeck.models.formula_law import (
     LAW,
@@ -47,18 +50,6 @@ _PARAMETER = click.option(
     metavar="TEXT",
     help="Unit, bounds and start of a formula's parameter: 'c3: rad/s, 0.001..10, start 0.1'.",
 )
-_CHOICES = [
-    click.option(
-        "--start", multiple=True, metavar="NAME=VALUE", help="Start value of a parameter."
-    ),
-    click.option(
-        "--bound",
-        multiple=True,
-        metavar="NAME=LOW:HIGH",
-        help="Bounds of a parameter; an omitted end is unbounded.",
-    ),
-    click.option("--fix", multiple=True, metavar="NAME=VALUE", help="Fix a parameter."),
-]
 
 
 candidate_option = click.option(
@@ -139,27 +130,36 @@ def _model(argument: str) -> Model:
 
 
 def written_fit(
-    argument: str | None, written: Written, recording: Recording, **options: Any
+    argument: str | None,
+    written: Written,
+    recording: Recording,
+    later: Mapping[str, str] | None = None,
+    **options: Any,
 ) -> Fit:
-    """Fit the model of a command; a model file gives the start values."""
+    """Fit the model of a command; a model file gives the start values.
+
+    Parameters
+    ----------
+    later
+        Parameters that effects may bring later, as `Choices.applied` takes them.
+    """
     made = written.model(argument)
     if argument is not None and is_model_file(argument):
         say(f"note: the parameters of {argument} are refitted to {recording.path}")
-    said = written.choices
-    return fit(made, recording, start=said.start, bounds=said.bounds, fix=said.fix, **options)
+    stated = written.choices.applied(model_for(made, recording), later)
+    return fit(stated, recording, **options)
 
 
 def formula_options(command: Command) -> Command:
-    """Add `--law` and `--parameter`; the command receives them as `written`."""
-    return gathered(command, [_LAW, _PARAMETER], "written", _written)
+    """Add `--law`, `--parameter` and the choices; the command receives them as `written`."""
+    return gathered(command, [_LAW, _PARAMETER, *CHOICE_OPTIONS], "written", _written)
 
 
 def model_options(command: Command) -> Command:
     """Add all model options; the command receives them as `written`."""
-    return gathered(command, [_LAW, _EFFECT, _PARAMETER, *_CHOICES], "written", _written)
+    return gathered(command, [_LAW, _EFFECT, _PARAMETER, *CHOICE_OPTIONS], "written", _written)
 
 
 def _written(values: Values) -> Written:
     texts = {name: values.pop(name, ()) for name in ("laws", "effects", "parameters")}
-    choices = {name: values.pop(name, ()) for name in ("start", "bound", "fix")}
-    return Written(**texts, choices=Choices.parse(**choices))
+    return Written(**texts, choices=taken_choices(values))

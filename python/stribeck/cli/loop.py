@@ -9,9 +9,9 @@ from stribeck.cli.common import (
     check_output,
     echo_result,
     figures_option,
+    is_model_file,
     json_option,
     least_fall_option,
-    model_fit,
     output_option,
     read_recording,
     recording_options,
@@ -22,7 +22,9 @@ from stribeck.cli.common import (
     say,
     seed_option,
     starts_option,
+    stored_model,
 )
+from stribeck.cli.errors import ErrorChoice, error_options
 from stribeck.cli.formulas import (
     Written,
     candidate_option,
@@ -37,14 +39,17 @@ from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.diagnosis.compare import compare as compare_fits
 from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
-from stribeck.diagnosis.loop.add import Addition
+from stribeck.diagnosis.loop.add import Addition, parameters_brought_by
 from stribeck.diagnosis.loop.add import add as add_to
 from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.loop.improve import improve as improve_from
 from stribeck.fitting.fit import fit as fit_model
-from stribeck.identify.estimates import Errors
+from stribeck.identify.algorithms import GAUSS_NEWTON
+from stribeck.identify.choices import parameters_of_effects
+from stribeck.identify.scaling import model_for
 from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import effect_name
+from stribeck.models.model import Model
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
@@ -56,13 +61,7 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
     "--model", "spec", default=None, help="LAW[+effect...], or a model file to start from."
 )
 @model_options
-@click.option(
-    "--errors",
-    type=click.Choice(["robust", "independent"]),
-    default="robust",
-    show_default=True,
-    help="Standard errors: robust for sampled motion, independent for separate points.",
-)
+@error_options
 @click.option(
     "--passive",
     is_flag=True,
@@ -79,7 +78,7 @@ def fit(
     data: str,
     spec: str | None,
     written: Written,
-    errors: Errors,
+    errors: ErrorChoice,
     passive: bool,
     output: str | None,
     method: Method,
@@ -96,24 +95,39 @@ def fit(
     """
     check_output(output, "model file", data, reading.sidecar)
     if streaming.wanted(data):
-        streaming.refuse(method=method.name != "rms", passive=passive, errors=errors != "robust")
-        model = written.choices.applied(written.model(spec))
+        streaming.refuse(
+            method=method.name != "rms",
+            estimator=method.estimator != "ls",
+            algorithm=method.algorithm != GAUSS_NEWTON,
+            passive=passive,
+            errors=errors.errors != "robust",
+        )
+        model, choices = written.model(spec), written.choices.arguments()
         opened = streaming.open(data, reading, seed)
         with RowProgress() as bar:
-            streamed = opened.fit(model, starts=starts, seed=seed, told=bar.show_pass)
+            streamed = opened.fit(model, starts=starts, seed=seed, told=bar.show_pass, **choices)
         if output is not None:
             save_streamed(streamed, output)
         show(streamed, as_json)
         return
     if passive and method.name != "rms":
         raise SpecError(f"--passive goes with --method rms, not {method.name}: omit one")
+    errors.refuse(method.name)
     recording = read_recording(data, reading)
     if method.name == "rms":
         fitted = written_fit(
-            spec, written, recording, starts=starts, seed=seed, errors=errors, passive=passive
+            spec,
+            written,
+            recording,
+            starts=starts,
+            seed=seed,
+            passive=passive,
+            estimator=method.estimator,
+            algorithm=method.algorithm,
+            **errors.options,
         )
     else:
-        model = written.choices.applied(written.model(spec))
+        model = written.choices.applied(model_for(written.model(spec), recording))
         fitted = method.fit(model, recording, reading, starts=starts, seed=seed)
     if output is not None:
         save_fit(fitted, output)
@@ -145,11 +159,17 @@ def compare(
     if not (models or own):
         raise SpecError("no model is given: name laws or model files, or write laws by --law")
     recording = read_recording(data, reading)
+    specs: list[str | Model] = [argument for argument in models if not is_model_file(argument)]
+    made = [model_for(model, recording) for model in [*specs, *own]]
+    to_fit = iter(written.choices.applied_to_each(made))
     fits = []
     for argument in models:
         say(f"note: {argument} ...")
-        fits.append(model_fit(argument, recording, starts=starts, seed=seed, refit=False))
-    for model in own:
+        if is_model_file(argument):
+            fits.append(stored_model(argument, recording))
+        else:
+            fits.append(fit_model(next(to_fit), recording, starts=starts, seed=seed))
+    for model in to_fit:
         say(f"note: {model.own[0].text} ...")
         fits.append(fit_model(model, recording, starts=starts, seed=seed))
     comparison = compare_fits(fits, recording)
@@ -197,21 +217,22 @@ def diagnose(
     check_candidates(candidates)
     streamed: StreamedDiagnosis | None = None
     if streaming.wanted(data):
-        made = written.choices.applied(written.model(model))
         opened = streaming.open(data, reading, seed)
         with RowProgress() as bar:
             streamed = opened.diagnose(
-                made,
+                written.model(model),
                 starts=starts,
                 seed=seed,
                 least_fall=least_fall,
                 candidates=candidates,
                 told=bar.show_pass,
+                **written.choices.arguments(),
             )
         diagnosis = streamed.found
     else:
         recording = read_recording(data, reading)
-        fitted = written_fit(model, written, recording, starts=starts, seed=seed)
+        later = parameters_of_effects(candidates=candidates)
+        fitted = written_fit(model, written, recording, later, starts=starts, seed=seed)
         diagnosis = diagnose_fit(
             fitted,
             recording,
@@ -258,7 +279,9 @@ def add(
     """
     check_output(output, "model file", data, reading.sidecar)
     recording = read_recording(data, reading)
-    before = written_fit(model, written, recording, starts=starts, seed=seed)
+    before = written_fit(
+        model, written, recording, parameters_brought_by(effect), starts=starts, seed=seed
+    )
     after = add_to(before, effect, recording, starts=starts, seed=seed)
     addition = Addition(effect_name(effect), before, after)
     if output is not None:
@@ -320,11 +343,11 @@ def improve(
         check_effect(effect)
     if base is None and not written.laws:
         base = "coulomb"
-    start = written.choices.applied(written.model(base))
+    start = written.model(base)
     options: Values = dict(
         starts=starts, seed=seed, least_fall=least_fall, most_steps=max_steps, rejected=reject
     )
-    options |= {"candidates": candidates, "progress": say}
+    options |= {**written.choices.arguments(), "candidates": candidates, "progress": say}
     streamed: StreamedImprovement | None = None
     if streaming.wanted(data):
         opened = streaming.open(data, reading, seed)

@@ -18,13 +18,15 @@ from stribeck.cli.common import (
     seed_option,
 )
 from stribeck.cli.options import Command, Values, gathered
+from stribeck.fitting.exogenous import ESTIMATORS
 from stribeck.fitting.methods.arm import arm_fit
 from stribeck.fitting.methods.averaging import averaged_points
 from stribeck.fitting.methods.grid import Axis, grid_fit
 from stribeck.fitting.methods.segments import segment_points
 from stribeck.fitting.methods.stretches import Search
 from stribeck.fitting.methods.three_step import three_step_fit
-from stribeck.fitting.result import Fit
+from stribeck.fitting.result import Estimator, Fit
+from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON
 from stribeck.models.model import Model
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
@@ -38,10 +40,16 @@ class Method:
     grid: Mapping[str, Axis]
     loaded: str | None
     presliding: str | None
+    estimator: Estimator = "ls"
+    algorithm: str = GAUSS_NEWTON
 
     def __post_init__(self) -> None:
         if self.grid and self.name != "grid":
             raise SpecError("--grid belongs to --method grid: give both or neither")
+        if self.estimator != "ls" and self.name != "rms":
+            raise SpecError(f"--estimator iv goes with --method rms, not {self.name}: omit one")
+        if self.algorithm != GAUSS_NEWTON and self.name == "grid":
+            raise SpecError("--algorithm goes with --method rms, not grid: omit one")
         given = [self.loaded is not None, self.presliding is not None]
         if any(given) and self.name != "three_step":
             raise SpecError(
@@ -76,6 +84,8 @@ def _method(values: Values) -> Method:
         grid=_axes(values.pop("grid")),
         loaded=values.pop("loaded"),
         presliding=values.pop("presliding"),
+        estimator=values.pop("estimator"),
+        algorithm=values.pop("algorithm"),
     )
 
 
@@ -91,10 +101,26 @@ _METHOD_OPTIONS = [
         "presliding (Tadese 2021, section V).",
     ),
     click.option(
+        "--estimator",
+        type=click.Choice(ESTIMATORS),
+        default="ls",
+        show_default=True,
+        help="ls: least squares. iv: instrumental variables from the reference trajectory, which "
+        "noise of the measured motion does not bias (Janot, Vandanjon and Gautier 2014).",
+    ),
+    click.option(
+        "--algorithm",
+        type=click.Choice(ALGORITHMS),
+        default=GAUSS_NEWTON,
+        show_default=True,
+        help="Search from each start: damped Gauss-Newton steps, or an algorithm of nlopt. mlsl "
+        "and those after it search the range of all starts. All end with Gauss-Newton steps.",
+    ),
+    click.option(
         "--grid",
         multiple=True,
         metavar="NAME=FROM:TO:COUNT",
-        help="grid: values of a nonlinear parameter; default: its bounds.",
+        help="grid: values of a nonlinear parameter; default: the range of its random starts.",
     ),
     click.option(
         "--loaded",

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from stribeck.base.pool import Stopped
+from stribeck.cli.choices import choice_options
 from stribeck.cli.common import (
     echo_result,
     json_option,
@@ -16,6 +17,7 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.progress import Progress, stop_with
+from stribeck.identify.choices import Choices
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.study.plan import REVIEW
 from stribeck.scale.study.study import study as make_study
@@ -37,6 +39,7 @@ from stribeck.scale.study.study import study as make_study
     default=None,
     help="Folder of the study. [default: name of DATA with .study]",
 )
+@choice_options
 @starts_option
 @click.option(
     "--low-speed",
@@ -57,6 +60,7 @@ def study(
     data: str,
     laws: tuple[str, ...],
     output: str | None,
+    choices: Choices,
     starts: int,
     low_speed: float | None,
     workers: int | None,
@@ -82,6 +86,7 @@ def study(
                 progress=bar.show,
                 note=lambda text: say(f"note: {text}"),
                 **reading.given(),
+                **choices.arguments(),
             )
         except (Stopped, KeyboardInterrupt):
             stop_with(bar, "the study", folder)

@@ -44,7 +44,7 @@ def validate(
     """
     check_output(picture, None, data, reading.sidecar)
     recording = read_recording(data, reading)
-    fitted = model_fit(model, recording, starts=starts, seed=seed, refit=False)
+    fitted = model_fit(model, recording, starts=starts, seed=seed)
     inertia = reading.inertia
     joint = None if inertia is None else Joint(inertia, kind=recording.joint_kind)
     validation = drive(fitted, recording, joint)

@@ -12,7 +12,7 @@ from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.search import QUICK, THOROUGH, Effort
+from stribeck.identify.effort import QUICK, THOROUGH, Effort
 from stribeck.recording.recording import Recording
 
 #: Effort of a reported fit that starts close to the solution. With a million samples the values

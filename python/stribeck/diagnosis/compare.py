@@ -16,6 +16,13 @@ from stribeck.fitting.energy import electrical_energy
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import relative_residual, rms
+from stribeck.identify.information import (
+    Information,
+    criteria,
+    effective_samples,
+    information,
+)
+from stribeck.identify.weights import weighted
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -57,6 +64,7 @@ class Assessment:
     rmse_low_speed: float
     energy: dict[str, float] | None
     regimes: tuple[Regime, ...]
+    information: Information | None
     fit: Fit
 
     def to_dict(self) -> dict[str, object]:
@@ -66,6 +74,7 @@ class Assessment:
             "rmse": self.rmse,
             "rmse_held_out": self.rmse_held_out,
             "relative_residual": self.relative_residual,
+            **criteria(self.information),
             "mean": self.mean,
             "std": self.std,
             "r2": self.r2,
@@ -125,7 +134,7 @@ def compare(
     """
     fits = [
         f
-        if f.recording is recording
+        if f.recording.is_measured_as(recording)
         else evaluate(f.model, recording, fitted_on=f.recording.sha256)
         for f in fits
     ]
@@ -133,13 +142,29 @@ def compare(
     estimate = noise_floor(best) if floor else None
     return Comparison(
         recording,
-        tuple(assess(f) for f in fits),
+        tuple(assess(f, i) for f, i in zip(fits, _informations(fits), strict=True)),
         None if estimate is None else estimate.value,
         None if estimate is None else estimate.why,
     )
 
 
-def assess(fit: Fit) -> Assessment:
+def _informations(fits: Sequence[Fit]) -> list[Information | None]:
+    """The criteria of each fit, over the same samples: scored, and excluded from no fit.
+
+    The effective number of samples is that of the residual with the least sum of squares: it is the
+    closest to noise.
+    """
+    rows = np.logical_and.reduce([f.recording.moving & ~f.transient for f in fits])
+    residuals = [weighted(f.recording, f.residual, np.flatnonzero(rows)) for f in fits]
+    least = min(residuals, key=lambda residual: float(residual @ residual))
+    effective = effective_samples(least)
+    return [
+        None if f.rank is None else information(residual, f.rank, effective)
+        for f, residual in zip(fits, residuals, strict=True)
+    ]
+
+
+def assess(fit: Fit, criteria: Information | None) -> Assessment:
     """One model's error figures."""
     r = fit.recording
     moving = r.moving
@@ -174,6 +199,7 @@ def assess(fit: Fit) -> Assessment:
         rmse_low_speed=low.rmse,
         energy=_energy(fit),
         regimes=tuple(regimes),
+        information=criteria,
         fit=fit,
     )
 

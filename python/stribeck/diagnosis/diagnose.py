@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from typing import TYPE_CHECKING
 
 from stribeck.base.checks import check_share
 from stribeck.diagnosis.all_samples import FROM_NEARBY, with_errors_on_all_samples
@@ -15,11 +16,15 @@ from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import findings
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility.visibility import visibility
-from stribeck.fitting.fit import fit, on_recording
+from stribeck.fitting.fit import fit, on_recording, with_choices
 from stribeck.fitting.result import Fit
+from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.recording import Recording
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
@@ -36,6 +41,7 @@ def diagnose(
     seed: int = 0,
     sample_rows: int = SAMPLE_ROWS,
     brief: bool = False,
+    **choices: Unpack[ChoiceArguments],
 ) -> Diagnosis:
     """Find the effects that are missing from `fitted`.
 
@@ -58,9 +64,17 @@ def diagnose(
     brief : bool
         Where there are findings, return only those, without the smallest visible effects and the
         explainable share.
+    **choices
+        `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the model, which is then
+        fitted again, or of the effects that are tried.
     """
     check_share("least_fall", least_fall)
-    fitted = on_recording(fitted, recording, seed)
+    fitted = with_choices(
+        on_recording(fitted, recording, seed),
+        choices,
+        parameters_of_effects(candidates=candidates),
+        seed,
+    )
     few = excerpt(fitted.recording, sample_rows, seed)
     if few is fitted.recording:
         return _diagnosed(fitted, least_fall, rejected, candidates, seed, brief)

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base.errors import RecordingError, option
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.fitting.fit import fit
 from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
+from stribeck.recording.assemble import nothing_moves
+from stribeck.recording.check import Check
 from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadArguments, ReadOptions
+from stribeck.recording.proposals import Proposal, propose
+from stribeck.recording.proposed_sidecar import write_sidecar
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.scan import Table, scan_with
 
@@ -35,17 +42,20 @@ class Inspection:
         as a recording (`problem` says what is missing).
     untestable
         Effects that none of these joints can show, by id.
+    proposed
+        Columns that are not read, and the channel that each may hold.
     """
 
     table: Table
     recordings: tuple[Recording, ...]
     untestable: dict[str, Untestable]
     problem: str | None
+    proposed: tuple[Proposal, ...] = ()
 
     @property
     def testable(self) -> tuple[str, ...]:
         """Effects that the data can show."""
-        if not self.recordings:
+        if not self.recordings or self.problem is not None:
             return ()
         return tuple(effect for effect in effect_ids() if effect not in self.untestable)
 
@@ -55,8 +65,13 @@ class Inspection:
         notes = [note for r in self.recordings for note in r.notes]
         return tuple(dict.fromkeys([*self.table.notes, *notes]))
 
-    def to_dict(self) -> dict[str, object]:
-        """The JSON of `stribeck inspect`."""
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Whether the channels of the joints agree with each other."""
+        return tuple(dict.fromkeys(check for r in self.recordings for check in r.checks))
+
+    def to_dict(self, spell: Callable[[str], str] = str) -> dict[str, object]:
+        """The JSON of `stribeck inspect`; `spell` writes the options in its sentences."""
         columns = {name: _described(column) for name, column in self.table.channels.items()}
         for r in self.recordings[:1]:
             for name, column in r.columns.items():
@@ -71,12 +86,35 @@ class Inspection:
             "testable": list(self.testable),
             "untestable": [row.to_dict() for row in self.untestable.values()],
             "notes": list(self.notes),
+            "checks": [
+                {k: spell(v) if isinstance(v, str) else v for k, v in check.to_dict().items()}
+                for check in self.checks
+            ],
+            "proposed": [row.to_dict() for row in self.proposed],
         }
         if len(self.recordings) == 1:
             made["scored"] = self.recordings[0].scored()
         if self.problem is not None:
-            made["problem"] = self.problem
+            made["problem"] = spell(self.problem)
         return made
+
+
+def write_proposed(inspection: Inspection, options: ReadOptions) -> Path:
+    """Write the sidecar that an inspection proposes beside the file; returns its path.
+
+    Raises
+    ------
+    RecordingError
+        The file cannot be read, has several joints and none is named, or has a sidecar.
+    """
+    if inspection.problem is not None:
+        raise RecordingError(inspection.problem)
+    if len(inspection.recordings) > 1:
+        raise RecordingError(
+            f"{inspection.table.path}: holds {len(inspection.recordings)} joints: name the one to "
+            f"propose a sidecar for with {option('joint')}"
+        )
+    return write_sidecar(inspection.recordings[0], options, inspection.proposed)
 
 
 def _described(column: Column) -> dict[str, object]:
@@ -101,17 +139,37 @@ def inspect(path: str, **reading: Unpack[ReadArguments]) -> Inspection:
     options = ReadOptions(**reading)
     table = scan_with(path, options)
     if table.problem is not None:
-        return Inspection(table, (), {}, table.problem)
+        return Inspection(table, (), {}, table.problem, _proposed(table, (), options.joint))
     joint = options.joint
+    # What cannot be fitted is inspected all the same.
+    needs_motion = not options.standstill
+    options = replace(options, trust=True, standstill=True)
     names: list[str | None] = [joint] if joint is not None else [*table.joints] or [None]
     recordings = tuple(read_with(path, replace(options, joint=name)) for name in names)
+    proposed = _proposed(table, recordings, joint)
+    still = [r for r in recordings if needs_motion and not r.moving.any()]
+    if still:
+        return Inspection(table, recordings, {}, str(nothing_moves(still[0])), proposed)
     answers = [untestable(r, _load(r)) for r in recordings]
     common = {
         effect: answers[0][effect]
         for effect in answers[0]
         if all(effect in answer for answer in answers)
     }
-    return Inspection(table, recordings, common, None)
+    return Inspection(table, recordings, common, None, proposed)
+
+
+def _proposed(
+    table: Table, recordings: tuple[Recording, ...], joint: str | None
+) -> tuple[Proposal, ...]:
+    """The columns that are not read and may hold a channel."""
+    used = [c.name for c in table.columns if c.channel is not None or c.derived]
+    used += [column.source for r in recordings for column in r.columns.values()]
+    number = joint if table.wide or joint is None or joint.isdigit() else None
+    found = propose([c.name for c in table.columns], used, number)
+    # What is computed from a column is read from it.
+    formulas = [c.source for r in recordings for c in r.columns.values() if c.derived]
+    return tuple(p for p in found if not any(p.column in text for text in formulas))
 
 
 def _load(recording: Recording) -> Array | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -76,7 +77,7 @@ def _without_trend(recording: Recording, along: Array, rest: Array) -> Array:
     slow = [np.cos(k * np.pi * along) for k in range(2 * FEWEST_PERIODS)]
     sign = np.sign(recording.velocity[recording.moving])
     columns = np.column_stack([*slow, *(sign * shape for shape in slow)])
-    return np.asarray(rest - columns @ np.linalg.lstsq(columns, rest, rcond=None)[0])
+    return np.asarray(rest - columns @ linear.least_norm(columns, rest))
 
 
 def _plain_residual(recording: Recording) -> Array:
@@ -86,5 +87,5 @@ def _plain_residual(recording: Recording) -> Array:
     columns = np.column_stack([np.sign(v), v, np.ones_like(v), a, np.cos(q), np.sin(q)])
     target = recording.torque - recording.known_torque
     moving = recording.moving
-    solved = np.linalg.lstsq(columns[moving], target[moving], rcond=None)[0]
+    solved = linear.least_norm(columns[moving], target[moving])
     return np.asarray(target - columns @ solved)

@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
-from stribeck.fitting.fit import fit, rows_to_fit
-from stribeck.fitting.prediction import Prediction
-from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import needs_own_load
+from stribeck.fitting.fit import rows_to_fit
+from stribeck.fitting.prediction import Prediction, refuse_infinite
+from stribeck.fitting.solve import Solution, solve, with_own_load
+from stribeck.fitting.stated import solve_under
+from stribeck.identify.effort import Effort
+from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.search import Effort, Ended, search_each
+from stribeck.identify.search import Ended
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+
+#: Outcome of a start that others left behind on few samples.
+LEFT = "left after the search on few samples"
 
 
 @dataclass(frozen=True)
 class FittedStart:
-    """The end of one of several starts; its errors are those of `Fit`."""
+    """The end of one of several starts; its errors are those of `Fit`.
+
+    A start that did not continue on all samples has no held-out error.
+    """
 
     model: Model
     rmse: float
@@ -32,37 +37,24 @@ class FittedStart:
     outcome: str
     evaluations: int
 
-    @classmethod
-    def of(cls, fitted: Fit) -> FittedStart:
-        """Summarise a fit."""
-        return cls(
-            fitted.model,
-            fitted.rmse,
-            fitted.rmse_held_out,
-            fitted.converged,
-            fitted.outcome,
-            fitted.evaluations,
-        )
-
 
 def fit_each(
-    starts: Sequence[Model],
+    model: Model,
     recording: Recording,
     *,
+    starts: int,
+    seed: int,
     transient: NDArray[np.bool_],
     effort: Effort,
-    seed: int = 0,
 ) -> list[FittedStart | StribeckError]:
-    """Fit one model from several starts; an error takes the place of a start that failed.
+    """Fit one model as `fit` does; an error takes the place of a start that failed.
 
-    Each start is searched to its own minimum. Starts that meet on a subset of the samples continue
-    as one; their outcome names the start that they merged with.
+    The best starts continue on all samples. Starts that end at the same place on few samples
+    continue as one; their outcome names the start that they merged with.
 
     Parameters
     ----------
-    starts : Models
-        One model with different values; its nonlinear parameters lie between bounds.
-    transient, effort, seed
+    starts, seed, transient, effort
         As of `fit`.
 
     Raises
@@ -70,43 +62,61 @@ def fit_each(
     FitError
         As of `fit`, where no start could be fitted.
     """
-    made = starts[0]
-    rows = rows_to_fit(made, recording, transient)
-    if needs_own_load(made):
-        # Each start identifies its own load torque, so the starts do not share one problem.
-        def alone(start: Model) -> FittedStart:
-            return FittedStart.of(
-                fit(start, recording, starts=1, seed=seed, transient=transient, effort=effort)
-            )
-
-        return [_said(partial(alone, start)) for start in starts]
-    lower, upper, first = scaled_bounds(made, recording)
-    values = np.stack([start.values for start in starts])
-    at = np.where(np.isfinite(values), np.clip(values, lower, upper), first)
-    ends = search_each(Problem(recording, made, rows), lower, upper, at, effort)
-
-    def reached(end: Ended) -> FittedStart:
-        values, search = end.search.values, end.search
-        model = made.with_values(values)
-        found = Prediction.of(Problem(recording, model, rows), values, lower, upper, effort)
-        errors = found.rmse, found.rmse_held_out
-        return FittedStart(model, *errors, search.converged, search.outcome, end.evaluations)
-
+    rows = rows_to_fit(model, recording, transient)
+    model, load = with_own_load(model, recording, rows, starts, seed, effort)
+    solution = solve(model, recording, rows, load, starts, seed, effort)
+    problem = Problem(recording, model, rows, solution.load)
     ended: dict[int, FittedStart | StribeckError] = {}
     fits = []
-    for k, end in enumerate(ends):
-        if end.leader == k:
-            ended[k] = _said(partial(reached, end))
+    for k, end in enumerate(solution.found.ends):
+        if end.leader not in ended:
+            ended[end.leader] = _said(problem, solution, end, effort)
         fitted = ended[end.leader]
-        if isinstance(fitted, FittedStart) and end.leader != k:
-            outcome = f"merged with start {end.leader}: {fitted.outcome}"
+        if isinstance(fitted, FittedStart):
+            outcome = fitted.outcome
+            if end.leader != k:
+                outcome = f"merged with start {end.leader}: {outcome}"
             fitted = replace(fitted, outcome=outcome, evaluations=end.evaluations)
         fits.append(fitted)
     return fits
 
 
-def _said(work: Callable[[], FittedStart]) -> FittedStart | StribeckError:
+def _said(
+    problem: Problem, solution: Solution, end: Ended, effort: Effort
+) -> FittedStart | StribeckError:
     try:
-        return work()
+        return _fitted(problem, solution, end, effort)
     except StribeckError as error:
         return error
+
+
+def _fitted(problem: Problem, solution: Solution, end: Ended, effort: Effort) -> FittedStart:
+    search, recording = end.search, problem.recording
+    best = search is solution.found.search
+    values = solution.values if best else search.values
+    model = problem.model.with_values(values)
+    problem = Problem(recording, model, problem.rows, problem.load)
+    if not end.finished:
+        prediction = problem.predict(values)
+        refuse_infinite(problem, prediction)
+        error = rms((recording.torque - prediction)[recording.moving])
+        return FittedStart(model, error, None, False, LEFT, end.evaluations)
+    if model.stated.changes_the_search:
+        return _under(problem, replace(solution, values=values), end, effort)
+    found = Prediction.of(problem, values, solution.lower, solution.upper, effort)
+    converged = solution.converged if best else search.converged
+    outcome = solution.outcome if best else search.outcome
+    return FittedStart(model, found.rmse, found.rmse_held_out, converged, outcome, end.evaluations)
+
+
+def _under(problem: Problem, solution: Solution, end: Ended, effort: Effort) -> FittedStart:
+    """The end of a start that continues under what is stated about the parameters."""
+    solved, under = solve_under(problem.model, problem, solution, "robust", effort, seed=0)
+    model = problem.model.with_values(solved.values)
+    problem = replace(problem, model=model, load=solved.load, loss_weight=under.loss_weight)
+    found = Prediction.of(
+        problem, solved.values, solution.lower, solution.upper, effort, under.refit
+    )
+    errors = found.rmse, found.rmse_held_out
+    evaluations = end.evaluations + solved.evaluations - solution.evaluations
+    return FittedStart(model, *errors, solved.converged, solved.outcome, evaluations)

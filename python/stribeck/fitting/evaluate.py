@@ -35,6 +35,7 @@ def evaluate(
         held-out figure.
     """
     began = time.perf_counter()
+    recording.require_consistent()
     check_channels(model, recording)
     if recording.load_torque is not None and model.rigid_body:
         raise FitError(
@@ -45,27 +46,12 @@ def evaluate(
     problem = Problem(recording, model, np.flatnonzero(recording.moving), load)
     prediction = problem.predict(model.values)
     refuse_infinite(problem, prediction)
-    residual = recording.torque - prediction
-    moving = recording.moving
+    residual, moving = recording.torque - prediction, recording.moving
     same = fitted_on is not None and fitted_on == recording.sha256
-    stored = {
-        p.name: Estimate(
-            p.name,
-            p.symbol,
-            float(value),
-            p.unit,
-            (stderr or {}).get(p.name),
-            None,
-            False,
-            True,
-            *model.bounds.get(p.name, (-np.inf, np.inf)),
-        )
-        for p, value in zip(model.parameters, model.values, strict=True)
-    }
     return Fit(
         model=model,
         recording=recording,
-        estimates=stored,
+        estimates=_stored(model, stderr or {}),
         prediction=prediction,
         held_out=prediction,
         rmse=rms(residual[moving]),
@@ -78,4 +64,23 @@ def evaluate(
         seconds=time.perf_counter() - began,
         transient=np.zeros(recording.time.size, dtype=bool),
         load=load,
+        rank=None if same else 0,
     )
+
+
+def _stored(model: Model, stderr: Mapping[str, float]) -> dict[str, Estimate]:
+    """The parameters of a model with their known standard errors, by name."""
+    return {
+        p.name: Estimate(
+            p.name,
+            p.symbol,
+            float(value),
+            p.unit,
+            stderr.get(p.name),
+            None,
+            False,
+            True,
+            *model.bounds.get(p.name, (-np.inf, np.inf)),
+        )
+        for p, value in zip(model.parameters, model.values, strict=True)
+    }

@@ -11,12 +11,14 @@ from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.prediction import Prediction
 from stribeck.fitting.result import Fit
 from stribeck.fitting.solve import Solution
-from stribeck.identify.estimates import Errors, estimates
+from stribeck.fitting.stated import Under
+from stribeck.identify.at_bound import at_bound_notes
+from stribeck.identify.effort import Effort
 from stribeck.identify.figures import relative_residual
 from stribeck.identify.held_out import Refit
 from stribeck.identify.problem import Problem
-from stribeck.identify.search import Effort
 from stribeck.identify.transients import stretches
+from stribeck.identify.uncertainty import Uncertainty, identified
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
@@ -31,27 +33,21 @@ def finish(
     load: Array | None,
     solution: Solution,
     effort: Effort,
-    errors: Errors,
+    uncertainty: Uncertainty,
     seconds: float,
     by: Refit | None = None,
+    under: Under | None = None,
 ) -> Fit:
     problem = Problem(recording, made, rows, load)
     values = made.values
     lower, upper = solution.lower, solution.upper
+    if under is not None:
+        problem, by = replace(problem, loss_weight=under.loss_weight), under.refit
     found = Prediction.of(problem, values, lower, upper, effort, by)
-    notes: tuple[str, ...] = ()
-    if marked.any():
-        spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, marked))
-        notes = (
-            f"no friction model explains the motion at {spans} (an approach move or an "
-            f"abrupt stop?): scored, but excluded from the fit",
-        )
-    if made.rigid_body:
-        notes += (f"identified together with the friction: {' and '.join(made.rigid_body)}",)
-    held = [n for n, a, b in zip(made.names, lower, upper, strict=True) if a == b]
-    if held:
-        stated = ", ".join(f"{name} = {made.value(name):.6g}" for name in held)
-        notes += (f"fixed, not identified: {stated}",)
+    if under is None:
+        parameters = identified(problem, values, lower, upper, uncertainty)
+    else:
+        parameters = under.identified(values, uncertainty.errors)
     return Fit(
         model=replace(
             made,
@@ -61,7 +57,7 @@ def finish(
             box=operating_box(made, recording, load),
         ).with_values(values),
         recording=recording,
-        estimates=estimates(problem, values, lower, upper, errors),
+        estimates=parameters.estimates,
         prediction=found.prediction,
         held_out=found.held_out,
         rmse=found.rmse,
@@ -76,6 +72,35 @@ def finish(
         seconds=seconds,
         transient=marked,
         load=load,
-        notes=notes,
-        errors=errors,
+        notes=(
+            *_notes(made, recording, marked, lower, upper),
+            *at_bound_notes(parameters.estimates.values()),
+            *parameters.notes,
+        ),
+        errors=uncertainty.errors,
+        covariance=parameters.covariance,
+        combinations=parameters.combinations,
+        rank=parameters.rank,
+        search=solution.found.report,
+        under=under,
     )
+
+
+def _notes(
+    made: Model, recording: Recording, marked: NDArray[np.bool_], lower: Array, upper: Array
+) -> tuple[str, ...]:
+    """What a reader has to know: transients, the rigid body, fixed parameters."""
+    notes: tuple[str, ...] = ()
+    if marked.any():
+        spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, marked))
+        notes = (
+            f"no friction model explains the motion at {spans} (an approach move or an "
+            f"abrupt stop?): scored, but excluded from the fit",
+        )
+    if made.rigid_body:
+        notes += (f"identified together with the friction: {' and '.join(made.rigid_body)}",)
+    held = [n for n, a, b in zip(made.names, lower, upper, strict=True) if a == b]
+    if held:
+        stated = ", ".join(f"{name} = {made.value(name):.6g}" for name in held)
+        notes += (f"fixed, not identified: {stated}",)
+    return notes

@@ -4,23 +4,35 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
+from stribeck.fitting.exogenous import check_estimator
 from stribeck.fitting.finish import finish
+from stribeck.fitting.instrumented import instrumented
 from stribeck.fitting.made_passive import made_passive
-from stribeck.fitting.result import Fit
-from stribeck.fitting.solve import solve, with_own_load
-from stribeck.identify.choices import Choices
+from stribeck.fitting.result import Estimator, Fit
+from stribeck.fitting.solve import Solution, solve, with_own_load
+from stribeck.fitting.stated import Under, prior_conflicts, solve_under
+from stribeck.identify.algorithms import GAUSS_NEWTON, check_algorithm
+from stribeck.identify.choices import ChoiceArguments, Choices, refuse_statements
+from stribeck.identify.effort import THOROUGH, Effort
 from stribeck.identify.estimates import Errors
+from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.scaling import model_for
-from stribeck.identify.search import THOROUGH, Effort
 from stribeck.identify.transients import transient_rows
+from stribeck.identify.uncertainty import RESAMPLES, Uncertainty
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+from stribeck.recording.weights import with_weights
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 def fit(
@@ -29,18 +41,19 @@ def fit(
     *,
     starts: int = 20,
     seed: int = 0,
-    start: Mapping[str, float] | None = None,
-    bounds: Mapping[str, tuple[float, float]] | None = None,
-    fix: Mapping[str, float] | None = None,
     errors: Errors = "robust",
+    resamples: int = RESAMPLES,
     transient: NDArray[np.bool_] | None = None,
     effort: Effort = THOROUGH,
+    algorithm: str = GAUSS_NEWTON,
     passive: bool = False,
+    weights: ArrayLike | None = None,
+    estimator: Estimator = "ls",
+    **choices: Unpack[ChoiceArguments],
 ) -> Fit:
     """Identify the parameters of `spec` on `recording` by bounded least squares.
 
-    Linear parameters are eliminated (variable projection); the others are searched from `starts`
-    seeded starts. The measured torque is the target as recorded.
+    Linear parameters are eliminated (variable projection); the others are searched from `starts`.
 
     Parameters
     ----------
@@ -49,54 +62,118 @@ def fit(
         a model are the first start.
     starts, seed : int
         Random starts of the nonlinear parameters (20 in the UR5e review, eqs 4-5), and their seed.
-    start, bounds, fix : mapping from parameter name or symbol
-        Start values, bounds (infinite: unbounded) and fixed values of single parameters:
-        ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``.
-    errors : {"robust", "independent"}
-        Noise assumed by the standard errors: correlated in time, as in a sampled motion, or
-        independent with equal variance, as in separate points, which gives ``s^2 (J'J)^-1``.
+    errors : {"robust", "independent", "profile", "bootstrap"}
+        For noise correlated in time; for independent noise (``s^2 (J'J)^-1``); as robust, with
+        profile-likelihood intervals; from refits to `resamples` of blocks.
     transient : bool array [n], optional
         Samples that are scored but excluded from the fit. Detected by default.
-    effort : Effort
-        Tolerances of the search. The default is for final results; `QUICK` refines values that are
-        roughly known.
+    effort, algorithm : Effort, str
+        Tolerances of the search, and ``"gauss-newton"`` or an algorithm of nlopt.
     passive : bool
-        If true, the friction is fitted under passivity conditions until passivity is proved over
-        the operating box. `Fit.passive_cost` states the increase of the error.
+        If true, passivity is imposed and proved. `Fit.passive_cost` states what that costs.
+    weights : array [n], optional
+        Weight of each sample's squared error, in place of those that were read with the recording.
+    estimator : {"ls", "iv"}
+        Least squares, or instrumental variables from the reference trajectory (Janot et al. 2014).
+    **choices : mappings from parameter name or symbol
+        ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``, and `prior`,
+        `constraints`, `ties` and `loss`: see `ChoiceArguments`.
 
     Raises
     ------
     SpecError, FitError
-        The law or an effect is unknown; the recording lacks a channel that the model needs, has too
-        few moving samples, or no values with a proof of passivity were found.
+        An unknown law or effect; a channel that the model needs is missing; too few moving samples;
+        no values with a proof of passivity.
     """
     began = time.perf_counter()
-    choices = Choices(start or {}, bounds or {}, fix or {})
-    made = choices.applied(model_for(spec, recording))
+    recording = with_weights(recording, weights)
+    check_estimator(estimator, recording, passive=passive)
+    effort = replace(effort, algorithm=check_algorithm(algorithm))
+    made = Choices.of(choices).applied(model_for(spec, recording))
+    plain = not (passive or made.stated.changes_the_search)
+    uncertainty = Uncertainty(errors, resamples, seed, estimator == "ls" and plain)
+    searched = (starts, seed, effort)
+    squares, solution = _least_squares(made, recording, transient, searched, uncertainty, began)
+    return refined(squares, solution, effort, estimator, passive)
+
+
+def _least_squares(
+    made: Model,
+    recording: Recording,
+    transient: NDArray[np.bool_] | None,
+    searched: tuple[int, int, Effort],
+    uncertainty: Uncertainty,
+    began: float,
+) -> tuple[Fit, Solution]:
+    """The fit by least squares within bounds, and its solution."""
+    starts, seed, effort = searched
     marked = transient_rows(recording) if transient is None else transient
     rows = rows_to_fit(made, recording, marked)
     made, load = with_own_load(made, recording, rows, starts, seed, effort)
     solution = solve(made, recording, rows, load, starts, seed, effort)
-    values, load = solution.values, solution.load
-    made = made.with_values(values)
+    under: Under | None = None
+    further: tuple[str, ...] = ()
+    if made.stated.changes_the_search:
+        free, problem = solution, Problem(recording, made, rows, solution.load)
+        solution, under = solve_under(made, problem, free, uncertainty.errors, effort, seed)
+        further = prior_conflicts(problem, free.values, under, uncertainty.errors)
+        further += under.notes() if effort.evaluations else ()
+    made, load = made.with_values(solution.values), solution.load
+    seconds = time.perf_counter() - began
     fitted = finish(
-        made, recording, marked, rows, load, solution, effort, errors, time.perf_counter() - began
+        made, recording, marked, rows, load, solution, effort, uncertainty, seconds, under=under
     )
-    return made_passive(fitted, solution, effort) if passive else fitted
+    return replace(fitted, notes=(*fitted.notes, *further)), solution
+
+
+def refined(
+    squares: Fit, solution: Solution, effort: Effort, estimator: Estimator, passive: bool
+) -> Fit:
+    """The fit by least squares, or what was asked for from there."""
+    squares = replace(squares, estimator="ls")
+    if estimator == "iv":
+        refuse_statements(squares.model, option("estimator", "iv"))
+        return instrumented(squares, solution)
+    return made_passive(squares, solution, effort) if passive else squares
 
 
 def on_recording(fitted: Fit, recording: Recording | None, seed: int = 0) -> Fit:
-    """Return `fitted`, or its model refitted if `recording` is a different one."""
-    if recording is None or recording is fitted.recording:
+    """Return `fitted`, or its model refitted if `recording` is a different one.
+
+    A fit by instrumental variables is refitted as well: its errors are not those of least squares,
+    with which effects are compared.
+    """
+    if recording is None or fitted.recording.is_measured_as(recording):
+        recording = fitted.recording
+    if recording is fitted.recording and fitted.estimator != "iv":
         return fitted
     return fit(fitted.model, recording, seed=seed)
+
+
+def with_choices(
+    fitted: Fit, choices: ChoiceArguments, later: Mapping[str, str], seed: int = 0
+) -> Fit:
+    """The model of `fitted` fitted again with further choices; `fitted` itself without any.
+
+    Parameters
+    ----------
+    later
+        Parameters that effects may bring later, as `Choices.applied` takes them.
+    """
+    said = Choices.of(choices)
+    if said.is_empty:
+        return fitted
+    made = said.applied(fitted.model, later)
+    return fit(made, fitted.recording, seed=seed, errors=fitted.errors, transient=fitted.transient)
 
 
 def rows_to_fit(made: Model, recording: Recording, marked: NDArray[np.bool_]) -> NDArray[np.intp]:
     """Indices of the samples to fit: moving and not transient.
 
-    Raises `FitError` if there are fewer than the free parameters of the model plus two.
+    Raises `FitError` if there are fewer than the free parameters of the model plus two, and
+    `RecordingError` if the channels contradict each other.
     """
+    recording.require_consistent()
     rows = np.flatnonzero(recording.moving & ~marked)
     lower, upper, _ = scaled_bounds(made, recording)
     fewest = int((lower < upper).sum()) + 2

@@ -13,11 +13,17 @@ from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.fitting.solve import Solution
+from stribeck.fitting.stated import Under
+from stribeck.identify.conditions import Together
+from stribeck.identify.constrained import Conditioned
+from stribeck.identify.effort import Effort
+from stribeck.identify.objective import Objective
+from stribeck.identify.optimality import polished
 from stribeck.identify.problem import Problem
+from stribeck.identify.region import Region
 from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.search import Effort
-from stribeck.passivity.constrained import Conditioned
-from stribeck.passivity.imposed import PassiveCost, impose
+from stribeck.identify.uncertainty import Uncertainty
+from stribeck.passivity.imposed import Passive, PassiveCost, impose
 
 Array = NDArray[np.float64]
 
@@ -29,20 +35,19 @@ def made_passive(free: Fit, solution: Solution, effort: Effort) -> Fit:
         return replace(free, passive_cost=cost)
     began = time.perf_counter()
     recording, rows = free.recording, free.rows
-    lower, upper = solution.lower, solution.upper
 
     def renewed(problem: Problem, values: Array) -> Problem:
         if not needs_own_load(free.model):
             return problem
         load = own_load(free.model.with_values(values), recording)
-        return Problem(recording, free.model, rows, load)
+        return replace(problem, load=load)
 
+    objective, region = _as_stated(free, solution)
     found = impose(
-        Problem(recording, free.model, rows, free.load),
+        objective,
         solution.values,
         scaled_bounds(free.model, recording)[2],
-        lower,
-        upper,
+        region,
         box_of=lambda at, load: operating_box(free.model.with_values(at), recording, load),
         renewed=renewed,
     )
@@ -54,6 +59,7 @@ def made_passive(free: Fit, solution: Solution, effort: Effort) -> Fit:
         outcome="converged under passivity conditions" if found.converged else "not converged",
         evaluations=solution.evaluations + found.evaluations,
     )
+    within = replace(region, conditions=Together((region.conditions, found.conditions)))
     cost = PassiveCost(
         True,
         free.rmse,
@@ -70,8 +76,24 @@ def made_passive(free: Fit, solution: Solution, effort: Effort) -> Fit:
         held.load,
         held,
         effort,
-        free.errors,
+        Uncertainty(free.errors),
         seconds,
-        by=Conditioned(lower, upper, found.conditions),
+        by=Conditioned(replace(objective, problem=found.problem), within),
+        under=None if free.under is None else _under(free.under, found, within),
     )
     return replace(fitted, passive_cost=cost)
+
+
+def _as_stated(free: Fit, solution: Solution) -> tuple[Objective, Region]:
+    """What a fit minimised, and where."""
+    if free.under is not None:
+        return free.under.objective, free.under.region
+    problem = Problem(free.recording, free.model, free.rows, free.load)
+    return Objective(problem), Region(solution.lower, solution.upper)
+
+
+def _under(stated: Under, found: Passive, region: Region) -> Under:
+    """What is stated, together with the conditions of passivity."""
+    objective = replace(stated.objective, problem=found.problem)
+    _, optimality, _ = polished(objective, found.values, region, most=1)
+    return stated.at(found.values, objective, region, optimality)

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
+from stribeck.identify.effort import Effort
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import Refit, held_out_prediction
 from stribeck.identify.problem import Problem
-from stribeck.identify.search import Effort
 
 Array = NDArray[np.float64]
 
@@ -38,12 +38,18 @@ class Prediction:
         """Predict with `values`.
 
         Raises `FitError` if a torque is not finite, or if a bristle has no dry friction to hold."""
-        recording = problem.recording
-        prediction = problem.predict(values)
-        refuse_infinite(problem, prediction)
-        if problem.model.has("presliding"):
-            _refuse_slack_bristle(problem)
+        prediction = _finite_prediction(problem, values)
         held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact, by=by)
+        return cls._of(problem, prediction, held_out)
+
+    @classmethod
+    def from_torque(cls, problem: Problem, values: Array, held_out: Array) -> Prediction:
+        """Predict with `values`, given the `held_out` torque [n]; raises as `of`."""
+        return cls._of(problem, _finite_prediction(problem, values), held_out)
+
+    @classmethod
+    def _of(cls, problem: Problem, prediction: Array, held_out: Array) -> Prediction:
+        recording = problem.recording
         moving = recording.moving
         residual = recording.torque - held_out
         blocks = np.unique(recording.block[moving]).size
@@ -51,6 +57,15 @@ class Prediction:
         counted = moving if recording.counted is None else moving & recording.counted
         rmse = rms((recording.torque - prediction)[moving])
         return cls(prediction, held_out, rmse, rms(residual[counted]) if has_held_out else None)
+
+
+def _finite_prediction(problem: Problem, values: Array) -> Array:
+    """Predicted torque of every sample [n]; raises as `Prediction.of`."""
+    prediction = problem.predict(values)
+    refuse_infinite(problem, prediction)
+    if problem.model.has("presliding"):
+        _refuse_slack_bristle(problem)
+    return prediction
 
 
 def refuse_infinite(problem: Problem, prediction: Array) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Literal
 
 import numpy as np
 import polars as pl
@@ -11,15 +13,26 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
 from stribeck.base.shown import Plotted
+from stribeck.fitting.exogenous import tested
+from stribeck.fitting.stated import PLAIN, HeldConstraint, Under
+from stribeck.identify.confounded import Combination
 from stribeck.identify.estimates import Errors, Estimate
+from stribeck.identify.exogeneity import Exogeneity
 from stribeck.identify.figures import torque_cutoff
+from stribeck.identify.information import Information, criteria, information
+from stribeck.identify.matrix import ParameterMatrix
+from stribeck.identify.search import StartsReport
 from stribeck.identify.transients import stretches
+from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.model import Model
 from stribeck.passivity.check import check
 from stribeck.passivity.imposed import PassiveCost
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
+
+#: Least squares, or instrumental variables from the reference trajectory.
+Estimator = Literal["ls", "iv"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -38,6 +51,22 @@ class Fit(Plotted):
         Load torque of the identified rigid body.
     passive_cost : PassiveCost, optional
         What passivity costs, where a passive fit was asked for.
+    under : Under, optional
+        Priors, constraints, ties and the loss, where some were stated.
+    covariance : ParameterMatrix, optional
+        Of the parameters with a standard error, in products of their units; None where the method
+        gives none.
+    combinations : tuple of Combination
+        What the data determines of the parameters that are not identifiable.
+    rank : int, optional
+        Number of parameters, or combinations, that the least-squares fit determined; 0 for a model
+        that was not refitted, None where it is not known.
+    estimator : {"ls", "iv"}, optional
+        Least squares or instrumental variables; None for other methods.
+    tested : Exogeneity, optional
+        The test of the least squares that a fit by instrumental variables started from.
+    search : StartsReport, optional
+        What the starts say about the minimum; None for other methods.
     """
 
     model: Model
@@ -58,6 +87,13 @@ class Fit(Plotted):
     notes: tuple[str, ...] = field(default=())
     errors: Errors = "robust"
     passive_cost: PassiveCost | None = None
+    covariance: ParameterMatrix | None = None
+    combinations: tuple[Combination, ...] = ()
+    rank: int | None = None
+    estimator: Estimator | None = None
+    tested: Exogeneity | None = None
+    search: StartsReport | None = None
+    under: Under | None = None
     _answers: dict[str, bool | None] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -73,9 +109,62 @@ class Fit(Plotted):
         return self.recording.torque - self.held_out
 
     @property
+    def rmse_weighted(self) -> float | None:
+        """Weighted RMSE over the scored samples; None without weights."""
+        return weighted_rms(self.recording, self.residual, self.recording.moving)
+
+    @property
+    def rmse_held_out_weighted(self) -> float | None:
+        """Weighted held-out RMSE; None without weights or held-out predictions."""
+        if self.rmse_held_out is None:
+            return None
+        counted = self.recording.counted
+        at = self.recording.moving if counted is None else self.recording.moving & counted
+        return weighted_rms(self.recording, self.held_out_residual, at)
+
+    @property
+    def loss_weight(self) -> Array | None:
+        """Weights [n] of a robust loss at the solution; None for least squares."""
+        return None if self.under is None else self.under.loss_weight
+
+    @property
+    def constraints(self) -> tuple[HeldConstraint, ...]:
+        """The constraints with their slacks."""
+        return () if self.under is None else self.under.constraints
+
+    def weighted(self, values: Array) -> Array:
+        """`values` [m] of the samples fitted to, times the square roots of their weights."""
+        root = root_weights(self.recording, self.loss_weight)
+        return values if root is None else values * root[self.rows]
+
+    @property
     def rows(self) -> NDArray[np.intp]:
         """Indices of the samples that the parameters were fitted to."""
         return np.flatnonzero(self.recording.moving & ~self.transient)
+
+    @property
+    def correlation(self) -> ParameterMatrix | None:
+        """Correlations of the parameters with a standard error; None without a covariance."""
+        return None if self.covariance is None else self.covariance.correlation()
+
+    @property
+    def information(self) -> Information | None:
+        """Information criteria over the samples of the fit; None without `rank`."""
+        if self.rank is None:
+            return None
+        return information(weighted(self.recording, self.residual, self.rows), self.rank)
+
+    @cached_property
+    def exogeneity(self) -> Exogeneity | None:
+        """Durbin-Wu-Hausman test of least squares; None without a reference trajectory.
+
+        It compares estimators within bounds alone, so that there is none where more is stated.
+        """
+        if self.under is not None:
+            return None
+        if self.estimator != "ls":
+            return self.tested
+        return tested(self.model, self.recording, self.rows, self.load, self.estimates)
 
     def passive(self) -> bool | None:
         """Whether the friction is passive over its operating box; None where undecided.
@@ -90,22 +179,39 @@ class Fit(Plotted):
                 self._answers["passive"] = None
         return self._answers["passive"]
 
+    def _search_row(self) -> dict[str, object]:
+        found = self.search
+        return {
+            "algorithm": None if found is None else found.algorithm,
+            "starts_at_minimum": None if found is None else found.at_minimum,
+            "new_place_probability": None if found is None else found.new_place,
+        }
+
     def to_dict(self) -> dict[str, object]:
         """The contract's JSON of `stribeck fit`."""
         return {
             "model": self.model.spec,
             "parameters": {name: e.to_dict() for name, e in self.estimates.items()},
+            "correlation": None if self.correlation is None else self.correlation.to_dict(),
+            "determined_combinations": [found.to_dict() for found in self.combinations],
             "rmse": self.rmse,
             "rmse_held_out": self.rmse_held_out,
+            "rmse_weighted": self.rmse_weighted,
+            "rmse_held_out_weighted": self.rmse_held_out_weighted,
             "relative_residual": self.relative_residual,
+            **criteria(self.information),
             "relative_residual_cutoff_hz": torque_cutoff(self.recording),
             "unit": self.model.torque_unit,
             "starts": self.starts,
+            **self._search_row(),
             "converged": self.converged,
             "outcome": self.outcome,
             "evaluations": self.evaluations,
             "seconds": self.seconds,
             "errors": self.errors,
+            "estimator": self.estimator,
+            "exogeneity": None if self.exogeneity is None else self.exogeneity.to_dict(),
+            **(PLAIN if self.under is None else self.under.to_dict()),
             "passive": self.passive(),
             "passive_cost": None if self.passive_cost is None else self.passive_cost.to_dict(),
             "rigid_body": list(self.model.rigid_body),

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from stribeck.base.checks import check_count
 from stribeck.effect.constants import effect_constants
 from stribeck.fitting.rigid_body import needs_own_load, own_load
+from stribeck.identify.effort import Effort
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.search import Effort, multi_start
+from stribeck.identify.search import Found, multi_start
 from stribeck.identify.separable import minimise
 from stribeck.models.catalog import catalog
 from stribeck.models.model import Model
@@ -35,6 +36,7 @@ class Solution:
     converged: bool
     outcome: str
     evaluations: int
+    found: Found
 
 
 def with_own_load(
@@ -89,25 +91,32 @@ def solve(
     # Known values keep their start in every search; only the others get random starts.
     unknown = ~np.isfinite(known)
     varied = unknown if unknown.any() else np.ones_like(unknown)
-    found, used, evaluations = multi_start(
-        problem, lower, upper, start, varied, starts, seed, effort
-    )
+    found = multi_start(problem, lower, upper, start, varied, starts, seed, effort)
+    search, evaluations = found.search, found.evaluations
     if load is not None and needs_own_load(made):
         for _ in range(8):
-            renewed = own_load(made.with_values(found.values), recording)
+            renewed = own_load(made.with_values(search.values), recording)
             assert renewed is not None
             moved = rms(renewed - load) / (rms(renewed) or 1.0)
             load = renewed
-            found = minimise(
+            search = minimise(
                 Problem(recording, made, rows, load),
-                found.values,
+                search.values,
                 lower,
                 upper,
                 tolerance=effort.tolerance,
             )
-            evaluations += found.evaluations
+            evaluations += search.evaluations
             if moved < 1e-5:
                 break
     return Solution(
-        found.values, load, lower, upper, used, found.converged, found.outcome, evaluations
+        search.values,
+        load,
+        lower,
+        upper,
+        len(found.ends),
+        search.converged,
+        search.outcome,
+        evaluations,
+        found,
     )

@@ -1,93 +1,322 @@
-"""Starts, bounds and held values that a user gives for single parameters of a fit."""
+"""What a user states about the parameters of a fit."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import TypeAlias, TypedDict, TypeVar
 
 import numpy as np
 
 from stribeck.base.errors import SpecError, nearest, option
-from stribeck.models.formula_law import number
+from stribeck.identify.statements import (
+    checked_loss,
+    checked_prior,
+    names_in,
+    read_prior,
+    stated_constraint,
+    stated_tie,
+)
+from stribeck.models.catalog import effect_ids, effect_row
+from stribeck.models.formula_law import effect_terms, is_formula, number
 from stribeck.models.model import Model
+from stribeck.models.stated import Stated
+
+__all__ = [
+    "CHOICE_NAMES",
+    "ChoiceArguments",
+    "Choices",
+    "parameters_of_effects",
+    "refuse_statements",
+]
+
+Value = TypeVar("Value")
+#: One ``NAME=VALUE`` text, or several.
+Texts: TypeAlias = str | Sequence[str]
+
+
+class ChoiceArguments(TypedDict, total=False):
+    """Keyword arguments about parameters, by name or symbol, in the parameters' units.
+
+    ``start={"c3": 0.1}``, ``bounds={"c2": (0.0, 5.0)}`` (infinite: unbounded), ``fix={"c1": 0.3}``,
+    ``prior={"inertia": (0.12, 0.01)}`` (mean and standard deviation),
+    ``constraints=["static_friction >= a2"]``, ``ties={"a5": "1.2*a4"}`` and ``loss="huber"``
+    (``"squares"``, ``"huber"``, ``"cauchy"``). All but the loss may be texts as on the command
+    line: ``bounds="c2=0:5"``. They stay in force when effects are added. They may name parameters
+    of effects that are added later.
+    """
+
+    start: Mapping[str, float] | Texts | None
+    bounds: Mapping[str, tuple[float, float]] | Texts | None
+    fix: Mapping[str, float] | Texts | None
+    prior: Mapping[str, tuple[float, float]] | Texts | None
+    constraints: Texts | None
+    ties: Mapping[str, str] | Texts | None
+    loss: str | None
+
+
+#: The names of these arguments.
+CHOICE_NAMES = tuple(ChoiceArguments.__annotations__)
 
 
 @dataclass(frozen=True)
 class Choices:
-    """Starts, bounds and held values by parameter name or symbol, each in the parameter's unit.
+    """What is stated about parameters, by name or symbol, each in the parameter's unit.
+
+    `ChoiceArguments` explains each kind.
 
     Examples
     --------
-    >>> Choices.parse(start=["c3=0.1"], bound=["c2=0:"], fix=[]).bounds
+    >>> Choices.of({"start": ["c3=0.1"], "bounds": "c2=0:"}).bounds
     {'c2': (0.0, inf)}
     """
 
     start: Mapping[str, float] = field(default_factory=dict)
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     fix: Mapping[str, float] = field(default_factory=dict)
+    prior: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    constraints: tuple[str, ...] = ()
+    ties: Mapping[str, str] = field(default_factory=dict)
+    loss: str | None = None
 
     @classmethod
-    def parse(cls, start: Iterable[str], bound: Iterable[str], fix: Iterable[str]) -> Choices:
-        """From ``NAME=VALUE`` and ``NAME=LOW:HIGH`` texts; an end that is left out is unbounded."""
+    def of(cls, arguments: ChoiceArguments) -> Choices:
+        """From keyword arguments: mappings, or ``NAME=VALUE`` texts as on the command line.
+
+        An end of bounds that is left out is unbounded.
+        """
+        constraints, loss = arguments.get("constraints") or (), arguments.get("loss")
         return cls(
-            {name: number(text, option("start", name)) for name, text in _pairs(start, "start")},
-            {name: _range(name, text) for name, text in _pairs(bound, "bound")},
-            {name: number(text, option("fix", name)) for name, text in _pairs(fix, "fix")},
+            _given(arguments.get("start"), "start", "NAME=VALUE", number),
+            _given(arguments.get("bounds"), "bounds", "NAME=LOW:HIGH", _range),
+            _given(arguments.get("fix"), "fix", "NAME=VALUE", number),
+            _given(arguments.get("prior"), "prior", "NAME=MEAN+-SD", read_prior),
+            (constraints,) if isinstance(constraints, str) else tuple(constraints),
+            _given(arguments.get("ties"), "ties", "NAME=FORMULA", lambda text, _: text),
+            None if loss is None else checked_loss(loss),
         )
 
-    def applied(self, model: Model) -> Model:
+    def arguments(self) -> ChoiceArguments:
+        """The keyword arguments that state the same."""
+        return {
+            "start": self.start,
+            "bounds": self.bounds,
+            "fix": self.fix,
+            "prior": self.prior,
+            "constraints": self.constraints,
+            "ties": self.ties,
+            "loss": self.loss,
+        }
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing is stated."""
+        return not self.names and self.loss is None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names and symbols that are given, each once."""
+        texts = (*self.constraints, *self.ties.values())
+        given = (*self.start, *self.bounds, *self.fix, *self.prior, *self.ties)
+        return tuple(dict.fromkeys((*given, *(name for text in texts for name in names_in(text)))))
+
+    def about(self, model: Model) -> Choices:
+        """The choices about parameters that `model` has."""
+        known = _places(model.names, _symbols(model))
+
+        def own(given: Mapping[str, Value]) -> dict[str, Value]:
+            return {name: value for name, value in given.items() if name in known}
+
+        def is_own(text: str) -> bool:
+            return all(name in known for name in names_in(text))
+
+        return Choices(
+            own(self.start),
+            own(self.bounds),
+            own(self.fix),
+            own(self.prior),
+            tuple(text for text in self.constraints if is_own(text)),
+            {name: text for name, text in own(self.ties).items() if is_own(text)},
+            self.loss,
+        )
+
+    def applied_to_each(self, models: Sequence[Model]) -> list[Model]:
+        """The models, each with the choices about its parameters.
+
+        Raises
+        ------
+        SpecError
+            As of `applied`, or a parameter is in none of the models.
+        """
+        known = {place for model in models for place in (*model.names, *_symbols(model))}
+        for name in self.names:
+            if name not in known:
+                specs = ", ".join(dict.fromkeys(model.spec for model in models)) or "no model"
+                raise SpecError(
+                    f"no model that is fitted has a parameter {name!r}{nearest(name, known)}; "
+                    f"fitted: {specs}"
+                )
+        return [self.about(model).applied(model) for model in models]
+
+    def applied(self, model: Model, later: Mapping[str, str] | None = None) -> Model:
         """The model with starts as its values, and with the bounds as its limits.
+
+        Parameters
+        ----------
+        later
+            Names of parameters that effects may bring later, by name and symbol
+            (`parameters_of_effects`).
 
         Raises
         ------
         SpecError
             A parameter that the model does not have, or that is both bounded and held, or that
-            starts outside its bounds.
+            starts outside its bounds; a text that is no formula.
         """
-        values = model.values.copy()
-        limits = {
-            **model.limits,
-            **{_name(model, n): _ordered(n, b) for n, b in self.bounds.items()},
-        }
-        for given, value in self.fix.items():
-            name = _name(model, given)
-            if name in {_name(model, other) for other in (*self.bounds, *self.start)}:
-                raise SpecError(f"parameter {given} is held: give it no start and no bounds")
-            limits[name] = (_finite(given, value), value)
-            values[model.names.index(name)] = value
-        for given, value in self.start.items():
-            name = _name(model, given)
+        start = _named(model, self.start, "start", later or {})
+        bounds = _named(model, self.bounds, "bounds", later or {})
+        fix = _named(model, self.fix, "fix", later or {})
+        limits = {**model.limits, **{name: _ordered(name, b) for name, b in bounds.items()}}
+        values = dict(zip(model.names, model.values, strict=True))
+        starts = {**model.stated.starts, **start}
+        for name, value in fix.items():
+            if name in start or name in bounds:
+                raise SpecError(f"parameter {name} is held: give it no start and no bounds")
+            limits[name] = (_finite(name, value), float(value))
+            starts[name] = float(value)
+        for name, value in start.items():
             low, high = limits.get(name, (-math.inf, math.inf))
-            if not low <= _finite(given, value) <= high:
+            if not low <= _finite(name, value) <= high:
                 raise SpecError(
-                    f"parameter {given} starts at {value:g}, outside {low:g} .. {high:g}"
+                    f"parameter {name} starts at {value:g}, outside {low:g} .. {high:g}"
                 )
-            values[model.names.index(name)] = value
-        return replace(model, limits=limits, values=np.asarray(values))
+        given = {name: value for name, value in {**start, **fix}.items() if name in values}
+        return replace(
+            model,
+            limits=limits,
+            stated=self._stated(model, later or {}, starts),
+            values=np.array([given.get(name, value) for name, value in values.items()]),
+        )
+
+    def _stated(self, model: Model, later: Mapping[str, str], starts: dict[str, float]) -> Stated:
+        """The statements of the model with these beside them."""
+        stated = model.stated
+        known = {**later, **_places(model.names, _symbols(model))}
+        prior = _named(model, self.prior, "prior", later)
+        ties = _named(model, self.ties, "ties", later)
+        for name in ties:
+            if name in self.fix or name in starts or name in prior:
+                raise SpecError(f"parameter {name} is tied: give it no start, value or prior")
+        return Stated(
+            starts,
+            {**stated.priors, **{name: checked_prior(name, own) for name, own in prior.items()}},
+            (*stated.constraints, *(stated_constraint(text, known) for text in self.constraints)),
+            {**stated.ties, **{name: stated_tie(name, text, known) for name, text in ties.items()}},
+            stated.loss if self.loss is None else self.loss,
+        )
 
 
-def _pairs(texts: Iterable[str], name_of_option: str) -> list[tuple[str, str]]:
-    pairs = []
-    for text in texts:
-        name, mark, value = text.partition("=")
-        if not mark or not name.strip() or not value.strip():
-            right = "NAME=LOW:HIGH" if name_of_option == "bound" else "NAME=VALUE"
+def refuse_statements(model: Model, what: str) -> None:
+    """Raise `SpecError` if `model` has statements other than bounds, which `what` ignores."""
+    if model.stated.changes_the_search:
+        given = [option(n) for n in ("prior", "constraints", "ties", "loss")]
+        raise SpecError(f"{what} does not take {', '.join(given[:-1])} and {given[-1]}: omit them")
+
+
+def parameters_of_effects(
+    effects: Iterable[str] | None = None, candidates: Iterable[str] = ()
+) -> dict[str, str]:
+    """The names of the parameters that effects bring, by name, and by symbol where it is unique.
+
+    Parameters
+    ----------
+    effects
+        Ids, or ``"NAME = FORMULA"``; default: all of the catalog.
+    candidates
+        Further effects by formula.
+    """
+    rows: list[tuple[str, str]] = []
+    for effect in (*(effect_ids() if effects is None else effects), *candidates):
+        row = effect_row(effect)
+        if row is not None:
+            rows += [(p["name"], p["symbol"]) for p in row["parameters"]]
+        elif is_formula(effect):
+            terms = effect_terms(effect)
+            rows += zip(terms.names, terms.symbols, strict=True)
+    return _places([name for name, _ in rows], [symbol for _, symbol in rows])
+
+
+def _places(names: Sequence[str], symbols: Sequence[str]) -> dict[str, str]:
+    """Names by name, and by symbol where only one parameter has it."""
+    of_symbol: dict[str, set[str]] = {}
+    for name, symbol in zip(names, symbols, strict=True):
+        of_symbol.setdefault(symbol, set()).add(name)
+    unique = {symbol: min(own) for symbol, own in of_symbol.items() if len(own) == 1}
+    return {**unique, **{name: name for name in names}}
+
+
+def _symbols(model: Model) -> list[str]:
+    return [p.symbol for p in model.parameters]
+
+
+def _named(
+    model: Model, given: Mapping[str, Value], name_of_option: str, later: Mapping[str, str]
+) -> dict[str, Value]:
+    """What is given by name or symbol, by name."""
+    own = _places(model.names, _symbols(model))
+    made: dict[str, Value] = {}
+    for said, value in given.items():
+        name = own.get(said, later.get(said))
+        if name is None:
+            known = tuple(dict.fromkeys((*own, *later)))
             raise SpecError(
-                f"{option(name_of_option, text)}: write {option(name_of_option, right)}"
+                f"{model.spec} has no parameter {said!r}{nearest(said, known)}; it has "
+                f"{', '.join(model.names)}"
             )
-        pairs.append((name.strip(), value.strip()))
-    return pairs
+        if name in made:
+            raise SpecError(
+                f"{option(name_of_option, said)} is about {name}, which is given already: give it "
+                f"once, by name or by symbol"
+            )
+        made[name] = value
+    return made
 
 
-def _range(name: str, text: str) -> tuple[float, float]:
+def _given(
+    said: Mapping[str, Value] | Texts | None,
+    argument: str,
+    form: str,
+    read: Callable[[str, str], Value],
+) -> Mapping[str, Value]:
+    """What one argument states, by name or symbol.
+
+    Parameters
+    ----------
+    form
+        How a text is written.
+    read
+        Reads what follows ``NAME=``, from it and from the option that names it in errors.
+    """
+    if said is None or isinstance(said, Mapping):
+        return said or {}
+    made: dict[str, Value] = {}
+    for text in [said] if isinstance(said, str) else said:
+        name, mark, value = (part.strip() for part in text.partition("="))
+        if not (mark and name and value):
+            raise SpecError(f"{option(argument, text)}: write {option(argument, form)}")
+        if name in made:
+            raise SpecError(f"{option(argument, text)}: {name} is given already, give it once")
+        made[name] = read(value, option(argument, text))
+    return made
+
+
+def _range(text: str, what: str) -> tuple[float, float]:
     low, mark, high = text.partition(":")
     if not mark:
-        raise SpecError(
-            f"{option('bound', f'{name}={text}')}: write {option('bound', 'NAME=LOW:HIGH')}"
-        )
-    lower = number(low, option("bound", name), infinite=True) if low.strip() else -math.inf
-    upper = number(high, option("bound", name), infinite=True) if high.strip() else math.inf
+        raise SpecError(f"{what}: write {option('bounds', 'NAME=LOW:HIGH')}")
+    lower = number(low, what, infinite=True) if low.strip() else -math.inf
+    upper = number(high, what, infinite=True) if high.strip() else math.inf
     return lower, upper
 
 
@@ -102,16 +331,3 @@ def _finite(name: str, value: float) -> float:
     if not math.isfinite(value):
         raise SpecError(f"parameter {name} is {value}: give a finite number")
     return float(value)
-
-
-def _name(model: Model, given: str) -> str:
-    """The name of a parameter that is given by name or symbol."""
-    symbols = {p.symbol: p.name for p in model.parameters}
-    name = given if given in model.names else symbols.get(given)
-    if name is None:
-        known = tuple(dict.fromkeys((*model.names, *symbols)))
-        raise SpecError(
-            f"{model.spec} has no parameter {given!r}{nearest(given, known)}; it has "
-            f"{', '.join(model.names)}"
-        )
-    return name

@@ -10,7 +10,8 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.identify.triangle import UNSEEN, Triangle
+from stribeck.identify.directions import Directions
+from stribeck.identify.triangle import Triangle
 
 Array = NDArray[np.float64]
 
@@ -68,19 +69,62 @@ def sandwich(
     return covariance
 
 
-def independent(jacobian: Array, residual: Array, free: NDArray[np.bool_]) -> Array:
+def independent(
+    jacobian: Array, residual: Array, free: NDArray[np.bool_], rank: int | None = None
+) -> Array:
     """Covariance of the free parameters for independent errors, array [p, p].
 
-    ``s^2 (J'J)^-1`` with ``s^2`` the sum of squares over n - p.
+    ``s^2 (J'J)^-1`` with ``s^2`` the sum of squares over n - `rank`, the number of parameters or of
+    combinations that are determined; default: all that are free.
     """
     p = jacobian.shape[1]
     covariance = np.zeros((p, p))
-    freedom = residual.size - int(free.sum())
+    freedom = residual.size - (int(free.sum()) if rank is None else rank)
     if free.any() and freedom > 0:
         variance = float(np.sum(residual**2)) / freedom
         inverse = Triangle.of(jacobian[:, free], residual).covariance()
         covariance[np.ix_(free, free)] = variance * inverse
     return covariance
+
+
+def covariance_of(
+    jacobian: Array,
+    residual: Array,
+    batch: NDArray[np.uint32] | None,
+    free: NDArray[np.bool_],
+    apart: float,
+) -> tuple[Array, int]:
+    """Covariance [p, p] of the determined part of the `free` parameters; degrees of freedom."""
+    directions = Directions.of(jacobian, free)
+    determined = directions.without_hidden(jacobian, apart)
+    if batch is not None:
+        return sandwich(determined, residual, batch, free), max(int(batch.max()), 1)
+    rank = directions.rank(apart)
+    return independent(determined, residual, free, rank), residual.size - rank
+
+
+def variances(
+    jacobian: Array,
+    residual: Array,
+    batch: NDArray[np.uint32],
+    free: NDArray[np.bool_],
+    parameter: int,
+    apart: float,
+) -> tuple[float, float]:
+    """Variance of a parameter, and that of independent errors to which it corresponds.
+
+    The second is the robust variance of the parameter over its diagonal element of ``(J'J)^-1``: by
+    so much the sum of squares rises, at its minimum over the other parameters, where the parameter
+    is one standard error away from its best value.
+    """
+    among = free.copy()
+    among[parameter] = True
+    covariance, _ = covariance_of(jacobian, residual, batch, among, apart)
+    determined = Directions.of(jacobian, among).without_hidden(jacobian, apart)
+    inverse = Triangle.of(determined[:, among], residual).covariance()
+    place = int(np.count_nonzero(among[:parameter]))
+    variance = float(covariance[parameter, parameter])
+    return variance, variance / float(inverse[place, place])
 
 
 def seen(jacobian: Array, free: NDArray[np.bool_], apart: float = 1e-4) -> NDArray[np.bool_]:
@@ -89,19 +133,7 @@ def seen(jacobian: Array, free: NDArray[np.bool_], apart: float = 1e-4) -> NDArr
     A parameter is not identifiable on this data if less than the share `apart` of its tangent lies
     outside the span of the others' tangents, whatever its standard error.
     """
-    p = jacobian.shape[1]
-    shown = np.zeros(p, dtype=bool)
-    index = np.flatnonzero(free)
-    size = np.sqrt(np.einsum("ij,ij->j", jacobian, jacobian))
-    index = index[size[index] > 0]
-    if index.size == 0:
-        return shown
-    j = jacobian[:, index] / size[index]
-    factor = Triangle.of(j, np.zeros(j.shape[0])).factor
-    _, weights, vectors = np.linalg.svd(factor)
-    hidden = weights < UNSEEN * weights[0]
-    # Parameters in a combination without effect are indistinguishable from each other.
-    lost = (vectors[hidden] ** 2).sum(axis=0) > 1e-6
-    spread = np.sqrt(((vectors[~hidden] / weights[~hidden, None]) ** 2).sum(axis=0))
-    shown[index] = ~lost & (spread * apart < 1.0)
+    directions = Directions.of(jacobian, free)
+    shown = np.zeros(jacobian.shape[1], dtype=bool)
+    shown[directions.index] = directions.seen(apart)
     return shown

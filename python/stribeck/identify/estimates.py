@@ -1,23 +1,21 @@
-"""Identified parameters with their standard errors."""
+"""Identified parameters with their standard errors and covariance."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.identify.confounded import partners, reason
+from stribeck.identify.confounded import Combination, partners, reason
 from stribeck.identify.covariance import (
-    batches,
-    correlation_length,
-    independent,
-    sandwich,
+    covariance_of,
     seen,
 )
-from stribeck.identify.problem import Problem
+from stribeck.identify.directions import Directions
+from stribeck.identify.matrix import ParameterMatrix
 from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
@@ -29,12 +27,15 @@ Array = NDArray[np.float64]
 #: ``"independent"``: errors are independent and of equal variance, as those of separately measured
 #: points. This is the textbook's ``s^2 (J'J)^-1`` with n - p degrees of freedom; on a sampled
 #: motion it is far too optimistic.
-Errors = Literal["robust", "independent"]
+#: ``"profile"``: as robust, with intervals from the profile likelihood instead of symmetric ones.
+#: ``"bootstrap"``: from refits to resampled blocks of the recording.
+Errors = Literal["robust", "independent", "profile", "bootstrap"]
+ERRORS: tuple[str, ...] = get_args(Errors)
 #: A parameter is at its bound within this share of its range.
 AT_BOUND = 1e-6
 #: A parameter is identifiable if the others leave at least this share of its effect: more than
 #: systematic errors of a recording, or more than rounding.
-APART: dict[Errors, float] = {"robust": 1e-4, "independent": 1e-8}
+APART, APART_INDEPENDENT = 1e-4, 1e-8
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,9 @@ class Estimate:
     """One identified parameter: value, standard error and 95 % interval in `unit`.
 
     A parameter that was `held` was not identified and has no standard error. `why` states for a
-    parameter that is not `identifiable` which others have the same effect.
+    parameter that is not `identifiable` which others have the same effect. `open` lists the ends of
+    the interval, ``"lower"`` or ``"upper"``, that the data does not determine: they are at a bound
+    of the parameter, or infinite.
     """
 
     name: str
@@ -57,6 +60,38 @@ class Estimate:
     upper: float
     held: bool = False
     why: str | None = None
+    open: tuple[str, ...] = ()
+
+    @classmethod
+    def symmetric(
+        cls,
+        parameter: Parameter,
+        value: float,
+        stderr: float | None,
+        quantile: float,
+        bounds: tuple[float, float],
+        *,
+        at_bound: bool,
+        identifiable: bool,
+        held: bool = False,
+        why: str | None = None,
+    ) -> Estimate:
+        """An estimate whose interval reaches `quantile` standard errors to both sides."""
+        reach = None if stderr is None else quantile * stderr
+        return cls(
+            name=parameter.name,
+            symbol=parameter.symbol,
+            value=value,
+            unit=parameter.unit,
+            stderr=stderr,
+            ci95=None if reach is None else (value - reach, value + reach),
+            at_bound=at_bound,
+            identifiable=identifiable,
+            lower=bounds[0],
+            upper=bounds[1],
+            held=held,
+            why=why,
+        )
 
     def to_dict(self) -> dict[str, object]:
         """As JSON."""
@@ -65,7 +100,8 @@ class Estimate:
             "value": self.value,
             "unit": self.unit,
             "stderr": self.stderr,
-            "ci95": list(self.ci95) if self.ci95 else None,
+            "ci95": [_finite(end) for end in self.ci95] if self.ci95 else None,
+            "ci95_open": list(self.open),
             "at_bound": self.at_bound,
             "identifiable": self.identifiable,
             "held": self.held,
@@ -73,21 +109,29 @@ class Estimate:
         }
 
 
-def estimates(
-    problem: Problem, values: Array, lower: Array, upper: Array, errors: Errors = "robust"
-) -> dict[str, Estimate]:
-    """The parameters at the solution `values` [p] between bounds, by name."""
-    if errors == "independent":
-        residual, jacobian = problem.linearise(values)
-        return estimates_by_rows(problem.model, values, lower, upper, jacobian, residual, None)
-    residual = problem.residual(values)
-    batch = batches(residual.size, correlation_length(residual))
-    count = int(batch.max()) + 1
-    parts = problem.triangles(values, np.arange(values.size), batch, count)
-    factors = np.concatenate([part.factor for part in parts])
-    rights = np.concatenate([part.right for part in parts])
-    group = np.repeat(np.arange(count, dtype=np.uint32), values.size)
-    return estimates_by_rows(problem.model, values, lower, upper, factors, rights, group)
+@dataclass(frozen=True)
+class Identified:
+    """All parameters of a fit, and how their errors depend on each other.
+
+    Attributes
+    ----------
+    estimates
+        By name.
+    covariance
+        Of the parameters that have a standard error.
+    combinations
+        What the data determines of the parameters that are not identifiable.
+    rank
+        Number of parameters, or combinations of them, that the data determines.
+    notes
+        What a reader has to know of the intervals.
+    """
+
+    estimates: dict[str, Estimate]
+    covariance: ParameterMatrix
+    combinations: tuple[Combination, ...]
+    rank: int
+    notes: tuple[str, ...] = ()
 
 
 def estimates_by_rows(
@@ -98,7 +142,7 @@ def estimates_by_rows(
     jacobian: Array,
     residual: Array,
     batch: NDArray[np.uint32] | None,
-) -> dict[str, Estimate]:
+) -> Identified:
     """The parameters, from the problem linearised at the solution.
 
     Parameters
@@ -109,41 +153,71 @@ def estimates_by_rows(
         Contiguous batches, from whose sums of scores the standard errors follow; None: errors are
         independent.
     """
-    errors: Errors = "independent" if batch is None else "robust"
+    apart = APART_INDEPENDENT if batch is None else APART
     held = lower == upper
-    at_bound = ~held & _reached(values, lower, upper)
-    shown = seen(jacobian, ~held, APART[errors])
-    free = shown & ~at_bound
-    if batch is None:
-        freedom = residual.size - int(free.sum())
-        covariance = independent(jacobian, residual, free)
-    else:
-        freedom = max(int(batch.max()), 1)
-        covariance = sandwich(jacobian, residual, batch, free)
+    at_bound = ~held & reached(values, lower, upper)
+    shown = seen(jacobian, ~held, apart)
+    covariance, freedom = covariance_of(jacobian, residual, batch, ~held & ~at_bound, apart)
+    known = shown & ~at_bound
     quantile = float(scipy.special.stdtrit(freedom, 0.975))
     names = model.names
     made = {}
     for k, p in enumerate(model.parameters):
-        error = float(np.sqrt(covariance[k, k])) if free[k] else None
+        error = float(np.sqrt(covariance[k, k])) if known[k] else None
         value = float(values[k])
-        made[p.name] = Estimate(
-            name=p.name,
-            symbol=p.symbol,
-            value=value,
-            unit=p.unit,
-            stderr=error,
-            ci95=None if error is None else (value - quantile * error, value + quantile * error),
+        made[p.name] = Estimate.symmetric(
+            p,
+            value,
+            error,
+            quantile,
+            (float(lower[k]), float(upper[k])),
             at_bound=bool(at_bound[k]),
             identifiable=bool(shown[k]),
-            lower=float(lower[k]),
-            upper=float(upper[k]),
             held=bool(held[k]),
             why=None if shown[k] or held[k] else reason(names, partners(jacobian, k, ~held)),
         )
-    return made
+    chosen = np.flatnonzero(known)
+    among = ParameterMatrix(tuple(names[k] for k in chosen), covariance[np.ix_(chosen, chosen)])
+    directions = Directions.of(jacobian, ~held)
+    found = directions.combinations(apart, held.size)
+    total = (
+        covariance
+        if not at_bound.any()
+        else (covariance_of(jacobian, residual, batch, ~held, apart)[0])
+    )
+    rank = directions.rank(apart)
+    return Identified(made, among, _combinations(model, values, found, total), rank)
 
 
-def _reached(values: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
+def _combinations(
+    model: Model, values: Array, found: Array, covariance: Array
+) -> tuple[Combination, ...]:
+    """The determined combinations, from their coefficients [d, p]."""
+    made = []
+    for row in found:
+        # A combination in the unit of torque, where there is one, is the easiest to read.
+        torques = (model.parameters[k].unit == model.torque_unit for k in np.flatnonzero(row))
+        among = np.flatnonzero(row)[np.argsort([not t for t in torques], kind="stable")]
+        scaled = row / row[among[0]]
+        chosen = [model.parameters[k] for k in among]
+        made.append(
+            Combination(
+                {p.name: float(scaled[k]) for p, k in zip(chosen, among, strict=True)},
+                float(scaled @ values),
+                float(np.sqrt(max(float(scaled @ covariance @ scaled), 0.0))),
+                chosen[0].unit,
+                len({p.unit for p in chosen}) == 1,
+                not all(p.linear for p in chosen),
+            )
+        )
+    return tuple(made)
+
+
+def reached(values: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
     """Which values are at a bound, bool array [p]; an infinite bound is never reached."""
     size = np.where(np.isfinite(upper - lower), upper - lower, np.maximum(np.abs(values), 1.0))
     return np.asarray((values <= lower + AT_BOUND * size) | (values >= upper - AT_BOUND * size))
+
+
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None

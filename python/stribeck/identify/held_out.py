@@ -37,6 +37,10 @@ class Refit(Protocol):
         """
 
 
+#: A second step has failed if it leaves so many times the sum of squares before the refit.
+ASTRAY = 2.0
+
+
 @dataclass(frozen=True)
 class Bounded:
     """Refits within bounds [p]; equal bounds hold a parameter."""
@@ -54,11 +58,16 @@ class Bounded:
         return refit
 
     def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
-        """Values after a second step, or of a damped search where the first raised the error."""
+        """Values after a second step, or of a damped search where a step raised the error."""
         free = np.flatnonzero(self.lower < self.upper)
         others = problem.triangle(refit, free, np.ones(free.size))
         if others is not None and others.square <= square:
-            return self.step(refit, others)
+            again = self.step(refit, others)
+            none = np.empty(0, dtype=np.intp)
+            after = problem.triangle(again, none, np.empty(0))
+            if after is not None and after.square <= ASTRAY * square:
+                return again
+            values = refit
         return minimise(problem, values, self.lower, self.upper, tolerance=SETTLED).values
 
 
@@ -105,7 +114,7 @@ def held_out_prediction(
         jacobian, parts = None, problem.triangles(values, free, group, count)
     else:
         residual, jacobian = problem.linearise(values, free)
-        parts = triangles(jacobian, residual, group, count)
+        parts = triangles(problem.weighted(jacobian), problem.weighted(residual), group, count)
     linear = all(p.linear for p in problem.model.parameters)
     for b in range(count):
         kept = group != b
@@ -130,7 +139,7 @@ def held_out_residual(problem: Problem, values: Array, lower: Array, upper: Arra
     count = problem.recording.block_count
     free = np.flatnonzero(lower < upper)
     residual, jacobian = problem.linearise(values, free)
-    parts = triangles(jacobian, residual, group, count)
+    parts = triangles(problem.weighted(jacobian), problem.weighted(residual), group, count)
     for b in np.unique(group):
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
         change = (Bounded(lower, upper).step(values, others) - values)[free]

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from stribeck import _core
+from stribeck.base import linear
 
 Array = NDArray[np.float64]
 
@@ -62,14 +62,9 @@ def solve_bounded(matrix: Array, vector: Array, lower: Array, upper: Array) -> A
         return vector.copy()
     size = np.sqrt(np.diag(matrix))
     scale = np.where(size > 0, size, 1.0)
-    weights, vectors = np.linalg.eigh(matrix / np.outer(scale, scale))
+    weights, vectors = linear.symmetric_eigen(matrix / np.outer(scale, scale))
     seen = weights > weights[-1] * 1e-12
     root = np.sqrt(weights[seen])[:, None] * vectors[:, seen].T
     right = (vectors[:, seen].T @ (vector / scale)) / np.sqrt(weights[seen])
-    free = np.linalg.lstsq(root, right, rcond=None)[0] / scale
-    if np.all(free >= lower) and np.all(free <= upper):
-        return free
-    bounded = scipy.optimize.lsq_linear(
-        root, right, bounds=(lower * scale, upper * scale), method="bvls"
-    )
-    return np.clip(bounded.x / scale, lower, upper)
+    solved = _core.bounded_least_squares(root, right, lower * scale, upper * scale)
+    return np.clip(solved / scale, lower, upper)

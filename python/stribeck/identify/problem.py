@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 from stribeck import _core
 from stribeck.base.errors import FitError
 from stribeck.base.pool import threads
-from stribeck.identify.measured import NOT_SUMMED, Found, Measured
+from stribeck.identify.measured import NOT_SUMMED, Found, Measured, search_options
 from stribeck.identify.triangle import Triangle, triangles
+from stribeck.identify.weights import root_weights
 from stribeck.models.channels import ChannelArguments
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
@@ -42,6 +43,8 @@ class Problem:
         the identified rigid body.
     span : (start, stop) or None
         The samples over which a model with a state is evaluated; None: all.
+    loss_weight : array [n] or None
+        Weights of a robust loss, which multiply those of the recording.
     """
 
     recording: Recording
@@ -49,6 +52,7 @@ class Problem:
     rows: NDArray[np.intp]
     load: Array | None = None
     span: tuple[int, int] | None = None
+    loss_weight: Array | None = None
 
     @cached_property
     def known(self) -> Array:
@@ -62,8 +66,19 @@ class Problem:
 
     @cached_property
     def torque_norm(self) -> float:
-        """Norm of the measured torque of `rows`."""
-        return float(np.sqrt(np.sum(self.target**2)))
+        """Norm of the measured torque of `rows`, weighted."""
+        return float(np.sqrt(np.sum(self.weighted(self.target) ** 2)))
+
+    @cached_property
+    def _root_weights(self) -> Array | None:
+        return root_weights(self.recording, self.loss_weight)
+
+    def weighted(self, values: Array) -> Array:
+        """`values` of the rows, array [m, ...], times the square roots of their weights."""
+        if self._root_weights is None:
+            return values
+        root = self._root_weights[self.rows]
+        return values * root.reshape(-1, *[1] * (values.ndim - 1))
 
     @cached_property
     def _all_channels(self) -> ChannelArguments:
@@ -189,10 +204,12 @@ class Problem:
     @cached_property
     def _own(self) -> Measured:
         """The data of the fit, in the form of the core."""
+        root = self._root_weights
         if self.model.memoryless:
             return {
                 "columns": self._row_channels,
                 "target": self.target - self.known[self.rows],
+                "scale": None if root is None else root[self.rows],
                 "group": np.zeros(self.rows.size, dtype=np.uint32),
                 "begins": [],
                 "moving": np.ones(self.rows.size, dtype=bool),
@@ -203,12 +220,13 @@ class Problem:
 
     def _measured(self, start: int, stop: int) -> Measured:
         """Contiguous samples, in the form of the core."""
-        r = self.recording
+        r, root = self.recording, self._root_weights
         group = np.full(stop - start, NOT_SUMMED)
         group[self.rows[(self.rows >= start) & (self.rows < stop)] - start] = 0
         return {
             "columns": self._channels_at(slice(start, stop)),
             "target": (r.torque - self.known)[start:stop],
+            "scale": None if root is None else root[start:stop],
             "group": group,
             "begins": (self._moving_begins(start, stop) - start).tolist(),
             "moving": r.moving[start:stop],
@@ -288,7 +306,7 @@ class Problem:
         except _core.ModelError:
             # A law of the catalog refuses values at which it is not defined.
             return None
-        scaled = Triangle.of(jacobian * slope, residual)
+        scaled = Triangle.of(self.weighted(jacobian * slope), self.weighted(residual))
         # One number that is not finite makes the factor not finite.
         return scaled if np.all(np.isfinite(scaled.whole())) else None
 
@@ -309,7 +327,7 @@ class Problem:
         """
         if not self.in_core:
             residual, jacobian = self.linearise(values, wanted)
-            return triangles(jacobian, residual, group, groups)
+            return triangles(self.weighted(jacobian), self.weighted(residual), group, groups)
         own = self._own["group"].copy()
         own[own != NOT_SUMMED] = group
         with self._named_errors():
@@ -330,6 +348,14 @@ class Problem:
         with self._named_errors():
             return _core.search(self.model.core, self._own, starts, within)
 
+    def reduced(
+        self, points: Array, lower: Array, upper: Array, sloped: bool
+    ) -> list[tuple[Array, float, Array] | None]:
+        """Values with the best linear parameters, sums of squares and slopes at `points` [n, p]."""
+        within = search_options(self.model, lower, upper)
+        with self._named_errors():
+            return _core.reduced(self.model.core, self._own, points, within, sloped)
+
     @contextmanager
     def _named_errors(self) -> Iterator[None]:
         """Name the model and the recording in an error of the core."""
@@ -341,9 +367,7 @@ class Problem:
     def thinned(self, most: int) -> Problem:
         """The same problem on at most `most` rows, evenly spaced."""
         step = -(-self.rows.size // most)
-        return (
-            self if step <= 1 else Problem(self.recording, self.model, self.rows[::step], self.load)
-        )
+        return self if step <= 1 else replace(self, rows=self.rows[::step])
 
     def window(self, most: int) -> Problem:
         """The same problem on at most `most` contiguous samples, those with the most reversals."""
@@ -355,4 +379,4 @@ class Problem:
         starts = np.arange(0, size - most + 1, most // 4)
         start = int(starts[np.argmax(count[starts + most - 1] - count[starts])])
         rows = self.rows[(self.rows >= start) & (self.rows < start + most)]
-        return Problem(self.recording, self.model, rows, self.load, (start, start + most))
+        return replace(self, rows=rows, span=(start, start + most))

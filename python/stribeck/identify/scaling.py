@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.dimensions import CHANNELS, natural_size
-from stribeck.base.errors import FitError, option
+from stribeck.base.errors import FitError, SpecError, option
 from stribeck.effect.constants import effect_constants
 from stribeck.effect.registry import of_catalog
 from stribeck.identify.drive_scaling import drive_scales, known_constants
@@ -60,8 +60,8 @@ def scale_values(recording: Recording) -> dict[str, float]:
 def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ...]:
     """The model's parameters with bounds and starts in their own units.
 
-    Bounds that a user gave (`Model.limits`) replace those of the catalog. A parameter that the
-    catalog holds has its known value, or else its start, as both bounds.
+    Bounds and starts that a user gave replace those of the catalog. A parameter that the catalog
+    holds has its known value, or else its start, as both bounds.
     """
     scales = scale_values(recording)
     made = []
@@ -73,9 +73,29 @@ def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ..
             lower, upper = model.limits[p.name]
         elif p.role == "held":
             lower = upper = float(value) if math.isfinite(value) else start
+        if p.name in model.stated.starts:
+            start = _checked_start(p, model.stated.starts[p.name], lower, upper)
         start = min(max(start, lower), upper)
-        made.append(replace(p, lower=lower, upper=upper, start=start))
+        drawn = _drawn(p.drawn[0] * scale, p.drawn[1] * scale, lower, upper)
+        made.append(replace(p, lower=lower, upper=upper, start=start, drawn=drawn))
     return tuple(made)
+
+
+def _checked_start(parameter: Parameter, start: float, lower: float, upper: float) -> float:
+    """A start that a user gave; raise `SpecError` if it is outside the bounds."""
+    if lower <= start <= upper:
+        return start
+    raise SpecError(
+        f"parameter {parameter.name} starts at {start:g}, outside {lower:g} .. {upper:g} "
+        f"{parameter.unit}: start inside, or give other bounds "
+        f"({option('bounds', f'{parameter.name}=LOW:HIGH')})"
+    )
+
+
+def _drawn(low: float, high: float, lower: float, upper: float) -> tuple[float, float]:
+    """The range of random starts within the bounds: the bounds if they exclude the range."""
+    low, high = max(low, lower), min(high, upper)
+    return (low, high) if low < high else (lower, upper)
 
 
 def _formula_start(parameter: Parameter, recording: Recording) -> float:
@@ -98,7 +118,7 @@ def bounds(model: Model, recording: Recording) -> tuple[Array, Array, Array]:
     return lower, upper, start
 
 
-#: Distance (K) of the base temperature below the coldest sample, for laws with no limit there.
+#: Least distance (K) of the base temperature from the coldest sample, for laws with no limit there.
 COLD_MARGIN = 20.0
 #: Speed up to which a law smooths the sign of the velocity, as a share of the largest one.
 SMOOTHING = 0.01
@@ -109,9 +129,9 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
 
     The base temperature is the mean temperature, where a temperature factor is least correlated
     with the friction that it multiplies; for a law that has no limit there it is well below the
-    data. The sign is smoothed at speeds where noise makes it uncertain, so that tanh is 1 on all
-    moving samples. An exponent that a law does not identify keeps the value of its paper. A law by
-    formula has no constants.
+    data, 0 degC where that is far enough. The sign is smoothed at speeds where noise makes it
+    uncertain, so that tanh is 1 on all moving samples. An exponent that a law does not identify
+    keeps the value of its paper. A law by formula has no constants.
     """
     row = law_row(law)
     if row is None:
@@ -127,7 +147,7 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
         coldest = float(np.min(recording.temperature))
         mean = float(np.mean(recording.temperature[recording.moving]))
         below = row["pole"] == "base_temperature"
-        given["base_temperature"] = coldest - COLD_MARGIN if below else mean
+        given["base_temperature"] = min(coldest - COLD_MARGIN, 0.0) if below else mean
     return {name: given[name] for name in row["constants"] if name in given}
 
 
@@ -171,6 +191,7 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
         effects=spec.effects,
         constants=constants,
         limits=spec.limits,
+        stated=spec.stated,
         rigid_body=rigid_body_terms(recording, spec.effects),
         torque_unit=recording.torque_unit,
         position_unit=recording.position_unit,

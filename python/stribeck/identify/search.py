@@ -8,16 +8,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.identify.algorithms import GAUSS_NEWTON, GLOBAL, search_from, search_range
+from stribeck.identify.effort import Effort
+from stribeck.identify.hops import HOPPING, gauss_newton, hopped
 from stribeck.identify.problem import Problem
 from stribeck.identify.separable import (
     CAUTIOUS,
-    TOLERANCE,
+    MOST_ROUNDS,
     Search,
     minimise,
     minimise_from,
     rounding,
 )
 from stribeck.identify.space import SearchSpace
+from stribeck.identify.starts import starts_between_bounds, starts_without_bounds
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -26,55 +30,95 @@ Mask = NDArray[np.bool_]
 SAME = 1e-4
 #: Searches end at the same place if their search coordinates agree to this as well.
 NEAR = 0.01
-#: A coarse search with more than so many times the sum of squares of the best one is dropped: more
-#: samples will not compensate for an error larger by a fifth.
+#: A search on very few samples with more than so many times the sum of squares of the best one is
+#: dropped: more samples will not compensate for an error larger by a fifth.
 HOPELESS = 1.5
+#: Searches on very few samples that continue on more.
+CONTINUED = 6
 #: Most restarts of a coarse search that ends where a parameter has no effect.
 ANEW = 3
 #: Sums of squares that agree to this share are at one minimum, or at equal minima.
 TIE = 1e-9
-#: Without bounds, random starts are the given one times or divided by at most this factor.
-SPREAD = 10.0
-#: A search of a model with a state starts on so many times fewer samples. So do searches without
-#: bounds, which take more steps, often of a formula, which is slower than a law of the catalog.
-FEWER = 4
-#: A coarse search with bounds, and one without, ends when the predicted relative decrease of its
-#: next step is smaller.
-COARSE, COARSE_WITHOUT_BOUNDS = 1e-6, 1e-12
-#: Most steps of a search from the given start where there are no bounds.
+#: Searches whose sum of squares on few samples is larger than the least by at most this share also
+#: continue on all samples, up to `MOST_FINISHED`: on all samples another one may be the best.
+CLOSE, MOST_FINISHED = 2e-3, 5
+#: A search of a model with a state starts on so many times fewer samples.
+FEWER = 2
+#: So do searches without bounds, which take more steps, often of a formula, which is slower than a
+#: law of the catalog.
+FEWER_WITHOUT_BOUNDS = 4
+#: A coarse search without bounds ends when the predicted relative decrease of its next step is
+#: smaller.
+COARSE_WITHOUT_BOUNDS = 1e-12
+#: As many starts again are searched where more than this share of them ended alone.
+UNSURE = 0.3
+#: Most steps of a search on all samples, and from the given start where there are no bounds.
 MOST_STEPS = 200
 
 
 @dataclass(frozen=True)
-class Effort:
-    """How thoroughly a model is fitted.
+class Ended:
+    """Where one of several starts ended.
 
     Attributes
     ----------
-    rows, samples
-        Samples used for the coarse search of each start; contiguous ones, `samples`, where a model
-        has a state.
+    search
+        The search on all samples where the start continued on them, else on fewer.
     evaluations
-        Most evaluations of one start; 0: the start is near the minimum and needs no search.
+        Number of evaluations.
+    leader
+        The start that continued for this one: itself, or an earlier one that reached the same
+        place.
     finished
-        Number of starts that continue on all samples, until the predicted relative decrease of the
-        sum of squares is below `tolerance`.
-    exact
-        Whether held-out predictions evaluate the model at each refit, or its linearisation.
+        Whether the start, or its leader, continued on all samples.
     """
 
-    rows: int = 4000
-    samples: int = 12000
-    evaluations: int = 60
-    finished: int = 2
-    tolerance: float = TOLERANCE
-    exact: bool = True
+    search: Search
+    evaluations: int
+    leader: int
+    finished: bool
 
 
-#: For a fit that is reported.
-THOROUGH = Effort()
-#: For one of many candidates whose values are roughly known.
-QUICK = Effort(evaluations=0, finished=1, tolerance=1e-6, exact=False)
+@dataclass(frozen=True)
+class StartsReport:
+    """What the starts of a search say about its minimum.
+
+    Attributes
+    ----------
+    algorithm
+        Algorithm of the coarse search.
+    at_minimum
+        Number of starts that ended at the place of the minimum.
+    new_place
+        Estimated probability that another start would end at a place that none has reached: the
+        share of starts that ended alone (Good 1953). None for a single start.
+    """
+
+    algorithm: str
+    at_minimum: int
+    new_place: float | None
+
+
+@dataclass(frozen=True)
+class Found:
+    """The best of many searches.
+
+    Attributes
+    ----------
+    search
+        The search with the least sum of squares, on all samples.
+    ends
+        Where each start ended.
+    evaluations
+        Number of evaluations of the model.
+    report
+        What the starts say.
+    """
+
+    search: Search
+    ends: tuple[Ended, ...]
+    evaluations: int
+    report: StartsReport
 
 
 def multi_start(
@@ -86,46 +130,57 @@ def multi_start(
     starts: int,
     seed: int,
     effort: Effort,
-) -> tuple[Search, int, int]:
-    """The best of searches from `start` and from random ones.
+) -> Found:
+    """The best of searches from `start` and from others.
 
-    Each start is continued by Levenberg and Marquardt's method. With bounds, random starts are
-    uniform between them (uniform in the logarithm where the lower bound is above zero). Where a
-    nonlinear parameter has no bounds, they lie within a factor of `SPREAD` of `start`, and `start`
-    itself is searched twice: in the logarithms of the parameters, which keep their signs, and in
-    the parameters.
+    The starts are searched on few samples. Those that end apart from each other, best first,
+    continue on all samples by Gauss-Newton steps. Where a nonlinear parameter has no bounds, random
+    starts lie within a factor of `SPREAD` of `start`, and `start` itself is searched twice: in the
+    logarithms of the parameters, which keep their signs, and in the parameters.
 
     Parameters
     ----------
     varied : bool array [p]
         Parameters that random starts change; linear ones are solved for.
-
-    Returns
-    -------
-    Search, starts, evaluations
     """
-    space = SearchSpace(problem.model, lower, upper)
-    nonlinear = space.nonlinear
-    # With a bristle the torque is nearly linear in the amplitudes of dry friction: a search finds
-    # them from any start, and random ones would only make the start worse.
-    amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
-    moved = varied & nonlinear & ~amplitude
+    space = SearchSpace.of(problem, lower, upper)
+    moved = varied & space.sought
     starts = max(starts, 1) if moved.any() else 1
-    bounded = bool(np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])))
-    rng = np.random.default_rng(seed)
-    if not nonlinear.any() or effort.evaluations == 0:
-        tried, evaluations = [Search(start, np.inf, True, "", 0)], 0
-    elif bounded:
-        tried, evaluations = _between_bounds(problem, space, start, moved, starts, rng, effort)
+    if not space.nonlinear.any() or effort.evaluations == 0:
+        tried = [Search(start, np.inf, True, "", 0)]
+    elif space.enclosed:
+        tried = _between_bounds(problem, space, start, moved, starts, seed, effort)
     else:
-        tried, evaluations = _without_bounds(problem, space, start, moved, starts, rng, effort)
+        tried = _without_bounds(problem, space, start, moved, starts, seed, effort)
+    return _finished(problem, space, tried, effort)
+
+
+def _finished(problem: Problem, space: SearchSpace, tried: list[Search], effort: Effort) -> Found:
+    """Continue the best of coarse searches on all samples."""
     noise = rounding(problem)
-    finished = []
-    for search in _distinct(tried, noise)[: effort.finished]:
-        done = minimise(problem, search.values, lower, upper, tolerance=effort.tolerance)
-        evaluations += done.evaluations
-        finished.append(done)
-    return _winner(finished, noise), starts, evaluations
+    leaders = _leaders(tried, space)
+    evaluations = [search.evaluations for search in tried]
+    done: dict[int, Search] = {}
+    for k in _continued(tried, leaders, noise, effort.finished):
+        found = minimise(
+            problem,
+            tried[k].values,
+            space.lower,
+            space.upper,
+            tolerance=effort.tolerance,
+            most=MOST_STEPS if effort.evaluations else MOST_ROUNDS,
+        )
+        evaluations[k] += found.evaluations
+        done[int(leaders[k])] = found
+    ends = tuple(
+        Ended(done.get(leader, tried[leader]), count, leader, leader in done)
+        for leader, count in zip(leaders.tolist(), evaluations, strict=True)
+    )
+    best = _winner(list(done.values()), noise)
+    alone = _alone(leaders) if len(tried) > 1 else None
+    at_minimum = sum(end.search is best for end in ends)
+    report = StartsReport(effort.algorithm, at_minimum, alone)
+    return Found(best, ends, sum(evaluations), report)
 
 
 def _coarse(problem: Problem, effort: Effort) -> list[Problem]:
@@ -142,23 +197,66 @@ def _between_bounds(
     start: Array,
     moved: Mask,
     starts: int,
-    rng: np.random.Generator,
+    seed: int,
     effort: Effort,
-) -> tuple[list[Search], int]:
-    """Coarse searches, best first, and their evaluations."""
-    at = np.tile(start, (starts, 1))
-    for drawn in at[1:]:
-        drawn[moved] = space.drawn(start, rng)[moved]
-    evaluations = 0
-    tried: list[Search] = []
-    for coarse in _coarse(problem, effort):
-        tried = _searched(coarse, at, space, effort)
-        evaluations += sum(search.evaluations for search in tried)
-        apart = _apart(tried, space)
-        tried = [search for search in apart if search.square <= HOPELESS * apart[0].square]
-        tried = tried[: effort.finished]
-        at = np.stack([search.values for search in tried])
-    return tried, evaluations
+) -> list[Search]:
+    """The coarse search of each start.
+
+    With a memory, starts that are far behind on very few samples do not continue on more.
+    """
+    first, *rest = _coarse(problem, effort)
+    if effort.algorithm in GLOBAL:
+        most = starts * effort.evaluations
+        end = search_range(first, space, start, effort.algorithm, most, seed)
+        tried = [_taken_on(end, _searched(first, end.values[None, :], space, effort)[0])]
+    else:
+        at = starts_between_bounds(first, space, start, moved, starts, seed)
+        tried = _searched(first, at, space, effort)
+    for more in rest:
+        continued = _promising(tried, space)
+        at = np.stack([tried[k].values for k in continued])
+        # On more samples the sum of squares is larger: those that stay behind are compared by what
+        # they had in excess.
+        best = min(search.square for search in tried)
+        found = _searched(more, at, space, effort)
+        level = min(search.square for search in found) / best if best > 0.0 else 1.0
+        tried = [replace(search, square=search.square * level) for search in tried]
+        for k, search in zip(continued, found, strict=True):
+            tried[k] = _taken_on(tried[k], search)
+        first = more
+    if moved.sum() < HOPPING or not problem.in_core or effort.algorithm != GAUSS_NEWTON:
+        return tried
+    best = int(np.argmin([search.square for search in tried]))
+    if _alone(_leaders(tried, space)) > UNSURE:
+        at = starts_between_bounds(first, space, start, moved, 2 * starts, seed)[starts:]
+        others = _searched(first, at, space, effort)
+        tried[best] = _better(tried[best], others)
+    tried[best] = hopped(first, space, tried[best], moved, seed, effort)
+    return tried
+
+
+def _better(one: Search, others: list[Search]) -> Search:
+    """The search with the least sum of squares, with the evaluations of all."""
+    evaluations = sum(search.evaluations for search in (one, *others))
+    return replace(min((one, *others), key=lambda search: search.square), evaluations=evaluations)
+
+
+def _alone(leaders: NDArray[np.intp]) -> float:
+    """The share of starts that ended where no other did."""
+    _, sizes = np.unique(leaders, return_counts=True)
+    return float(np.sum(sizes == 1)) / leaders.size
+
+
+def _taken_on(before: Search, after: Search) -> Search:
+    return replace(after, evaluations=before.evaluations + after.evaluations)
+
+
+def _promising(tried: list[Search], space: SearchSpace) -> list[int]:
+    """Indices of searches that ended at different places, best first, without hopeless ones."""
+    leaders = np.unique(_leaders(tried, space)).tolist()
+    ranked = sorted(leaders, key=lambda k: tried[k].square)
+    near = [k for k in ranked if tried[k].square <= HOPELESS * tried[ranked[0]].square]
+    return (near or ranked)[:CONTINUED]
 
 
 def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) -> list[Search]:
@@ -168,20 +266,7 @@ def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) ->
     cannot continue. Such a search starts again elsewhere if an earlier search ended where these
     parameters have an effect.
     """
-
-    def searched(at: Array) -> list[Search]:
-        return minimise_from(
-            coarse,
-            at,
-            space.lower,
-            space.upper,
-            most=effort.evaluations,
-            damping=CAUTIOUS,
-            logarithmic=space.logarithmic,
-            tolerance=COARSE,
-        )
-
-    found = searched(at)
+    found = _descended(coarse, at, space, effort)
     at = at.copy()
     for _ in range(ANEW):
         lost = _lost(found, space)
@@ -189,11 +274,20 @@ def _searched(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) ->
             break
         for k in lost:
             at[k] = space.further(at[k], found[k].blind)
-        for k, again in zip(lost, searched(at[list(lost)]), strict=True):
-            evaluations = found[k].evaluations + again.evaluations
+        for k, again in zip(lost, _descended(coarse, at[list(lost)], space, effort), strict=True):
             better = again if again.square < found[k].square else found[k]
-            found[k] = replace(better, evaluations=evaluations)
+            found[k] = replace(better, evaluations=found[k].evaluations + again.evaluations)
     return found
+
+
+def _descended(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) -> list[Search]:
+    """One coarse search from each of `at`, array [k, p]; nlopt's ends take Gauss-Newton steps."""
+    if effort.algorithm == GAUSS_NEWTON or effort.algorithm in GLOBAL:
+        return gauss_newton(coarse, at, space, effort.evaluations)
+    found = search_from(coarse, space, at, effort.algorithm, effort.evaluations)
+    ends = np.stack([search.values for search in found])
+    steps = gauss_newton(coarse, ends, space, effort.evaluations)
+    return [_taken_on(one, other) for one, other in zip(found, steps, strict=True)]
 
 
 def _lost(found: list[Search], space: SearchSpace) -> list[int]:
@@ -209,75 +303,20 @@ def _lost(found: list[Search], space: SearchSpace) -> list[int]:
     return lost
 
 
-def _apart(tried: list[Search], space: SearchSpace) -> list[Search]:
-    """One of each group of searches that ended at the same place, best first."""
-    ranked = sorted(tried, key=lambda search: search.square)
-    return [ranked[k] for k in np.unique(_leaders(ranked, space))]
-
-
 def _leaders(ended: Sequence[Search], space: SearchSpace) -> NDArray[np.intp]:
     """For each coarse search the first that ended at the same place: itself or an earlier one."""
-    places = space.encode(np.stack([search.values for search in ended]))
     squares = np.array([search.square for search in ended])
     leaders = np.arange(squares.size)
+    if not space.nonlinear.any():
+        return leaders
+    places = space.encode(np.stack([search.values for search in ended]))
     for k in leaders[1:]:
         own = np.unique(leaders[:k])
         with np.errstate(invalid="ignore"):  # A sum is infinite where the model is not finite.
             level = np.abs(squares[k] - squares[own]) <= SAME * squares[own]
-        near = np.all(np.abs(places[k] - places[own]) <= NEAR, axis=1)
+            near = np.all(np.abs(places[k] - places[own]) <= NEAR, axis=1)
         leaders[k] = next(iter(own[level & near]), k)
     return leaders
-
-
-@dataclass(frozen=True)
-class Ended:
-    """Where one of several starts ended.
-
-    Attributes
-    ----------
-    search
-        The search on all samples.
-    evaluations
-        Evaluations on fewer samples, and on all samples where this start itself continued.
-    leader
-        The start that continued for this one: itself, or an earlier one that reached the same
-        place.
-    """
-
-    search: Search
-    evaluations: int
-    leader: int
-
-
-def search_each(
-    problem: Problem, lower: Array, upper: Array, starts: Array, effort: Effort
-) -> list[Ended]:
-    """The minimum on all samples that each of `starts` leads to, array [k, p], between bounds.
-
-    Of starts that a coarse search brings to the same place only the first continues. So the result
-    of a start depends on earlier starts, not on later ones.
-    """
-    space = SearchSpace(problem.model, lower, upper)
-    leader = np.arange(starts.shape[0])
-    evaluations = np.zeros(leader.size, dtype=np.int64)
-    at = starts.copy()
-    coarse = _coarse(problem, effort) if space.nonlinear.any() else []
-    for fewer in coarse:
-        own = np.unique(leader)
-        found = _searched(fewer, at[own], space, effort)
-        for k, search in zip(own, found, strict=True):
-            at[k] = search.values
-            evaluations[k] += search.evaluations
-        leader = own[_leaders(found, space)][np.searchsorted(own, leader)]
-    own = np.unique(leader)
-    done = minimise_from(problem, at[own], lower, upper, tolerance=effort.tolerance)
-    ends = dict(zip(own, done, strict=True))
-    for k, search in ends.items():
-        evaluations[k] += search.evaluations
-    return [
-        Ended(ends[first], int(count), int(first))
-        for first, count in zip(leader, evaluations, strict=True)
-    ]
 
 
 def _without_bounds(
@@ -286,18 +325,18 @@ def _without_bounds(
     start: Array,
     moved: Mask,
     starts: int,
-    rng: np.random.Generator,
+    seed: int,
     effort: Effort,
-) -> tuple[list[Search], int]:
-    """Coarse searches in order, and their evaluations."""
+) -> list[Search]:
+    """Coarse searches where a nonlinear parameter has no bounds, in order."""
     lower, upper = space.lower, space.upper
-    fewer = replace(effort, rows=effort.rows // FEWER, samples=effort.samples // FEWER)
+    few = FEWER_WITHOUT_BOUNDS
+    fewer = replace(effort, rows=effort.rows // few, samples=effort.samples // few)
     coarse = _coarse(problem, fewer)[-1]
     signed = space.nonlinear & (start != 0.0)
-    tried: list[Search] = []
 
-    def search(at: Array, logarithmic: Mask, most: int) -> None:
-        found = minimise_from(
+    def searched(at: Array, logarithmic: Mask, most: int) -> list[Search]:
+        return minimise_from(
             coarse,
             at,
             lower,
@@ -307,28 +346,37 @@ def _without_bounds(
             logarithmic=logarithmic,
             tolerance=COARSE_WITHOUT_BOUNDS,
         )
-        tried.extend(found)
 
+    at = starts_without_bounds(space, start, moved, starts - 1, seed)
+    if effort.algorithm != GAUSS_NEWTON:
+        given = np.concatenate([start[None, :], at])
+        return _descended(coarse, given, space, effort)
     # First the search that keeps the signs: a formula may have the same torque at several values.
-    search(start[None, :], signed, MOST_STEPS)
-    search(start[None, :], np.zeros_like(signed), MOST_STEPS)
-    at = np.tile(start, (starts - 1, 1))
-    for drawn in at:
-        factor = SPREAD ** rng.uniform(-1.0, 1.0, size=start.size)
-        drawn[moved] = np.where(signed, start * factor, factor - 1.0)[moved]
-    search(np.clip(at, lower, upper), signed, effort.evaluations)
-    return tried, sum(search.evaluations for search in tried)
+    signs = searched(start[None, :], signed, MOST_STEPS)[0]
+    free = searched(start[None, :], np.zeros_like(signed), MOST_STEPS)[0]
+    first = free if free.square < (1.0 - SAME) * signs.square else signs
+    first = replace(first, evaluations=signs.evaluations + free.evaluations)
+    return [first, *searched(at, signed, effort.evaluations)]
 
 
-def _distinct(tried: list[Search], noise: float) -> list[Search]:
-    """The searches that ended at different places, best first.
+def _continued(
+    tried: list[Search], leaders: NDArray[np.intp], noise: float, finished: int
+) -> list[int]:
+    """Indices of the searches that continue on all samples, best first.
 
-    Of those with the same sum of squares the first is kept.
+    Of those at one place the first continues, or the first whose sum of squares is the same but for
+    rounding.
     """
-    kept: list[Search] = []
-    for search in sorted(tried, key=lambda search: search.square):
-        if not any(abs(search.square - k.square) <= SAME * k.square for k in kept):
-            kept.append(next(first for first in tried if _same(first, search, noise)))
+    ranked = sorted(np.unique(leaders).tolist(), key=lambda k: tried[k].square)
+    close = (1.0 + CLOSE) * tried[ranked[0]].square
+    kept: list[int] = []
+    for k in ranked:
+        few = len(kept) < finished or (
+            finished > 1 and len(kept) < MOST_FINISHED and tried[k].square <= close
+        )
+        if few and not any(_same(tried[k], tried[j], noise) for j in kept):
+            first = next(j for j, other in enumerate(tried) if _same(other, tried[k], noise))
+            kept.append(first if leaders[first] == first else k)
     return kept
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
+from stribeck.identify.measured import search_options
 from stribeck.identify.problem import Problem
 from stribeck.identify.triangle import Triangle
 from stribeck.models.model import Model
@@ -132,15 +133,15 @@ def minimise_from(
     logarithmic: NDArray[np.bool_] | None = None,
 ) -> list[Search]:
     """`minimise` from each of several `starts` [k, p]; for data in memory on all threads."""
-    within = {
-        "lower": lower,
-        "upper": upper,
-        "linear": [bool(p.linear) for p in problem.model.parameters],
-        "logarithmic": np.zeros(lower.size, dtype=bool) if logarithmic is None else logarithmic,
-        "tolerance": tolerance,
-        "most": most,
-        "damping": damping,
-    }
+    within = search_options(
+        problem.model,
+        lower,
+        upper,
+        logarithmic=logarithmic,
+        tolerance=tolerance,
+        most=most,
+        damping=damping,
+    )
     if isinstance(problem, Problem) and problem.in_core:
         found = problem.search(starts, within)
     else:

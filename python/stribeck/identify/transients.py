@@ -12,6 +12,7 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.identify.figures import zero_phase
 from stribeck.identify.normal import NormalEquations
 from stribeck.recording.recording import Recording
@@ -120,7 +121,7 @@ def _left_out(
     residual = np.zeros_like(target)
     first = np.searchsorted(window, np.arange(WINDOWS + 1))
     for w, (start, stop) in enumerate(itertools.pairwise(first)):
-        left = np.linalg.solve(matrix - sums.matrix[w] + ridge, vector - sums.vector[w])
+        left = linear.solve(matrix - sums.matrix[w] + ridge, vector - sums.vector[w])
         rows = slice(start, stop)
         residual[rows] = np.where(moving[rows], target[rows] - columns[rows] @ left, 0.0)
     return residual

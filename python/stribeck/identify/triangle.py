@@ -7,12 +7,14 @@ same bits on any machine and with any number of threads.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
+from stribeck.base import linear
 
 Array = NDArray[np.float64]
 
@@ -62,8 +64,8 @@ class Triangle:
 
     def _with_residual_of(self, parts: list[Triangle]) -> Triangle:
         """Include the part of the residual that no parameters can reduce, of every part."""
-        rest = np.linalg.norm([self.rest, *(part.rest for part in parts)])
-        return Triangle(self.factor, self.right, float(rest))
+        rest = math.hypot(self.rest, *(part.rest for part in parts))
+        return Triangle(self.factor, self.right, rest)
 
     @classmethod
     def of_whole(cls, whole: Array) -> Triangle:
@@ -102,9 +104,10 @@ class Triangle:
     def covariance(self) -> Array:
         """Pseudo-inverse of J'J [p, p], without unidentifiable directions."""
         scale = _lengths(self.factor)
-        inverse = np.linalg.pinv(self.factor / scale, rcond=UNSEEN)
-        inverse = inverse / scale[:, None]
-        return np.asarray(inverse @ inverse.T)
+        weights, vectors = linear.singular(self.factor / scale)
+        shown = weights > UNSEEN * weights.max(initial=0.0)
+        root = vectors[shown].T / weights[shown] / scale[:, None]
+        return np.asarray(root @ root.T)
 
 
 def triangles(

@@ -24,6 +24,7 @@ from stribeck.models.compiled import compiled
 from stribeck.models.drive import ARMATURE, KNOWN, VoltageDrive
 from stribeck.models.formula_law import FormulaTerms, check_names, effect_terms, is_formula
 from stribeck.models.parameter import Parameter, declared
+from stribeck.models.stated import Stated
 from stribeck.models.writer import write_model
 
 Array = NDArray[np.float64]
@@ -63,6 +64,8 @@ class Model:
     limits
         Bounds that a user gave, by parameter. They replace those of the catalog; equal ones hold a
         parameter.
+    stated
+        What else a user stated about parameters.
 
     Examples
     --------
@@ -84,6 +87,7 @@ class Model:
     drive: str | None = None
     own: tuple[FormulaTerms, ...] = ()
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    stated: Stated = field(default_factory=Stated)
 
     def __post_init__(self) -> None:
         if self.own:

@@ -18,9 +18,10 @@ if TYPE_CHECKING:
 class Parameter:
     """What one parameter is: its name, symbol in the literature, unit and bounds.
 
-    `lower`, `upper` and `start` are in `unit` once the model is scaled to a recording, and
-    multiples of `scale` before. A formula's parameter has no bounds unless they are stated. Where
-    no start is stated it follows from the parameter's `dimension`, and `start` is NaN.
+    `lower`, `upper`, `start` and `drawn`, the range of random starts, are in `unit` once the model
+    is scaled to a recording, and multiples of `scale` before. A formula's parameter has no bounds
+    unless they are stated. Where no start is stated it follows from the parameter's `dimension`,
+    and `start` is NaN.
     """
 
     name: str
@@ -34,6 +35,7 @@ class Parameter:
     role: str
     description: str
     dimension: Powers | None = None
+    drawn: tuple[float, float] = (-math.inf, math.inf)
 
     @classmethod
     def of(cls, row: ParameterRow, load_unit: str, position_unit: str) -> Parameter:
@@ -49,6 +51,7 @@ class Parameter:
             linear=row["linear"],
             role=row["role"],
             description=row["description"],
+            drawn=row.get("drawn", (row["lower"], row["upper"])),
         )
 
 
@@ -69,6 +72,7 @@ def declared(
         lower=stated.lower,
         upper=stated.upper,
         start=math.nan if stated.start is None else stated.start,
+        drawn=(stated.lower, stated.upper),
         dimension=terms.dimensions[k],
     )
 

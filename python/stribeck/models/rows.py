@@ -23,10 +23,12 @@ class ParameterRow(_StatedParameter, total=False):
     """One parameter of a law or an effect.
 
     ``unit`` is written with T for torque or force and X for position; ``lower``, ``upper`` and
-    ``start`` are multiples of ``scale``. ``linear`` is stated of a compiled model's parameters.
+    ``start`` are multiples of ``scale``, and so is ``drawn``, the range of random starts
+    (default: the bounds). ``linear`` is stated of a compiled model's parameters.
     """
 
     linear: bool
+    drawn: tuple[float, float]
 
 
 class LawRow(TypedDict):

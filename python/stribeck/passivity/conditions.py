@@ -83,6 +83,11 @@ class Conditions:
     sizes: Array = field(default_factory=lambda: np.empty(0))
     reserve: float = 0.0
 
+    @property
+    def count(self) -> int:
+        """Number of requirements."""
+        return len(self.requirements)
+
     def shares(self, values: Array) -> tuple[Array, Array]:
         """Margins beyond the reserve as shares of their sizes [n], and their slopes [n, p].
 

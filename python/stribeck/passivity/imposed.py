@@ -16,11 +16,14 @@ from numpy.typing import NDArray
 
 from stribeck import _core
 from stribeck.base.errors import FitError, SpecError, option
+from stribeck.identify.conditions import Together
+from stribeck.identify.constrained import minimise_under
+from stribeck.identify.objective import Objective
 from stribeck.identify.problem import Problem
+from stribeck.identify.region import Region
 from stribeck.models.model import Model
 from stribeck.passivity.check import BUDGET
 from stribeck.passivity.conditions import Conditions, FrictionOf
-from stribeck.passivity.constrained import minimise_under
 from stribeck.passivity.operating_box import Box, operating_box
 
 Array = NDArray[np.float64]
@@ -77,11 +80,10 @@ class Passive:
 
 
 def impose(
-    problem: Problem,
+    objective: Objective,
     values: Array,
     typical: Array,
-    lower: Array,
-    upper: Array,
+    region: Region,
     box_of: Callable[[Array, Array | None], Box],
     renewed: Callable[[Problem, Array], Problem],
 ) -> Passive:
@@ -89,9 +91,11 @@ def impose(
 
     Parameters
     ----------
-    values, typical, lower, upper : arrays [p]
-        The best values without conditions; the typical start of a search, used where `values` lead
-        to no passive model; bounds.
+    values, typical : arrays [p]
+        The best values without conditions of passivity; the typical start of a search, used where
+        `values` lead to no passive model.
+    region
+        Bounds, ties and the conditions that hold besides passivity.
     box_of
         The operating box for values and their load torque.
     renewed
@@ -102,6 +106,7 @@ def impose(
     FitError
         No values within the bounds were proved passive.
     """
+    problem = objective.problem
     conditions = Conditions(FrictionOf.of(problem.model.with_values(values)))
     evaluations, converged = 0, True
     for _ in range(MOST_ROUNDS):
@@ -110,9 +115,11 @@ def impose(
         if more is None:
             return Passive(values, problem, conditions, converged, evaluations)
         conditions = more
-        searches = [minimise_under(problem, values, lower, upper, conditions)]
+        within = replace(region, conditions=Together((region.conditions, conditions)))
+        whole = replace(objective, problem=problem)
+        searches = [minimise_under(whole, values, within)]
         if not np.isfinite(searches[0].square):
-            searches.append(minimise_under(problem, typical, lower, upper, conditions))
+            searches.append(minimise_under(whole, typical, within))
         search = searches[-1]
         evaluations += sum(search.evaluations for search in searches)
         if not np.isfinite(search.square):
@@ -122,7 +129,7 @@ def impose(
     raise FitError(
         f"{problem.model.spec} was not proved passive in {MOST_ROUNDS} rounds, with "
         f"{len(conditions.requirements)} conditions held: narrow the bounds "
-        f"({option('bound')}), or use another law"
+        f"({option('bounds')}), or use another law"
     )
 
 
@@ -190,6 +197,6 @@ def _impossible(spec: str, conditions: Conditions, values: Array) -> str:
     }[worst.kind]
     return (
         f"no passive {spec} was found within its bounds: with the best values "
-        f"{kind} ({at}); widen the bounds ({option('bound')}), leave an effect out, or use "
+        f"{kind} ({at}); widen the bounds ({option('bounds')}), leave an effect out, or use "
         f"another law"
     )

@@ -14,18 +14,25 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError
+from stribeck.recording.names import parse_name
 
 if TYPE_CHECKING:
     import h5py
 
 __all__ = ["read_mat", "read_npz"]
 
+#: How many of the arrays that are left out are named.
+_SHOWN = 6
 #: An array of any type.
 Array = NDArray[Any]
 
 
-def _from_arrays(name: str, arrays: Mapping[str, Array]) -> pl.DataFrame:
-    """A table of the arrays that have the most common length."""
+def _from_arrays(name: str, arrays: Mapping[str, Array]) -> tuple[pl.DataFrame, tuple[str, ...]]:
+    """A table of the arrays of one length, and notes on those of other lengths.
+
+    Of several lengths the one with a clock and a motion is taken, then the one with most arrays,
+    then the largest.
+    """
     columns: dict[str, Array] = {}
     for key, value in arrays.items():
         _spread(key, np.asarray(value), columns)
@@ -34,8 +41,27 @@ def _from_arrays(name: str, arrays: Mapping[str, Array]) -> pl.DataFrame:
         lengths = Counter(len(column) for column in columns.values())
     if not lengths:
         raise RecordingError(f"{name}: holds no arrays of numbers")
-    length = max(lengths, key=lambda n: (lengths[n], n))
-    return pl.DataFrame({key: column for key, column in columns.items() if len(column) == length})
+
+    def worth(n: int) -> tuple[bool, int, int]:
+        channels = {parse_name(key).channel for key, c in columns.items() if len(c) == n}
+        recorded = "time" in channels and not channels.isdisjoint(("position", "velocity"))
+        return recorded, lengths[n], n
+
+    length = max(lengths, key=worth)
+    left = {key: len(column) for key, column in columns.items() if len(column) not in (1, length)}
+    table = pl.DataFrame({key: c for key, c in columns.items() if len(c) == length})
+    return table, _left_out(left, length)
+
+
+def _left_out(left: Mapping[str, int], length: int) -> tuple[str, ...]:
+    """A note on the arrays of other lengths, the longest first."""
+    if not left:
+        return ()
+    listed = sorted(left, key=lambda key: -left[key])
+    shown = ", ".join(f"{key} ({left[key]})" for key in listed[:_SHOWN])
+    more = f" and {len(listed) - _SHOWN} more" if len(listed) > _SHOWN else ""
+    what = "1 array is" if len(left) == 1 else f"{len(left)} arrays are"
+    return (f"{what} left out, not {length} long: {shown}{more}",)
 
 
 def _spread(key: str, value: Array, columns: dict[str, Array]) -> None:
@@ -45,7 +71,13 @@ def _spread(key: str, value: Array, columns: dict[str, Array]) -> None:
             inner = value[field]
             if inner.dtype == object and inner.size == 1:
                 inner = np.asarray(inner.reshape(-1)[0])
-            _spread(field, inner, columns)
+            found: dict[str, Array] = {}
+            _spread(field, inner, found)
+            for column, values in found.items():
+                there = columns.get(column)
+                same = there is None or np.array_equal(there, values)
+                # Fields of two structs may have one name.
+                columns[column if same else f"{key}.{column}"] = values
         return
     if value.dtype.kind == "O":
         try:
@@ -68,8 +100,8 @@ def _spread(key: str, value: Array, columns: dict[str, Array]) -> None:
             columns[f"{key}_{i + 1}"] = np.ascontiguousarray(table[:, i])
 
 
-def read_npz(name: str, data: bytes) -> pl.DataFrame:
-    """The table of a .npz file."""
+def read_npz(name: str, data: bytes) -> tuple[pl.DataFrame, tuple[str, ...]]:
+    """The table of a .npz file, and notes on what is left out."""
     try:
         with np.load(io.BytesIO(data), allow_pickle=False) as archive:
             arrays = {key: archive[key] for key in archive.files}
@@ -81,8 +113,8 @@ def read_npz(name: str, data: bytes) -> pl.DataFrame:
     return _from_arrays(name, arrays)
 
 
-def read_mat(name: str, data: bytes) -> pl.DataFrame:
-    """The table of a .mat file of any version."""
+def read_mat(name: str, data: bytes) -> tuple[pl.DataFrame, tuple[str, ...]]:
+    """The table of a .mat file of any version, and notes on what is left out."""
     if (
         re.match(rb"MATLAB 7\.3", data[:32])
         or data[512:520] == b"\x89HDF\r\n\x1a\n"
@@ -102,7 +134,7 @@ def read_mat(name: str, data: bytes) -> pl.DataFrame:
     )
 
 
-def _read_mat73(name: str, data: bytes) -> pl.DataFrame:
+def _read_mat73(name: str, data: bytes) -> tuple[pl.DataFrame, tuple[str, ...]]:
     try:
         import h5py
     except ImportError:

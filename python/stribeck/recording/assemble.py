@@ -6,23 +6,38 @@ from dataclasses import replace
 
 import numpy as np
 
-from stribeck.base.errors import RecordingError
+from stribeck.base.errors import RecordingError, option
+from stribeck.base.units import SI
 from stribeck.recording.arrays import Ints, bools
 from stribeck.recording.averaged import averaged
 from stribeck.recording.channels import Channels, Layout, require, wanted_channels
+from stribeck.recording.consistency.run import checked
 from stribeck.recording.drive import with_drive
 from stribeck.recording.hold_out import with_hold_out
 from stribeck.recording.joint_units import natural_unit, settle_units
+from stribeck.recording.mend.rows import drop_bad_rows
+from stribeck.recording.mend.stamps import drop_repeated_stamps
+from stribeck.recording.mend.wraps import unwrap
+from stribeck.recording.names import CHANNELS
+from stribeck.recording.proposals import propose
 from stribeck.recording.recording import Column, Recording
+from stribeck.recording.reference import check_reference, load_reference, with_reference
 from stribeck.recording.sampled import sampled
 from stribeck.recording.samples import check_time, drop_missing, in_runs
-from stribeck.recording.table import Prepared
+from stribeck.recording.table import Prepared, columns_of
+from stribeck.recording.torque_at import guess_torque_at
+from stribeck.recording.weights import check_scored_weights
 
-__all__ = ["build"]
+__all__ = ["build", "nothing_moves"]
 
 
 def build(
-    prepared: Prepared, joint: str | None, rows: Ints, *, standstill: bool = False
+    prepared: Prepared,
+    joint: str | None,
+    rows: Ints,
+    *,
+    standstill: bool = False,
+    mend: bool = True,
 ) -> Recording:
     """Build the recording of one joint.
 
@@ -32,6 +47,8 @@ def build(
         Rows of the table that belong to the joint, [n].
     standstill
         Accept a recording in which nothing moves.
+    mend
+        Whether bad rows are left out and positions unwrapped; parts of a data set are not mended.
 
     Raises
     ------
@@ -40,19 +57,10 @@ def build(
     """
     require(prepared)
     settings = prepared.settings
-    data = Channels(prepared, rows)
-    for channel in wanted_channels(prepared):
-        data.load(channel)
-    data.drop_empty()
-    dropped = drop_missing(data)
-    run_names, run = in_runs(data)
-    # Samples of a run together, in the order of the file.
-    order = np.argsort(run, kind="stable")
-    if not np.array_equal(order, np.arange(len(order))):
-        data.reorder(order)
-        run = run[order]
-    check_time(data, run)
+    data, run, run_names, dropped = _loaded(prepared, rows, mend=mend)
     kind, torque_unit, position_unit = settle_units(data)
+    _say_assumed(data, kind)
+    _say_proposed(data)
     layout = Layout(joint, kind, torque_unit, position_unit, run, run_names, dropped)
     _describe(data, layout)
     if prepared.rows_removed:
@@ -60,14 +68,54 @@ def build(
         samples = "1 sample" if count == 1 else f"{count} samples"
         data.notes.append(f"{samples} removed by where: {settings.where}")
     made = averaged(data, layout) if settings.average else sampled(data, layout)
+    made = with_reference(made, data)
+    made = replace(made, torque_at=_torque_at(prepared))
     if settings.rows == "all":
         made = _all_scored(made)
+    checks = (*data.doubts, *checked(made, prepared, data.rows))
+    made = replace(made, checks=checks, trusted=settings.trust)
     if not (settings.average or standstill or made.moving.any()):
-        raise _nothing_moves(made)
+        raise nothing_moves(made)
+    if made.weight is not None:
+        check_scored_weights(made)
     made = with_drive(made, prepared, data.values)
     if settings.average or settings.hold_out is None:
         return made
     return with_hold_out(made, prepared, data.rows, settings.hold_out)
+
+
+def _loaded(
+    prepared: Prepared, rows: Ints, *, mend: bool
+) -> tuple[Channels, Ints, tuple[str, ...], int]:
+    """The channels in order, mended; the run of each sample, their names, and how many lacked one.
+
+    Raises
+    ------
+    RecordingError
+        Values are missing, or time does not increase.
+    """
+    data = Channels(prepared, rows)
+    for channel in wanted_channels(prepared):
+        data.load(channel)
+    if prepared.weight is not None:
+        data.values["weight"] = prepared.weight[rows]
+    data.drop_empty()
+    load_reference(data, prepared)
+    dropped = drop_missing(data)
+    check_reference(data)
+    run_names, run = in_runs(data)
+    # Samples of a run together, in the order of the file.
+    order = np.argsort(run, kind="stable")
+    if not np.array_equal(order, np.arange(len(order))):
+        data.reorder(order)
+        run = run[order]
+    if mend:
+        run = drop_repeated_stamps(data, run)
+    check_time(data, run)
+    if mend:
+        run = drop_bad_rows(data, run)
+    unwrap(data, run, mend=mend)
+    return data, run, run_names, dropped
 
 
 def _describe(data: Channels, layout: Layout) -> None:
@@ -78,6 +126,9 @@ def _describe(data: Channels, layout: Layout) -> None:
         "velocity": f"{layout.position_unit}/s",
         "acceleration": f"{layout.position_unit}/s2",
         "temperature": "degC",
+        "reference_position": layout.position_unit,
+        "reference_velocity": f"{layout.position_unit}/s",
+        "reference_acceleration": f"{layout.position_unit}/s2",
         "current": "A",
         "enabled": "1",
     }
@@ -85,10 +136,54 @@ def _describe(data: Channels, layout: Layout) -> None:
         natural = natural_unit(layout.joint_kind)
         units.update({"load_torque": natural, "external_torque": natural})
     for channel, values in data.values.items():
+        if channel == "weight":
+            formula = str(data.prepared.settings.weights)
+            data.columns[channel] = Column.of(channel, formula, "1", True, values)
+            continue
         source = data.prepared.choices[channel].source
         unit = units.get(channel, layout.torque_unit)
         derived = source in data.prepared.derived
         data.columns[channel] = Column.of(channel, source, unit, derived, values)
+
+
+def _say_assumed(data: Channels, kind: str) -> None:
+    """Note the columns that are read in SI units because nothing names theirs."""
+    assumed = []
+    for channel in data.values:
+        choice, dimensions = data.prepared.choices.get(channel), CHANNELS.get(channel, ())
+        if choice is None or not dimensions or choice.unit is not None:
+            continue
+        if choice.channel != channel:
+            continue
+        slides = kind == "prismatic" and len(dimensions) > 1
+        assumed.append(f"{choice.source} in {SI[dimensions[slides]]}")
+    if assumed:
+        data.notes.append(f"units assumed: {', '.join(assumed)}")
+
+
+def _say_proposed(data: Channels) -> None:
+    """Note the columns that may hold an optional channel which was not found."""
+    names = data.prepared.table.columns
+    used = {choice.source for choice in data.prepared.choices.values()}
+    for row in propose(names, used, data.prepared.settings.joint):
+        if row.channel == "temperature" and row.channel not in data.prepared.choices:
+            data.notes.append(
+                f"'{row.column}' is not read: if it is the temperature of the joint, give "
+                f"{option('map', f'temperature={row.column}')}"
+            )
+
+
+def _torque_at(prepared: Prepared) -> str | None:
+    """Where the torque was measured, as given or by its name."""
+    given = prepared.settings.torque_at
+    if given is not None or "friction_torque" in prepared.choices:
+        return given
+    choice = prepared.choices.get("torque") or prepared.choices.get("current")
+    if choice is None:
+        return None
+    channel = "torque" if "torque" in prepared.choices else "current"
+    is_current = choice.channel == "current"
+    return guess_torque_at(columns_of(prepared, channel), is_current=is_current)
 
 
 def _all_scored(recording: Recording) -> Recording:
@@ -101,11 +196,18 @@ def _all_scored(recording: Recording) -> Recording:
     )
 
 
-def _nothing_moves(recording: Recording) -> RecordingError:
+def nothing_moves(recording: Recording) -> RecordingError:
+    """The refusal of a recording without a moving sample."""
+    wrong = next((c for c in recording.checks if c.check == "velocity" and not c.ok), None)
+    if wrong is not None:
+        return RecordingError(f"{recording.path}: {wrong.said}: {wrong.do}")
     what = (
         "the velocity is zero throughout"
         if not recording.velocity.any()
         else f"no sample is faster than its own noise ({recording.velocity_threshold:.3g} "
         f"{recording.position_unit}/s)"
     )
-    return RecordingError(f"{recording.path}: nothing moves, {what}: give a recording with motion")
+    return RecordingError(
+        f"{recording.path}: nothing moves, {what}: give a recording with motion, or state with "
+        f"{option('moving_above', 'V')} from which speed on samples move"
+    )

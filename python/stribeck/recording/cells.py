@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import polars as pl
 
@@ -34,6 +36,19 @@ def numbered(names: pl.Series) -> tuple[list[str], Ints]:
     return different.to_list(), names.replace_strict(different, number).to_numpy()
 
 
+def _dates(series: pl.Series) -> pl.Series:
+    """Texts such as ``2026-11-23 12:00:00.125`` as dates and times; other texts as they are."""
+    bare = series.str.strip_chars()
+    first = bare.drop_nulls().head(1)
+    if first.is_empty() or not re.match(r"\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}[T ]", first[0]):
+        return series
+    try:
+        dates = bare.str.to_datetime(strict=False, time_unit="ns")
+    except pl.exceptions.PolarsError:
+        return series
+    return series if dates.null_count() > bare.null_count() else dates
+
+
 def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) -> Floats:
     """A column as numbers, [rows]; NaN where a cell is empty.
 
@@ -43,6 +58,8 @@ def column_numbers(source: Source, table: pl.DataFrame, row: Ints, column: str) 
         A cell holds text; the sentence names file, row and column.
     """
     series = table[column]
+    if series.dtype == pl.String:
+        series = _dates(series)
     dtype = series.dtype
     if dtype == pl.String:
         bare = series.str.strip_chars()

@@ -8,6 +8,7 @@ import numpy as np
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Bools, Floats, Ints
+from stribeck.recording.check import Check
 from stribeck.recording.recording import Column
 from stribeck.recording.table import Prepared, channel_values
 
@@ -25,6 +26,10 @@ class Channels:
         How the columns were understood.
     rows
         Rows of the prepared table that the values are taken from, [n].
+    sequence
+        Row of the file of each sample, [n], not counting the rows without which time goes on.
+    doubts
+        Checks that fail before the recording is complete.
     """
 
     def __init__(self, prepared: Prepared, rows: Ints) -> None:
@@ -35,6 +40,8 @@ class Channels:
         self.columns: dict[str, Column] = {}
         self.notes: list[str] = list(prepared.notes)
         self.rows = rows
+        self.sequence = prepared.row[rows]
+        self.doubts: list[Check] = []
 
     def load(self, channel: str) -> None:
         """Read a channel and convert it to SI."""
@@ -56,12 +63,17 @@ class Channels:
 
     def keep(self, mask: Bools) -> None:
         """Remove the samples where `mask` is false."""
-        self.rows = self.rows[mask]
+        self.rows, self.sequence = self.rows[mask], self.sequence[mask]
         self.values = {name: values[mask] for name, values in self.values.items()}
+
+    def join(self, mask: Bools) -> None:
+        """Remove the samples where `mask` is false, without a gap in their place."""
+        self.sequence = self.sequence - np.cumsum(~mask)
+        self.keep(mask)
 
     def reorder(self, order: Ints) -> None:
         """Put the samples in another order."""
-        self.rows = self.rows[order]
+        self.rows, self.sequence = self.rows[order], self.sequence[order]
         self.values = {name: values[order] for name, values in self.values.items()}
 
     def drop_empty(self) -> None:

@@ -10,6 +10,7 @@ from stribeck.base.errors import RecordingError, nearest, option
 from stribeck.base.units import SI, Unit, parse_unit
 from stribeck.recording.names import (
     CHANNELS,
+    REFERENCE,
     ParsedName,
     any_index,
     file_unit,
@@ -138,6 +139,9 @@ class _Search:
     def find(self, channel: str) -> None:
         """Choose the column whose name fits the channel best, if there is one."""
         candidates = [p for p in self.parsed if p.channel == channel]
+        if channel in REFERENCE:
+            self._find_reference(channel, candidates)
+            return
         plain = [p for p in candidates if p.index is None]
         if not plain and channel in self.wide:
             plain = self._of_joint(channel)
@@ -160,6 +164,18 @@ class _Search:
                 f"{option('map', f'{channel}={same[0]}')}"
             )
         self.take(channel, best[0].name)
+        if rank > 2 and best[0].index is None:
+            self.notes.append(f"{channel} is read from '{best[0].name}', by part of its name")
+
+    def _find_reference(self, channel: str, candidates: Sequence[ParsedName]) -> None:
+        """The one column of a reference channel, or that of the joint that was named.
+
+        Every other analysis works without it, so several columns are no error.
+        """
+        named = [p for p in candidates if p.index is not None and p.index == self.joint]
+        found = named or ([] if self.wide else candidates)
+        if len(found) == 1:
+            self.take(channel, found[0].name)
 
     def _of_joint(self, channel: str) -> list[ParsedName]:
         """The column of one joint of a wide file."""
@@ -227,5 +243,6 @@ def _wide_sentence(path: str, wide: Mapping[str, Mapping[str, str]]) -> str:
         advice += f" and {option('torque_constant')}"
     return (
         f"{path}: the file holds {len(first_group)} joints side by side "
-        f"({', '.join(first_group.values())}): choose one, e.g. joint {first} with {advice}"
+        f"({', '.join(first_group.values())}): choose one with {option('joint', first)}, or by its "
+        f"columns, e.g. joint {first} with {advice}"
     )

@@ -56,6 +56,13 @@ def complete(
     """The recording, with read-only arrays and the samples that are scored."""
     speed = np.abs(motion.velocity)
     threshold = max(SIGMAS * motion.velocity_noise, 1e-6 * float(speed.max()))
+    given = data.prepared.settings.moving_above
+    if given is not None:
+        threshold = given
+        data.notes.append(
+            f"samples faster than {given:g} {layout.position_unit}/s move, as given (five times "
+            f"the noise of the velocity is {SIGMAS * motion.velocity_noise:.3g})"
+        )
     return Recording(
         path=data.path,
         sha256=data.prepared.source.sha256,
@@ -90,5 +97,6 @@ def complete(
         rows_dropped=layout.rows_dropped,
         averaged=averaged,
         cutoff_hz=motion.cutoff_hz,
+        weight=floats_or_none(data.values.get("weight")),
         motor=dict(data.prepared.settings.mechanics.motor),
     )

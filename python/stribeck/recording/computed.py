@@ -10,14 +10,14 @@ import numpy as np
 import polars as pl
 
 from stribeck.base.errors import RecordingError, option
-from stribeck.recording.arrays import Bools, Ints
+from stribeck.recording.arrays import Bools, Floats, Ints, floats
 from stribeck.recording.cells import column_numbers
 from stribeck.recording.formula import Formula, compile_formula
 from stribeck.recording.names import file_unit, parse_name
 from stribeck.recording.readers import Source
 from stribeck.recording.settings import Settings
 
-__all__ = ["Computed", "apply_formulas"]
+__all__ = ["Computed", "apply_formulas", "column_of"]
 
 
 @dataclass(frozen=True)
@@ -73,6 +73,24 @@ def apply_formulas(source: Source, settings: Settings, *, may_be_empty: bool = F
         row = np.flatnonzero(mask)
         table = table.filter(pl.Series(mask))
     return Computed(table, row, units, tuple(notes))
+
+
+def column_of(source: Source, table: pl.DataFrame, text: str, where: str) -> Floats:
+    """The numbers of a column, or of a formula of columns, [rows]; NaN where a cell is empty.
+
+    Parameters
+    ----------
+    where
+        What the numbers are for; every error begins with it.
+    """
+    text = f"`{text}`" if text in table.columns else text
+    formula = _compile(source, table, text, where)
+    if formula.kind == "text":
+        raise RecordingError(f"{where}: is a text, not a number")
+    expression = formula.expression.cast(pl.Float64).alias("value")
+    values = _run(where, table.select, expression)["value"].fill_null(math.nan).to_numpy()
+    # A formula without a column has one value.
+    return floats(values if values.size == table.height else np.full(table.height, values[0]))
 
 
 def _mask(source: Source, table: pl.DataFrame, text: str) -> Bools:

@@ -7,14 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
+from stribeck.base import linear
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.rows import segment_slices
 
-__all__ = ["Smoother", "choose_cutoff", "jumps", "motion_band"]
+__all__ = ["HIGHEST", "Smoother", "choose_cutoff", "jumps", "motion_band"]
 
 _ORDER = 4
 #: Highest cut-off, as a share of the sampling rate: above it, a filter removes next to nothing.
-_HIGHEST = 0.4
+HIGHEST = 0.4
 #: Cut-off over the frequency where motion meets noise.
 _MARGIN = 1.5
 #: Motion is seen where the spectrum is this many times the noise.
@@ -79,7 +80,7 @@ def choose_cutoff(time: Floats, value: Floats, segment: Ints, differences: int) 
     if meeting > 0.55 * nyquist:
         return None
     cutoff = _MARGIN * meeting
-    return cutoff if cutoff < _HIGHEST * rate else None
+    return cutoff if cutoff < HIGHEST * rate else None
 
 
 def _difference_spectrum(
@@ -186,7 +187,8 @@ def _mend_ends(raw: Floats, y: Floats, rate: float, cutoff: float, derivative: i
     y = y.copy()
     for first in (True, False):
         part = slice(0, span) if first else slice(len(y) - span, len(y))
-        fit = np.polynomial.Polynomial.fit(u, raw[part], 3, domain=[-1.0, 1.0])
+        powers = u[:, None] ** np.arange(4)
+        fit = np.polynomial.Polynomial(linear.least_norm(powers, raw[part]))
         cubic = fit.deriv(derivative)(u) * scale if derivative else fit(u)
         if first:
             y[:half] = fade * cubic[:half] + (1.0 - fade) * y[:half]
@@ -227,7 +229,7 @@ class Smoother:
             short = (
                 self.cutoff is None
                 or n < max(16, int(rate / self.cutoff))
-                or (self.cutoff >= _HIGHEST * rate)
+                or (self.cutoff >= HIGHEST * rate)
             )
             if short and not derivative:
                 out[part] = x

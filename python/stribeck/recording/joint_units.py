@@ -6,6 +6,7 @@ import numpy as np
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.channels import Channels
+from stribeck.recording.names import REFERENCE
 from stribeck.recording.recording import Column
 
 __all__ = ["natural_unit", "settle_units"]
@@ -45,7 +46,7 @@ def settle_units(data: Channels) -> tuple[str, str, str]:
     per_rad: float | None = None
     if data.prepared.settings.joint_kind == "prismatic" and turns and pitch is not None:
         per_rad = pitch / (2.0 * np.pi)
-        for channel in motion:
+        for channel in (*motion, *(c for c in REFERENCE if data.units.get(c) in _ANGULAR)):
             data.values[channel] = data.values[channel] * per_rad
         data.notes.append(
             f"motion and torque of the screw converted with its pitch of {pitch:g} m per turn"
@@ -55,6 +56,8 @@ def settle_units(data: Channels) -> tuple[str, str, str]:
         _current_to_torque(data, natural_unit(kind))
         # The torque constant of a linear motor is in N/A: the product is a force.
         unit = "N" if kind == "prismatic" and per_rad is None else "N m"
+    elif effort == "torque" and data.prepared.settings.torque_at == "motor":
+        _motor_torque(data)
     if per_rad is not None and unit == "N m":
         for channel in ("torque", "load_torque", "friction_torque"):
             if channel in data.values:
@@ -121,6 +124,17 @@ def _current_to_torque(data: Channels, unit: str) -> None:
         f"{mechanics.gear_ratio:g}"
     )
     choices.setdefault("torque", choices["current"])
+
+
+def _motor_torque(data: Channels) -> None:
+    """Convert a torque that was stated to be the motor's to the joint, by the gear ratio."""
+    ratio = data.prepared.settings.mechanics.motor.get("gear_ratio", 1.0)
+    if ratio == 1.0:
+        return
+    data.values["torque"] = data.values["torque"] * ratio
+    data.notes.append(
+        f"the torque is the motor's, as stated: at the joint it is times the gear ratio {ratio:g}"
+    )
 
 
 def _check_torque(data: Channels, kind: str, effort: str, unit: str, *, screw: bool) -> None:

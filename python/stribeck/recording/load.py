@@ -30,10 +30,8 @@ def read(path: str | Path, **options: Unpack[ReadArguments]) -> Recording:
         CSV, TSV, Parquet, Arrow, .npz or .mat file.
     sidecar
         Sidecar to use instead of ``FILE.EXT.sidecar.toml`` beside the file. An option wins over it.
-    joint
-        Joint of a file that holds several.
-    joint_kind
-        ``"revolute"`` or ``"prismatic"``.
+    joint, joint_kind
+        Joint of a file that holds several; ``"revolute"`` or ``"prismatic"``.
     gear_ratio, torque_constant
         Joint-side torque = current [A] * torque_constant [N m/A] * gear_ratio.
     inertia
@@ -58,13 +56,21 @@ def read(path: str | Path, **options: Unpack[ReadArguments]) -> Recording:
     hold_out
         ``"COLUMN"``: each held-out block has one value of this column of the file, whichever runs
         it is in. ``"COLUMN=VALUE"``: the held-out error is that of this block alone.
-    rows
+    weights
+        ``"COLUMN"`` or a formula of columns of the file: the weight of each sample's squared error
+        in a fit, ``"1/sigma^2"`` for a column of standard deviations. Only ratios of weights
+        matter.
+    rows, moving_above
         ``"moving"``: samples at rest are not scored, since the torque that holds a joint at rest
-        is not its friction in motion. ``"all"``: every sample is scored, for points of which none
-        is at rest.
+        is not its friction in motion; those move that are faster than `moving_above` [rad/s or
+        m/s], by default than five times the noise of the velocity. ``"all"``: all are scored.
+    torque_at
+        Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``.
+    unwrap, trust
+        Unwrap a position even if it is not certain that it wraps; fit channels that contradict
+        each other (`Recording.checks`).
     standstill
-        Accept a recording in which no sample is faster than its velocity noise: presliding, or
-        motion so slow that only a line through many samples shows it.
+        Accept a recording in which no sample moves: presliding, or very slow motion.
 
     Raises
     ------

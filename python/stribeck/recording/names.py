@@ -8,7 +8,17 @@ from dataclasses import dataclass
 
 from stribeck.base.units import Unit, find_unit
 
-__all__ = ["CHANNELS", "ParsedName", "any_index", "file_unit", "parse_name", "wide_groups"]
+__all__ = [
+    "CHANNELS",
+    "REFERENCE",
+    "ParsedName",
+    "any_index",
+    "channel_words",
+    "file_unit",
+    "parse_name",
+    "same_of_joint",
+    "wide_groups",
+]
 
 _EFFORT = ("torque", "force", "voltage", "percent")
 
@@ -18,6 +28,9 @@ CHANNELS: dict[str, tuple[str, ...]] = {
     "position": ("angle", "length"),
     "velocity": ("angular velocity", "linear velocity"),
     "acceleration": ("angular acceleration", "linear acceleration"),
+    "reference_position": ("angle", "length"),
+    "reference_velocity": ("angular velocity", "linear velocity"),
+    "reference_acceleration": ("angular acceleration", "linear acceleration"),
     "torque": _EFFORT,
     "current": ("current",),
     "load_torque": _EFFORT,
@@ -29,6 +42,9 @@ CHANNELS: dict[str, tuple[str, ...]] = {
     "run": (),
 }
 
+#: Channels of the reference trajectory of a controller.
+REFERENCE = ("reference_position", "reference_velocity", "reference_acceleration")
+
 #: Names of each channel, as `_key` writes them.
 _ALIASES: dict[str, str] = {
     "time": "time t timestamp seconds elapsed times",
@@ -39,6 +55,18 @@ _ALIASES: dict[str, str] = {
         "velocity vel v qd dq qdot omega speed jointvelocity actualqd qdmeas thetadot dtheta qp"
     ),
     "acceleration": "acceleration acc accel a qdd ddq qddot jointacceleration qpp",
+    "reference_position": (
+        "referenceposition positionreference qref posref positionref refposition qdes qdesired "
+        "desiredposition targetq targetposition"
+    ),
+    "reference_velocity": (
+        "referencevelocity velocityreference qdref dqref velref velocityref refvelocity qddes "
+        "dqdes desiredvelocity targetqd targetvelocity"
+    ),
+    "reference_acceleration": (
+        "referenceacceleration accelerationreference qddref ddqref accref accelerationref "
+        "refacceleration qdddes ddqdes desiredacceleration targetqdd targetacceleration"
+    ),
     "torque": (
         "torque tau effort force motortorque taum tm jointtorque jointeffort "
         "taumeas actualtorque motorforce"
@@ -52,6 +80,11 @@ _ALIASES: dict[str, str] = {
     "joint": "joint jointname jointid axis",
     "run": "run runid trial repetition",
 }
+#: Words of a name that do not change what is measured, and those of a second or relative sensor.
+_QUALIFIERS = frozenset(
+    "act actual meas measured mot motor joint axis abs fb feedback cont continuous".split()
+)
+_SECOND = frozenset("se second secondary link rel relative raw".split())
 _CHANNEL_OF = {alias: channel for channel, aliases in _ALIASES.items() for alias in aliases.split()}
 
 
@@ -62,7 +95,8 @@ class ParsedName:
     Attributes
     ----------
     rank
-        0: the channel's own name, 1: the same in another spelling, 2: an alias, 9: no channel.
+        0: the channel's own name, 1: the same in another spelling, 2: an alias, 3: an alias among
+        words that do not change what is measured, 4: the same of a second sensor, 9: no channel.
     """
 
     name: str
@@ -74,6 +108,17 @@ class ParsedName:
 
 def _key(stem: str) -> str:
     return re.sub(r"[\s_.\-/]+", "", stem).casefold()
+
+
+def channel_words(word: str) -> str | None:
+    """The channel that a single word of a name stands for; None for any other word.
+
+    Examples
+    --------
+    >>> channel_words("temp"), channel_words("mos")
+    ('temperature', None)
+    """
+    return _CHANNEL_OF.get(_key(word))
 
 
 def _unit_at_end(stem: str) -> tuple[str, str] | None:
@@ -91,7 +136,24 @@ def parse_name(name: str) -> ParsedName:
         if found is not None:
             channel, unit, own = found
             return ParsedName(name, channel, unit, index, 1 if own else 2)
+    for stem, index in _stems(name):
+        bare, second = _without_qualifiers(stem)
+        found = None if bare is None else _match(bare)
+        if found is not None:
+            return ParsedName(name, found[0], found[1], index, 4 if second else 3)
     return ParsedName(name, None, None, None, 9)
+
+
+def _without_qualifiers(stem: str) -> tuple[str | None, bool]:
+    """A name without the words of `_QUALIFIERS` and `_SECOND`, and whether it had one of these.
+
+    None where it has none of them: ``act_pos_mot_deg`` is ``pos_deg``.
+    """
+    words = stem.split("_")
+    kept = [word for word in words if word.casefold() not in _QUALIFIERS | _SECOND]
+    if len(kept) == len(words) or not kept:
+        return None, False
+    return "_".join(kept), any(word.casefold() in _SECOND for word in words)
 
 
 def _stems(name: str) -> list[tuple[str, str | None]]:
@@ -150,12 +212,17 @@ def file_unit(name: str) -> Unit | None:
 
 
 def wide_groups(names: Sequence[str]) -> dict[str, dict[str, str]]:
-    """Return, per channel, joint index -> column, for channels that come in several joints."""
+    """Return, per channel, joint index -> column, for channels that come in several joints.
+
+    Reference channels are left out: a joint is chosen by what was measured.
+    """
     groups: dict[str, dict[str, str]] = {}
-    for name in names:
-        parsed = parse_name(name)
+    # The best name of a channel comes first; those of one rank stay in the order of the file.
+    for parsed in sorted(map(parse_name, names), key=lambda p: p.rank):
+        if parsed.channel in REFERENCE:
+            continue
         if parsed.channel is not None and parsed.index is not None:
-            groups.setdefault(parsed.channel, {}).setdefault(parsed.index, name)
+            groups.setdefault(parsed.channel, {}).setdefault(parsed.index, parsed.name)
     return {channel: columns for channel, columns in groups.items() if len(columns) > 1}
 
 
@@ -163,3 +230,25 @@ def any_index(name: str) -> str | None:
     """The joint index at the end of a column's name, whatever it measures (``i_A_2``)."""
     match = re.search(r"[^\d](\d{1,2})[\])]?$", name)
     return match.group(1) if match else None
+
+
+def same_of_joint(names: Sequence[str], column: str) -> dict[str, str]:
+    """Joint index -> column, for the columns of other joints that are otherwise named alike.
+
+    Examples
+    --------
+    >>> same_of_joint(["t", "q_1", "q_2", "dq_2"], "q_1")
+    {'2': 'q_2'}
+    """
+    own = any_index(column)
+    if own is None:
+        return {}
+    stem, tail = column.rsplit(own, 1)
+    found = {
+        index: name
+        for name in names
+        if name != column
+        and (index := any_index(name)) is not None
+        and name.rsplit(index, 1) == [stem, tail]
+    }
+    return found

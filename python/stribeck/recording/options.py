@@ -79,6 +79,10 @@ def _pairs(help: str, form: str) -> dict[str, Entry]:
     return {"entry": Entry("pairs", help, form=form)}
 
 
+def _switch(help: str) -> dict[str, Entry]:
+    return {"entry": Entry("switch", help)}
+
+
 class ReadArguments(TypedDict, total=False):
     """The keyword arguments of `stribeck.read`, for type checkers and editors."""
 
@@ -96,9 +100,14 @@ class ReadArguments(TypedDict, total=False):
     inertia: float | None
     drive: str | None
     hold_out: str | None
+    weights: str | None
     km: float | None
     kb: float | None
     kt: float | None
+    torque_at: str | None
+    moving_above: float | None
+    unwrap: bool
+    trust: bool
     standstill: bool
 
 
@@ -155,6 +164,14 @@ class ReadOptions:
             form="COLUMN[=VALUE]",
         ),
     )
+    weights: str | None = field(
+        default=None,
+        metadata=_text(
+            "Weight of each sample's squared error in a fit: a column, or a formula of columns "
+            "('1/sigma^2').",
+            form="FORMULA",
+        ),
+    )
     km: float | None = field(
         default=None, metadata=_number("Motor constant, for the energy.", "N m/W^0.5", "above zero")
     )
@@ -164,6 +181,26 @@ class ReadOptions:
     )
     kt: float | None = field(
         default=None, metadata=_number("Torque constant, for the energy.", "N m/A", "above zero")
+    )
+    torque_at: str | None = field(
+        default=None,
+        metadata=_text(
+            "Where the torque was measured: at the motor, commanded, or at the link.",
+            ("motor", "command", "link"),
+        ),
+    )
+    moving_above: float | None = field(
+        default=None,
+        metadata=_number(
+            "Score the samples that are faster than this.", "rad/s or m/s", "not negative"
+        ),
+    )
+    unwrap: bool = field(
+        default=False, metadata=_switch("Unwrap a position that wraps, even if it is not certain.")
+    )
+    trust: bool = field(
+        default=False,
+        metadata=_switch("Go on where the channels contradict each other."),
     )
     standstill: bool = field(
         default=False,

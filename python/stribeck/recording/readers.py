@@ -30,10 +30,20 @@ class Source:
         Hash of the file's bytes, in hexadecimal.
     first_line
         Line number of the first row in a text file, 0 in a binary one.
+    notes
+        What of the file is not in the table.
     """
 
-    def __init__(self, path: str, sha256: str, table: pl.DataFrame, first_line: int) -> None:
+    def __init__(
+        self,
+        path: str,
+        sha256: str,
+        table: pl.DataFrame,
+        first_line: int,
+        notes: tuple[str, ...] = (),
+    ) -> None:
         self.path = path
+        self.notes = notes
         self.sha256 = sha256
         self.table = table
         self.first_line = first_line
@@ -84,6 +94,7 @@ def read_table(path: str | Path) -> Source:
     if not data:
         raise RecordingError(f"{name}: the file is empty")
     first_line = 0
+    notes: tuple[str, ...] = ()
     if suffix in _TEXT:
         table, first_line = read_text(name, data_read, suffix)
     elif suffix in (".parquet", ".pq"):
@@ -91,15 +102,15 @@ def read_table(path: str | Path) -> Source:
     elif suffix in (".arrow", ".feather", ".ipc", ".arrows"):
         table = _polars(name, "Arrow", lambda: _read_arrow(data_read))
     elif suffix == ".npz":
-        table = read_npz(name, data_read)
+        table, notes = read_npz(name, data_read)
     elif suffix == ".mat":
-        table = read_mat(name, data_read)
+        table, notes = read_mat(name, data_read)
     else:
         kind = f"'{suffix}' files are" if suffix else "a file without an extension is"
         raise RecordingError(f"{name}: {kind} not known, the formats read are {_KNOWN}")
     if table.width == 0 or table.height == 0:
         raise RecordingError(f"{name}: there are no rows of data in the file")
-    return Source(name, hashlib.sha256(data).hexdigest(), table, first_line)
+    return Source(name, hashlib.sha256(data).hexdigest(), table, first_line, notes)
 
 
 def _beside(path: Path) -> str:

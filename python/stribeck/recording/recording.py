@@ -9,7 +9,9 @@ from pathlib import Path
 import numpy as np
 import polars as pl
 
+from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Bools, Floats, Ints
+from stribeck.recording.check import Check
 from stribeck.recording.derive import Smoother, jumps
 from stribeck.recording.rows import SIGMAS, noise_level
 
@@ -82,10 +84,25 @@ class Recording:
         Constants of motor and transmission that are known.
     drive, enabled
         ``"voltage"`` or None; the samples where the drive is on.
+    reference_position, reference_velocity, reference_acceleration
+        The reference trajectory of the controller, free of noise; None where none was recorded, the
+        position also where none was measured.
+    reference_load_torque
+        Load torque of the given rigid-body terms along the reference; None: not known.
     elapsed_before
         Time before the first sample of an excerpt, s.
     excerpt_of
         The recording that this is an excerpt of.
+    weight
+        Weight of each sample's squared error in a fit; None: all weights are equal.
+    unweighted
+        The recording without the weights that a fit was given.
+    checks
+        Whether the channels agree with each other.
+    trusted
+        Whether contradictions between them are accepted.
+    torque_at
+        Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``; None: not known.
     """
 
     path: str
@@ -126,8 +143,17 @@ class Recording:
     drive: str | None = None
     enabled: Bools | None = None
     counted: Bools | None = None
+    reference_position: Floats | None = None
+    reference_velocity: Floats | None = None
+    reference_acceleration: Floats | None = None
+    reference_load_torque: Floats | None = None
     elapsed_before: float = 0.0
     excerpt_of: Recording | None = None
+    weight: Floats | None = None
+    unweighted: Recording | None = None
+    checks: tuple[Check, ...] = ()
+    trusted: bool = False
+    torque_at: str | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -150,6 +176,24 @@ class Recording:
             f"{self.torque_unit}>"
         )
 
+    def require_consistent(self) -> None:
+        """Refuse channels that contradict each other, unless the recording was read with trust.
+
+        Raises
+        ------
+        RecordingError
+            The first contradiction and its likeliest remedy.
+        """
+        wrong = [check for check in self.checks if not check.ok]
+        if not wrong or self.trusted:
+            return
+        first, count = wrong[0], len(wrong) - 1
+        more = f" ({count} more: `stribeck inspect` lists them)" if count else ""
+        remedy = "" if first.do is None else f": {first.do}; or"
+        raise RecordingError(
+            f"{self.path}: {first.said}{more}{remedy or ':'} go on with {option('trust')}"
+        )
+
     @property
     def torque_holds_load(self) -> bool:
         """Whether `torque` is friction and the recorded load together (bool)."""
@@ -162,6 +206,10 @@ class Recording:
         if self.torque_holds_load and self.load_torque is not None:
             return self.load_torque
         return np.zeros_like(self.torque)
+
+    def is_measured_as(self, other: Recording) -> bool:
+        """Whether `other` is this recording, but for weights that a fit was given."""
+        return other is self or (self.unweighted is not None and other is self.unweighted)
 
     def scored(self) -> dict[str, float]:
         """The ``scored`` object of the JSON output: rows, share, velocity_threshold."""

@@ -18,6 +18,7 @@ __all__ = [
     "quantisation_step",
     "segment_rows",
     "segment_slices",
+    "slope_noise",
 ]
 
 #: A step longer than this many median steps starts a new segment.
@@ -26,6 +27,9 @@ GAP = 5.0
 SIGMAS = 5.0
 #: A signal that takes each of its values this often on average is a list of settings.
 VISITS = 20
+#: Noise is sought at longer steps in stretches of at least this many samples at that step, and is
+#: smaller than this share of the signal.
+_LEAST, _SMALL = 64, 0.1
 #: Held-out blocks of a recording with few runs.
 BLOCKS = 10
 #: From this number of runs on, each run is a held-out block.
@@ -134,8 +138,10 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
 
     Differences of order 2 to 5 remove more and more of the motion and leave the noise. The first
     order that agrees with the next within a tenth is taken, or the smallest noise if none does. A
-    quantised signal has at least step/sqrt(12). A signal with few values that lie on no grid (the
-    speeds of a static friction curve) is a list of settings, which has no noise.
+    quantised signal has at least step/sqrt(12). Noise that is correlated from sample to sample, as
+    that of a filtered or resampled signal, is looked for at longer steps. A signal with few values
+    that lie on no grid (the speeds of a static friction curve) is a list of settings, which has no
+    noise.
 
     Parameters
     ----------
@@ -148,18 +154,91 @@ def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | Non
     if step == 0.0 and np.unique(value).size * VISITS <= value.size:
         return 0.0
     slices = segment_slices(segment)
+    sigmas = _noise_by_order(time, value, slices)
+    sigma = min(sigmas, default=0.0)
+    for this, following in itertools.pairwise(sigmas):
+        if _alike(this, following):
+            sigma = min(this, following)
+            break
+    if step == 0.0 and not _is_white(sigmas):
+        sigma = max(sigma, _correlated_noise(time, value, slices)[0])
+    return float(max(sigma, step / np.sqrt(12.0)))
+
+
+def slope_noise(time: Floats, value: Floats, segment: Ints, period: float) -> float:
+    """Standard deviation of the noise on the difference quotient of a signal, and its resolution.
+
+    White noise enters with both samples of a difference. Noise that is smooth over a few samples
+    enters by what is white over as many. Samples that are far apart for the motion do not resolve
+    the slope between them (`_slope_error`).
+
+    Parameters
+    ----------
+    period
+        Sampling period, s.
+    """
+    sigma, steps = noise_level(time, value, segment), 1
+    correlated, over = _correlated_noise(time, value, segment_slices(segment))
+    if correlated == sigma:
+        steps = over
+    noise = float(np.sqrt(2.0) * sigma / (steps * period))
+    return max(noise, _slope_error(time, value, segment))
+
+
+def _noise_by_order(time: Floats, value: Floats, slices: list[slice]) -> list[float]:
+    """The noise from differences of order 2 to 5, as far as the samples allow."""
     sigmas: list[float] = []
     for order in (2, 3, 4, 5):
         d = _differences(time, value, slices, order)
         if d.size < 5:
             break
         sigmas.append(float(np.median(np.abs(d))) / 0.6745)
-    sigma = min(sigmas) if sigmas else 0.0
-    for this, following in itertools.pairwise(sigmas):
-        if this > 0.0 and abs(this - following) <= 0.1 * this:
-            sigma = min(this, following)
-            break
-    return float(max(sigma, step / np.sqrt(12.0)))
+    return sigmas
+
+
+def _alike(this: float, following: float) -> bool:
+    return this > 0.0 and abs(this - following) <= 0.1 * this
+
+
+def _is_white(sigmas: list[float]) -> bool:
+    """Whether differences of order 3 to 5 see the same noise; those of order 2 may see motion."""
+    return len(sigmas) == 4 and all(_alike(a, b) for a, b in itertools.pairwise(sigmas[1:]))
+
+
+def _correlated_noise(time: Floats, value: Floats, slices: list[slice]) -> tuple[float, int]:
+    """Noise that a filter or resampling has made smooth, and over how many samples; 0 if unseen.
+
+    Differences of neighbouring samples hardly see it. They do over longer steps, where it is white
+    again: the first power of two is taken at which the orders agree. A motion that is undersampled
+    at that step looks white too, but is not small against itself.
+    """
+    size = float(np.std(value))
+    for stride in (2, 4, 8, 16):
+        kept = [slice(s.start, s.stop, stride) for s in slices]
+        kept = [s for s in kept if (s.stop - s.start) // stride >= _LEAST]
+        sigmas = _noise_by_order(time, value, kept)
+        if _is_white(sigmas):
+            sigma = float(np.median(sigmas))
+            return (sigma, stride) if sigma < _SMALL * size else (0.0, 1)
+    return 0.0, 1
+
+
+def _slope_error(time: Floats, value: Floats, segment: Ints) -> float:
+    """RMS error of the slope of a signal between its samples, from two step lengths.
+
+    The central difference over one sample to each side, minus that over two, is three times the
+    error of the first where the signal is smooth (Richardson 1911), and of its size where the
+    signal has a corner.
+    """
+    found: list[Floats] = []
+    for part in segment_slices(segment):
+        t, x = time[part], value[part]
+        if len(t) < 5:
+            continue
+        near = (x[3:-1] - x[1:-3]) / (t[3:-1] - t[1:-3])
+        far = (x[4:] - x[:-4]) / (t[4:] - t[:-4])
+        found.append((near - far) / 3.0)
+    return float(np.sqrt(np.mean(np.concatenate(found) ** 2))) if found else 0.0
 
 
 def held_out_blocks(dt: Floats, segment: Ints, run: Ints, typical: float) -> tuple[Ints, int]:

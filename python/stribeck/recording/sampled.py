@@ -7,11 +7,17 @@ import numpy as np
 from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.channels import Channels, Layout
 from stribeck.recording.complete import Clock, Motion, complete
-from stribeck.recording.derive import Smoother, choose_cutoff, motion_band
+from stribeck.recording.derive import HIGHEST, Smoother, choose_cutoff, motion_band
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
 from stribeck.recording.recording import Column, Recording
-from stribeck.recording.rows import held_out_blocks, noise_level, segment_rows, segment_slices
+from stribeck.recording.rows import (
+    held_out_blocks,
+    noise_level,
+    segment_rows,
+    segment_slices,
+    slope_noise,
+)
 
 __all__ = ["BANDS", "sampled"]
 
@@ -22,7 +28,7 @@ BANDS = 20.0
 def sampled(data: Channels, layout: Layout) -> Recording:
     """The recording of channels sampled in time."""
     time = data.values["time"]
-    segment, dt, typical = segment_rows(time, layout.run, data.prepared.row[data.rows])
+    segment, dt, typical = segment_rows(time, layout.run, data.sequence)
     motion, smoother = _motion(data, layout, segment, typical)
     loads = _loads(data, layout, motion, smoother)
     block, count = held_out_blocks(dt, segment, layout.run, typical)
@@ -52,9 +58,8 @@ def _motion(
         origin, source, derivative = "velocity", velocity, 1
     else:
         assert position is not None
-        # The raw difference quotient of two samples, each with the noise of the position.
         step = typical if typical > 0.0 else float(np.median(np.diff(time)))
-        sigma = np.sqrt(2.0) * noise_level(time, position, segment) / step
+        sigma = slope_noise(time, position, segment, step)
         cutoff = choose_cutoff(time, position, segment, 2)
         smoother = Smoother(time, segment, cutoff)
         velocity = velocity_smooth = smoother.smooth(position, 1)
@@ -69,6 +74,8 @@ def _motion(
         band = motion_band(time, velocity, segment)
         limits = [x for x in (cutoff, None if band is None else BANDS * band) if x is not None]
         highest = min(limits, default=None)
+        # A cut-off that the samples do not reach is none.
+        highest = None if highest is None or highest >= HIGHEST / typical else highest
         acceleration = Smoother(time, segment, highest).smooth(source, derivative)
         acceleration_smooth = acceleration
         unit = f"{layout.position_unit}/s2"

@@ -9,6 +9,7 @@ from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Ints
 from stribeck.recording.cells import labels, numbered
 from stribeck.recording.channels import Channels
+from stribeck.recording.names import REFERENCE
 
 __all__ = ["check_time", "drop_missing", "in_runs"]
 
@@ -41,6 +42,8 @@ def in_runs(data: Channels) -> tuple[tuple[str, ...], Ints]:
 def drop_missing(data: Channels) -> int:
     """Drop samples with an empty, NaN or infinite cell; returns how many.
 
+    Cells of the reference trajectory do not count: only the estimator by instruments reads them.
+
     Raises
     ------
     RecordingError
@@ -49,6 +52,8 @@ def drop_missing(data: Channels) -> int:
     bad = np.zeros(len(data.rows), dtype=bool)
     worst, most = "", 0
     for channel, values in data.values.items():
+        if channel in REFERENCE:
+            continue
         missing = ~np.isfinite(values)
         count = int(missing.sum())
         if count > most:

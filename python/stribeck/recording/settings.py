@@ -24,6 +24,7 @@ _KINDS = {
 }
 _RIGID_BODY = ("inertia", "gravity_cos", "gravity_sin", "gravity")
 _MOTOR = ("km", "kb", "kt", "screw_pitch", "gear_ratio", "torque_constant")
+_ONE_OF = ("average", "rows", "drive", "torque_at")
 _NUMBERS = tuple(entry.name for entry in TABLE if entry.kind == "number")
 _CHOICES = {entry.name: entry.choices for entry in TABLE}
 
@@ -80,6 +81,14 @@ class Settings:
         Its path.
     rows
         Which samples are scored: ``"moving"`` or ``"all"``.
+    weights
+        Formula of the weights of the samples.
+    torque_at
+        Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``.
+    moving_above
+        Speed above which a sample moves, in the SI unit of the velocity.
+    unwrap, trust
+        Whether an uncertain wrap is undone, and contradictions between channels are accepted.
     """
 
     mechanics: Mechanics
@@ -94,6 +103,11 @@ class Settings:
     drive: str | None = None
     hold_out: str | None = None
     rows: str = "moving"
+    weights: str | None = None
+    torque_at: str | None = None
+    moving_above: float | None = None
+    unwrap: bool = False
+    trust: bool = False
     joints: dict[str, Mechanics] = field(default_factory=dict)
 
     @property
@@ -125,7 +139,7 @@ def gather(path: str | Path, options: ReadOptions) -> Settings:
         units["torque"] = sidecar.texts["effort_unit"]
     numbers = {name: options.number(name) for name in _NUMBERS}
     given = {name: value for name, value in numbers.items() if value is not None}
-    texts = {name: _chosen(name, options, sidecar) for name in ("average", "rows", "drive")}
+    texts = {name: _chosen(name, options, sidecar) for name in _ONE_OF}
     for channel in maps:
         if channel not in CHANNELS:
             hint = nearest(channel, CHANNELS) or f"; the names are {', '.join(CHANNELS)}"
@@ -145,6 +159,11 @@ def gather(path: str | Path, options: ReadOptions) -> Settings:
         drive=texts["drive"],
         hold_out=options.hold_out,
         rows=texts["rows"] or "moving",
+        weights=options.weights,
+        torque_at=texts["torque_at"],
+        moving_above=given.get("moving_above", sidecar.numbers.get("moving_above")),
+        unwrap=options.unwrap or sidecar.switches.get("unwrap", False),
+        trust=options.trust or sidecar.switches.get("trust", False),
         joints={
             name: Mechanics.of({**sidecar.numbers, **own, **given})
             for name, own in sidecar.joints.items()

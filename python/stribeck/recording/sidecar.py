@@ -30,8 +30,10 @@ _TEXTS = (
     "joint",
     "effort_unit",
     "drive",
+    "torque_at",
     "note",
 )
+_SWITCHES = tuple(entry.name for entry in TABLE if entry.kind == "switch" and entry.command_line)
 _TABLES = ("units", "map", "derive")
 #: ``[joints.NAME]``: numbers of one joint of a file that holds several.
 _JOINTS = "joints"
@@ -51,6 +53,7 @@ class Sidecar:
     map: dict[str, str] = field(default_factory=dict)
     derive: dict[str, str] = field(default_factory=dict)
     joints: dict[str, dict[str, float]] = field(default_factory=dict)
+    switches: dict[str, bool] = field(default_factory=dict)
 
 
 def find_sidecar(path: FilePath) -> Path | None:
@@ -111,6 +114,7 @@ def read_sidecar(path: FilePath) -> Sidecar:
         tables["map"],
         tables["derive"],
         page.joints(),
+        page.switches(),
     )
 
 
@@ -144,7 +148,7 @@ class _Page:
 
     def check_keys(self) -> None:
         """Refuse unknown keys and files that are no sidecars."""
-        known = (*_TEXTS, *_NUMBERS, *_TABLES, _JOINTS)
+        known = (*_TEXTS, *_SWITCHES, *_NUMBERS, *_TABLES, _JOINTS)
         for key in self.content:
             if key not in known:
                 hint = nearest(key, known) or f"; the keys are {', '.join(known)}"
@@ -167,6 +171,16 @@ class _Page:
                     raise self.stop(f"{key} must be a text, not {value!r}", key)
                 texts[key] = value
         return texts
+
+    def switches(self) -> dict[str, bool]:
+        """What is switched on or off."""
+        switches: dict[str, bool] = {}
+        for key in _SWITCHES:
+            value = self.content.get(key, False)
+            if not isinstance(value, bool):
+                raise self.stop(f"{key} must be true or false, not {value!r}", key)
+            switches[key] = value
+        return switches
 
     def text_table(self, key: str) -> dict[str, str]:
         """A table of texts."""

@@ -13,13 +13,16 @@ from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.cells import column_numbers, labels
 from stribeck.recording.columns import Choice, choose_columns
 from stribeck.recording.computed import apply_formulas
+from stribeck.recording.formula import compile_formula
 from stribeck.recording.names import parse_name, wide_groups
 from stribeck.recording.readers import Source, read_table
 from stribeck.recording.settings import Settings
+from stribeck.recording.weights import table_weights
 
 __all__ = [
     "Prepared",
     "channel_values",
+    "columns_of",
     "joint_rows",
     "joints_of",
     "prepare",
@@ -39,6 +42,8 @@ class Prepared:
         Their row numbers in the file, from 0.
     choices
         Channel -> column of the file.
+    weight
+        Weight of each row of `table`, where weights are given.
     """
 
     source: Source
@@ -47,6 +52,7 @@ class Prepared:
     row: Ints
     choices: dict[str, Choice]
     notes: tuple[str, ...]
+    weight: Floats | None = None
 
     @property
     def derived(self) -> tuple[str, ...]:
@@ -75,8 +81,17 @@ def prepared_table(source: Source, settings: Settings) -> Prepared:
         units=computed.units,
         index=_wide_index(computed.table, settings),
     )
+    weight = None
+    if settings.weights is not None:
+        weight = table_weights(source, computed.table, computed.row, settings.weights)
     return Prepared(
-        source, settings, computed.table, computed.row, choices, (*computed.notes, *notes)
+        source,
+        settings,
+        computed.table,
+        computed.row,
+        choices,
+        (*source.notes, *computed.notes, *notes),
+        weight,
     )
 
 
@@ -87,6 +102,17 @@ def _wide_index(table: pl.DataFrame, settings: Settings) -> str | None:
     if any(parse_name(name).channel == "joint" for name in table.columns):
         return None
     return settings.joint.removeprefix("joint_").removeprefix("joint")
+
+
+def columns_of(prepared: Prepared, channel: str) -> tuple[str, ...]:
+    """The columns of the file that a channel is read or computed from; empty without it."""
+    choice = prepared.choices.get(channel)
+    if choice is None:
+        return ()
+    formula = prepared.settings.derive.get(choice.source)
+    if formula is None:
+        return (choice.source,)
+    return compile_formula(formula, prepared.table.schema, formula).columns
 
 
 def joints_of(prepared: Prepared) -> list[str]:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from stribeck.report.layout import WIDTH, joined, notes_text, paragraph, table, width_of
 from stribeck.report.numbers import percent, plain, signed
+from stribeck.report.parameters import effective_text
 from stribeck.report.recording import REGIMES, file_name, held_out_meaning, scored_sentence
 from stribeck.report.residual import residual_figure
 
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from stribeck.diagnosis.compare import Assessment, Comparison
+    from stribeck.identify.information import Information
 
 #: Columns of models in one table, and the longest spec that heads one.
 MOST_COLUMNS, LONGEST = 3, 16
@@ -30,7 +33,7 @@ def comparison_text(comparison: Comparison) -> str:
         f"{len(models)} model{'s' if len(models) > 1 else ''} on {file_name(r)}",
         paragraph(scored_sentence(r)),
         _overview(comparison),
-        paragraph(f"Held-out: {_compared(comparison)}. {floor}"),
+        paragraph(f"Held-out: {_compared(comparison)}. {_criteria(models)}{floor}"),
         _regimes_text(comparison),
         notes_text(r.notes, *(a.fit.notes for a in models)),
     )
@@ -54,10 +57,15 @@ def _overview(comparison: Comparison) -> str:
     """One line a model; long specs are numbered, and listed below."""
     models, unit = comparison.models, comparison.recording.torque_unit
     heading = ["model", f"RMSE [{unit}]", "held-out", "rel. residual", "R²", "mean error"]
+    if len(_known(models)) > 1:
+        heading += ["ΔAIC", "ΔBIC"]
     with_energy = any(a.energy is not None for a in models)
     if with_energy:
         heading.append("energy error")
-    figures = [[*_figures(a), *([_energy_error(a)] if with_energy else [])] for a in models]
+    figures = [
+        [*_figures(a), *differences, *([_energy_error(a)] if with_energy else [])]
+        for a, differences in zip(models, _differences(models), strict=True)
+    ]
     columns = range(1, len(heading))
     names = [a.model for a in models]
     numbers = [f"[{k}]" for k in range(1, len(models) + 1)]
@@ -80,6 +88,33 @@ def _figures(a: Assessment) -> list[str]:
         f"{a.r2:.4f}",
         signed(a.mean, a.rmse),
     ]
+
+
+def _differences(models: Sequence[Assessment]) -> list[list[str]]:
+    """AIC and BIC of each model minus the lowest ones; nothing with less than two models."""
+    known = _known(models)
+    if len(known) < 2:
+        return [[] for _ in models]
+    aic, bic = min(i.aic for i in known), min(i.bic for i in known)
+    return [
+        ["", ""] if i is None else [f"{i.aic - aic:.1f}", f"{i.bic - bic:.1f}"]
+        for i in (a.information for a in models)
+    ]
+
+
+def _criteria(models: Sequence[Assessment]) -> str:
+    """What the differences of the information criteria are; with a space after it."""
+    known = _known(models)
+    if len(known) < 2:
+        return ""
+    return (
+        f"ΔAIC and ΔBIC are the information criteria minus the lowest ones, for "
+        f"{effective_text(known[0])} of the residual with the smallest error. "
+    )
+
+
+def _known(models: Sequence[Assessment]) -> list[Information]:
+    return [a.information for a in models if a.information is not None]
 
 
 def _energy_error(a: Assessment) -> str:

@@ -6,13 +6,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stribeck.identify.algorithms import GAUSS_NEWTON
 from stribeck.identify.figures import torque_cutoff
 from stribeck.report.channels import clock, load_of, torque_name
+from stribeck.report.exogeneity import exogeneity_text
 from stribeck.report.layout import joined, notes_text, paragraph
-from stribeck.report.numbers import change_text, percent, plain
-from stribeck.report.parameters import parameters_text
+from stribeck.report.numbers import MINUS, change_text, percent, plain
+from stribeck.report.parameters import (
+    correlation_text,
+    effective_text,
+    not_identifiable_text,
+    open_text,
+    parameters_text,
+)
 from stribeck.report.recording import file_name, held_out_meaning, scored_sentence
 from stribeck.report.residual import velocity_panel
+from stribeck.report.stated import stated_text
 from stribeck.report.style import (
     AFTER,
     MEASURED,
@@ -32,6 +41,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from stribeck.fitting.result import Fit
+    from stribeck.identify.estimates import Errors
 
 PASSIVITY = {
     True: "Passive: this friction is proved to generate no energy within its operating box.",
@@ -40,30 +50,74 @@ PASSIVITY = {
     None: "Whether this friction is passive within its operating box could not be decided.",
 }
 
+#: Probability of another place above which more starts are advised.
+UNSURE = 0.5
+
+#: What standard errors assume, or from what they follow.
+ASSUMED: dict[Errors, str] = {
+    "robust": "allowing for noise that is correlated in time",
+    "independent": "assuming independent errors of the samples",
+    "profile": "allowing for noise that is correlated in time",
+    "bootstrap": "from refits to resampled blocks of the recording",
+}
+#: From what intervals follow where they are not symmetric.
+INTERVALS: dict[Errors, str] = {
+    "profile": " Intervals are those of the profile likelihood.",
+    "bootstrap": " Intervals are quantiles of the refits.",
+}
+
 
 def fit_text(fit: Fit) -> str:
     """A fit at a glance."""
     r = fit.recording
-    search = ""
-    if fit.starts > 0:
-        search = (
-            f"Search: {fit.starts} start{'s' if fit.starts > 1 else ''}, {fit.evaluations} "
-            f"evaluations, {fit.seconds:.1f} s. "
-        )
+    search = _search_sentence(fit)
     legend = _errors_legend(fit)
     return joined(
         f"{fit.model.spec} {'fitted to' if search else 'evaluated on'} {file_name(r)}",
         paragraph(search + scored_sentence(r)),
-        parameters_text(fit.estimates) + ("\n" + legend if legend else ""),
-        "\n".join(
-            paragraph(f"{name} is not identifiable: {e.why}.", 2, 2)
-            for name, e in fit.estimates.items()
-            if e.why is not None
-        ),
+        parameters_text(fit.estimates, fit.errors in INTERVALS) + ("\n" + legend if legend else ""),
+        open_text(fit.estimates),
+        not_identifiable_text(fit.estimates, fit.combinations),
+        correlation_text(fit.correlation),
+        stated_text(fit),
         errors_text(fit),
+        _criteria_text(fit),
+        paragraph(exogeneity_text(fit)),
         paragraph(PASSIVITY[fit.passive()] + _cost_sentence(fit)),
         "" if fit.converged else paragraph(f"The search did not converge ({fit.outcome})."),
         notes_text(r.notes, fit.notes),
+    )
+
+
+def _search_sentence(fit: Fit) -> str:
+    """How the parameters were searched; nothing where they were not."""
+    if fit.starts == 0:
+        return ""
+    work = f"{fit.evaluations} evaluations, {fit.seconds:.1f} s. "
+    found = fit.search
+    if found is None or fit.starts == 1:
+        return f"Search: {fit.starts} start{'s' if fit.starts > 1 else ''}, {work}"
+    by = "" if found.algorithm == GAUSS_NEWTON else f" by {found.algorithm}"
+    said = f"Search{by}: {fit.starts} starts, {found.at_minimum} of them at the minimum, {work}"
+    if found.new_place is not None and found.new_place > UNSURE:
+        said += (
+            f"Another start would end at a new place with probability {found.new_place:.2f}: more "
+            "starts may find a better minimum. "
+        )
+    return said
+
+
+def _criteria_text(fit: Fit) -> str:
+    """The information criteria, where the fit has some."""
+    found = fit.information
+    if found is None or fit.starts == 0:
+        return ""
+
+    def shown(value: float) -> str:
+        return f"{value:.1f}".replace("-", MINUS)
+
+    return paragraph(
+        f"AIC {shown(found.aic)}, BIC {shown(found.bic)}, for {effective_text(found)}."
     )
 
 
@@ -71,13 +125,9 @@ def _errors_legend(fit: Fit) -> str:
     """What the standard errors mean, where there are some."""
     if all(e.stderr is None for e in fit.estimates.values()):
         return ""
-    assumed = (
-        "assuming independent errors of the samples"
-        if fit.errors == "independent"
-        else "allowing for noise that is correlated in time"
-    )
     return paragraph(
-        f"± is one standard error, {assumed}. It does not account for effects that the model lacks."
+        f"± is one standard error, {ASSUMED[fit.errors]}. It does not account for effects that the "
+        f"model lacks.{INTERVALS.get(fit.errors, '')}"
     )
 
 
@@ -88,6 +138,7 @@ def errors_text(fit: Fit) -> str:
     rows = [("error (RMSE)", f"{plain(fit.rmse)} {unit}", meaning)]
     if fit.rmse_held_out is not None:
         rows.append(("held-out error", f"{plain(fit.rmse_held_out)} {unit}", held_out_meaning(r)))
+    rows += _weighted_rows(fit)
     if fit.relative_residual is not None:
         cutoff = torque_cutoff(r)
         below = f", both below {cutoff:.3g} Hz" if cutoff else ""
@@ -96,6 +147,17 @@ def errors_text(fit: Fit) -> str:
         )
     first, second = max(len(a) for a, _, _ in rows), max(len(b) for _, b, _ in rows)
     return "\n".join(f"  {a:<{first}}  {b:>{second}}  {c}" for a, b, c in rows)
+
+
+def _weighted_rows(fit: Fit) -> list[tuple[str, str, str]]:
+    """The weighted errors, where samples have weights."""
+    unit, rows = fit.model.torque_unit, []
+    if fit.rmse_weighted is not None:
+        rows.append(("weighted error", f"{plain(fit.rmse_weighted)} {unit}", "with the weights"))
+    if fit.rmse_held_out_weighted is not None:
+        figure = f"{plain(fit.rmse_held_out_weighted)} {unit}"
+        rows.append(("weighted held-out", figure, "held-out error with the weights"))
+    return rows
 
 
 def _cost_sentence(fit: Fit) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stribeck.report.diagnosis import untestable_text
-from stribeck.report.layout import joined, paragraph, table
+from stribeck.report.layout import bullets, joined, paragraph, table
 from stribeck.report.numbers import listed, plain, thousands
 from stribeck.report.recording import scored_sentence
 
@@ -14,12 +15,25 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.inspect import Inspection
 
 
-def inspection_text(inspection: Inspection) -> str:
-    """What a file holds, and which effects it can test."""
+#: How many of the columns that are not read are listed.
+_PROPOSED = 12
+
+
+def inspection_text(inspection: Inspection, spell: Callable[[str], str] = str) -> str:
+    """What a file holds, whether its channels agree, and which effects it can test.
+
+    Parameters
+    ----------
+    spell
+        Writes the options in its sentences.
+    """
     parts = [_heading(inspection), _channels(inspection)]
     if inspection.problem is not None:
-        problem = f"Cannot be read as a recording yet: {inspection.problem}"
-        return joined(*parts, paragraph(problem, 0))
+        problem = spell(f"Cannot be read as a recording yet: {inspection.problem}")
+        parts += [paragraph(problem, 0)]
+    parts += [_checked(inspection, spell), _not_read(inspection)]
+    if inspection.problem is not None:
+        return joined(*parts)
     testable = f"Can be tested with this data: {listed(inspection.testable) or 'no effect'}."
     return joined(
         *parts,
@@ -38,6 +52,30 @@ def _heading(inspection: Inspection) -> str:
         facts.append(f"{t.gaps} gap{'s' * (t.gaps != 1)}")
     heading = f"{Path(t.path).name}: {', '.join(facts)}"
     return f"{heading}\n  joints: {', '.join(t.joints)}" if t.joints else heading
+
+
+def _checked(inspection: Inspection, spell: Callable[[str], str]) -> str:
+    """Where the channels agree, and where they contradict each other."""
+    agreed = [check.said for check in inspection.checks if check.ok]
+    wrong = [
+        f"{check.said}{f': {check.do}' if check.do else ''}"
+        for check in inspection.checks
+        if not check.ok
+    ]
+    return joined(
+        bullets("The channels contradict each other:", map(spell, wrong)),
+        bullets("Checked:", map(spell, agreed)),
+    )
+
+
+def _not_read(inspection: Inspection) -> str:
+    """The columns that are not read and may hold a channel."""
+    rows = [
+        f"{row.column}: {row.channel}?" + (f" (in {row.unit})" if row.unit else "")
+        for row in inspection.proposed[:_PROPOSED]
+    ]
+    left = len(inspection.proposed) - _PROPOSED
+    return bullets("Not read:", [*rows, *([f"and {left} more"] if left > 0 else [])])
 
 
 def _channels(inspection: Inspection) -> str:

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from stribeck.report.layout import table
-from stribeck.report.numbers import percent, unit_text, with_error
+from stribeck.report.layout import paragraph, table
+from stribeck.report.numbers import MINUS, listed, percent, plain, thousands, unit_text, with_error
 
 if TYPE_CHECKING:
+    from stribeck.identify.confounded import Combination
     from stribeck.identify.estimates import Estimate
+    from stribeck.identify.information import Information
+    from stribeck.identify.matrix import ParameterMatrix
 
 #: A standard error above this share of the value makes a parameter poorly determined.
 POOR = 0.5
+#: Pairs of parameters with a correlation of at least this size are named.
+STRONG = 0.95
 
 
 def _flags(e: Estimate) -> str:
@@ -44,7 +50,93 @@ def parameter_rows(estimates: Iterable[Estimate]) -> list[list[str]]:
     return rows
 
 
-def parameters_text(estimates: Mapping[str, Estimate]) -> str:
-    """The table of parameters."""
+def parameters_text(estimates: Mapping[str, Estimate], intervals: bool = False) -> str:
+    """The table of parameters; 95 % intervals take the place of symbols and relative errors."""
     heading = ["parameter", "symbol", "value", "error", "unit", "relative", ""]
-    return table([heading, *parameter_rows(estimates.values())], right=(2, 5))
+    rows = [heading, *parameter_rows(estimates.values())]
+    if not intervals:
+        return table(rows, right=(2, 5))
+    column = ["95 % interval", *(_interval(e) for e in estimates.values())]
+    return table(
+        [
+            [name, value, error, interval, unit, flags]
+            for (name, _, value, error, unit, _, flags), interval in zip(rows, column, strict=True)
+        ],
+        right=(1,),
+    )
+
+
+def _interval(e: Estimate) -> str:
+    """The interval, each end with two digits of half its distance from the value."""
+    if e.ci95 is None:
+        return ""
+
+    def shown(end: float) -> str:
+        if end == 0.0:
+            return "0"
+        text = "∞" if math.isinf(end) else with_error(abs(end), 0.5 * abs(end - e.value) or None)[0]
+        return MINUS + text if end < 0.0 else text
+
+    return f"{shown(e.ci95[0])} to {shown(e.ci95[1])}"
+
+
+def open_text(estimates: Mapping[str, Estimate]) -> str:
+    """Which parameters the data does not bound."""
+    ends = [(name, e, side) for name, e in estimates.items() for side in e.open]
+    zero = [name for name, e, side in ends if side == "lower" and e.lower == 0.0]
+    below = [name for name, e, side in ends if side == "lower" and e.lower != 0.0]
+    above = [name for name, e, side in ends if side == "upper"]
+    groups = (
+        ("Not bounded above by these data", above),
+        ("Not bounded below by these data", below),
+        ("Not distinguished from zero by these data", zero),
+    )
+    return "\n".join(
+        paragraph(f"{words}: {listed(names)}.", 2, 2) for words, names in groups if names
+    )
+
+
+def not_identifiable_text(
+    estimates: Mapping[str, Estimate], combinations: Sequence[Combination]
+) -> str:
+    """Why parameters are not identifiable, and what is determined instead."""
+    lines = [
+        paragraph(f"{name} is not identifiable: {e.why}.", 2, 2)
+        for name, e in estimates.items()
+        if e.why is not None
+    ]
+    if combinations:
+        found = "; ".join(_combination(c) for c in combinations)
+        what = "these combinations are" if len(combinations) > 1 else "this combination is"
+        lines.append(paragraph(f"Only {what} determined: {found}.", 2, 2))
+    return "\n".join(lines)
+
+
+def _combination(c: Combination) -> str:
+    value, error = with_error(c.factor * c.value, c.factor * c.stderr)
+    unit = "" if c.unit == "1" else f" {c.unit}"
+    near = " (near these values)" if c.local else ""
+    return f"{c.text.replace(' - ', f' {MINUS} ')} = {value} ± {error}{unit}{near}"
+
+
+def correlation_text(correlation: ParameterMatrix | None) -> str:
+    """The pairs of parameters that are strongly correlated."""
+    pairs = [] if correlation is None else correlation.pairs(STRONG)
+    if not pairs:
+        return ""
+    named = [
+        f"{one} and {other} ({f'{value:.3f}'.replace('-', MINUS)})" for one, other, value in pairs
+    ]
+    return paragraph(
+        f"Strongly correlated estimates: {listed(named)}. An error of one is compensated by the "
+        f"other."
+    )
+
+
+def effective_text(found: Information) -> str:
+    """The effective number of samples, and what it follows from."""
+    length = found.samples / found.effective
+    return (
+        f"{thousands(round(found.effective))} effective samples: {thousands(found.samples)} over "
+        f"the correlation length {plain(length)}"
+    )

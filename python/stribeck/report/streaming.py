@@ -9,7 +9,11 @@ from stribeck.report.fit import PASSIVITY
 from stribeck.report.improvement import improvement_text, step_labels
 from stribeck.report.layout import bars, joined, notes_text, paragraph
 from stribeck.report.numbers import plain, thousands
-from stribeck.report.parameters import parameters_text
+from stribeck.report.parameters import (
+    correlation_text,
+    not_identifiable_text,
+    parameters_text,
+)
 
 if TYPE_CHECKING:
     from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
@@ -36,6 +40,8 @@ def streamed_fit_text(fit: StreamedFit) -> str:
         f"{fit.model.spec} fitted to {fit.data.path}",
         paragraph(read),
         parameters_text(fit.estimates),
+        not_identifiable_text(fit.estimates, fit.combinations),
+        correlation_text(fit.covariance.correlation()),
         errors,
         paragraph(PASSIVITY[fit.passive]),
         "" if fit.converged else paragraph(f"The search did not converge ({fit.outcome})."),

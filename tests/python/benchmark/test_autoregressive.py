@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from stribeck.benchmark.cases import cases
 from stribeck.benchmark.coverage import autoregressive_recording, intervals
+from stribeck.benchmark.run import run
 
 
 @pytest.mark.parametrize("correlation", [0.0, 0.9, 0.99])
@@ -29,3 +31,14 @@ def test_both_kinds_of_interval_are_looked_at() -> None:
     curved = intervals("stribeck", 3, 0.0)
     assert len(curved) == 5
     assert all(i.covers_ordinary is None for i in curved)
+    assert all(i.covers_profile is not None for i in [*made, *curved])
+
+
+@pytest.mark.slow
+def test_intervals_cover_the_truth() -> None:
+    """Robust and profile intervals, in 200 recordings for each correlation of the noise."""
+    answers, found = run(cases(10, only="coverage"), None)
+    assert len(answers) == 600 and not found.failures
+    for line in found.coverage:
+        assert line.recordings == 200 and line.profile.total == line.share.total == 700
+        assert line.passed, line

@@ -29,13 +29,22 @@ def one(
     return dataclasses.replace(made, **rest)
 
 
-def covered(correlation: float, share: float, recordings: int = 100) -> list[CaseAnswer]:
+def covered(correlation: float, share: float, profile: float | None = None) -> list[CaseAnswer]:
     return [
         CaseAnswer(
             Case("coverage", "autoregressive", ("coulomb",), k, correlation=correlation),
-            intervals=(Interval("coulomb_friction", k < share * recordings, k < 20, 0.1, 0.01),),
+            intervals=(
+                Interval(
+                    "coulomb_friction",
+                    k < share * 100,
+                    k < 20,
+                    0.1,
+                    0.01,
+                    None if profile is None else k < profile * 100,
+                ),
+            ),
         )
-        for k in range(recordings)
+        for k in range(100)
     ]
 
 
@@ -111,7 +120,10 @@ def test_coverage_has_a_bar_on_both_sides(share: float, passed: bool) -> None:
     (line,) = score(covered(0.9, share)).coverage
     assert line.share.value == pytest.approx(share)
     assert line.ordinary.value == pytest.approx(0.2)
-    assert line.passed is passed
+    assert line.passed is passed and line.profile.total == 0
+    (profiled,) = score(covered(0.9, 0.95, share)).coverage
+    assert profiled.profile.value == pytest.approx(share)
+    assert profiled.passed is passed
 
 
 def test_everything_is_printed_and_drawn() -> None:

@@ -190,7 +190,8 @@ def test_what_the_model_takes_up_is_hidden(tmp_path: Path) -> None:
     """Inertia of a motion whose acceleration follows its speed is viscous friction."""
     frame = joint()
     v = frame["velocity"].to_numpy()
-    fit = sb.fit("coulomb", record(tmp_path, frame.with_columns(acceleration=pl.Series(2.0 * v))))
+    frame = frame.with_columns(acceleration=pl.Series(2.0 * v))
+    fit = sb.fit("coulomb", record(tmp_path, frame, trust=True))
     hidden = seen(fit, "inertia").hidden
     assert [row.effect for row in hidden] == ["inertia"]
     assert "viscous_friction" in hidden[0].why and hidden[0].do.startswith("record")

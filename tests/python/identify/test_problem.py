@@ -40,7 +40,7 @@ def test_target_is_the_torque_as_recorded(recording: sb.Recording) -> None:
 
 def test_search_coordinates_span_the_bounds(recording: sb.Recording) -> None:
     p, lower, upper = problem(recording, "coulomb+stribeck+presliding+delay")
-    space = SearchSpace(p.model, lower, upper)
+    space = SearchSpace.of(p, lower, upper)
     low, high = lower[space.nonlinear], upper[space.nonlinear]
     np.testing.assert_allclose(space.decode(np.zeros(low.size)), low, rtol=1e-12)
     np.testing.assert_allclose(space.decode(np.ones(low.size)), high, rtol=1e-12)

@@ -100,10 +100,10 @@ def generator(law: str, purpose: str) -> np.random.Generator:
 
 
 def random_points(law: str, count: int) -> Iterator[Point]:
-    """Points inside the catalog's bounds.
+    """Points in the range of random starts, within the catalog's bounds.
 
-    Parameters are uniform between their bounds in `SCALES`, or log-uniform where the bounds are
-    positive and span more than a decade. Speeds are log-uniform from 1e-6 to 1e2 rad/s, of either
+    Parameters are uniform in their range in `SCALES`, or log-uniform where the range is
+    positive and spans more than a decade. Speeds are log-uniform from 1e-6 to 1e2 rad/s, of either
     sign; temperatures -10 to 90 degC; torques +-30 N m.
     """
     rng = generator(law, "random")
@@ -118,8 +118,9 @@ def random_points(law: str, count: int) -> Iterator[Point]:
 
 
 def draw(rng: np.random.Generator, p: Parameter) -> float:
-    """A value of one parameter between its bounds."""
-    lower, upper = p.lower * SCALES[p.scale], p.upper * SCALES[p.scale]
+    """A value of one parameter in the range of its random starts."""
+    low, high = max(p.lower, p.drawn[0]), min(p.upper, p.drawn[1])
+    lower, upper = low * SCALES[p.scale], high * SCALES[p.scale]
     if lower > 0 and upper > 10 * lower:
         return float(np.exp(rng.uniform(np.log(lower), np.log(upper))))
     return float(rng.uniform(lower, upper))

@@ -64,7 +64,9 @@ def test_bristle_is_proved_and_its_cost_is_said(tmp_path: Path) -> None:
     assert cost is not None
     assert cost.imposed
     assert (cost.rmse_free, cost.rmse_held_out_free) == (free.rmse, free.rmse_held_out)
-    assert free.rmse < fitted.rmse < 1.2 * free.rmse
+    narrow = {"bristle_damping": (0.0, 20.0)}
+    narrower = sb.fit("lugre", recording, starts=2, passive=True, bounds=narrow)
+    assert free.rmse < fitted.rmse < narrower.rmse
     written = fitted.to_dict()
     assert written["passive"] is True
     assert written["passive_cost"]["conditions"] == cost.conditions > 0

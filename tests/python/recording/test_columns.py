@@ -41,7 +41,7 @@ from stribeck.recording.scan import scan
         ("temp_C", "temperature", "degC", None),
         ("temperature_degC", "temperature", "degC", None),
         ("load_torque_Nm", "load_torque", "N m", None),
-        ("q_ref_m", None, None, None),
+        ("q_ref_m", "reference_position", "m", None),
         ("q_goal_rad", None, None, None),
         ("i_des_A_3", None, None, None),
         ("tau_des_Nm_1", None, None, None),

@@ -82,7 +82,10 @@ def test_time_must_increase(write, frame):
         read(write(named))
     recording = read(write(named), map=("run=file",))
     assert recording.run_names == ("a", "b") and recording.gaps == 0 and recording.segment[-1] == 1
-    twice = pl.concat([frame.head(50), frame[49:100]])
+    twice = pl.concat([frame.head(50), frame[47:100]])
+    twice = twice.with_columns(
+        time=pl.Series([*frame["time"][:50], *[frame["time"][49]] * 3, *frame["time"][50:100]])
+    )
     with pytest.raises(RecordingError, match=r"row 51, column 'time': time is repeated"):
         read(write(twice))
     with pytest.raises(RecordingError, match=r"inside run 'r'"):
@@ -103,10 +106,13 @@ def test_too_little(write, frame):
     with pytest.raises(RecordingError, match=r"1 sample is not a recording"):
         read(write(frame.head(1)))
     with pytest.raises(RecordingError, match=r"nothing moves, the velocity is zero throughout"):
-        read(write(frame.with_columns(velocity=pl.lit(0.0))))
+        read(write(frame.drop("position").with_columns(velocity=pl.lit(0.0))))
     rng = np.random.default_rng(0)
     with pytest.raises(RecordingError, match=r"nothing moves, no sample is faster than"):
-        read(write(frame.with_columns(velocity=pl.Series(1e-3 * rng.standard_normal(2000)))))
+        noise = pl.Series(1e-3 * rng.standard_normal(2000))
+        read(write(frame.drop("position").with_columns(velocity=noise)))
+    with pytest.raises(RecordingError, match=r"the position .* moves and the velocity .* does not"):
+        read(write(frame.with_columns(velocity=pl.lit(0.0))))
 
 
 @pytest.mark.parametrize("sigma", [1e-4, 1e-3, 1e-2])

@@ -7,7 +7,7 @@ modules may move. To see whether another tree answers the same, put it first on 
     PYTHONPATH=/path/of/the/tree/python python -m pytest tests/python/same
 
 On the kind of machine that recorded the references every digit counts; on another, numbers have to
-agree to a relative 1e-6.
+agree to a relative 1e-6. Additional keys of an answer are no difference.
 """
 
 from __future__ import annotations
@@ -48,3 +48,19 @@ def test_the_list_is_long_enough() -> None:
     """At least thirty commands, each story with a reference and none without a story."""
     assert sum(len(story.commands) for story in STORIES) >= 30
     assert {stored(story) for story in STORIES} == set(stored(STORIES[0]).parent.glob("*.json"))
+
+
+def test_a_difference_is_what_is_missing_or_changed() -> None:
+    """A key may be added, at any depth; none may go, and no value may change."""
+    expected = {"rmse": 1.0, "parameters": {"a": {"value": 2.0}}}
+    added = {"rmse": 1.0, "aic": 3.0, "parameters": {"a": {"value": 2.0, "open": []}}}
+    assert list(differences(expected, added, True)) == []
+    assert list(differences(added, expected, True)) == [
+        ".aic is missing",
+        ".parameters.a.open is missing",
+    ]
+    changed = {"rmse": 1.0, "parameters": {"a": {"value": 2.5}}}
+    assert list(differences(expected, changed, True)) == [".parameters.a.value: 2.0, now 2.5"]
+    assert list(differences({"files": {}}, {"files": {"m.toml": {}}}, True)) == [
+        ".files.m.toml is new"
+    ]

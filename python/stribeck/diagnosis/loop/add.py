@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from stribeck.base.shown import Shown
 from stribeck.diagnosis.trials.trial import add_effect
-from stribeck.fitting.fit import on_recording
+from stribeck.fitting.fit import on_recording, with_choices
 from stribeck.fitting.result import Fit
-from stribeck.models.catalog import check_effect
+from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
+from stribeck.models.catalog import check_effect, simpler_effect
 from stribeck.models.formula_law import is_formula
 from stribeck.recording.recording import Recording
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True, repr=False)
@@ -43,6 +48,7 @@ def add(
     *,
     starts: int = 20,
     seed: int = 0,
+    **choices: Unpack[ChoiceArguments],
 ) -> Fit:
     """Add `effect` to a fitted model and refit it on `recording` (default: the fit's own).
 
@@ -50,6 +56,9 @@ def add(
     ----------
     effect : str
         An id of the catalog, or an effect by formula: ``"creep = c*abs(load)*sgn(v)"``.
+    **choices
+        `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the model, which is then
+        fitted again, or of the effect.
 
     Raises
     ------
@@ -60,4 +69,13 @@ def add(
     """
     if not is_formula(effect):
         check_effect(effect)
-    return add_effect(on_recording(fitted, recording, seed), effect, starts=starts, seed=seed)
+    before = with_choices(
+        on_recording(fitted, recording, seed), choices, parameters_brought_by(effect), seed
+    )
+    return add_effect(before, effect, starts=starts, seed=seed)
+
+
+def parameters_brought_by(effect: str) -> dict[str, str]:
+    """Names of the parameters of an effect, and of the simpler one it contains, by any name."""
+    simpler = simpler_effect(effect)
+    return parameters_of_effects([effect] if simpler is None else [simpler, effect])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import polars as pl
 
@@ -29,10 +30,15 @@ from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.testable import Untestable
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
+from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_effects
+from stribeck.identify.scaling import model_for
 from stribeck.identify.transients import transient_rows
 from stribeck.models.model import Model
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.recording import Recording
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True, repr=False)
@@ -104,6 +110,7 @@ def improve(
     candidates: Collection[str] = (),
     sample_rows: int = SAMPLE_ROWS,
     progress: Callable[[str], None] = lambda sentence: None,
+    **choices: Unpack[ChoiceArguments],
 ) -> Improvement:
     """Diagnose and add until nothing passes the test.
 
@@ -119,10 +126,15 @@ def improve(
         stretches; the model of each step is then identified on all samples.
     progress : callable
         Called with one sentence at each step.
+    **choices
+        `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the base model or of effects
+        that may be added. They stay in force throughout.
     """
     progress(f"fitting {base if isinstance(base, str) else base.spec}")
     few = excerpt(recording, sample_rows, seed)
-    first = fit(base, few, starts=starts, seed=seed)
+    later = parameters_of_effects(candidates=candidates)
+    start = Choices.of(choices).applied(model_for(base, few), later)
+    first = fit(start, few, starts=starts, seed=seed)
     *_, path = improvement_paths(
         first,
         seed=seed,
@@ -135,21 +147,27 @@ def improve(
     if few is not recording:
         path = _on_all_samples(path, recording, progress)
     found = path.last
-    stopped = "nothing_passes"
-    if found.findings:
-        stopped = "max_steps"
-    elif not found.unexplained.is_structure and found.noise_floor.is_reached_by(path.current.rmse):
-        stopped = "noise_floor"
     return Improvement(
         base=path.start,
         steps=path.steps,
         final=path.current,
         noise_floor=found.noise_floor,
-        stopped=stopped,
+        stopped=_stopped(path),
         untestable=found.untestable,
         unexplained=found.unexplained,
         last=found,
     )
+
+
+def _stopped(path: ImprovementPath) -> str:
+    """Why the loop ended."""
+    found = path.last
+    if found.findings:
+        return "max_steps"
+    noise = not found.unexplained.is_structure and found.noise_floor.is_reached_by(
+        path.current.rmse
+    )
+    return "noise_floor" if noise else "nothing_passes"
 
 
 def _on_all_samples(

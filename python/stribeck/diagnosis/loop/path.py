@@ -18,8 +18,8 @@ from stribeck.diagnosis.trials.trial import SIGNIFICANCE, add_effect
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
+from stribeck.identify.effort import QUICK
 from stribeck.identify.figures import rms
-from stribeck.identify.search import QUICK
 
 MOST_STEPS = 8
 
@@ -196,7 +196,8 @@ def _superfluous(steps: tuple[ImprovementStep, ...], least_fall: float, seed: in
         except FitError:
             continue
         rows = current.rows
-        rise = rms(without.residual[rows]) / rms(current.residual[rows]) - 1.0
+        level = rms(current.weighted(current.residual[rows]))
+        rise = rms(current.weighted(without.residual[rows])) / level - 1.0
         if rise < least_fall / 2 or evidence(without, current).p_value > SIGNIFICANCE:
             return effect
     return None

@@ -46,24 +46,32 @@ class Evidence:
     p_value: float
 
 
+def held_out_square(fit: Fit, before: Fit) -> float:
+    """Held-out sum of squares on the samples fitted to, with the weights of `before`.
+
+    Fits are compared with the same weights: those of a robust loss follow the residual.
+    """
+    return float(np.sum(before.weighted(fit.held_out_residual[before.rows]) ** 2))
+
+
 def evidence(before: Fit, after: Fit) -> Evidence:
     """The evidence for a wider fit `after` against `before`."""
     r, rows = before.recording, before.rows
-    square_before = before.held_out_residual[rows] ** 2
-    square_after = after.held_out_residual[rows] ** 2
+    square_before = before.weighted(before.held_out_residual[rows]) ** 2
+    square_after = before.weighted(after.held_out_residual[rows]) ** 2
     gain = np.bincount(r.block[rows], square_before - square_after)
     level = float(square_before.mean())
     fall = 1.0 - float(np.sqrt(square_after.mean() / level)) if level > 0 else 0.0
     slow_before = zero_phase(r, bridged(r, before.held_out_residual))[rows]
     slow_after = zero_phase(r, bridged(r, after.held_out_residual))[rows]
-    added = (after.prediction - before.prediction)[rows]
+    added = before.weighted((after.prediction - before.prediction)[rows])
     return Evidence(
         fall,
         bool(gain.sum() - gain.max() > 0),
         1.0 - rms(slow_after) / (rms(slow_before) or 1.0),
         added_torque_test(
             added,
-            after.residual[rows],
+            before.weighted(after.residual[rows]),
             len(after.model.names) - len(before.model.names),
         )
         * _forms(before, after),
@@ -116,7 +124,10 @@ class Difference:
 def difference(worse: Fit, better: Fit) -> Difference:
     """Compare two models, nested or not, on held-out samples."""
     rows = worse.rows
-    change = worse.held_out_residual[rows] ** 2 - better.held_out_residual[rows] ** 2
+    change = (
+        worse.weighted(worse.held_out_residual[rows]) ** 2
+        - worse.weighted(better.held_out_residual[rows]) ** 2
+    )
     batch = batches(change.size, correlation_length(change), fewest=20, most=100)
     count = int(batch.max()) + 1
     sums = np.bincount(batch, change, count)

@@ -42,11 +42,11 @@ class FlexibleRefit:
         columns = flexible_columns(before)
         if columns.shape[1] == 0:
             return None
-        return cls(before, columns, *_linear_refit(before, columns))
+        return cls(before, columns, *_linear_refit(before, columns, before))
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
         """Whether a trial among `tried`, which must bring the fall `least`, no longer passes."""
-        along, residual_along = _linear_refit(trial.fit, self.columns)
+        along, residual_along = _linear_refit(trial.fit, self.columns, self.before)
         level = float(np.mean(self.held_out**2))
         fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
         p_value = added_torque_test(
@@ -57,16 +57,21 @@ class FlexibleRefit:
         return fall < least / 2 or p_value * tried > SIGNIFICANCE
 
 
-def held_out_with_columns(fitted: Fit, extra: Array) -> Array:
-    """Held-out residual of `fitted` [m], linearised, with columns [m, k] added."""
-    return _linear_refit(fitted, extra)[0]
+def held_out_with_columns(fitted: Fit, extra: Array, before: Fit) -> Array:
+    """Held-out residual of `fitted` [m], linearised, with columns [m, k] added.
+
+    With the weights of `before`, so that fits are compared with the same weights.
+    """
+    return _linear_refit(fitted, extra, before)[0]
 
 
-def _linear_refit(fitted: Fit, extra: Array) -> tuple[Array, Array]:
-    """Held-out and in-sample residuals of `fitted`, linearised, with `extra` columns added."""
-    problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
-    residual, jacobian = problem.linearise(fitted.model.values)
-    columns = np.column_stack([jacobian, extra])
+def _linear_refit(fitted: Fit, extra: Array, before: Fit) -> tuple[Array, Array]:
+    """Held-out and in-sample residuals, weighted, of `fitted` linearised with `extra` columns."""
+    problem = Problem(
+        fitted.recording, fitted.model, fitted.rows, fitted.load, loss_weight=before.loss_weight
+    )
+    residual, jacobian = map(problem.weighted, problem.linearise(fitted.model.values))
+    columns = np.column_stack([jacobian, problem.weighted(extra)])
     size = np.sqrt((columns**2).mean(axis=0))
     columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
     group = fitted.recording.block[fitted.rows].astype(np.uint32)

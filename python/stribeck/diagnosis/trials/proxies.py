@@ -12,6 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.diagnosis.trials.evidence import held_out_square
 from stribeck.diagnosis.trials.flexible_refit import held_out_with_columns
 from stribeck.diagnosis.trials.trial import Trial
 from stribeck.effect.base import FixedForm
@@ -52,19 +53,18 @@ def without_proxies(before: Fit, good: list[Trial]) -> list[Trial]:
 
 def _is_proxy(before: Fit, trial: Trial, extra: Array) -> bool:
     """Whether free functions, columns [m, k], explain more than the effect does."""
-    left = float(np.sum(held_out_with_columns(trial.fit, extra) ** 2))
-    return trial.square - left > SHARE * (_square(before) - trial.square)
+    left = float(np.sum(held_out_with_columns(trial.fit, extra, before) ** 2))
+    own = held_out_square(trial.fit, before)
+    return own - left > SHARE * (held_out_square(before, before) - own)
 
 
 def _owes_to(before: Fit, other: Trial, extra: Array) -> bool:
     """Whether free functions explain most of what another effect explains."""
-    without = float(np.sum(held_out_with_columns(before, extra) ** 2))
-    along = float(np.sum(held_out_with_columns(other.fit, extra) ** 2))
-    return without - along < MOST * (_square(before) - other.square)
-
-
-def _square(fit: Fit) -> float:
-    return float(np.sum(fit.held_out_residual[fit.rows] ** 2))
+    without = float(np.sum(held_out_with_columns(before, extra, before) ** 2))
+    along = float(np.sum(held_out_with_columns(other.fit, extra, before) ** 2))
+    return without - along < MOST * (
+        held_out_square(before, before) - held_out_square(other.fit, before)
+    )
 
 
 def _fixed_form(effect: str) -> FixedForm | None:

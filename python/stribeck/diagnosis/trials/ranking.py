@@ -8,6 +8,7 @@ import numpy as np
 
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.evidence import held_out_square
 from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
     TIE,
@@ -48,7 +49,8 @@ def findings(
         rest = [t for t in good if t.effect != first.effect]
         return findings(before, rest, tried, least, floor, seed)
     taken = share_of_unexplained(before, first.fit, floor)
-    if taken is not None and taken < MATERIAL:
+    # With a robust loss most of the unexplained error may be that of outliers.
+    if taken is not None and taken < MATERIAL and before.loss_weight is None:
         return ()
     ordered[0] = first
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
@@ -74,11 +76,14 @@ def _tied(
 ) -> list[Trial]:
     """The best trial and those indistinguishable from it, in the order in which they are named."""
     best = good[0]
-    level = float(np.sum(before.held_out_residual[before.rows] ** 2))
+    level, least_left = held_out_square(before, before), held_out_square(best.fit, before)
     same = {
         t.effect
         for t in good[1:]
-        if (statistic[t.effect] <= TIE or level - t.square >= ALIKE * (level - best.square))
+        if (
+            statistic[t.effect] <= TIE
+            or level - held_out_square(t.fit, before) >= ALIKE * (level - least_left)
+        )
         and not adds_to(best, t, tried, least, seed)
     }
     tied = [best] + [t for t in good if t.effect in same]

@@ -77,7 +77,8 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
     try:
         model = model_for(extended_model(before, effect), before.recording)
         load = before.load if before.load is not None else own_load(before.model, before.recording)
-        problem = _few_samples(Problem(before.recording, model, before.rows, load), before.model)
+        whole = Problem(before.recording, model, before.rows, load, loss_weight=before.loss_weight)
+        problem = _few_samples(whole, before.model)
         lower, upper, first = bounds(model, before.recording)
         found = _search(problem, lower, upper, first, seed)
         if not np.isfinite(found.square):
@@ -91,8 +92,8 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
 def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Array) -> float:
     """Relative fall of the RMSE; on a single stretch, with both models fitted to it alone."""
     if problem.span is None:
-        level = rms(before.held_out_residual[problem.rows])
-        left = rms(held_out_residual(problem, found.values, lower, upper))
+        level = rms(problem.weighted(before.held_out_residual[problem.rows]))
+        left = rms(problem.weighted(held_out_residual(problem, found.values, lower, upper)))
     else:
         base = replace(problem, model=before.model)
         least, most, _ = bounds(before.model, before.recording)
@@ -118,7 +119,7 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     known = problem.model.values
     unknown = ~np.isfinite(known)
     start = np.where(unknown, first, np.clip(known, lower, upper))
-    space = SearchSpace(problem.model, lower, upper)
+    space = SearchSpace.of(problem, lower, upper)
     nonlinear = space.nonlinear
     # With a bristle, a search finds the amplitudes of dry friction from any start.
     amplitude = np.array([p.role == "dry" for p in problem.model.parameters])

@@ -14,8 +14,8 @@ from stribeck.diagnosis.visibility.model_space import MOST_ROWS
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
+from stribeck.identify.effort import QUICK
 from stribeck.identify.problem import Problem
-from stribeck.identify.search import QUICK
 from stribeck.models.catalog import catalog
 from stribeck.models.formula_law import effect_name
 
@@ -67,11 +67,6 @@ class Trial:
         else:
             size = own.names[0]
         return size in self.fit.estimates and self.fit.estimates[size].at_bound
-
-    @property
-    def square(self) -> float:
-        """Held-out sum of squares on the samples fitted to."""
-        return float(np.sum(self.fit.held_out_residual[self.fit.rows] ** 2))
 
 
 def add_effect(
@@ -193,9 +188,17 @@ def passes(trial: Trial, tried: int, least: float) -> bool:
 
 
 def falls_on_all_samples(before: Fit, trial: Trial) -> bool:
-    """Whether the error over all scored samples falls too, transients included."""
+    """Whether the error over all scored samples falls too, transients included.
+
+    With a robust loss the error is weighted: that of outliers alone may rise or fall by chance.
+    """
     assert before.rmse_held_out is not None and trial.fit.rmse_held_out is not None
-    return trial.fit.rmse_held_out < before.rmse_held_out
+    if before.loss_weight is None:
+        return trial.fit.rmse_held_out < before.rmse_held_out
+    at = before.recording.moving
+    weight = before.loss_weight[at]
+    gain = before.held_out_residual[at] ** 2 - trial.fit.held_out_residual[at] ** 2
+    return bool(np.sum(weight * gain) > 0.0)
 
 
 def tie_statistic(best: Trial, other: Trial) -> float:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 
 Array = NDArray[np.float64]
@@ -86,5 +87,5 @@ def _weights(gram: Array) -> tuple[Array, Array]:
     gram : array [r, r]
         Products of the basis of the fit over the samples of the block.
     """
-    weights, vectors = np.linalg.eigh(gram)
+    weights, vectors = linear.symmetric_eigen(gram)
     return np.clip(weights, 0.0, HEAVIEST), vectors

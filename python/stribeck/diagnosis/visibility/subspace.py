@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.identify.triangle import UNSEEN, Triangle
 
 Array = NDArray[np.float64]
@@ -24,7 +25,7 @@ def orthonormal(columns: Array) -> Array:
         size = np.sqrt(np.einsum("ij,ij->j", basis, basis))
         basis = basis[:, size > 0] / size[size > 0]
         factor = Triangle.of(basis, np.zeros(basis.shape[0])).factor
-        _, weights, vectors = np.linalg.svd(factor)
+        weights, vectors = linear.singular(factor)
         kept = weights > UNSEEN * weights.max(initial=0.0)
         basis = basis @ (vectors[kept].T / weights[kept])
     return basis
@@ -51,7 +52,7 @@ def sine_to_span(torque: Array, basis: Array) -> float:
     >>> sine_to_span(np.array([1.0, 1.0]), np.array([[1.0], [0.0]])).__round__(6)
     0.707107
     """
-    length = float(np.linalg.norm(torque))
+    length = linear.length(torque)
     if length == 0.0:
         return 0.0
-    return float(np.linalg.norm(outside_span(basis, torque[:, None]))) / length
+    return linear.length(outside_span(basis, torque[:, None])[:, 0]) / length

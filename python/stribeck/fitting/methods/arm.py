@@ -28,6 +28,7 @@ from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.models.build import model
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+from stribeck.recording.weights import refuse_weights
 
 Array = NDArray[np.float64]
 
@@ -159,6 +160,7 @@ def arm_fit(
     >>> one, two = sb.read("arm.csv", joint="1"), sb.read("arm.csv", joint="2")  # doctest: +SKIP
     >>> arm_fit(one, two, first_link_length=0.35).values[:4]  # doctest: +SKIP
     """
+    refuse_weights("the identification of an arm", first, second)
     _check(first, second, first_link_length, slowest)
     joints = (first, second)
     columns = _regressor(joints, first_link_length)

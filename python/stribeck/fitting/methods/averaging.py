@@ -17,6 +17,7 @@ from stribeck.fitting.methods.segments import check_bins, constant_stretches
 from stribeck.fitting.methods.steady import SteadyPoint, SteadyPoints, checked_points, mean_of
 from stribeck.fitting.methods.stretches import Line, Search
 from stribeck.recording.recording import Recording
+from stribeck.recording.weights import refuse_weights
 
 Array = NDArray[np.float64]
 
@@ -69,6 +70,7 @@ def averaged_points(
 
     On the command line: ``stribeck fit points.csv --model m1 --method grid``.
     """
+    refuse_weights("a reduction to points", recording)
     check_bins(bins)
     search = search or Search()
     lines = constant_stretches(recording, search)

@@ -41,17 +41,13 @@ def estimates(
     for k, p in enumerate(model.parameters):
         value = float(model.values[k])
         error = None if np.isnan(errors[k]) else float(errors[k])
-        lower, upper = model.bounds[p.name]
-        made[p.name] = Estimate(
-            name=p.name,
-            symbol=p.symbol,
-            value=value,
-            unit=p.unit,
-            stderr=error,
-            ci95=None if error is None else (value - reach * error, value + reach * error),
+        made[p.name] = Estimate.symmetric(
+            p,
+            value,
+            error,
+            reach,
+            model.bounds[p.name],
             at_bound=bool(at_bound[k]),
             identifiable=bool(shown[k]),
-            lower=lower,
-            upper=upper,
         )
     return made

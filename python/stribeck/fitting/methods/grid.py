@@ -23,6 +23,7 @@ from stribeck.fitting.methods.least_absolute import least_absolute, least_total,
 from stribeck.fitting.methods.ranges import Ranges
 from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.result import Fit
+from stribeck.identify.choices import refuse_statements
 from stribeck.identify.covariance import seen
 from stribeck.identify.estimates import Estimate
 from stribeck.identify.figures import relative_residual, rms
@@ -30,6 +31,7 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+from stribeck.recording.weights import refuse_weights
 
 Array = NDArray[np.float64]
 
@@ -39,7 +41,7 @@ MOST_ROWS = 500
 #: Most points of a grid; a larger one would take minutes to hours.
 MOST_POINTS = 20_000
 #: Points per nonlinear parameter, by the number of these parameters.
-COUNTS = {1: 120, 2: 25, 3: 10}
+COUNTS = {1: 120, 2: 40, 3: 10}
 #: Number of refined grids about the best point, and their points per parameter.
 ROUNDS, FINER = 8, 5
 
@@ -66,7 +68,7 @@ def grid_fit(
         Preferably steady-state points. At most 500 evenly spaced moving samples are used for the
         sum of absolute errors; RMSE and held-out RMSE are over all moving samples.
     grid : mapping of parameter name (or symbol) to Axis, optional
-        Ranges and counts; default: the catalog's bounds, with 120, 25 or 10 points per parameter
+        Ranges and counts; default: those of random starts, with 120, 40 or 10 points per parameter
         for 1, 2 or 3 parameters. The grid is refined about its best point, within the range.
 
     Returns
@@ -88,8 +90,10 @@ def grid_fit(
     >>> grid = {"stribeck_velocity": speeds}
     >>> grid_fit("bittencourt_a", points, grid=grid)  # doctest: +SKIP
     """
+    refuse_weights("the method 'grid'", recording)
     began = time.perf_counter()
     made = _static_model(spec, recording)
+    refuse_statements(made, "the method 'grid'")
     rows = np.flatnonzero(recording.moving)
     if rows.size < len(made.names) + 2:
         raise FitError(
@@ -253,6 +257,7 @@ def _as_fit(made: Model, whole: Problem, search: _GridSearch) -> Fit:
         held_out=held_out,
         rmse_held_out=rms(residual[recording.moving]) if enough else None,
         relative_residual=relative_residual(recording, residual) if enough else None,
+        rank=None,  # The criteria are of least squares.
         starts=1,
         outcome="searched the whole grid",
         evaluations=search.regressions,

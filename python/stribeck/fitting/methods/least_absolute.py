@@ -8,7 +8,9 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.base.errors import FitError, option
+from stribeck.identify.triangle import Triangle
 
 Array = NDArray[np.float64]
 
@@ -100,7 +102,7 @@ def least_total(columns: Array, target: Array) -> tuple[float, float]:
     least, reached = 0.0, float(np.abs(target).sum())
     for _ in range(ROUNDS):
         root = np.sqrt(weight)
-        solution = np.linalg.lstsq(columns * root[:, None], target * root, rcond=None)[0]
+        solution = linear.least_norm(columns * root[:, None], target * root)
         residual = target - columns @ solution
         size = np.abs(residual)
         largest = float((weight * size).max())
@@ -132,7 +134,6 @@ def standard_errors(jacobian: Array, residual: Array, free: NDArray[np.bool_]) -
     width = min((1.5 * 1.96**2 / (2.0 * np.pi * rows)) ** (1.0 / 3.0), 0.49)
     low, high = np.quantile(residual, [0.5 - width, 0.5 + width])
     sparsity = float(high - low) / (2.0 * width)
-    size = np.sqrt(np.einsum("ij,ij->j", columns, columns))
-    inverse = np.linalg.pinv((columns / size).T @ (columns / size), hermitian=True)
-    errors[free] = 0.5 * sparsity * np.sqrt(np.diag(inverse)) / size
+    inverse = Triangle.of(columns, residual).covariance()
+    errors[free] = 0.5 * sparsity * np.sqrt(np.diag(inverse))
     return errors

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.scaling import bounds
+from stribeck.identify.scaling import scaled_parameters
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
@@ -32,10 +32,17 @@ class Ranges:
 
     @classmethod
     def of(cls, model: Model, recording: Recording) -> Ranges:
-        """The catalog's bounds on a recording; parameters that a law holds stay at their start."""
-        lower, upper, start = bounds(model, recording)
-        held = np.array([p.role == "held" for p in model.parameters], dtype=bool)
-        return cls(np.where(held, start, lower), np.where(held, start, upper))
+        """The ranges of random starts on a recording, and the bounds of linear parameters.
+
+        Parameters that a law holds stay at their start.
+        """
+        rows = scaled_parameters(model, recording)
+        ends = [
+            (p.start, p.start) if p.role == "held" else (p.lower, p.upper) if p.linear else p.drawn
+            for p in rows
+        ]
+        lower, upper = np.array(ends, dtype=np.float64).reshape(-1, 2).T
+        return cls(lower, upper)
 
     def at(self, share: Array) -> Array:
         """Values at `share` (0..1) of the range, array [p]."""

@@ -14,6 +14,7 @@ from stribeck.base.errors import FitError, option
 from stribeck.fitting.methods.steady import SteadyPoint, SteadyPoints, checked_points, mean_of
 from stribeck.fitting.methods.stretches import Line, Search, constant_speed
 from stribeck.recording.recording import Recording
+from stribeck.recording.weights import refuse_weights
 
 
 def segment_points(
@@ -50,6 +51,7 @@ def segment_points(
 
     On the command line: ``stribeck fit points.csv --model gantry_map``.
     """
+    refuse_weights("a reduction to points", recording)
     check_bins(bins)
     lines = constant_stretches(recording, search or Search())
     notes: tuple[str, ...] = ()

@@ -21,12 +21,14 @@ from stribeck.fitting.methods.least_squares import BoundedLeastSquares
 from stribeck.fitting.methods.presliding import Presliding
 from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.result import Fit
+from stribeck.identify.choices import refuse_statements
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+from stribeck.recording.weights import refuse_weights
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -121,8 +123,10 @@ def three_step_fit(
     >>> small = sb.read("presliding.csv", standstill=True)  # doctest: +SKIP
     >>> fit = three_step_fit("tadese_full", warm, loaded, small)  # doctest: +SKIP
     """
+    refuse_weights("the method 'three_step'", no_load, loaded, presliding)
     began = time.perf_counter()
     made = model_for(spec, loaded)
+    refuse_statements(made, "the method 'three_step'")
     search = BoundedLeastSquares(made, loaded, starts, seed)
     if "damping_velocity" in made.names:
         search.start[made.names.index("damping_velocity")] = damping_velocity
@@ -277,6 +281,7 @@ def _as_fit(made: Model, loaded: Recording, errors: Array, steps: Sequence[Step]
         ),
         "rmse_held_out": None,
         "relative_residual": None,
+        "rank": None,
         "outcome": "three steps",
         "notes": (*notes, *fitted.notes),
     }

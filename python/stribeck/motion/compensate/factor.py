@@ -136,8 +136,8 @@ def _intervals(
 ) -> tuple[np.ndarray, np.ndarray, tuple[str, ...]]:
     """Return the intervals of the friction's parameters, and the parameters without an error."""
     errors = dict(_reach(given))
-    reach = np.array([errors.get(name, 0.0) for name in friction.names])
-    lower, upper = friction.values - reach, friction.values + reach
+    below, above = np.array([errors.get(name, (0.0, 0.0)) for name in friction.names]).T
+    lower, upper = friction.values - below, friction.values + above
     for k, p in enumerate(friction.parameters):
         # Intervals end where a parameter becomes meaningless, such as a negative speed.
         if p.lower >= 0.0 and friction.values[k] >= 0.0:
@@ -146,12 +146,26 @@ def _intervals(
     return lower, upper, exact
 
 
-def _reach(given: Model | ModelFile | Fit) -> Iterator[tuple[str, float]]:
-    """Yield the half-width of the interval of each parameter, if known."""
+def _reach(given: Model | ModelFile | Fit) -> Iterator[tuple[str, tuple[float, float]]]:
+    """Yield how far the interval of each parameter reaches below and above its value, if known.
+
+    Raises
+    ------
+    SpecError
+        An interval is infinite.
+    """
     if isinstance(given, Fit):
         for name, estimate in given.estimates.items():
-            if estimate.ci95 is not None:
-                yield name, 0.5 * (estimate.ci95[1] - estimate.ci95[0])
+            if estimate.ci95 is None:
+                continue
+            low, high = estimate.ci95
+            if not np.isfinite([low, high]).all():
+                raise SpecError(
+                    f"the interval of {name} is infinite: give it bounds in the fit, or fix it"
+                )
+            half = 0.5 * (high - low)
+            symmetric = given.errors in ("robust", "independent")
+            yield name, (half, half) if symmetric else (estimate.value - low, high - estimate.value)
     elif isinstance(given, ModelFile):
         for name, error in given.stderr.items():
-            yield name, STANDARD_ERRORS * error
+            yield name, (STANDARD_ERRORS * error, STANDARD_ERRORS * error)

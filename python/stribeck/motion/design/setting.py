@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base import linear
 from stribeck.base.errors import FitError, SpecError, option
 from stribeck.diagnosis.visibility.power import ExpectedNoise
 from stribeck.fitting.result import Fit
@@ -208,7 +209,7 @@ def _load_of(r: Recording) -> tuple[Array | None, tuple[str, ...]]:
     if r.position is None:
         raise FitError(f"{r.path} has no position, so the load of a new motion is unknown")
     columns = _regressors(r.joint_kind, r.position, r.acceleration)
-    shares: Array = np.asarray(np.linalg.lstsq(columns, r.load_torque, rcond=1e-9)[0], dtype=float)
+    shares = linear.least_norm(columns, r.load_torque, 1e-9)
     left = rms(r.load_torque - columns @ shares)
     explained = 1.0 - (left / (rms(r.load_torque) or 1.0)) ** 2
     if explained >= EXPLAINED:

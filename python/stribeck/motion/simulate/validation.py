@@ -10,6 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import ArrayLike, NDArray
 
+from stribeck.base import linear
 from stribeck.base.errors import SpecError
 from stribeck.base.shown import Plotted
 from stribeck.fitting.result import Fit
@@ -309,4 +310,4 @@ def _even_step(recording: Recording, rows: NDArray[np.intp]) -> float:
 
 
 def _relative(values: Array, true: Array) -> float:
-    return float(np.linalg.norm(values - true) / np.linalg.norm(true - true.mean()))
+    return linear.length(values - true) / linear.length(true - true.mean())

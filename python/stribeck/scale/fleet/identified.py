@@ -127,7 +127,7 @@ def _identified(fitted: Fit, found: tuple[Found, ...], floor: float | None) -> I
 def _covariance(fitted: Fit) -> NDArray[np.float64]:
     """Covariance [p, p] of the parameters; its diagonal is the square of the standard errors."""
     problem = Problem(fitted.recording, fitted.model, fitted.rows, fitted.load)
-    residual, jacobian = problem.linearise(fitted.model.values)
+    residual, jacobian = map(problem.weighted, problem.linearise(fitted.model.values))
     free = np.array([e.stderr is not None for e in fitted.estimates.values()], dtype=bool)
     batch = batches(residual.size, correlation_length(residual))
     return sandwich(jacobian, residual, batch, free)

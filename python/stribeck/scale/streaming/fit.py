@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import needs_own_load
+from stribeck.identify.at_bound import at_bound_notes
 from stribeck.identify.covariance import correlation_length
-from stribeck.identify.estimates import Estimate, estimates_by_rows
+from stribeck.identify.estimates import Identified, estimates_by_rows
 from stribeck.identify.held_out import Bounded
 from stribeck.identify.separable import Search, minimise
 from stribeck.identify.triangle import Triangle
@@ -104,11 +105,12 @@ def _result(
     square = Triangle.joined(parts).square
     free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
     seconds = time.perf_counter() - began
+    identified = _estimates(model, found.values, bounds, parts, free)
     return StreamedFit(
         model=replace(model, box=groups.ranges).with_values(found.values),
         data=problem.windows.data,
         start=start,
-        estimates=_estimates(model, found.values, bounds, parts, free),
+        estimates=identified.estimates,
         rmse=float(np.sqrt(square / moving)),
         rmse_held_out=None if held_out is None else float(np.sqrt(held_out / moving)),
         rows=groups.count,
@@ -121,7 +123,9 @@ def _result(
         passes=problem.passes,
         seconds=start.seconds + seconds,
         pass_seconds=seconds,
-        notes=_notes(sample, start, groups),
+        notes=(*_notes(sample, start, groups), *at_bound_notes(identified.estimates.values())),
+        covariance=identified.covariance,
+        combinations=identified.combinations,
     )
 
 
@@ -221,7 +225,7 @@ def _held_out(values: Array, bounds: Array, blocks: list[Triangle]) -> float | N
 
 def _estimates(
     model: Model, values: Array, bounds: Array, parts: list[Triangle], free: NDArray[np.intp]
-) -> dict[str, Estimate]:
+) -> Identified:
     """The parameters, with standard errors from the scores of the groups."""
     count = max(free.size, 1)
     jacobian = np.zeros((count * len(parts), values.size))

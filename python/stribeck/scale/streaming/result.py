@@ -10,7 +10,9 @@ import polars as pl
 from stribeck.base.errors import StribeckError
 from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
+from stribeck.identify.confounded import Combination
 from stribeck.identify.estimates import Estimate
+from stribeck.identify.matrix import ParameterMatrix
 from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -33,6 +35,8 @@ class StreamedFit(Shown):
         Number of all samples, of those fitted and scored, and of those dropped as not finite.
     passes
         How often all samples were read.
+    covariance, combinations
+        As of `Fit`.
     seconds, pass_seconds
         Total time, and time of the passes.
     """
@@ -53,6 +57,8 @@ class StreamedFit(Shown):
     passes: int
     seconds: float
     pass_seconds: float
+    covariance: ParameterMatrix
+    combinations: tuple[Combination, ...]
     notes: tuple[str, ...] = ()
 
     @property
@@ -80,6 +86,8 @@ class StreamedFit(Shown):
         return {
             "model": self.model.spec,
             "parameters": {name: e.to_dict() for name, e in self.estimates.items()},
+            "correlation": self.covariance.correlation().to_dict(),
+            "determined_combinations": [found.to_dict() for found in self.combinations],
             "rmse": self.rmse,
             "rmse_held_out": self.rmse_held_out,
             "relative_residual": self.start.relative_residual,

@@ -84,7 +84,8 @@ def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
     row = number[prepared.row]
     prepared = _with_runs(replace(prepared, row=row), row, starts)
     joint, own = joint_rows(prepared, settings.joint)
-    recording = build(prepared, joint, own)
+    recording = build(prepared, joint, own, mend=False)
+    recording.require_consistent()
     edges = block_edges(data.rows, starts)
     return Sample(recording, prepared, joint, starts, edges)
 
@@ -98,6 +99,11 @@ def _refuse(data: DataSet, settings: Settings) -> None:
                 f"{data.path}: {option(name, value)} needs all samples in memory: leave it out, or "
                 "read one file into memory, without streaming"
             )
+    if settings.unwrap:
+        raise RecordingError(
+            f"{data.path}: {option('unwrap')} needs all samples in memory: write the position "
+            "without jumps, or read one file into memory"
+        )
 
 
 def _starts(data: DataSet, prepared: Prepared) -> Ints:

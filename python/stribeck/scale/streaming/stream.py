@@ -5,14 +5,23 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
+from stribeck.base.errors import RecordingError, option
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.diagnose import diagnose as diagnose_in_memory
 from stribeck.diagnosis.loop.improve import improve as improve_in_memory
 from stribeck.fitting.fit import fit as fit_in_memory
 from stribeck.fitting.result import Fit
-from stribeck.identify.search import QUICK
+from stribeck.identify.choices import (
+    CHOICE_NAMES,
+    ChoiceArguments,
+    Choices,
+    parameters_of_effects,
+    refuse_statements,
+)
+from stribeck.identify.effort import QUICK
+from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
 from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import ReadArguments, ReadOptions
@@ -60,10 +69,8 @@ class Stream:
         *,
         starts: int = 20,
         seed: int = 0,
-        start: Mapping[str, float] | None = None,
-        bounds: Mapping[str, tuple[float, float]] | None = None,
-        fix: Mapping[str, float] | None = None,
         told: Told = _silent,
+        **choices: Unpack[ChoiceArguments],
     ) -> StreamedFit:
         """Identify `spec` on all samples by bounded least squares; see `stribeck.fit`.
 
@@ -71,16 +78,11 @@ class Stream:
         ----------
         told
             Called after each window with the samples done, all samples, and the number of the pass.
+        **choices
+            `start`, `bounds` and `fix` of `stribeck.fit`.
         """
-        first = fit_in_memory(
-            spec,
-            self.sample.recording,
-            starts=starts,
-            seed=seed,
-            start=start,
-            bounds=bounds,
-            fix=fix,
-        )
+        made = self._stated(spec, choices, {})
+        first = fit_in_memory(made, self.sample.recording, starts=starts, seed=seed)
         return streamed_fit(self.data, self.sample, first, told=told, window_rows=self.window_rows)
 
     def diagnose(
@@ -92,13 +94,16 @@ class Stream:
         least_fall: float = LEAST_FALL,
         candidates: Collection[str] = (),
         told: Told = _silent,
+        **choices: Unpack[ChoiceArguments],
     ) -> StreamedDiagnosis:
         """Find which effect `spec` lacks; see `stribeck.diagnose`.
 
         Causes are searched on the sample; the errors without and with them are over all samples.
         """
         sample = self.sample.recording
-        first = fit_in_memory(spec, sample, starts=starts, seed=seed)
+        later = parameters_of_effects(candidates=candidates)
+        made = self._stated(spec, choices, later)
+        first = fit_in_memory(made, sample, starts=starts, seed=seed)
         found = diagnose_in_memory(
             first,
             sample,
@@ -129,17 +134,28 @@ class Stream:
         Parameters
         ----------
         **options
-            `least_fall`, `most_steps`, `rejected`, `candidates` and `progress` of
-            `stribeck.improve`.
+            `least_fall`, `most_steps`, `rejected`, `candidates`, `progress`, `start`, `bounds` and
+            `fix` of `stribeck.improve`.
         """
         sample = self.sample.recording
+        choices = {name: options.pop(name) for name in CHOICE_NAMES if name in options}
+        later = parameters_of_effects(candidates=options.get("candidates", ()))
+        start = self._stated(base, cast(ChoiceArguments, choices), later)
         found = improve_in_memory(
-            base, sample, starts=starts, seed=seed, sample_rows=sample.rows, **options
+            start, sample, starts=starts, seed=seed, sample_rows=sample.rows, **options
         )
         *way, last = [found.base, *(step.after for step in found.steps)]
         # Only the errors of the intermediate models are needed.
         fits = [self._on_all_rows(fit, told, QUICK.tolerance) for fit in way]
         return StreamedImprovement(found, (*fits, self._on_all_rows(last, told)))
+
+    def _stated(
+        self, spec: str | Model, choices: ChoiceArguments, later: Mapping[str, str]
+    ) -> Model:
+        """The model with what is stated about its parameters; refuse what needs all samples."""
+        made = Choices.of(choices).applied(model_for(spec, self.sample.recording), later)
+        refuse_statements(made, "a fit to data read in passes")
+        return made
 
     def _on_all_rows(self, start: Fit, told: Told, tolerance: float | None = None) -> StreamedFit:
         return streamed_fit(
@@ -182,7 +198,8 @@ def stream(
     seed
         Seed of the positions of the parts.
     **reading
-        Options of `stribeck.read`, except `average`, `drive`, `hold_out` and `standstill`.
+        Options of `stribeck.read`, except `average`, `drive`, `hold_out`, `standstill` and
+        `weights`.
 
     Raises
     ------
@@ -196,5 +213,10 @@ def stream(
         fitted = sb.stream("logs/", map=["velocity=dq_3"]).fit("coulomb+load")
     """
     settings = gather(path, ReadOptions(**reading))
+    if settings.weights is not None:
+        raise RecordingError(
+            f"{path}: weights need all samples in memory: leave out {option('weights')}, or give "
+            "one file that is not read in passes"
+        )
     data = DataSet.open(path)
     return Stream(data, take(data, settings, sample_rows, seed), window_rows)

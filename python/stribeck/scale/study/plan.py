@@ -9,6 +9,7 @@ from itertools import groupby
 import numpy as np
 
 from stribeck.base.errors import FitError, SpecError
+from stribeck.identify.choices import Choices
 from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
@@ -116,6 +117,8 @@ class StudyPlan:
         Laws that need a channel which a recording lacks.
     notes
         How the recordings were read.
+    choices
+        Starts, bounds and held values, for every law that has the parameter.
     """
 
     path: str
@@ -128,6 +131,7 @@ class StudyPlan:
     jobs: tuple[Job, ...] = field(repr=False)
     skipped: tuple[Skipped, ...]
     notes: tuple[str, ...]
+    choices: Choices = field(default_factory=Choices)
 
     def pieces(self, todo: Collection[Job]) -> list[tuple[Job, ...]]:
         """Return groups of fits: all starts of a law on a joint, if at least one is in `todo`."""
@@ -148,19 +152,23 @@ def make_plan(
     *,
     starts: int = STARTS,
     seed: int = 0,
+    choices: Choices | None = None,
 ) -> StudyPlan:
     """Plan the fits of `laws` to each joint of a recording.
 
     Raises
     ------
     SpecError
-        A law is unknown or given twice; the number of starts or the seed is invalid.
+        A law is unknown or given twice; the number of starts or the seed is invalid; a choice is
+        about a parameter that no law has.
     RecordingError
         The recording cannot be read.
     FitError
         No law can be fitted to it.
     """
     _check(laws, starts, seed)
+    choices = choices or Choices()
+    made: dict[str, Model] = {}
     joints = _joints(path, reading)
     jobs: list[Job] = []
     skipped: list[Skipped] = []
@@ -168,19 +176,22 @@ def make_plan(
     sha256 = ""
     for joint in joints:
         recording = read_with(path, replace(reading, joint=joint))
+        recording.require_consistent()
         sha256 = recording.sha256
         notes += recording.notes
         counts: dict[str, int] = {}
         for law in laws:
             try:
-                counts[law] = _useful_starts(law, recording, starts)
+                made[law] = model_for(law, recording)
+                counts[law] = _useful_starts(made[law], recording, starts)
             except FitError as error:
                 skipped.append(Skipped(joint, law, str(error)))
         # The slowest fits start first, so that no worker waits for the last of them.
-        in_turn = sorted(counts, key=lambda law: not model_for(law, recording).has_state)
+        in_turn = sorted(counts, key=lambda law: not made[law].has_state)
         jobs += [Job(joint, law, k) for law in in_turn for k in range(counts[law])]
     if not jobs:
         raise FitError(f"{path}: no law of the study can be fitted: {skipped[0].why}")
+    choices.applied_to_each(list(made.values()))
     return StudyPlan(
         path=path,
         reading=reading,
@@ -192,6 +203,7 @@ def make_plan(
         jobs=tuple(jobs),
         skipped=tuple(skipped),
         notes=tuple(dict.fromkeys(notes)),
+        choices=choices,
     )
 
 
@@ -215,12 +227,12 @@ def _joints(path: str, reading: ReadOptions) -> tuple[str | None, ...]:
     return scan_with(path, reading).joints or (None,)
 
 
-def _useful_starts(law: str, recording: Recording, starts: int) -> int:
+def _useful_starts(model: Model, recording: Recording, starts: int) -> int:
     """Return the number of starts: one for a linear model; raise FitError if data are too few."""
-    model = model_for(law, recording)
     fewest = len(model.names) + 2
     if int(np.count_nonzero(recording.moving)) < fewest:
         raise FitError(
-            f"{recording.path} has fewer than {fewest} moving samples, which {law} needs at least"
+            f"{recording.path} has fewer than {fewest} moving samples, which {model.spec} needs at "
+            f"least"
         )
     return 1 if all(p.linear for p in model.parameters) else starts

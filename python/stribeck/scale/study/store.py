@@ -46,6 +46,7 @@ IDENTITY = {
     "laws": "of other laws",
     "starts": "with another number of starts",
     "seed": "with another seed",
+    "choices": "with other bounds, starts or fixed values",
     "version": "made by another version of stribeck",
 }
 
@@ -145,6 +146,7 @@ def _manifest(plan: StudyPlan) -> dict[str, object]:
         "laws": list(plan.laws),
         "starts": plan.starts,
         "seed": plan.seed,
+        "choices": plan.choices.arguments(),
         "version": __version__,
         "fits": len(plan.jobs),
         "skipped": [{"joint": s.joint, "law": s.law, "why": s.why} for s in plan.skipped],

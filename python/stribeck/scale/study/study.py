@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 from stribeck.base.errors import FitError, SpecError
 from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
+from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
 from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
 from stribeck.scale.study.desk import Desk, StudyWorkers, study_workers
@@ -25,6 +26,11 @@ from stribeck.scale.study.trial import Trial, fit_trials
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
+
+
+class StudyArguments(ReadArguments, ChoiceArguments, total=False):
+    """How the recording is read, and what is stated about parameters."""
+
 
 #: Called after each fit with the numbers of fits done and in all.
 Progress = Callable[[int, int], None]
@@ -41,14 +47,14 @@ def study(
     workers: int | None = 1,
     progress: Progress | None = None,
     note: Callable[[str], None] | None = None,
-    **reading: Unpack[ReadArguments],
+    **options: Unpack[StudyArguments],
 ) -> Study:
     """Fit `laws` to every joint of a recording from many starts, and compare them.
 
     Parameters
     ----------
     path
-        The recording; `reading` are the options of `stribeck.read`. ``joint`` selects one joint.
+        The recording. ``joint`` selects one joint.
     output
         Folder of the study. Every fit is written there when it ends; a second run with the same
         arguments continues from there.
@@ -67,7 +73,7 @@ def study(
     Raises
     ------
     StribeckError
-        The recording, a law or the folder cannot be used.
+        The recording, a law, a parameter or the folder cannot be used.
     Stopped
         On Ctrl-C; finished fits are saved.
 
@@ -77,7 +83,8 @@ def study(
     """
     if low_speed is not None and not low_speed > 0.0:
         raise SpecError(f"low speed {low_speed:g} must be above zero")
-    plan = make_plan(str(path), ReadOptions(**reading), laws, starts=starts, seed=seed)
+    reading, choices = _split(options)
+    plan = make_plan(str(path), reading, laws, starts=starts, seed=seed, choices=choices)
     if note is not None:
         for sentence in plan.notes:
             note(sentence)
@@ -87,6 +94,13 @@ def study(
         result = _result(plan, store, low_speed, processes)
         _write(result, processes)
     return result
+
+
+def _split(options: StudyArguments) -> tuple[ReadOptions, Choices]:
+    """How the recording is read, and what is stated about parameters."""
+    reading: dict[str, Any] = dict(options)
+    stated = {name: reading.pop(name) for name in CHOICE_NAMES if name in reading}
+    return ReadOptions(**reading), Choices.of(cast(ChoiceArguments, stated))
 
 
 def _fit(

@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
 from stribeck.fitting.each_start import FittedStart, fit_each
-from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.search import Effort
-from stribeck.identify.space import SearchSpace
+from stribeck.identify.choices import Choices
+from stribeck.identify.effort import THOROUGH
+from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.desk import Desk
 from stribeck.scale.study.plan import Job
 
-#: Each start runs to its minimum on all samples. Held-out blocks are predicted by the linearised
-#: model, which saves ten fits for each start.
-EFFORT = Effort(finished=1, tolerance=1e-8, exact=False)
+#: The search of a reported fit, so that both find the same minimum. Held-out blocks are predicted
+#: by the linearised model, which saves ten fits for each start.
+EFFORT = replace(THOROUGH, exact=False)
 
 
 @dataclass(frozen=True)
@@ -65,32 +65,19 @@ class Trial:
         return made.with_values([self.parameters[name] for name in made.names])
 
 
-def start_model(law: str, recording: Recording, start: int, seed: int) -> Model:
-    """Return the model at a start.
-
-    Start 0 has the default values. The others draw the nonlinear parameters uniformly between their
-    bounds, in the logarithm if the bounds are positive, as in the review. The random numbers depend
-    on seed and start alone. Linear parameters follow from the nonlinear ones.
-    """
-    model = model_for(law, recording)
-    lower, upper, first = bounds(model, recording)
-    search = SearchSpace(model, lower, upper)
-    values = np.full(len(model.names), np.nan)
-    values[search.nonlinear] = first[search.nonlinear]
-    if start > 0:
-        rng = np.random.default_rng([seed, start])
-        values[search.nonlinear] = search.decode(rng.uniform(size=int(search.nonlinear.sum())))
-    return model.with_values(values)
-
-
 def fit_trials(desk: Desk, jobs: Sequence[Job]) -> list[Trial]:
     """Fit all starts of a law on a joint."""
     joint = jobs[0].joint
-    return run_trials(jobs, desk.recording(joint), desk.transient(joint), desk.plan.seed)
+    plan = desk.plan
+    return run_trials(jobs, desk.recording(joint), desk.transient(joint), plan.seed, plan.choices)
 
 
 def run_trials(
-    jobs: Sequence[Job], recording: Recording, transient: NDArray[np.bool_], seed: int
+    jobs: Sequence[Job],
+    recording: Recording,
+    transient: NDArray[np.bool_],
+    seed: int,
+    choices: Choices | None = None,
 ) -> list[Trial]:
     """Fit a law from its starts; an error is part of the result and is not raised.
 
@@ -104,8 +91,12 @@ def run_trials(
     began = time.perf_counter()
     fits: Sequence[FittedStart | StribeckError]
     try:
-        starts = [start_model(job.law, recording, job.start, seed) for job in jobs]
-        fits = fit_each(starts, recording, transient=transient, effort=EFFORT, seed=seed)
+        model = model_for(jobs[0].law, recording)
+        if choices is not None:
+            model = choices.about(model).applied(model)
+        fits = fit_each(
+            model, recording, starts=len(jobs), seed=seed, transient=transient, effort=EFFORT
+        )
     except StribeckError as error:
         fits = [error] * len(jobs)
     except Exception as error:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.base.errors import SpecError
 from stribeck.models.model_file import ModelFile
 from stribeck.motion.compensate.factor import largest_factor
+from synthetic import joint, record
 
 COLD = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
 WARM = sb.model("coulomb", coulomb_friction=1.5, viscous_friction=0.2)
@@ -46,6 +50,26 @@ def test_the_width_of_the_intervals_counts() -> None:
     factor = largest_factor(file, box={"velocity": (-1.0, 1.0)})
     # At rest all is Coulomb friction: (2 - 1.96 * 0.2)/2.
     assert factor.value == pytest.approx((2.0 - 1.96 * 0.2) / 2.0, rel=5e-3)
+
+
+def with_interval(folder: Path, low: float, high: float) -> sb.Fit:
+    """`COLD` on a recording, with this interval of its Coulomb friction."""
+    fit = sb.evaluate(COLD, record(folder, joint()))
+    estimate = replace(fit.estimates["coulomb_friction"], ci95=(low, high))
+    return replace(fit, errors="profile", estimates={**fit.estimates, estimate.name: estimate})
+
+
+def test_an_asymmetric_interval_counts_on_its_own_side(tmp_path: Path) -> None:
+    """Only friction that is smaller than modelled limits the factor."""
+    for high in (2.1, 9.0):
+        fit = with_interval(tmp_path, 1.5, high)
+        factor = largest_factor(fit, box={"velocity": (-1.0, 1.0)})
+        assert factor.value == pytest.approx(1.5 / 2.0, rel=5e-3)
+
+
+def test_an_infinite_interval_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SpecError, match="coulomb_friction is infinite"):
+        largest_factor(with_interval(tmp_path, 1.5, np.inf), box={"velocity": (-1.0, 1.0)})
 
 
 def test_no_friction_within_the_intervals_is_exceeded() -> None:

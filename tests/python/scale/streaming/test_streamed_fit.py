@@ -41,6 +41,27 @@ def test_a_linear_model_takes_one_pass_and_is_the_same_as_in_memory(tmp_path: Pa
     # Blocks are of equal rows here and of equal time there: a row may change sides at a border.
     assert streamed.rmse_held_out == pytest.approx(whole.rmse_held_out, rel=1e-6)
     assert streamed.model.box["velocity"] == whole.model.box["velocity"]
+    said = streamed.to_dict()
+    assert said["determined_combinations"] == []
+    assert said["correlation"]["parameters"] == ["viscous_friction", "coulomb_friction"]
+    one, other = (fit.covariance.correlation().values[0, 1] for fit in (streamed, whole))
+    assert one == pytest.approx(other, abs=0.2)
+
+
+def test_in_one_direction_the_sum_with_an_offset_is_determined(tmp_path: Path) -> None:
+    frame = joint(rows=6000)
+    forward = frame.with_columns(
+        velocity=pl.col("velocity").abs(),
+        torque=pl.when(pl.col("velocity") < 0)
+        .then(2 * pl.col("load_torque") - pl.col("torque"))
+        .otherwise(pl.col("torque")),
+    ).drop("position", "acceleration")
+    folder = written(tmp_path / "set", forward)
+    streamed = sb.stream(folder, sample_rows=EVERYTHING).fit("coulomb+offset")
+    (one,) = streamed.combinations
+    assert one.text == "coulomb_friction + offset"
+    assert one.value == pytest.approx(3.0, abs=5.0 * one.stderr)
+    assert "Only this combination is determined: coulomb_friction + offset" in repr(streamed)
 
 
 def test_a_curved_model_ends_where_it_does_in_memory(tmp_path: Path) -> None:

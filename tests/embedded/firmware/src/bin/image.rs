@@ -7,14 +7,10 @@ use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
 
-use stribeck_firmware::{Joints, Motion, Number, Reading, STEPS, Step, hash};
+use stribeck_firmware::{COUNTED, Joints, Motion, Number, PROBED, Reading, STEPS, Step, hash};
 
 global_asm!(include_str!("../reset.s"));
 
-/// Steps whose instructions are counted.
-const COUNTED: u32 = 10_000;
-/// Steps whose stack use is measured.
-const PROBED: u32 = 1000;
 /// Steps that are hashed: fewer where arithmetic is slow.
 const HASHED: u32 = match u32::from_str_radix(env!("HASHED_STEPS"), 10) {
     Ok(count) => count,

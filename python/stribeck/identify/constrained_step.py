@@ -10,9 +10,9 @@ import nlopt
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck import _core
+from stribeck.base import linear
+from stribeck.identify.region import Region
 from stribeck.identify.triangle import Triangle
-from stribeck.passivity.conditions import Conditions
 
 Array = NDArray[np.float64]
 
@@ -30,32 +30,26 @@ INSIDE = 1e-3
 FAR = 1e6
 
 
-def step_under(
-    triangle: Triangle,
-    values: Array,
-    free: NDArray[np.intp],
-    lower: Array,
-    upper: Array,
-    conditions: Conditions,
-) -> Array | None:
+def step_under(triangle: Triangle, values: Array, region: Region) -> Array | None:
     """The values with the least linearised sum of squares under the conditions, array [p].
 
     Parameters
     ----------
     triangle
-        Factor of the Jacobian's columns of the `free` parameters, at `values`.
+        Factor of the Jacobian's columns of the free parameters, at `values`.
 
     Returns
     -------
     array [p] or None
         None where no values were found that hold the conditions.
     """
-    plain = values.copy()
-    plain[free] += triangle.solve(lower[free] - values[free], upper[free] - values[free])
-    plain = np.clip(plain, lower, upper)
-    if conditions.hold(plain):
+    free, plain = region.free, values.copy()
+    low, high = region.lower[free] - values[free], region.upper[free] - values[free]
+    plain[free] += triangle.solve(low, high)
+    plain = region.filled(plain)
+    if region.hold(plain):
         return plain
-    step = _Step(triangle, values, free, lower, upper, conditions)
+    step = _Step(triangle, values, region)
     found = step.least(np.zeros(free.size))
     if found is None:
         inside = step.inside()
@@ -70,31 +64,24 @@ class _Step:
     One unit of a coordinate `w` changes the torque by about the residual's norm.
     """
 
-    def __init__(
-        self,
-        triangle: Triangle,
-        values: Array,
-        free: NDArray[np.intp],
-        lower: Array,
-        upper: Array,
-        conditions: Conditions,
-    ) -> None:
+    def __init__(self, triangle: Triangle, values: Array, region: Region) -> None:
+        free = region.free
         size = np.sqrt(triangle.square) or 1.0
         lengths = np.sqrt(np.einsum("ij,ij->j", triangle.factor, triangle.factor))
         own = np.where(values[free] == 0.0, 1.0, np.abs(values[free]))
         # A parameter without effect on the torque is scaled by its own size.
         unit = np.minimum(size / np.maximum(lengths, size * 1e-12), own)
         factor = triangle.factor * unit / size
-        _, shown, directions = np.linalg.svd(factor)
+        shown, directions = linear.singular(factor)
         self.turn = unit[:, None] * directions.T / np.maximum(shown, LEAST_SHOWN * shown[0])
         self.factor = factor @ (self.turn / unit[:, None])
         self.right = triangle.right / size
-        self.start, self.free, self.conditions = values, free, conditions
-        self.lower, self.upper = lower, upper
-        low, high = np.isfinite(lower[free]), np.isfinite(upper[free])
+        self.start, self.region = values, region
+        lower, upper = region.lower[free], region.upper[free]
+        low, high = np.isfinite(lower), np.isfinite(upper)
         # Bounds are conditions too: the distance to each, in units of its coordinate.
         self.walls = np.concatenate([self.turn[low], -self.turn[high]])
-        room = np.concatenate([(values - lower)[free][low], (upper - values)[free][high]])
+        room = np.concatenate([(values[free] - lower)[low], (upper - values[free])[high]])
         scale = np.concatenate([unit[low], unit[high]])
         self.walls, self.room = self.walls / scale[:, None], room / scale
         self._last: tuple[bytes, tuple[Array, Array]] | None = None
@@ -102,13 +89,13 @@ class _Step:
     @property
     def count(self) -> int:
         """Number of conditions and bounds."""
-        return len(self.conditions.requirements) + self.room.size
+        return self.region.count + self.room.size
 
     def values(self, w: Array) -> Array:
         """The parameters [p] after a step."""
         moved = self.start.copy()
-        moved[self.free] += self.turn @ w
-        return np.clip(moved, self.lower, self.upper)
+        moved[self.region.free] += self.turn @ w
+        return self.region.filled(moved)
 
     def square(self, w: Array) -> tuple[float, Array]:
         """Sum of squares of the linearised residual, and its gradient."""
@@ -124,13 +111,8 @@ class _Step:
         return self._last[1]
 
     def _shares(self, w: Array) -> tuple[Array, Array]:
-        try:
-            with np.errstate(all="ignore"):
-                shares, slopes = self.conditions.shares(self.values(w))
-                slopes = slopes[:, self.free] @ self.turn
-        except _core.ModelError:
-            shares = np.full(len(self.conditions.requirements), -1.0)
-            slopes = np.zeros((shares.size, self.free.size))
+        shares, slopes = self.region.finite_shares(self.values(w))
+        slopes = slopes @ self.turn
         shares = np.nan_to_num(shares, nan=-1.0, posinf=FAR, neginf=-FAR)
         return shares, np.nan_to_num(slopes, posinf=FAR, neginf=-FAR)
 
@@ -167,7 +149,7 @@ class _Step:
 
         The smallest share is a variable of its own, which is raised until all conditions hold.
         """
-        count = self.free.size
+        count = self.region.free.size
         found: Array | None = None
 
         def objective(x: Array, gradient: Array) -> float:

@@ -5,17 +5,17 @@ The residual is linearised, the conditions are not. So every point after the fir
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck import _core
+from stribeck.identify.constrained_step import step_under
+from stribeck.identify.objective import Objective
 from stribeck.identify.problem import Problem
+from stribeck.identify.region import Region
 from stribeck.identify.separable import Search
 from stribeck.identify.triangle import Triangle
-from stribeck.passivity.conditions import Conditions
-from stribeck.passivity.step import step_under
 
 Array = NDArray[np.float64]
 
@@ -32,32 +32,43 @@ ASTRAY = 1.5
 
 
 def minimise_under(
-    problem: Problem, values: Array, lower: Array, upper: Array, conditions: Conditions
+    objective: Objective,
+    values: Array,
+    region: Region,
+    *,
+    settled: float = SETTLED,
+    most: int = MOST_STEPS,
 ) -> Search:
-    """The least sum of squares near `values` that holds the conditions.
+    """The least cost near `values` that holds the conditions.
 
-    The sum of squares of the result is infinite where no values were found that hold them.
+    The cost of the result is infinite where no values were found that hold them.
+
+    Parameters
+    ----------
+    settled : float
+        The search ends when the predicted relative decrease of the sum of squares is smaller.
+    most : int
+        Most steps, rejected ones included.
     """
-    free = np.flatnonzero(lower < upper)
-    point = _linearised(problem, values, free)
+    values = region.filled(values)
+    point = objective.at(values, region)
     if point is None:
         return Search(values, np.inf, False, "the model is not finite at the start", 1)
-    held, damping, evaluations = conditions.hold(values), 0.0, 1
+    held, damping, evaluations = region.hold(values), 0.0, 1
     outcome, retreated = "stopped at the largest number of steps", False
-    for _ in range(MOST_STEPS):
-        refit = step_under(_damped(point, damping), values, free, lower, upper, conditions)
+    for _ in range(most):
+        refit = step_under(_damped(point.triangle, damping), values, region)
         if refit is None:
             return Search(values, np.inf, False, "no values hold the conditions", evaluations)
-        step = (refit - values)[free]
-        if held and point.fall(step) <= SETTLED * point.square:
-            return Search(values, point.square, True, "converged", evaluations)
-        predicted = point.square - point.fall(step)
-        limit = point.square if held else ASTRAY * predicted
-        tried = _linearised(problem, refit, free)
+        fall = point.triangle.fall((refit - values)[region.free])
+        if held and fall <= settled * point.triangle.square:
+            return Search(values, point.cost, True, "converged", evaluations)
+        limit = point.cost if held else ASTRAY * (point.cost - fall)
+        tried = objective.at(refit, region)
         evaluations += 1
         # Short steps do not reach the conditions: a step that holds them is accepted even if it
         # raises the sum of squares.
-        if tried is not None and (tried.square <= limit or (not held and damping > 1.0)):
+        if tried is not None and (tried.cost <= limit or (not held and damping > 1.0)):
             values, point, held = refit, tried, True
             # Right after a rejected step the damping stays: a longer step would be rejected again.
             damping, retreated = damping if retreated else 0.1 * damping, False
@@ -67,38 +78,33 @@ def minimise_under(
             if damping > MOST_DAMPING:
                 outcome = "converged (to rounding)"
                 break
-    square = point.square if held else np.inf
-    return Search(values, square, outcome.startswith("converged"), outcome, evaluations)
+    cost = point.cost if held else np.inf
+    return Search(values, cost, outcome.startswith("converged"), outcome, evaluations)
 
 
 @dataclass(frozen=True)
 class Conditioned:
-    """Refits within bounds [p] and under conditions."""
+    """Refits with the priors and the loss of an objective, within a region."""
 
-    lower: Array
-    upper: Array
-    conditions: Conditions
+    objective: Objective
+    region: Region
 
     def step(self, values: Array, triangle: Triangle) -> Array:
         """The values [p] after one step, unchanged where no values hold the conditions."""
-        free = np.flatnonzero(self.lower < self.upper)
-        refit = step_under(triangle, values, free, self.lower, self.upper, self.conditions)
+        region = self.region
+        if region.ties.places.size:
+            varied = np.flatnonzero(region.lower < region.upper)
+            factor = triangle.factor @ region.directions(values)[varied]
+            tied = Triangle.of(factor, triangle.right)
+            triangle = Triangle(tied.factor, tied.right, float(np.hypot(tied.rest, triangle.rest)))
+        made = self.objective.with_prior(triangle, values, region)
+        refit = step_under(made, values, region)
         return values.copy() if refit is None else refit
 
     def refine(self, problem: Problem, refit: Array, values: Array, square: float) -> Array:
         """Values [p] of a damped search: under conditions a single step is not reliable."""
-        found = minimise_under(problem, values, self.lower, self.upper, self.conditions)
-        return found.values
-
-
-def _linearised(problem: Problem, values: Array, free: NDArray[np.intp]) -> Triangle | None:
-    try:
-        with np.errstate(all="ignore"):
-            residual, jacobian = problem.linearise(values, free)
-            triangle = Triangle.of(jacobian, residual)
-    except _core.ModelError:
-        return None
-    return triangle if np.all(np.isfinite(triangle.factor)) else None
+        objective = replace(self.objective, problem=replace(problem, loss_weight=None))
+        return minimise_under(objective, values, self.region).values
 
 
 def _damped(triangle: Triangle, damping: float) -> Triangle:

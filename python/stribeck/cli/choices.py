@@ -1,0 +1,62 @@
+"""Options about the parameters of a fit."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import click
+
+from stribeck.cli.options import Command, Values, gathered
+from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
+from stribeck.identify.loss import LOSSES
+
+CHOICE_OPTIONS = [
+    click.option(
+        "--start", multiple=True, metavar="NAME=VALUE", help="Start value of a parameter."
+    ),
+    click.option(
+        "--bound",
+        "bounds",
+        multiple=True,
+        metavar="NAME=LOW:HIGH",
+        help="Bounds of a parameter; an omitted end is unbounded.",
+    ),
+    click.option("--fix", multiple=True, metavar="NAME=VALUE", help="Fix a parameter."),
+    click.option(
+        "--prior",
+        multiple=True,
+        metavar="NAME=MEAN+-SD",
+        help="Gaussian prior of a parameter: mean and standard deviation.",
+    ),
+    click.option(
+        "--constraint",
+        "constraints",
+        multiple=True,
+        metavar="'LEFT >= RIGHT'",
+        help="An inequality between formulas of parameters.",
+    ),
+    click.option(
+        "--tie",
+        "ties",
+        multiple=True,
+        metavar="'NAME = FORMULA'",
+        help="A parameter that is a formula of others.",
+    ),
+    click.option(
+        "--loss",
+        type=click.Choice(LOSSES),
+        default=None,
+        help="How residuals count: squares, or a robust loss. [default: squares]",
+    ),
+]
+
+
+def taken_choices(values: Values) -> Choices:
+    """Take the values of these options out of all values."""
+    taken = {name: values.pop(name, None) for name in CHOICE_NAMES}
+    return Choices.of(cast(ChoiceArguments, taken))
+
+
+def choice_options(command: Command) -> Command:
+    """Add these options; the command receives them as `choices`."""
+    return gathered(command, CHOICE_OPTIONS, "choices", taken_choices)

@@ -1,0 +1,54 @@
+"""What to do about a parameter that ends at one of its bounds, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from stribeck.base.errors import option
+from stribeck.identify.estimates import Estimate
+
+__all__ = ["at_bound_notes"]
+
+#: The factor by which a wider bound is proposed.
+WIDER = 5.0
+
+
+def at_bound_notes(estimates: Iterable[Estimate]) -> tuple[str, ...]:
+    """A sentence, without full stop, for each parameter that is at a bound.
+
+    Examples
+    --------
+    >>> speed = Estimate("stribeck_velocity", "vs", 1.0, "rad/s", None, None, True, True, 0.002, 1)
+    >>> print(*at_bound_notes([speed]))  # doctest: +NORMALIZE_WHITESPACE
+    stribeck_velocity is at its upper bound 1 rad/s: widen it with
+    `bounds="stribeck_velocity=0.002:5"`, or the recording does not determine it
+    """
+    return tuple(_sentence(e) for e in estimates if e.at_bound)
+
+
+def _sentence(e: Estimate) -> str:
+    at_upper = e.upper - e.value < e.value - e.lower
+    end = e.upper if at_upper else e.lower
+    unit = "" if e.unit == "1" else f" {e.unit}"
+    where = f"{e.name} is at its {'upper' if at_upper else 'lower'} bound {end:.4g}{unit}"
+    room = e.upper - e.lower
+    low, high = (e.lower, _wider(e.upper, room)) if at_upper else (-_wider(-e.lower, room), e.upper)
+    wider = f"widen it with {option('bounds', f'{e.name}={_end(low)}:{_end(high)}')}"
+    if end == 0.0:
+        sign = "positive" if at_upper else "negative"
+        return (
+            f"{where}: fix it there with {option('fix', f'{e.name}=0')}, or, if it may be {sign}, "
+            f"{wider}"
+        )
+    return f"{where}: {wider}, or the recording does not determine it"
+
+
+def _wider(upper: float, room: float) -> float:
+    """An upper bound beyond `upper`; from zero by the `room` on the other side."""
+    if upper == 0.0:
+        return room
+    return upper * WIDER if upper > 0.0 else upper / WIDER
+
+
+def _end(bound: float) -> str:
+    return "" if abs(bound) == float("inf") else f"{bound:.4g}"

@@ -1,0 +1,34 @@
+"""The result of one check of a recording's channels against each other."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+
+__all__ = ["Check"]
+
+
+@dataclass(frozen=True)
+class Check:
+    """What one check found.
+
+    Attributes
+    ----------
+    check
+        What was compared: ``velocity``, ``torque``, ``time`` ...
+    ok
+        False where the channels contradict each other. True also where nothing can be concluded;
+        `said` then begins with "cannot check".
+    said
+        The finding in one sentence, without a full stop.
+    do
+        The likeliest remedy; None where none is needed.
+    """
+
+    check: str
+    ok: bool
+    said: str
+    do: str | None = None
+
+    def to_dict(self) -> dict[str, object]:
+        """As JSON."""
+        return asdict(self)

@@ -1,0 +1,67 @@
+"""Whether the recorded load torque is part of the torque."""
+
+from __future__ import annotations
+
+from stribeck.base.errors import option
+from stribeck.base.units import find_unit, known_units
+from stribeck.recording.check import Check
+from stribeck.recording.consistency.readings import named_ratio
+from stribeck.recording.consistency.view import View
+
+__all__ = ["check_load"]
+
+#: The load's coefficient may be off by this factor: gravity models and gains of torque sensors
+#: are worse than units are close to each other (1.36, foot-pounds against newton metres).
+_SCALE = 1.3
+
+
+def check_load(view: View) -> Check | None:
+    """Regress the torque on the load torque: the coefficient must be one.
+
+    Returns
+    -------
+    Check or None
+        None where no load torque was recorded as part of the torque.
+    """
+    recording = view.recording
+    recorded = view.recorded("load_torque") is not None and recording.torque_holds_load
+    if not recorded:
+        return None
+    load = None if view.dissipation is None else view.dissipation.load
+    if load is None:
+        return Check("load_torque", True, "cannot check the load torque: it hardly varies")
+    low, high = load.interval
+    column = view.column("load_torque")
+    if load.sign == 0 and high > 1.0 / _SCALE:
+        return Check("load_torque", True, "cannot check the load torque: noise hides it")
+    if high < 0.0 and low < -1.0 / _SCALE and high > -_SCALE:
+        said = f"the torque holds the load torque ('{column}') with the opposite sign"
+        friction = view.dissipation.friction if view.dissipation is not None else None
+        wrong = "torque" if friction is not None and friction.sign < 0 else "load_torque"
+        return Check("load_torque", False, said, f"give {view.derived(wrong, '-{}')}")
+    if high < 1.0 / _SCALE or low > _SCALE:
+        known = named_ratio(load.value)
+        what = f" ({known})" if known else ""
+        return Check(
+            "load_torque",
+            False,
+            f"the torque holds {load.value:.4g} times the load torque ('{column}'){what}",
+            f"{_units(view, load.value)}, or leave the load out with "
+            f"{option('map', 'load_torque=none')}",
+        )
+    return Check(
+        "load_torque", True, f"the torque holds {low:.3g} to {high:.3g} times the load torque"
+    )
+
+
+def _units(view: View, ratio: float) -> str:
+    """The unit of the torque, or of the load, that makes their ratio one."""
+    dimension = "force" if view.recording.joint_kind == "prismatic" else "torque"
+    units = [find_unit(name, (dimension,)) for name in known_units((dimension,))]
+    for channel, wanted in (("torque", 1.0 / abs(ratio)), ("load_torque", abs(ratio))):
+        factor = wanted * view.source(channel).factor
+        for unit in units:
+            if unit is not None and factor < 1.0 and abs(factor / unit.factor - 1.0) < 0.05:
+                given = option("unit", f"{view.column(channel)}={unit.name}")
+                return f"the likeliest unit is given by {given}"
+    return f"give the units of both with {option('unit', 'COLUMN=UNIT')}"

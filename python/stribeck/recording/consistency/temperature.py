@@ -1,0 +1,47 @@
+"""Whether the temperature is one that a joint may have."""
+
+from __future__ import annotations
+
+from stribeck.base.errors import option
+from stribeck.recording.check import Check
+from stribeck.recording.consistency.view import View
+
+__all__ = ["check_temperature"]
+
+#: Joints and their motors are between these, degC: cold stores, and the limit of windings.
+_COLDEST, _HOTTEST = -60.0, 200.0
+#: Units that a temperature may be in instead: gain and offset to degC.
+_OTHER = {"K": (1.0, -273.15), "degF": (5.0 / 9.0, -160.0 / 9.0)}
+#: Scales of integers in logs.
+_SCALES = (10.0, 100.0, 1000.0)
+
+
+def check_temperature(view: View) -> Check | None:
+    """Compare the temperature with what a joint may have.
+
+    Returns
+    -------
+    Check or None
+        None where no temperature was recorded.
+    """
+    values = view.recorded("temperature")
+    if values is None:
+        return None
+    low, high = float(values.min()), float(values.max())
+    if _plausible(low, high):
+        return Check("temperature", True, f"{low:.3g} to {high:.3g} degC is plausible")
+    column = view.column("temperature")
+    said = f"'{column}' is {low:.4g} to {high:.4g} degC, which no joint has"
+    for unit, (gain, offset) in _OTHER.items():
+        if _plausible(gain * low + offset, gain * high + offset):
+            return Check("temperature", False, said, f"give {option('unit', f'{column}={unit}')}")
+    for scale in _SCALES:
+        if _plausible(low / scale, high / scale):
+            derived = view.derived("temperature", f"{{}}/{scale:g}")
+            return Check("temperature", False, said, f"give {derived}")
+    do = f"leave it out with {option('map', 'temperature=none')}"
+    return Check("temperature", False, said, do)
+
+
+def _plausible(low: float, high: float) -> bool:
+    return low >= _COLDEST and high <= _HOTTEST

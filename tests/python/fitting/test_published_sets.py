@@ -1,0 +1,78 @@
+"""Data made from the parameter sets of the papers is fitted to its noise, with default bounds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+from laws.published import M_STAR, TABLE_7, direct_drive
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import bounds, model_for
+
+#: RMS of the noise, N m: about 0.3 % of the friction of table 7.
+NOISE = 0.1
+#: Largest speeds, rad/s, of the recordings of a law.
+SPEEDS = {"m_star": (200.0,), "indri_static": (1.0,)}
+#: Laws that are searched for more than a second.
+SLOW = ("bittencourt_b", "iskandar", "dahl", "lugre", "indri_b", "tadese_t", "m_star", "zhou")
+
+
+def recorded(folder: Path, speed: float, torque: np.ndarray | None, name: str) -> sb.Recording:
+    """A warming joint under load; without a torque, that of the load."""
+    t = np.arange(8000) / 500.0
+    slow = np.sin(2.0 * np.pi * 0.11 * t) * np.sin(2.0 * np.pi * 0.037 * t + 0.4)
+    v = speed * (slow + 0.05 * np.sin(2.0 * np.pi * 1.3 * t))
+    load = 20.0 * np.sin(0.31 * t + 1.0) + 8.0 * np.sin(1.1 * t)
+    temperature = 26.0 + 10.0 * (1.0 - np.exp(-t / 6.0)) + np.sin(0.9 * t)
+    frame = pl.DataFrame(
+        {
+            "time": t,
+            "position": np.concatenate([[0.0], np.cumsum(0.5 * (v[1:] + v[:-1])) / 500.0]),
+            "velocity": v,
+            "acceleration": np.gradient(v, t),
+            "temperature": temperature,
+            "load_torque": load,
+            "torque": load if torque is None else torque,
+        }
+    )
+    path = folder / f"{name}.parquet"
+    frame.write_parquet(path)
+    return sb.read(path, joint_kind="revolute", trust=True)
+
+
+def true_model(law: str, printed: dict[str, float], recording: sb.Recording) -> sb.Model:
+    """The printed set: where only a size has an effect, it is positive."""
+    model = model_for(law, recording)
+    lower, upper, start = bounds(model, recording)
+    values = [
+        first if low == high else abs(printed[p.symbol]) if low >= 0.0 else printed[p.symbol]
+        for p, low, high, first in zip(model.parameters, lower, upper, start, strict=True)
+    ]
+    return model.with_values(values)
+
+
+SETS = {**TABLE_7, "m_star": M_STAR, "indri_static": direct_drive(1)}
+
+
+@pytest.mark.parametrize(
+    "law", [pytest.param(law, marks=[pytest.mark.slow] if law in SLOW else []) for law in SETS]
+)
+def test_the_fit_is_as_good_as_the_printed_set(law: str, tmp_path: Path) -> None:
+    for speed in SPEEDS.get(law, (0.7, 2.5)):
+        empty = recorded(tmp_path, speed, None, "empty")
+        model = true_model(law, SETS[law], empty)
+        rows = np.flatnonzero(empty.moving)
+        exact = Problem(empty, model, rows).predict(model.values)
+        noise = NOISE * np.random.default_rng(1).standard_normal(exact.size)
+        recording = recorded(tmp_path, speed, exact + noise, "made")
+        fitted = sb.fit(law, recording)
+        same = true_model(law, SETS[law], recording)
+        true = recording.torque - Problem(recording, same, rows).predict(same.values)
+
+        def rms(residual: np.ndarray, at: np.ndarray = fitted.rows) -> float:
+            return float(np.sqrt(np.mean(residual[at] ** 2)))
+
+        assert rms(fitted.residual) <= 1.0001 * rms(true), speed

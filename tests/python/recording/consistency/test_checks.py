@@ -1,0 +1,170 @@
+"""What the checks say of clean recordings, and what follows from a contradiction."""
+
+from __future__ import annotations
+
+import doctest
+import json
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+from stribeck.base.errors import RecordingError
+from stribeck.cli.main import main
+from stribeck.recording.consistency import readings
+from stribeck.recording.load import read
+
+from ..conftest import joint
+
+
+def _check(recording, name):
+    (found,) = [check for check in recording.checks if check.check == name]
+    return found
+
+
+def test_examples():
+    assert doctest.testmod(readings).failed == 0
+
+
+def test_agreement_is_said(write):
+    recording = read(write(joint()))
+    assert [c.check for c in recording.checks] == [
+        "time", "velocity", "acceleration", "load_torque", "torque", "torque_at", "temperature",
+    ]  # fmt: skip
+    assert all(check.ok for check in recording.checks)
+    assert [check.check for check in recording.checks if check.do] == ["torque_at"]
+    assert _check(recording, "velocity").said == "velocity = d(position)/dt within 0.01 %"
+
+
+@pytest.mark.parametrize("noise", [0.0, 1e-4, 1e-2, 0.3])
+@pytest.mark.parametrize("step", [0.0, 1e-4, 1e-2])
+def test_noise_and_encoder_steps_are_no_contradiction(write, noise, step):
+    frame = joint(noise=noise).drop("load_torque")
+    if step:
+        frame = frame.with_columns((pl.col("position") / step).round() * step)
+    assert all(check.ok for check in read(write(frame)).checks)
+
+
+def test_the_noise_of_differences_cancels_in_their_integral(write):
+    """Velocity and acceleration computed by the controller from a noisy position."""
+    frame = joint(rows=4002).drop("load_torque")
+    q = frame["position"].to_numpy() + 2e-4 * np.random.default_rng(4).standard_normal(4002)
+    made = frame[1:-1].with_columns(
+        position=pl.Series(q[1:-1]),
+        velocity=pl.Series((q[2:] - q[:-2]) * 100.0),
+        acceleration=pl.Series((q[2:] - 2.0 * q[1:-1] + q[:-2]) * 200.0**2),
+    )
+    recording = read(write(made))
+    assert all(check.ok for check in recording.checks)
+    assert _check(recording, "acceleration").said.startswith("acceleration = d(velocity)/dt")
+
+
+def _motion(kind, t):
+    """Position and velocity of a fast, a stop-and-go, a one-way, a tiny and a rising motion."""
+    if kind == "sine":
+        return np.sin(1.1 * t) + 0.3 * np.sin(2.7 * t), 1.1 * np.cos(1.1 * t) + 0.81 * np.cos(
+            2.7 * t
+        )
+    if kind == "one way":
+        return 0.5 * t - 0.3 / 0.7 * np.cos(0.7 * t), 0.5 + 0.3 * np.sin(0.7 * t)
+    if kind == "tiny":
+        return 4e-3 * np.sin(0.8 * t), 3.2e-3 * np.cos(0.8 * t)
+    if kind == "rising":
+        phase = 2.0 * np.pi * (0.1 * t + 0.05 * t * t)
+        return 0.4 * np.sin(phase), 0.4 * np.cos(phase) * 2.0 * np.pi * (0.1 + 0.1 * t)
+    p = t % 8.0
+    v = np.clip(np.minimum(p, 3.0 - p), 0.0, 0.5) - np.clip(np.minimum(p - 4.0, 7.0 - p), 0.0, 0.5)
+    return np.concatenate([[0.0], np.cumsum(0.5 * (v[1:] + v[:-1]) * np.diff(t))]), v
+
+
+@pytest.mark.parametrize("kind", ["sine", "stops", "one way", "tiny", "rising"])
+@pytest.mark.parametrize("step", [0.0, 1e-3, 6e-3])
+def test_slow_sampling_and_coarse_encoders_are_no_contradiction(write, kind, step):
+    """Also with a velocity that the drive differentiated from the encoder, filtered or not."""
+    rng = np.random.default_rng(5)
+    for rate in (10.0, 50.0, 200.0):
+        t = np.arange(int((10.0 if kind == "rising" else 40.0) * rate)) / rate
+        q, v = _motion(kind, t)
+        read_out = np.round(q / step) * step if step else q
+        torque = 0.5 * np.gradient(v, t) + 5.0 * np.cos(q) + 2.0 * np.sign(v) + v
+        torque += 0.05 * rng.standard_normal(t.size)
+        quotient = np.diff(read_out, prepend=read_out[0]) * rate
+        for velocity in (v, quotient, v + 0.05 * np.abs(v).max() * rng.standard_normal(t.size)):
+            frame = pl.DataFrame(
+                {"time": t, "position": read_out, "velocity": velocity, "torque": torque}
+            )
+            wrong = [c.said for c in read(write(frame), standstill=True).checks if not c.ok]
+            assert wrong == [], rate
+
+
+@pytest.mark.parametrize("constant", [0.002, 0.02, 0.05])
+def test_a_filter_of_the_drive_is_no_contradiction(write, constant):
+    """A first-order low-pass delays and weakens the velocity."""
+    frame = joint(rows=4000)
+    v, low = frame["velocity"].to_numpy(), np.zeros(4000)
+    for k in range(1, 4000):
+        low[k] = low[k - 1] + (v[k] - low[k - 1]) * (1.0 - np.exp(-0.005 / constant))
+    check = _check(read(write(frame.with_columns(velocity=pl.Series(low)))), "velocity")
+    assert check.ok
+    if constant > 0.01:
+        delay = float(check.said.rsplit(", ", 1)[1].split(" ")[0])
+        assert delay == pytest.approx(constant, abs=0.006)
+
+
+def test_a_joint_that_is_pushed_is_no_error(write):
+    """A motor that only brakes takes energy: that is not a reversed torque."""
+    frame = joint().drop("load_torque")
+    torque = -3.0 * np.sign(frame["velocity"].to_numpy()) + 0.5 * frame["acceleration"].to_numpy()
+    check = _check(read(write(frame.with_columns(torque=pl.Series(torque)))), "torque")
+    assert check.ok and check.said.startswith("cannot check")
+
+
+def test_fits_refuse_a_contradiction_and_trust_goes_on(write):
+    path = write(joint().with_columns(pl.col("velocity") * 9.5493), "x.parquet")
+    recording = read(path)
+    assert not _check(recording, "velocity").ok
+    sentence = r"30|pi/30.*rpm against rad/s.*`unit=\"velocity=rpm\"`; or go on with option `trust`"
+    with pytest.raises(RecordingError, match=sentence):
+        sb.fit("coulomb", recording, starts=1)
+    assert sb.fit("coulomb", read(path, trust=True), starts=1).rmse > 0.0
+    assert sb.fit("coulomb", read(path, unit="velocity=rpm"), starts=1).rmse > 0.0
+
+
+def _run(capsys, monkeypatch, *arguments):
+    """Exit code, stdout and stderr of a command."""
+    monkeypatch.setattr("sys.argv", ["stribeck", *arguments])
+    code = 0
+    try:
+        main()
+    except SystemExit as stop:
+        code = int(stop.code or 0)
+    said = capsys.readouterr()
+    return code, said.out, said.err
+
+
+def test_commands_exit_with_2_and_inspect_with_0(write, capsys, monkeypatch):
+    path = str(write(joint().with_columns(pl.col("velocity") * 57.2958), "x.parquet"))
+    fit = ("fit", path, "--model", "coulomb", "--starts", "1")
+    code, out, err = _run(capsys, monkeypatch, *fit, "--json")
+    assert code == 2 and out == ""
+    assert "--unit velocity=deg/s" in err and "--trust" in err
+    code, out, err = _run(capsys, monkeypatch, "inspect", path, "--json")
+    assert code == 0
+    checks = json.loads(out)["checks"]
+    assert [set(check) for check in checks] == [{"check", "ok", "said", "do"}] * len(checks)
+    wrong = [check for check in checks if not check["ok"]]
+    assert [check["check"] for check in wrong] == ["velocity", "acceleration"]
+    assert all("velocity=deg/s" in check["do"] for check in wrong)
+    code, out, err = _run(capsys, monkeypatch, *fit, "--trust")
+    assert code == 0 and "note: accepted with --trust: d(position)/dt is" in err
+    code, out, err = _run(capsys, monkeypatch, *fit, "--unit", "velocity=deg/s")
+    assert code == 0 and "note: checked: velocity = d(position)/dt within 0.01 %" in err
+
+
+def test_a_sidecar_may_trust(write):
+    path = write(joint().with_columns(pl.col("velocity") * 9.5493))
+    path.with_name(f"{path.name}.sidecar.toml").write_text('kind = "recording"\ntrust = true\n')
+    assert read(path).trusted
+    path.with_name(f"{path.name}.sidecar.toml").write_text('kind = "recording"\ntrust = 1\n')
+    with pytest.raises(RecordingError, match="trust must be true or false"):
+        read(path)
