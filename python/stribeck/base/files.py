@@ -87,6 +87,9 @@ def write_bytes_whole(
         try:
             with os.fdopen(handle, "wb") as stream:
                 stream.write(content)
+                stream.flush()
+                # Else a power cut could leave the name with nothing behind it.
+                os.fsync(stream.fileno())
             if target.exists():
                 os.chmod(unfinished, stat.S_IMODE(target.stat().st_mode))
             os.replace(unfinished, target)

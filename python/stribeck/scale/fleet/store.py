@@ -1,15 +1,14 @@
 """The Parquet data set of a fleet: one row for each joint and file.
 
-``manifest.json`` describes the work. ``results/`` is the data set: parts are added every few
-seconds, each written atomically, and merged at the end. It can be read at any
-time: ``polars.read_parquet("FOLDER/results/*.parquet")``.
+``manifest.json`` describes the work. ``results/`` is the data set: each row is written before its
+task counts as done, in parts of some rows, each written atomically; the parts are merged at the
+end. It can be read at any time: ``polars.read_parquet("FOLDER/results/*.parquet")``.
 """
 
 from __future__ import annotations
 
 import io
 import json
-import time
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
@@ -23,8 +22,8 @@ from stribeck.recording.sidecar import sidecar_hash
 from stribeck.scale.fleet.task import File, Task, TaskResult, Work
 
 RESULTS = "results"
-#: Seconds between two writes; a power cut loses no more than this.
-BETWEEN_PARTS = 5.0
+#: Rows of a part. The last part is written again with each row, so that none is lost.
+ROWS_OF_PART = 32
 #: What must be the same for all rows of a data set, and the words of the error if it is not.
 IDENTITY = {
     "model": "with another model",
@@ -114,8 +113,8 @@ class FleetStore:
         self._sidecar = work.reading.sidecar
         self._parts = sorted(self._results.glob("part-*.parquet"))
         self._new: list[dict[str, object]] = []
+        self._open: Path | None = None
         self._added: list[pl.DataFrame] = []
-        self._written = time.monotonic()
         self.frame = _latest(_read(path) for path in self._parts)
         self._kept = self.frame.filter(pl.col("status") == DONE) if retry_failed else self.frame
         keys = self._kept.select("file", "joint", "sha256", "sidecar_sha256")
@@ -135,17 +134,19 @@ class FleetStore:
         return (task.file, task.joint, task.sha256, task.sidecar_sha256) in self._answered
 
     def add(self, row: dict[str, object]) -> None:
-        """Add a row; it is written within seconds, or when the store is closed."""
+        """Add a row and write it."""
         self._new.append(row)
-        if time.monotonic() - self._written > BETWEEN_PARTS:
-            self._write_part()
+        part = pl.DataFrame(self._new, schema=SCHEMA)
+        self._open = self._write(part, self._open)
+        if len(self._new) >= ROWS_OF_PART:
+            self._end_part()
 
     def close(self) -> None:
-        """Write the remaining rows, and merge all parts into one, in order.
+        """Merge all parts into one, in order.
 
         A folder without a result is removed, so that the next run can use it for other work.
         """
-        self._write_part()
+        self._end_part()
         self.frame = _latest([self.frame, *self._added])
         if not (self.frame["status"] == DONE).any():
             self._discard()
@@ -166,22 +167,23 @@ class FleetStore:
             if not any(folder.iterdir()):
                 folder.rmdir()
 
-    def _write_part(self) -> None:
-        self._written = time.monotonic()
-        if not self._new:
-            return
-        part = pl.DataFrame(self._new, schema=SCHEMA)
-        self._write(part)
-        self._new.clear()
-        self._added.append(part)
+    def _end_part(self) -> None:
+        """Leave the last part as it is; the next row begins another."""
+        if self._new:
+            self._added.append(pl.DataFrame(self._new, schema=SCHEMA))
+        self._new, self._open = [], None
 
-    def _write(self, part: pl.DataFrame) -> None:
-        number = 1 + (int(self._parts[-1].stem.rpartition("-")[2]) if self._parts else 0)
-        path = self._results / f"part-{number:06d}.parquet"
+    def _write(self, rows: pl.DataFrame, path: Path | None = None) -> Path:
+        """Write a part, or write it again."""
+        if path is None:
+            number = 1 + (int(self._parts[-1].stem.rpartition("-")[2]) if self._parts else 0)
+            path = self._results / f"part-{number:06d}.parquet"
         stream = io.BytesIO()
-        part.write_parquet(stream, compression="zstd")
+        rows.write_parquet(stream, compression="zstd")
         write_bytes_whole(path, stream.getvalue())
-        self._parts.append(path)
+        if path not in self._parts:
+            self._parts.append(path)
+        return path
 
     def _state(self, path: str) -> tuple[int | None, int | None, str | None]:
         return *file_state(path), sidecar_hash(path, self._sidecar)
