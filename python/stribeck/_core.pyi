@@ -18,6 +18,7 @@ __all__ = [
     "bounded_least_squares",
     "catalog",
     "column_formula",
+    "column_functions",
     "compensate",
     "elementary",
     "elementary_constants",
@@ -83,6 +84,7 @@ class _Units(TypedDict):
 
 def units() -> _Units: ...
 def column_formula(text: str) -> list[tuple[str, float | str | tuple[str, int] | None, int]]: ...
+def column_functions() -> list[str]: ...
 def formula_functions() -> list[tuple[str, str]]: ...
 def normal_equations(
     jacobian: ArrayLike, residual: ArrayLike, group: ArrayLike, groups: int

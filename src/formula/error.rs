@@ -51,8 +51,11 @@ pub(crate) enum Reason<'a> {
     UnknownParameter(&'a str),
     /// A comparison where none can stand, or of another kind.
     Relation(&'a str),
-    /// A function with too few or too many arguments.
-    Arity(Function, usize),
+    /// A function of columns in a formula that has none.
+    OfColumns(&'a str),
+    /// A function with too few or too many arguments: its name, the number that it needs, whether
+    /// it takes more, and the number that was given.
+    Arity(&'static str, usize, bool, usize),
     /// A constant expression that is infinite or NaN.
     NotFinite,
     /// An operator that is spelt otherwise, and how.
@@ -113,11 +116,13 @@ impl fmt::Display for FormulaError<'_> {
             Reason::Relation(text) => {
                 write!(f, "'{text}' cannot stand here (write one LEFT >= RIGHT or LEFT <= RIGHT),")
             }
-            Reason::Arity(function, given) => {
-                let (name, needed) = (function.name(), function.arity());
+            Reason::OfColumns(name) => {
+                write!(f, "'{name}' is a function of columns alone (of a derived channel),")
+            }
+            Reason::Arity(name, needed, takes_more, given) => {
                 let values = match needed {
                     1 => "argument",
-                    _ if function.takes_more() => "or more arguments",
+                    _ if takes_more => "or more arguments",
                     _ => "arguments",
                 };
                 write!(f, "{name} takes {needed} {values}, not {given},")

@@ -54,4 +54,4 @@ pub(crate) use terms::Term;
 #[cfg(feature = "std")]
 pub(crate) use terms::TermKind;
 #[cfg(feature = "python")]
-pub(crate) use vocabulary::{FUNCTIONS, Function};
+pub(crate) use vocabulary::{COLUMN_FUNCTIONS, ColumnFunction, FUNCTIONS, Function};

@@ -18,7 +18,7 @@
 use super::error::{FormulaError, Reason};
 use super::program::Operation;
 use super::tokens::{Kind, Token, token_at};
-use super::vocabulary::{self, Function, Word};
+use super::vocabulary::{self, ColumnFunction, Function, Word};
 
 /// What is made of a text while it is parsed.
 ///
@@ -28,6 +28,8 @@ pub(crate) trait Builder<'a> {
     const DEPTH: usize;
     /// Whether comparisons, `and`, `or`, `not`, texts and quoted names are part of the language.
     const CONDITIONS: bool;
+    /// Whether functions of whole columns are part of the language.
+    const COLUMNS: bool = false;
 
     /// A number.
     fn number(&mut self, number: f64, at: usize) -> Result<(), Reason<'a>>;
@@ -40,6 +42,16 @@ pub(crate) trait Builder<'a> {
 
     /// A function of the `given` values before it.
     fn call(&mut self, function: Function, given: usize, at: usize) -> Result<(), Reason<'a>>;
+
+    /// A function of columns, of the `given` values before it.
+    fn column_call(
+        &mut self,
+        function: &'static ColumnFunction,
+        _given: usize,
+        _at: usize,
+    ) -> Result<(), Reason<'a>> {
+        Err(Reason::OfColumns(function.name))
+    }
 
     /// A text, with its quotes.
     fn text(&mut self, text: &'a str, _at: usize) -> Result<(), Reason<'a>> {
@@ -204,6 +216,9 @@ impl<'a, B: Builder<'a>> Parser<'a, '_, B> {
             let built = self.builder.name(name, token.start);
             return self.checked(built, token);
         }
+        if let Some(function) = ColumnFunction::named(name) {
+            return self.column_function(function, token, depth);
+        }
         let function = match vocabulary::word(name) {
             Word::Function(function) => function,
             Word::Other => {
@@ -217,9 +232,30 @@ impl<'a, B: Builder<'a>> Parser<'a, '_, B> {
         let (given, _) = self.bracket(depth)?;
         let enough = given == function.arity() || function.takes_more() && given > 2;
         if !enough {
-            return Err(self.error_at(token.start, Reason::Arity(function, given)));
+            let (needed, more) = (function.arity(), function.takes_more());
+            let reason = Reason::Arity(function.name(), needed, more, given);
+            return Err(self.error_at(token.start, reason));
         }
         let built = self.builder.call(function, given, token.start);
+        self.checked(built, token)
+    }
+
+    fn column_function(
+        &mut self,
+        function: &'static ColumnFunction,
+        token: Token,
+        depth: usize,
+    ) -> Result<(), FormulaError<'a>> {
+        if !B::COLUMNS {
+            return Err(self.error_at(token.start, Reason::OfColumns(function.name)));
+        }
+        let (given, _) = self.bracket(depth)?;
+        let ColumnFunction { name, arity, takes_more } = *function;
+        if !(given == arity || takes_more && given > arity) {
+            let reason = Reason::Arity(name, arity, takes_more, given);
+            return Err(self.error_at(token.start, reason));
+        }
+        let built = self.builder.column_call(function, given, token.start);
         self.checked(built, token)
     }
 

@@ -71,6 +71,34 @@ pub(crate) const FUNCTIONS: [(&str, Function); 20] = [
     ("power", Function::Power),
 ];
 
+/// A function of whole columns. A friction law has none: it knows one sample at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ColumnFunction {
+    pub(crate) name: &'static str,
+    /// Number of arguments; the least number where more are allowed.
+    pub(crate) arity: usize,
+    pub(crate) takes_more: bool,
+}
+
+impl ColumnFunction {
+    const fn new(name: &'static str, arity: usize, takes_more: bool) -> Self {
+        Self { name, arity, takes_more }
+    }
+
+    /// The function of a name.
+    pub(super) fn named(name: &str) -> Option<&'static Self> {
+        COLUMN_FUNCTIONS.iter().find(|function| function.name == name)
+    }
+}
+
+/// Derivative by time, mean of all samples, choice by a condition, and interpolation in a table.
+pub(crate) static COLUMN_FUNCTIONS: [ColumnFunction; 4] = [
+    ColumnFunction::new("diff", 1, false),
+    ColumnFunction::new("mean", 1, false),
+    ColumnFunction::new("where", 3, false),
+    ColumnFunction::new("interp", 5, true),
+];
+
 /// Channels by name; `load` is short for `load_torque`.
 const CHANNELS: [(&str, Channel); 15] = [
     ("v", Channel::Velocity),

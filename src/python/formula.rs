@@ -7,7 +7,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::refuse;
-use crate::formula::{self, Builder, FUNCTIONS, Function, Operation, Reason};
+use crate::formula::{
+    self, Builder, COLUMN_FUNCTIONS, ColumnFunction, FUNCTIONS, Function, Operation, Reason,
+};
 use crate::table::Channel;
 
 /// Friction terms given as text. No text is executed as code.
@@ -158,6 +160,7 @@ impl<'a> Columns<'a> {
 impl<'a> Builder<'a> for Columns<'a> {
     const DEPTH: usize = 100;
     const CONDITIONS: bool = true;
+    const COLUMNS: bool = true;
 
     fn number(&mut self, number: f64, at: usize) -> Result<(), Reason<'a>> {
         if !number.is_finite() {
@@ -187,6 +190,16 @@ impl<'a> Builder<'a> for Columns<'a> {
 
     fn call(&mut self, function: Function, given: usize, at: usize) -> Result<(), Reason<'a>> {
         self.add("call", Detail::Call(function.name(), given), at);
+        Ok(())
+    }
+
+    fn column_call(
+        &mut self,
+        function: &'static ColumnFunction,
+        given: usize,
+        at: usize,
+    ) -> Result<(), Reason<'a>> {
+        self.add("call", Detail::Call(function.name, given), at);
         Ok(())
     }
 
@@ -234,4 +247,10 @@ pub fn column_formula<'py>(
 #[pyfunction]
 pub fn formula_functions() -> Vec<(&'static str, &'static str)> {
     FUNCTIONS.iter().map(|(name, function)| (*name, function.name())).collect()
+}
+
+/// The functions of whole columns, which formulas over columns have besides those of laws.
+#[pyfunction]
+pub fn column_functions() -> Vec<&'static str> {
+    COLUMN_FUNCTIONS.iter().map(|function| function.name).collect()
 }

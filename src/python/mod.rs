@@ -46,7 +46,9 @@ mod _core {
     #[pymodule_export]
     use super::export::{elementary, elementary_constants};
     #[pymodule_export]
-    use super::formula::{Expression, Formula, column_formula, formula_functions};
+    use super::formula::{
+        Expression, Formula, column_formula, column_functions, formula_functions,
+    };
     #[pymodule_export]
     use super::identify::{
         bounded_least_squares, reduced, search, search_by, slides, triangle, triangles_of,

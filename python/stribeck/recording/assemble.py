@@ -18,13 +18,14 @@ from stribeck.recording.joint_units import natural_unit, settle_units
 from stribeck.recording.mend.rows import drop_bad_rows
 from stribeck.recording.mend.stamps import drop_repeated_stamps
 from stribeck.recording.mend.wraps import unwrap
+from stribeck.recording.motor_side import check_motor, load_motor, with_motor
 from stribeck.recording.names import CHANNELS
+from stribeck.recording.prepared import Prepared, columns_of
 from stribeck.recording.proposals import propose
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.reference import check_reference, load_reference, with_reference
 from stribeck.recording.sampled import sampled
 from stribeck.recording.samples import check_time, drop_missing, in_runs
-from stribeck.recording.table import Prepared, columns_of
 from stribeck.recording.torque_at import guess_torque_at
 from stribeck.recording.weights import check_scored_weights
 
@@ -68,7 +69,7 @@ def build(
         samples = "1 sample" if count == 1 else f"{count} samples"
         data.notes.append(f"{samples} removed by where: {settings.where}")
     made = averaged(data, layout) if settings.average else sampled(data, layout)
-    made = with_reference(made, data)
+    made = with_motor(with_reference(made, data), data)
     made = replace(made, torque_at=_torque_at(prepared))
     if settings.rows == "all":
         made = _all_scored(made)
@@ -101,8 +102,10 @@ def _loaded(
         data.values["weight"] = prepared.weight[rows]
     data.drop_empty()
     load_reference(data, prepared)
+    load_motor(data, prepared)
     dropped = drop_missing(data)
     check_reference(data)
+    check_motor(data)
     run_names, run = in_runs(data)
     # Samples of a run together, in the order of the file.
     order = np.argsort(run, kind="stable")
@@ -129,6 +132,8 @@ def _describe(data: Channels, layout: Layout) -> None:
         "reference_position": layout.position_unit,
         "reference_velocity": f"{layout.position_unit}/s",
         "reference_acceleration": f"{layout.position_unit}/s2",
+        "motor_position": data.units.get("motor_position") or layout.position_unit,
+        "motor_velocity": data.units.get("motor_velocity") or f"{layout.position_unit}/s",
         "current": "A",
         "enabled": "1",
     }

@@ -9,8 +9,8 @@ import numpy as np
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.check import Check
+from stribeck.recording.prepared import Prepared, channel_values
 from stribeck.recording.recording import Column
-from stribeck.recording.table import Prepared, channel_values
 
 __all__ = ["Channels", "Layout", "require", "wanted_channels"]
 

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from stribeck.base.errors import RecordingError, nearest, option
 from stribeck.base.units import SI, Unit, parse_unit
 from stribeck.recording.names import (
+    BESIDE,
     CHANNELS,
-    REFERENCE,
     ParsedName,
     any_index,
     file_unit,
     parse_name,
+    parse_names,
     wide_groups,
 )
 
@@ -53,6 +54,7 @@ def choose_columns(
     maps: Mapping[str, str],
     units: Mapping[str, str],
     index: str | None,
+    wanted: Collection[str] = tuple(CHANNELS),
 ) -> tuple[dict[str, Choice], list[str]]:
     """Choose a column for every channel that a file has.
 
@@ -64,6 +66,8 @@ def choose_columns(
         What was given: channel -> column, column -> unit.
     index
         The joint of a wide file (``q_1`` ... ``q_6``) that was named.
+    wanted
+        Channels to look for.
 
     Returns
     -------
@@ -77,7 +81,7 @@ def choose_columns(
     """
     _check_given(path, names, maps, units)
     search = _Search(path, names, maps, units, index)
-    for channel in CHANNELS:
+    for channel in (name for name in CHANNELS if name in wanted):
         if channel in maps:
             if maps[channel] != "none" or "none" in names:
                 search.take(channel, maps[channel], mapped=True)
@@ -126,7 +130,8 @@ class _Search:
         self.maps = maps
         self.units = units
         self.index = index
-        self.parsed = [parse_name(name) for name in names]
+        stated = {"position", "velocity"} & {*maps}
+        self.parsed = [parse_name(name) for name in names] if stated else parse_names(names)
         self.wide = wide_groups(names)
         self.joint = index if index is not None else _mapped_joint(maps)
         self.chosen: dict[str, Choice] = {}
@@ -139,8 +144,8 @@ class _Search:
     def find(self, channel: str) -> None:
         """Choose the column whose name fits the channel best, if there is one."""
         candidates = [p for p in self.parsed if p.channel == channel]
-        if channel in REFERENCE:
-            self._find_reference(channel, candidates)
+        if channel in BESIDE:
+            self._find_beside(channel, candidates)
             return
         plain = [p for p in candidates if p.index is None]
         if not plain and channel in self.wide:
@@ -167,8 +172,8 @@ class _Search:
         if rank > 2 and best[0].index is None:
             self.notes.append(f"{channel} is read from '{best[0].name}', by part of its name")
 
-    def _find_reference(self, channel: str, candidates: Sequence[ParsedName]) -> None:
-        """The one column of a reference channel, or that of the joint that was named.
+    def _find_beside(self, channel: str, candidates: Sequence[ParsedName]) -> None:
+        """The one column of a reference or motor channel, or that of the joint that was named.
 
         Every other analysis works without it, so several columns are no error.
         """

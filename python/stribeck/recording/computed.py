@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import polars as pl
@@ -12,12 +13,27 @@ import polars as pl
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Bools, Floats, Ints, floats
 from stribeck.recording.cells import column_numbers
-from stribeck.recording.formula import Formula, compile_formula
+from stribeck.recording.column_functions import Over
+from stribeck.recording.formula import Formula, channel_column, compile_formula
 from stribeck.recording.names import file_unit, parse_name
 from stribeck.recording.readers import Source
 from stribeck.recording.settings import Settings
 
-__all__ = ["Computed", "apply_formulas", "column_of"]
+__all__ = ["Computed", "View", "apply_formulas", "column_of"]
+
+
+class View(Protocol):
+    """A whole table: what formulas see of it besides the columns."""
+
+    def over(
+        self, table: pl.DataFrame, names: tuple[str, ...], where: str, notes: list[str]
+    ) -> Over:
+        """Functions of all samples, which state their filters in `notes`."""
+
+    def channels(
+        self, table: pl.DataFrame, names: tuple[str, ...], where: str, notes: list[str]
+    ) -> Mapping[str, Floats]:
+        """Channels that are no columns, in SI units, [rows] each."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +56,15 @@ class Computed:
     notes: tuple[str, ...]
 
 
-def apply_formulas(source: Source, settings: Settings, *, may_be_empty: bool = False) -> Computed:
+def apply_formulas(
+    source: Source, settings: Settings, view: View | None, *, may_be_empty: bool = False
+) -> Computed:
     """Add the derived columns and keep the rows for which `where` holds.
+
+    Parameters
+    ----------
+    view
+        None for a part of a table, where formulas see the columns of each row alone.
 
     Raises
     ------
@@ -52,11 +75,12 @@ def apply_formulas(source: Source, settings: Settings, *, may_be_empty: bool = F
     notes: list[str] = []
     for name, text in settings.derive.items():
         where = f"{source.path}: {option('derive', f'{name}={text}')}"
-        formula = _compile(source, table, text, where)
+        formula, seen = _seen(source, table, text, where, view, notes)
         expression = formula.expression
         if formula.kind == "truth":
             expression = expression.cast(pl.Float64)
-        table = _run(where, table.with_columns, expression.alias(name))
+        made = _run(where, seen.with_columns, expression.alias(name))
+        table = made.drop(column for column in seen.columns if column not in table.columns)
         inferred = _inferred_unit(formula)
         effort = parse_name(name).channel in ("torque", "load_torque", "friction_torque")
         if effort and name not in units and inferred is not None:
@@ -64,7 +88,7 @@ def apply_formulas(source: Source, settings: Settings, *, may_be_empty: bool = F
             notes.append(f"'{name}' is in {inferred}, the unit of the columns in its formula")
     row = np.arange(table.height)
     if settings.where is not None:
-        mask = _mask(source, table, settings.where)
+        mask = _mask(source, table, settings.where, view, notes)
         if not (mask.any() or may_be_empty):
             raise RecordingError(
                 f"{source.path}: {option('where', settings.where)} keeps none of {table.height} "
@@ -84,7 +108,7 @@ def column_of(source: Source, table: pl.DataFrame, text: str, where: str) -> Flo
         What the numbers are for; every error begins with it.
     """
     text = f"`{text}`" if text in table.columns else text
-    formula = _compile(source, table, text, where)
+    formula, table = _seen(source, table, text, where, None, [])
     if formula.kind == "text":
         raise RecordingError(f"{where}: is a text, not a number")
     expression = formula.expression.cast(pl.Float64).alias("value")
@@ -93,10 +117,12 @@ def column_of(source: Source, table: pl.DataFrame, text: str, where: str) -> Flo
     return floats(values if values.size == table.height else np.full(table.height, values[0]))
 
 
-def _mask(source: Source, table: pl.DataFrame, text: str) -> Bools:
+def _mask(
+    source: Source, table: pl.DataFrame, text: str, view: View | None, notes: list[str]
+) -> Bools:
     """The rows for which a condition holds; a number holds unless it is zero."""
     where = f"{source.path}: {option('where', text)}"
-    formula = _compile(source, table, text, where)
+    formula, table = _seen(source, table, text, where, view, notes)
     if formula.kind == "text":
         raise RecordingError(f"{where}: is a text, not a condition")
     condition = formula.expression if formula.kind == "truth" else formula.expression != 0.0
@@ -125,9 +151,42 @@ def _inferred_unit(formula: Formula) -> str | None:
     return None
 
 
-def _compile(source: Source, table: pl.DataFrame, text: str, where: str) -> Formula:
+def _seen(
+    source: Source,
+    table: pl.DataFrame,
+    text: str,
+    where: str,
+    view: View | None,
+    notes: list[str],
+) -> tuple[Formula, pl.DataFrame]:
+    """A formula, and the table with the channels in it that are no columns."""
+    formula = _compile(source, table, text, where, None)
+    further = (*formula.over_all, *formula.channels)
+    if not further:
+        return formula, table
+    if view is None:
+        raise RecordingError(
+            f"{where}: '{further[0]}' needs the whole recording, which is not at hand here: "
+            f"compute a column first, with {option('derive', 'NAME=FORMULA')} of data that is not "
+            "read in passes"
+        )
+    if formula.over_all:
+        formula = _compile(
+            source, table, text, where, view.over(table, formula.over_all, where, notes)
+        )
+    seen = view.channels(table, formula.channels, where, notes)
+    # A missing value, not NaN, which would be larger than any number.
+    columns = [
+        pl.Series(channel_column(name), values).fill_nan(None) for name, values in seen.items()
+    ]
+    return formula, table.with_columns(columns)
+
+
+def _compile(
+    source: Source, table: pl.DataFrame, text: str, where: str, over: Over | None
+) -> Formula:
     try:
-        return compile_formula(text, table.schema, where)
+        return compile_formula(text, table.schema, where, over, table.height)
     except RecordingError:
         # One bad cell makes a column of numbers a column of text: then the cell is refused.
         for name in table.columns:

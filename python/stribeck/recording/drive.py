@@ -9,8 +9,8 @@ import numpy as np
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats, bools, floats
+from stribeck.recording.prepared import Prepared
 from stribeck.recording.recording import Recording
-from stribeck.recording.table import Prepared
 
 __all__ = ["with_drive"]
 

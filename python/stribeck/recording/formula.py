@@ -1,4 +1,4 @@
-"""Formulas over columns: the formulas of friction laws, with comparisons, texts and conditions.
+"""Formulas over columns: the formulas of friction laws, with conditions, texts and more functions.
 
 The crate parses the text (`src/formula`), so that a formula means the same here and in a law;
 polars evaluates it. Nothing of the text is executed as code.
@@ -17,8 +17,16 @@ import polars as pl
 
 from stribeck import _core
 from stribeck.base.errors import RecordingError, nearest
+from stribeck.recording.column_functions import (
+    Over,
+    choose,
+    interpolated,
+    of_all,
+    table_problem,
+)
+from stribeck.recording.names import CHANNELS
 
-__all__ = ["Formula", "compile_formula"]
+__all__ = ["Formula", "channel_column", "compile_formula"]
 
 _LIMIT = 2000
 
@@ -27,7 +35,8 @@ Kind = Literal["number", "text", "truth"]
 #: arguments, or nothing.
 Detail = float | str | tuple[str, int] | None
 
-_CONSTANTS = {"pi": 3.141592653589793, "e": 2.718281828459045}
+#: ``g`` is the standard acceleration of gravity, m/s2.
+_CONSTANTS = {"pi": 3.141592653589793, "e": 2.718281828459045, "g": 9.80665}
 _TRUTHS = {"true": True, "True": True, "false": False, "False": False}
 _ARITHMETIC: dict[str, Callable[[pl.Expr, pl.Expr], pl.Expr]] = {
     "add": operator.add,
@@ -83,6 +92,11 @@ class Formula:
         The columns and the numbers in it, in order.
     product
         Whether it only multiplies and divides: units of the one column then carry over.
+    channels
+        The channels in it that are no columns; each is the column `channel_column` of the table
+        that the expression is evaluated on.
+    over_all
+        The functions in it that need all samples.
     """
 
     text: str
@@ -91,9 +105,22 @@ class Formula:
     columns: tuple[str, ...]
     numbers: tuple[float, ...]
     product: bool
+    channels: tuple[str, ...] = ()
+    over_all: tuple[str, ...] = ()
 
 
-def compile_formula(text: str, schema: Mapping[str, pl.DataType], where: str) -> Formula:
+def channel_column(channel: str) -> str:
+    """The name of the column that holds a channel while a formula is evaluated."""
+    return f"<{channel}>"
+
+
+def compile_formula(
+    text: str,
+    schema: Mapping[str, pl.DataType],
+    where: str,
+    over: Over | None = None,
+    rows: int = 0,
+) -> Formula:
     """Compile a formula over the columns of a table.
 
     Parameters
@@ -104,6 +131,9 @@ def compile_formula(text: str, schema: Mapping[str, pl.DataType], where: str) ->
         Column names and types of the table.
     where
         What the formula is for; every error sentence begins with it.
+    over, rows
+        How functions of all samples are computed, and the rows of the table. Without them the
+        formula can be looked at; if it has such functions, it cannot be evaluated.
 
     Raises
     ------
@@ -118,13 +148,20 @@ def compile_formula(text: str, schema: Mapping[str, pl.DataType], where: str) ->
         # Only an empty formula has no position.
         of = f" of '{text}'" if text.strip() else ""
         raise RecordingError(f"{where}: {error}{of}") from None
-    compiler = _Compiler(text, schema, where)
+    compiler = _Compiler(text, schema, where, over, rows)
     for name, detail, position in steps:
         compiler.step(name, detail, position)
     (value,) = compiler.stack
     numbers = tuple(compiler.numbers)
     return Formula(
-        text, value.expression, value.kind, tuple(compiler.columns), numbers, compiler.product
+        text,
+        value.expression,
+        value.kind,
+        tuple(compiler.columns),
+        numbers,
+        compiler.product,
+        tuple(compiler.channels),
+        tuple(compiler.over_all),
     )
 
 
@@ -138,23 +175,37 @@ class _Value:
         Of its first character, counted from 1.
     last
         The right operand, where it is a comparison.
+    constant
+        Its number, where it is one.
     """
 
     expression: pl.Expr
     kind: Kind
     position: int
     last: _Value | None = None
+    constant: float | None = None
 
 
 class _Compiler:
     """The stack while the steps of a formula are taken."""
 
-    def __init__(self, text: str, schema: Mapping[str, pl.DataType], where: str) -> None:
+    def __init__(
+        self,
+        text: str,
+        schema: Mapping[str, pl.DataType],
+        where: str,
+        over: Over | None,
+        rows: int,
+    ) -> None:
         self.text = text
         self.schema = schema
         self.where = where
+        self.over = over
+        self.rows = rows
         self.stack: list[_Value] = []
         self.columns: list[str] = []
+        self.channels: list[str] = []
+        self.over_all: list[str] = []
         self.numbers: list[float] = []
         self.product = True
 
@@ -163,7 +214,7 @@ class _Compiler:
         if isinstance(detail, float):
             self.numbers.append(detail)
             literal = pl.lit(detail, dtype=pl.Float64)
-            self.stack.append(_Value(literal, "number", position))
+            self.stack.append(_Value(literal, "number", position, constant=detail))
         elif isinstance(detail, tuple):
             self._call(detail[0], detail[1], position)
         elif name == "text" and detail is not None:
@@ -173,8 +224,10 @@ class _Compiler:
         elif detail is not None:
             self._compare(detail, chained=name == "chain")
         elif name == "negate":
-            expression = -self._number(self.stack.pop())
-            self.stack.append(_Value(expression, "number", position))
+            value = self.stack.pop()
+            negated = None if value.constant is None else -value.constant
+            expression = -self._number(value)
+            self.stack.append(_Value(expression, "number", position, constant=negated))
         elif name == "not":
             expression = ~self._truth(self.stack.pop())
             self.stack.append(_Value(expression, "truth", position))
@@ -198,23 +251,13 @@ class _Compiler:
         return value.expression if value.kind == "truth" else value.expression != 0.0
 
     def _name(self, name: str, position: int) -> None:
-        """A column by its name in any case; otherwise a constant."""
+        """A column by its name in any case; otherwise a constant or a channel."""
         if name not in self.schema:
             folded = [column for column in self.schema if column.casefold() == name.casefold()]
-            if len(folded) == 1:
-                name = folded[0]
-            elif name in _CONSTANTS:
-                self.numbers.append(_CONSTANTS[name])
-                self.stack.append(_Value(pl.lit(_CONSTANTS[name]), "number", position))
+            if len(folded) != 1:
+                self.stack.append(self._no_column(name, position))
                 return
-            elif name in _TRUTHS:
-                self.stack.append(_Value(pl.lit(_TRUTHS[name]), "truth", position))
-                return
-            else:
-                hint = nearest(name, self.schema) or f"; the file has {', '.join(self.schema)}"
-                found = f"it is at position {position} of '{self.text}'"
-                end = f" ({found})" if hint.endswith("?") else f"; {found}"
-                raise RecordingError(f"{self.where}: unknown column '{name}'{hint}{end}")
+            name = folded[0]
         if name not in self.columns:
             self.columns.append(name)
         dtype, column = self.schema[name], pl.col(name)
@@ -226,6 +269,23 @@ class _Compiler:
             self.stack.append(_Value(column.cast(pl.String), "text", position))
         else:
             self._refuse(f"column '{name}' holds neither numbers nor text", position)
+
+    def _no_column(self, name: str, position: int) -> _Value:
+        """A name that is no column: a constant or a channel."""
+        if name in _CONSTANTS:
+            number = _CONSTANTS[name]
+            self.numbers.append(number)
+            return _Value(pl.lit(number), "number", position, constant=number)
+        if name in _TRUTHS:
+            return _Value(pl.lit(_TRUTHS[name]), "truth", position)
+        if CHANNELS.get(name):
+            if name not in self.channels:
+                self.channels.append(name)
+            return _Value(pl.col(channel_column(name)), "number", position)
+        hint = nearest(name, self.schema) or f"; the file has {', '.join(self.schema)}"
+        found = f"it is at position {position} of '{self.text}'"
+        end = f" ({found})" if hint.endswith("?") else f"; {found}"
+        raise RecordingError(f"{self.where}: unknown column '{name}'{hint}{end}")
 
     def _binary(self, name: str) -> None:
         right, left = self.stack.pop(), self.stack.pop()
@@ -258,6 +318,24 @@ class _Compiler:
 
     def _call(self, name: str, given: int, position: int) -> None:
         self.product = False
-        arguments = [self._number(value) for value in self.stack[-given:]]
+        values = self.stack[-given:]
         del self.stack[-given:]
-        self.stack.append(_Value(_FUNCTIONS[name](*arguments), "number", position))
+        if name == "where":
+            condition = self._truth(values[0])
+            expression = choose(condition, *(self._number(value) for value in values[1:]))
+        elif name == "interp":
+            points = [value.constant for value in values[1:]]
+            problem = table_problem(points)
+            if problem is not None:
+                self._refuse(problem, position)
+            x = self._number(values[0])
+            expression = interpolated(x, [n for n in points if n is not None])
+        elif name in ("diff", "mean"):
+            if name not in self.over_all:
+                self.over_all.append(name)
+            expression = self._number(values[0])
+            if self.over is not None:
+                expression = of_all(getattr(self.over, name), self.rows)(expression)
+        else:
+            expression = _FUNCTIONS[name](*(self._number(value) for value in values))
+        self.stack.append(_Value(expression, "number", position))

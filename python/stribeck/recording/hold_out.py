@@ -9,8 +9,8 @@ import numpy as np
 from stribeck.base.errors import RecordingError, nearest, option
 from stribeck.recording.arrays import Ints, bools, ints
 from stribeck.recording.cells import labels, numbered
+from stribeck.recording.prepared import Prepared
 from stribeck.recording.recording import Recording
-from stribeck.recording.table import Prepared
 
 __all__ = ["with_hold_out"]
 

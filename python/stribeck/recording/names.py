@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from stribeck.base.units import Unit, find_unit
 
 __all__ = [
+    "BESIDE",
     "CHANNELS",
+    "MOTOR",
     "REFERENCE",
     "ParsedName",
     "any_index",
     "channel_words",
     "file_unit",
     "parse_name",
+    "parse_names",
     "same_of_joint",
     "wide_groups",
 ]
@@ -31,6 +34,8 @@ CHANNELS: dict[str, tuple[str, ...]] = {
     "reference_position": ("angle", "length"),
     "reference_velocity": ("angular velocity", "linear velocity"),
     "reference_acceleration": ("angular acceleration", "linear acceleration"),
+    "motor_position": ("angle", "length"),
+    "motor_velocity": ("angular velocity", "linear velocity"),
     "torque": _EFFORT,
     "current": ("current",),
     "load_torque": _EFFORT,
@@ -44,6 +49,10 @@ CHANNELS: dict[str, tuple[str, ...]] = {
 
 #: Channels of the reference trajectory of a controller.
 REFERENCE = ("reference_position", "reference_velocity", "reference_acceleration")
+#: Channels of a second encoder, on the shaft of the motor.
+MOTOR = ("motor_position", "motor_velocity")
+#: Channels that most analyses do without: none of them makes a file ambiguous or a row incomplete.
+BESIDE = REFERENCE + MOTOR
 
 #: Names of each channel, as `_key` writes them.
 _ALIASES: dict[str, str] = {
@@ -67,6 +76,8 @@ _ALIASES: dict[str, str] = {
         "referenceacceleration accelerationreference qddref ddqref accref accelerationref "
         "refacceleration qdddes ddqdes desiredacceleration targetqdd targetacceleration"
     ),
+    "motor_position": "motorposition motorangle motorpos positionmotor posmotor motorencoder",
+    "motor_velocity": "motorvelocity motorspeed motorvel velocitymotor velmotor",
     "torque": (
         "torque tau effort force motortorque taum tm jointtorque jointeffort "
         "taumeas actualtorque motorforce"
@@ -144,6 +155,25 @@ def parse_name(name: str) -> ParsedName:
     return ParsedName(name, None, None, None, 9)
 
 
+def parse_names(names: Sequence[str]) -> list[ParsedName]:
+    """The parts of all column names of a file.
+
+    A motor's position or velocity is that of the joint if the file has no other motion.
+
+    Examples
+    --------
+    >>> [parsed.channel for parsed in parse_names(["t", "motor_position", "torque"])]
+    ['time', 'position', 'torque']
+    """
+    parsed = [parse_name(name) for name in names]
+    if {"position", "velocity"} & {p.channel for p in parsed}:
+        return parsed
+    joint = dict(zip(MOTOR, ("position", "velocity"), strict=True))
+    return [
+        replace(p, channel=joint[p.channel], rank=3) if p.channel in joint else p for p in parsed
+    ]
+
+
 def _without_qualifiers(stem: str) -> tuple[str | None, bool]:
     """A name without the words of `_QUALIFIERS` and `_SECOND`, and whether it had one of these.
 
@@ -214,12 +244,12 @@ def file_unit(name: str) -> Unit | None:
 def wide_groups(names: Sequence[str]) -> dict[str, dict[str, str]]:
     """Return, per channel, joint index -> column, for channels that come in several joints.
 
-    Reference channels are left out: a joint is chosen by what was measured.
+    Reference and motor channels are left out: a joint is chosen by what was measured at it.
     """
     groups: dict[str, dict[str, str]] = {}
     # The best name of a channel comes first; those of one rank stay in the order of the file.
-    for parsed in sorted(map(parse_name, names), key=lambda p: p.rank):
-        if parsed.channel in REFERENCE:
+    for parsed in sorted(parse_names(names), key=lambda p: p.rank):
+        if parsed.channel in BESIDE:
             continue
         if parsed.channel is not None and parsed.index is not None:
             groups.setdefault(parsed.channel, {}).setdefault(parsed.index, parsed.name)

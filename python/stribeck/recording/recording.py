@@ -103,6 +103,8 @@ class Recording:
         Whether contradictions between them are accepted.
     torque_at
         Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``; None: not known.
+    motor_position, motor_velocity
+        Of a second encoder on the motor's shaft, divided by the gear ratio; None: not recorded.
     """
 
     path: str
@@ -154,6 +156,8 @@ class Recording:
     checks: tuple[Check, ...] = ()
     trusted: bool = False
     torque_at: str | None = None
+    motor_position: Floats | None = None
+    motor_velocity: Floats | None = None
 
     def __len__(self) -> int:
         return len(self.time)

@@ -12,9 +12,9 @@ from stribeck.recording.channels import Channels
 from stribeck.recording.derive import Smoother
 from stribeck.recording.loads import rigid_body_load
 from stribeck.recording.names import REFERENCE
+from stribeck.recording.prepared import Prepared
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import segment_slices
-from stribeck.recording.table import Prepared
 
 __all__ = ["check_reference", "load_reference", "with_reference"]
 

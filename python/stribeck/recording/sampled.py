@@ -7,7 +7,8 @@ import numpy as np
 from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.channels import Channels, Layout
 from stribeck.recording.complete import Clock, Motion, complete
-from stribeck.recording.derive import HIGHEST, Smoother, choose_cutoff, motion_band
+from stribeck.recording.derive import Smoother, choose_cutoff
+from stribeck.recording.derived_motion import acceleration_cutoff, filter_text, slope
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
 from stribeck.recording.recording import Column, Recording
@@ -19,10 +20,7 @@ from stribeck.recording.rows import (
     slope_noise,
 )
 
-__all__ = ["BANDS", "sampled"]
-
-#: The cut-off of a derived acceleration is at most this many times the band of the motion.
-BANDS = 20.0
+__all__ = ["sampled"]
 
 
 def sampled(data: Channels, layout: Layout) -> Recording:
@@ -60,22 +58,16 @@ def _motion(
         assert position is not None
         step = typical if typical > 0.0 else float(np.median(np.diff(time)))
         sigma = slope_noise(time, position, segment, step)
-        cutoff = choose_cutoff(time, position, segment, 2)
+        velocity, cutoff = slope(time, position, segment)
+        velocity_smooth = velocity
         smoother = Smoother(time, segment, cutoff)
-        velocity = velocity_smooth = smoother.smooth(position, 1)
         origin, source, derivative = "position", position, 2
         unit = f"{layout.position_unit}/s"
         data.columns["velocity"] = Column.of("velocity", "position", unit, True, velocity)
         data.notes.append(_derived_note("velocity", "position", cutoff))
     acceleration = data.values.get("acceleration")
     if acceleration is None:
-        # Differentiation amplifies vibration above the motion, which no rigid body follows:
-        # where noise does not limit the cut-off, the band of the motion does.
-        band = motion_band(time, velocity, segment)
-        limits = [x for x in (cutoff, None if band is None else BANDS * band) if x is not None]
-        highest = min(limits, default=None)
-        # A cut-off that the samples do not reach is none.
-        highest = None if highest is None or highest >= HIGHEST / typical else highest
+        highest = acceleration_cutoff(time, velocity, segment, typical, cutoff)
         acceleration = Smoother(time, segment, highest).smooth(source, derivative)
         acceleration_smooth = acceleration
         unit = f"{layout.position_unit}/s2"
@@ -113,8 +105,4 @@ def _loads(data: Channels, layout: Layout, motion: Motion, smoother: Smoother) -
 
 
 def _derived_note(name: str, source: str, cutoff: float | None) -> str:
-    if cutoff is None:
-        return f"{name} derived from {source}, no filter: the data show no noise above the motion"
-    return (
-        f"{name} derived from {source}, zero-phase low-pass at {cutoff:.3g} Hz chosen from the data"
-    )
+    return f"{name} derived from {source}, {filter_text(cutoff)}"

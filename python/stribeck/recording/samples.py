@@ -9,7 +9,7 @@ from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Ints
 from stribeck.recording.cells import labels, numbered
 from stribeck.recording.channels import Channels
-from stribeck.recording.names import REFERENCE
+from stribeck.recording.names import BESIDE
 
 __all__ = ["check_time", "drop_missing", "in_runs"]
 
@@ -42,7 +42,8 @@ def in_runs(data: Channels) -> tuple[tuple[str, ...], Ints]:
 def drop_missing(data: Channels) -> int:
     """Drop samples with an empty, NaN or infinite cell; returns how many.
 
-    Cells of the reference trajectory do not count: only the estimator by instruments reads them.
+    Cells of the reference trajectory and of the motor's encoder do not count: few analyses read
+    them.
 
     Raises
     ------
@@ -52,7 +53,7 @@ def drop_missing(data: Channels) -> int:
     bad = np.zeros(len(data.rows), dtype=bool)
     worst, most = "", 0
     for channel, values in data.values.items():
-        if channel in REFERENCE:
+        if channel in BESIDE:
             continue
         missing = ~np.isfinite(values)
         count = int(missing.sum())

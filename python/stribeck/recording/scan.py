@@ -21,6 +21,7 @@ from stribeck.recording.recording import Column
 from stribeck.recording.rows import segment_rows
 from stribeck.recording.settings import Settings, gather
 from stribeck.recording.table import Prepared, channel_values, joints_of, prepare
+from stribeck.recording.whole import Whole
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -133,7 +134,7 @@ def _prepared(path: str, settings: Settings) -> tuple[Prepared, str | None]:
     except RecordingError as error:
         # A file that cannot be opened, or a wrong formula, is refused here as it is by `read`.
         source = read_table(path)
-        made = apply_formulas(source, settings)
+        made = apply_formulas(source, settings, Whole(source, settings))
         return Prepared(source, settings, made.table, made.row, {}, made.notes), str(error)
     return prepared, None
 

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-import polars as pl
-
-from stribeck.base.errors import RecordingError, nearest, option
-from stribeck.base.units import SI
-from stribeck.recording.arrays import Floats, Ints
-from stribeck.recording.cells import column_numbers, labels
-from stribeck.recording.columns import Choice, choose_columns
+from stribeck.recording.columns import choose_columns
 from stribeck.recording.computed import apply_formulas
-from stribeck.recording.formula import compile_formula
-from stribeck.recording.names import parse_name, wide_groups
+from stribeck.recording.prepared import (
+    Prepared,
+    channel_values,
+    columns_of,
+    joint_rows,
+    joints_of,
+)
 from stribeck.recording.readers import Source, read_table
 from stribeck.recording.settings import Settings
 from stribeck.recording.weights import table_weights
+from stribeck.recording.whole import Whole, wide_index
 
 __all__ = [
     "Prepared",
@@ -30,41 +27,6 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class Prepared:
-    """A table with every joint of a file.
-
-    Attributes
-    ----------
-    table
-        Rows that passed `where`.
-    row
-        Their row numbers in the file, from 0.
-    choices
-        Channel -> column of the file.
-    weight
-        Weight of each row of `table`, where weights are given.
-    """
-
-    source: Source
-    settings: Settings
-    table: pl.DataFrame
-    row: Ints
-    choices: dict[str, Choice]
-    notes: tuple[str, ...]
-    weight: Floats | None = None
-
-    @property
-    def derived(self) -> tuple[str, ...]:
-        """Columns computed by a formula."""
-        return tuple(self.settings.derive)
-
-    @property
-    def rows_removed(self) -> int:
-        """Rows for which `where` does not hold."""
-        return self.source.table.height - self.table.height
-
-
 def prepare(path: str, settings: Settings) -> Prepared:
     """Read a file, apply formulas and condition, and choose its columns."""
     return prepared_table(read_table(path), settings)
@@ -72,14 +34,14 @@ def prepare(path: str, settings: Settings) -> Prepared:
 
 def prepared_table(source: Source, settings: Settings) -> Prepared:
     """Apply formulas and condition to a table, and choose its columns."""
-    computed = apply_formulas(source, settings)
+    computed = apply_formulas(source, settings, Whole(source, settings))
     choices, notes = choose_columns(
         source.path,
         computed.table.columns,
         derived=tuple(settings.derive),
         maps=settings.maps,
         units=computed.units,
-        index=_wide_index(computed.table, settings),
+        index=wide_index(computed.table, settings),
     )
     weight = None
     if settings.weights is not None:
@@ -93,85 +55,3 @@ def prepared_table(source: Source, settings: Settings) -> Prepared:
         (*source.notes, *computed.notes, *notes),
         weight,
     )
-
-
-def _wide_index(table: pl.DataFrame, settings: Settings) -> str | None:
-    """The joint of a wide file that was named, where there is no joint column."""
-    if settings.joint is None or "joint" in settings.maps or "joint" in settings.derive:
-        return None
-    if any(parse_name(name).channel == "joint" for name in table.columns):
-        return None
-    return settings.joint.removeprefix("joint_").removeprefix("joint")
-
-
-def columns_of(prepared: Prepared, channel: str) -> tuple[str, ...]:
-    """The columns of the file that a channel is read or computed from; empty without it."""
-    choice = prepared.choices.get(channel)
-    if choice is None:
-        return ()
-    formula = prepared.settings.derive.get(choice.source)
-    if formula is None:
-        return (choice.source,)
-    return compile_formula(formula, prepared.table.schema, formula).columns
-
-
-def joints_of(prepared: Prepared) -> list[str]:
-    """The joints of a file in order of appearance; empty without a joint column."""
-    choice = prepared.choices.get("joint")
-    if choice is None:
-        return []
-    return labels(prepared.table, choice.source).unique(maintain_order=True).to_list()
-
-
-def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]:
-    """The joint to read, and its rows.
-
-    Raises
-    ------
-    RecordingError
-        The file has several joints and none, or an unknown one, was named.
-    """
-    path = prepared.source.path
-    joints = joints_of(prepared)
-    everything = np.arange(prepared.table.height)
-    if not joints:
-        if joint is not None and not wide_groups(prepared.table.columns):
-            raise RecordingError(
-                f"{path}: there is no joint column to find '{joint}' in: leave out "
-                f"{option('joint')}, or name the column with {option('map', 'joint=COLUMN')}"
-            )
-        return joint, everything
-    if joint is None:
-        if len(joints) == 1:
-            return joints[0], everything
-        raise RecordingError(
-            f"{path}: holds {len(joints)} joints: name one with {option('joint')} "
-            f"({_listed(joints)})"
-        )
-    if joint not in joints:
-        hint = nearest(joint, joints)
-        raise RecordingError(
-            f"{path}: there is no joint '{joint}'{hint or '; there are ' + _listed(joints)}"
-        )
-    names = labels(prepared.table, prepared.choices["joint"].source)
-    return joint, np.flatnonzero(names == joint)
-
-
-def _listed(names: list[str]) -> str:
-    """Names as they are typed; a name may be empty."""
-    return ", ".join(name or "''" for name in names)
-
-
-def channel_values(prepared: Prepared, channel: str, rows: Ints) -> tuple[Floats, str, str]:
-    """A channel of some rows (ascending) in SI, its unit ('' if not named) and dimension."""
-    choice = prepared.choices[channel]
-    table, row = prepared.table.select(choice.source), prepared.row
-    if rows.size < table.height:
-        table, row = table[rows], row[rows]
-    values = column_numbers(prepared.source, table, row, choice.source)
-    if choice.unit is None:
-        return values, "", ""
-    unit = choice.unit
-    if unit.factor != 1.0 or unit.offset != 0.0:
-        values = values * unit.factor + unit.offset
-    return values, SI[unit.dimension], unit.dimension

@@ -13,8 +13,8 @@ from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.consistency.dissipation import Dissipation, dissipation
 from stribeck.recording.consistency.follow import Follows, Track, follows
 from stribeck.recording.consistency.readings import Source
+from stribeck.recording.prepared import Prepared, columns_of
 from stribeck.recording.recording import Recording
-from stribeck.recording.table import Prepared, columns_of
 
 __all__ = ["View"]
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 from stribeck.models.model import Model
 from stribeck.recording.derive import motion_band
+from stribeck.recording.derived_motion import BANDS
 from stribeck.recording.recording import Recording
-from stribeck.recording.sampled import BANDS
 
 __all__ = ["Margin", "acceleration_band", "smoothed"]
 

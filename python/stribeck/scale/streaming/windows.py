@@ -19,10 +19,10 @@ from stribeck.recording.derive import Smoother
 from stribeck.recording.drive import with_drive
 from stribeck.recording.joint_units import settle_units
 from stribeck.recording.loads import measured_torque, rigid_body_load
+from stribeck.recording.prepared import Prepared
 from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import segment_rows
-from stribeck.recording.table import Prepared
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.margin import Margin, acceleration_band, smoothed
 from stribeck.scale.streaming.motion import MotionChannels
@@ -178,7 +178,7 @@ class Windows:
         """The channels of the rows of `frame`, the first of which is row `begin`."""
         known = self.sample.prepared
         source = Source(self.data.path, "", frame, 0)
-        made = apply_formulas(source, known.settings, may_be_empty=True)
+        made = apply_formulas(source, known.settings, None, may_be_empty=True)
         table = made.table
         prepared = Prepared(
             source, known.settings, table, made.row + begin, dict(known.choices), ()

@@ -1,0 +1,55 @@
+"""Velocity and acceleration that were not recorded, by zero-phase filters chosen from the data."""
+
+from __future__ import annotations
+
+from stribeck.recording.arrays import Floats, Ints
+from stribeck.recording.derive import HIGHEST, Smoother, choose_cutoff, motion_band
+
+__all__ = ["BANDS", "acceleration_cutoff", "filter_text", "slope"]
+
+#: The cut-off of a derived acceleration is at most this many times the band of the motion.
+BANDS = 20.0
+
+
+def slope(time: Floats, value: Floats, segment: Ints) -> tuple[Floats, float | None]:
+    """The derivative of a signal by time, [n], and the cut-off [Hz] of its filter; None: no filter.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.arange(200) / 100.0
+    >>> speed, cutoff = slope(t, 3.0 * t, np.zeros(200, dtype=np.int64))
+    >>> round(float(speed[50]), 6), cutoff
+    (3.0, None)
+    """
+    cutoff = choose_cutoff(time, value, segment, 2)
+    return Smoother(time, segment, cutoff).smooth(value, 1), cutoff
+
+
+def acceleration_cutoff(
+    time: Floats, velocity: Floats, segment: Ints, typical: float, cutoff: float | None
+) -> float | None:
+    """The cut-off [Hz] for an acceleration; None: no filter.
+
+    Differentiation amplifies vibration above the motion, which no rigid body follows: where noise
+    does not limit the cut-off, the band of the motion does.
+
+    Parameters
+    ----------
+    typical
+        Median step, s.
+    cutoff
+        Of the velocity.
+    """
+    band = motion_band(time, velocity, segment)
+    limits = [x for x in (cutoff, None if band is None else BANDS * band) if x is not None]
+    highest = min(limits, default=None)
+    # A cut-off that the samples do not reach is none.
+    return None if highest is None or highest >= HIGHEST / typical else highest
+
+
+def filter_text(cutoff: float | None) -> str:
+    """How a filter is stated in a note."""
+    if cutoff is None:
+        return "no filter: the data show no noise above the motion"
+    return f"zero-phase low-pass at {cutoff:.3g} Hz chosen from the data"
