@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from stribeck.cli.common import echo_json, json_option, recording_options, say, seed_option
+from stribeck.cli.data import data_argument
 from stribeck.cli.flags import with_flags
 from stribeck.diagnosis.inspect import inspect as inspect_file
 from stribeck.diagnosis.inspect import write_proposed
@@ -39,7 +40,7 @@ def effects(seed: int, as_json: bool) -> None:
 
 
 @click.command()
-@click.argument("data")
+@data_argument
 @click.option(
     "--write-sidecar",
     is_flag=True,
@@ -48,7 +49,9 @@ def effects(seed: int, as_json: bool) -> None:
 @recording_options
 @seed_option
 @json_option
-def inspect(data: str, write_sidecar: bool, reading: ReadOptions, seed: int, as_json: bool) -> None:
+def inspect(
+    data: tuple[str, ...], write_sidecar: bool, reading: ReadOptions, seed: int, as_json: bool
+) -> None:
     """Show what DATA contains, whether its channels agree, and which effects it can show."""
     inspection = inspect_file(data, **reading.given())
     for note in inspection.notes:

@@ -24,6 +24,7 @@ from stribeck.models.reader import read_model_file
 from stribeck.recording.load import read_with
 from stribeck.recording.options import TABLE, Entry, ReadOptions
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.paths import Given
 
 
 def finite(value: object) -> object:
@@ -135,8 +136,8 @@ def recording_options(command: Command) -> Command:
     return gathered(command, map(_click_option, table), "reading", build)
 
 
-def read_recording(path: str, reading: ReadOptions) -> Recording:
-    """Read the recording of one joint, and print its notes on stderr."""
+def read_recording(path: Given, reading: ReadOptions) -> Recording:
+    """Read the recording of one joint from one or several files, and print its notes on stderr."""
     recording = read_with(path, reading)
     for note in recording.notes:
         say(f"note: {note}")
@@ -160,7 +161,7 @@ def stored_model(path: str, recording: Recording) -> Fit:
     return evaluate(
         stored.model,
         recording,
-        fitted_on=stored.fitted_on.get("sha256"),
+        fitted_on=stored.hashes,
         stderr=stored.stderr,
     )
 

@@ -24,6 +24,7 @@ from stribeck.cli.common import (
     starts_option,
     stored_model,
 )
+from stribeck.cli.data import arguments_of_both, data_argument, split
 from stribeck.cli.errors import ErrorChoice, error_options
 from stribeck.cli.formulas import (
     Written,
@@ -56,7 +57,7 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 
 
 @click.command()
-@click.argument("data")
+@data_argument
 @click.option(
     "--model", "spec", default=None, help="LAW[+effect...], or a model file to start from."
 )
@@ -75,7 +76,7 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 @seed_option
 @json_option
 def fit(
-    data: str,
+    data: tuple[str, ...],
     spec: str | None,
     written: Written,
     errors: ErrorChoice,
@@ -90,11 +91,11 @@ def fit(
 ) -> None:
     """Identify a model's parameters on DATA.
 
-    A folder of Parquet files, or a pattern, is one recording that is read in passes (--stream does
-    so for a single file): all samples are fitted, few are in memory.
+    Several files, a folder or a pattern are runs of one joint, fitted together. With --stream,
+    Parquet files are read in passes: all samples are fitted, few are in memory.
     """
-    check_output(output, "model file", data, reading.sidecar)
-    if streaming.wanted(data):
+    check_output(output, "model file", *data, reading.sidecar)
+    if streaming.asked:
         streaming.refuse(
             method=method.name != "rms",
             estimator=method.estimator != "ls",
@@ -135,8 +136,7 @@ def fit(
 
 
 @click.command()
-@click.argument("data")
-@click.argument("models", nargs=-1)
+@arguments_of_both
 @formula_options
 @click.option("--plot", "picture", default=None, help="Write a figure of the residuals (PNG).")
 @starts_option
@@ -144,8 +144,7 @@ def fit(
 @seed_option
 @json_option
 def compare(
-    data: str,
-    models: tuple[str, ...],
+    arguments: tuple[str, ...],
     written: Written,
     picture: str | None,
     starts: int,
@@ -154,7 +153,8 @@ def compare(
     as_json: bool,
 ) -> None:
     """Compare MODELS (specs, model files or formulas) with DATA, and show where each fails."""
-    check_output(picture, None, data, reading.sidecar)
+    data, models = split(arguments)
+    check_output(picture, None, *data, reading.sidecar)
     own = written.by_formula()
     if not (models or own):
         raise SpecError("no model is given: name laws or model files, or write laws by --law")
@@ -182,8 +182,7 @@ def compare(
 
 
 @click.command()
-@click.argument("data")
-@click.argument("model", required=False)
+@arguments_of_both
 @model_options
 @report_option
 @figures_option
@@ -195,8 +194,7 @@ def compare(
 @seed_option
 @json_option
 def diagnose(
-    data: str,
-    model: str | None,
+    arguments: tuple[str, ...],
     written: Written,
     report: str | None,
     figures: str | None,
@@ -210,13 +208,17 @@ def diagnose(
 ) -> None:
     """Find which physical effect MODEL (or the law of --law) lacks on DATA.
 
-    For a folder of Parquet files, or with --stream, effects are searched on stretches of the data.
+    With --stream, effects are searched on stretches of the data.
     """
-    check_output(report, "HTML", data, reading.sidecar)
+    data, models = split(arguments)
+    if len(models) > 1:
+        raise SpecError(f"one model is needed, {len(models)} are given: {', '.join(models)}")
+    model = models[0] if models else None
+    check_output(report, "HTML", *data, reading.sidecar)
     check_output(figures)
     check_candidates(candidates)
     streamed: StreamedDiagnosis | None = None
-    if streaming.wanted(data):
+    if streaming.asked:
         opened = streaming.open(data, reading, seed)
         with RowProgress() as bar:
             streamed = opened.diagnose(
@@ -253,9 +255,7 @@ def diagnose(
 
 
 @click.command()
-@click.argument("model")
-@click.argument("effect")
-@click.argument("data")
+@click.argument("arguments", nargs=-1, required=True, metavar="DATA... MODEL EFFECT")
 @model_options
 @output_option
 @starts_option
@@ -263,9 +263,7 @@ def diagnose(
 @seed_option
 @json_option
 def add(
-    model: str,
-    effect: str,
-    data: str,
+    arguments: tuple[str, ...],
     written: Written,
     output: str | None,
     starts: int,
@@ -277,7 +275,14 @@ def add(
 
     MODEL may be a law by formula, EFFECT an effect by formula, 'NAME = FORMULA'.
     """
-    check_output(output, "model file", data, reading.sidecar)
+    data, named = split(arguments)
+    if len(named) != 2:
+        raise SpecError(
+            f"one model and one effect are needed beside the data, not {len(named)} "
+            f"({', '.join(named) or 'none'}): write `stribeck add DATA MODEL EFFECT`"
+        )
+    model, effect = named
+    check_output(output, "model file", *data, reading.sidecar)
     recording = read_recording(data, reading)
     before = written_fit(
         model, written, recording, parameters_brought_by(effect), starts=starts, seed=seed
@@ -290,7 +295,7 @@ def add(
 
 
 @click.command()
-@click.argument("data")
+@data_argument
 @click.option("--base", default=None, help="Spec, model file or formula. [default: coulomb]")
 @model_options
 @output_option
@@ -313,7 +318,7 @@ def add(
 @seed_option
 @json_option
 def improve(
-    data: str,
+    data: tuple[str, ...],
     base: str | None,
     written: Written,
     output: str | None,
@@ -332,11 +337,11 @@ def improve(
 ) -> None:
     """Diagnose and add effects to a base model until the residual is noise.
 
-    For a folder of Parquet files, or with --stream, effects are searched on stretches of the data.
+    With --stream, effects are searched on stretches of the data.
     """
-    check_output(output, "model file", data, reading.sidecar)
-    check_output(report, "HTML", data, reading.sidecar)
-    check_output(picture, None, data, reading.sidecar)
+    check_output(output, "model file", *data, reading.sidecar)
+    check_output(report, "HTML", *data, reading.sidecar)
+    check_output(picture, None, *data, reading.sidecar)
     check_output(figures)
     check_candidates(candidates)
     for effect in reject:
@@ -349,7 +354,7 @@ def improve(
     )
     options |= {**written.choices.arguments(), "candidates": candidates, "progress": say}
     streamed: StreamedImprovement | None = None
-    if streaming.wanted(data):
+    if streaming.asked:
         opened = streaming.open(data, reading, seed)
         with RowProgress() as bar:
             streamed = opened.improve(start, told=bar.show_pass, **options)

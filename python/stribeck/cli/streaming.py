@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import click
@@ -11,7 +12,6 @@ from stribeck.cli.common import echo_result, say
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import ReadOptions
-from stribeck.scale.streaming.dataset import is_data_set
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
 from stribeck.scale.streaming.result import StreamedFit
@@ -25,22 +25,21 @@ class Streaming:
     asked: bool
     sample_rows: int
 
-    def wanted(self, data: str) -> bool:
-        """Whether `data` is read in passes: on request, or if it is several files."""
-        return self.asked or is_data_set(data)
-
     def refuse(self, **given: bool) -> None:
         """Refuse options that need all samples in memory."""
         for flag, is_given in given.items():
             if is_given:
                 raise SpecError(
-                    f"--{flag} needs all samples in memory: omit it, or give one file without "
-                    "--stream"
+                    f"--{flag} needs all samples in memory: omit it, or leave out --stream"
                 )
 
-    def open(self, data: str, reading: ReadOptions, seed: int) -> Stream:
-        """Open `data`, and print its notes on stderr."""
-        opened = stream(data, sample_rows=self.sample_rows, seed=seed, **reading.given())
+    def open(self, data: Sequence[str], reading: ReadOptions, seed: int) -> Stream:
+        """Open one file, folder or pattern, and print its notes on stderr."""
+        if len(data) != 1:
+            raise SpecError(
+                f"--stream reads one file, folder or pattern, {len(data)} are given: give a pattern"
+            )
+        opened = stream(data[0], sample_rows=self.sample_rows, seed=seed, **reading.given())
         for note in opened.sample.recording.notes:
             say(f"note: {note}")
         return opened
@@ -70,7 +69,8 @@ _STREAM_OPTIONS = [
     click.option(
         "--stream",
         is_flag=True,
-        help="Read DATA (Parquet) in passes, window by window; folders and patterns always are.",
+        help="Read DATA (Parquet) in passes, window by window; the files of a folder are then "
+        "parts of one recording.",
     ),
     click.option(
         "--sample-rows",

@@ -135,7 +135,7 @@ def compare(
     fits = [
         f
         if f.recording.is_measured_as(recording)
-        else evaluate(f.model, recording, fitted_on=f.recording.sha256)
+        else evaluate(f.model, recording, fitted_on=f.recording.hashes)
         for f in fits
     ]
     best = min(fits, key=lambda f: f.rmse)

@@ -18,12 +18,14 @@ from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.assemble import nothing_moves
 from stribeck.recording.check import Check
-from stribeck.recording.load import read_with
+from stribeck.recording.load import Given, read_with
 from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.recording.proposals import Proposal, propose
 from stribeck.recording.proposed_sidecar import write_sidecar
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.scan import Table, scan_with
+from stribeck.recording.several.paths import listed_files, text_of
+from stribeck.recording.several.scan import joined_table
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -44,6 +46,8 @@ class Inspection:
         Effects that none of these joints can show, by id.
     proposed
         Columns that are not read, and the channel that each may hold.
+    files
+        Each file by itself, where there are several.
     """
 
     table: Table
@@ -51,6 +55,7 @@ class Inspection:
     untestable: dict[str, Untestable]
     problem: str | None
     proposed: tuple[Proposal, ...] = ()
+    files: tuple[Table, ...] = ()
 
     @property
     def testable(self) -> tuple[str, ...]:
@@ -92,6 +97,11 @@ class Inspection:
             ],
             "proposed": [row.to_dict() for row in self.proposed],
         }
+        if self.files:
+            made["files"] = [
+                {"file": t.path, "rows": t.rows, "rate_hz": t.rate_hz, "gaps": t.gaps}
+                for t in self.files
+            ]
         if len(self.recordings) == 1:
             made["scored"] = self.recordings[0].scored()
         if self.problem is not None:
@@ -105,8 +115,13 @@ def write_proposed(inspection: Inspection, options: ReadOptions) -> Path:
     Raises
     ------
     RecordingError
-        The file cannot be read, has several joints and none is named, or has a sidecar.
+        The file cannot be read, has several joints and none is named, or has a sidecar; or there
+        are several files.
     """
+    if inspection.files:
+        raise RecordingError(
+            f"{inspection.table.path}: a sidecar lies beside one file: inspect one at a time"
+        )
     if inspection.problem is not None:
         raise RecordingError(inspection.problem)
     if len(inspection.recordings) > 1:
@@ -126,20 +141,26 @@ def _described(column: Column) -> dict[str, object]:
     }
 
 
-def inspect(path: str, **reading: Unpack[ReadArguments]) -> Inspection:
-    """Look at a file: columns, units, rate, gaps, ranges, and which effects it can show.
+def inspect(path: Given, **reading: Unpack[ReadArguments]) -> Inspection:
+    """Look at files: columns, units, rate, gaps, ranges, and which effects they can show.
 
     Parameters
     ----------
+    path
+        A file; several, a folder or a pattern are runs of the same joints.
     joint : str
         One joint of a file that holds several; default: all.
     **options
         As of `stribeck.read`.
     """
     options = ReadOptions(**reading)
-    table = scan_with(path, options)
+    files = listed_files(path)
+    tables = tuple(scan_with(file, options) for file in files)
+    several = tables if len(tables) > 1 else ()
+    table = joined_table(tables, text_of(path, files), options.joint)
     if table.problem is not None:
-        return Inspection(table, (), {}, table.problem, _proposed(table, (), options.joint))
+        proposed = _proposed(table, (), options.joint)
+        return Inspection(table, (), {}, table.problem, proposed, several)
     joint = options.joint
     # What cannot be fitted is inspected all the same.
     needs_motion = not options.standstill
@@ -149,14 +170,15 @@ def inspect(path: str, **reading: Unpack[ReadArguments]) -> Inspection:
     proposed = _proposed(table, recordings, joint)
     still = [r for r in recordings if needs_motion and not r.moving.any()]
     if still:
-        return Inspection(table, recordings, {}, str(nothing_moves(still[0])), proposed)
+        problem = str(nothing_moves(still[0]))
+        return Inspection(table, recordings, {}, problem, proposed, several)
     answers = [untestable(r, _load(r)) for r in recordings]
     common = {
         effect: answers[0][effect]
         for effect in answers[0]
         if all(effect in answer for answer in answers)
     }
-    return Inspection(table, recordings, common, None, proposed)
+    return Inspection(table, recordings, common, None, proposed, several)
 
 
 def _proposed(

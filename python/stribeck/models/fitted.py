@@ -13,12 +13,14 @@ if TYPE_CHECKING:
 class FittedOn(TypedDict, total=False):
     """What a model was fitted to, as model files keep it.
 
-    ``rows`` counts the scored samples, ``time_span`` is the recording's first and last time in s,
-    the errors are in the unit of the effort.
+    ``files`` has the hash of each file where there are several, ``rows`` counts the scored samples,
+    ``time_span`` is the recording's first and last time in s, the errors are in the unit of the
+    effort.
     """
 
     path: str
     sha256: str
+    files: list[str]
     rows: int
     time_span: list[float]
     rmse: float

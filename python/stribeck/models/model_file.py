@@ -25,8 +25,8 @@ class ModelFile:
     stderr : dict of float
         Standard errors by parameter name, in the parameters' units, where known.
     fitted_on : dict
-        ``path``, ``sha256``, ``rows`` (scored samples), ``time_span`` [s, s], ``rmse``,
-        ``rmse_held_out``.
+        ``path``, ``sha256``, ``files`` (hashes of several files), ``rows`` (scored samples),
+        ``time_span`` [s, s], ``rmse``, ``rmse_held_out``.
     """
 
     model: Model
@@ -40,6 +40,7 @@ class ModelFile:
         fitted_on: FittedOn = {
             "path": recording.path,
             "sha256": recording.sha256,
+            **({"files": list(hashes)} if (hashes := recording.hashes[1:]) else {}),
             "rows": int(recording.moving.sum()),
             "time_span": [float(recording.time[0]), float(recording.time[-1])],
             "rmse": fitted.rmse,
@@ -48,6 +49,12 @@ class ModelFile:
             fitted_on["rmse_held_out"] = fitted.rmse_held_out
         errors = {n: e.stderr for n, e in fitted.estimates.items() if e.stderr is not None}
         return cls(fitted.model, errors, fitted_on)
+
+    @property
+    def hashes(self) -> tuple[str, ...]:
+        """SHA-256 of what the model was fitted to, and of each file where there are several."""
+        whole = self.fitted_on.get("sha256")
+        return (() if whole is None else (whole,)) + tuple(self.fitted_on.get("files", ()))
 
     def to_toml(self) -> str:
         """The file's text; numbers are written so that they read back with the same bits."""

@@ -46,7 +46,7 @@ BOX_KEYS = (
     "motor_torque",
     "external_torque",
 )
-FITTED_KEYS = ("path", "sha256", "rows", "time_span", "rmse", "rmse_held_out")
+FITTED_KEYS = ("path", "sha256", "files", "rows", "time_span", "rmse", "rmse_held_out")
 
 
 def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
@@ -230,6 +230,8 @@ class _Reader:
             match key:
                 case "path" | "sha256":
                     read[key] = self._text(value, "fitted_on]", key)
+                case "files":
+                    read[key] = list(self._names(table, key))
                 case "rows":
                     read[key] = self._whole(value, "fitted_on]", key)
                 case "time_span":

@@ -20,6 +20,7 @@ from stribeck.recording.mend.stamps import drop_repeated_stamps
 from stribeck.recording.mend.wraps import unwrap
 from stribeck.recording.motor_side import check_motor, load_motor, with_motor
 from stribeck.recording.names import CHANNELS
+from stribeck.recording.origin import Origin
 from stribeck.recording.prepared import Prepared, columns_of
 from stribeck.recording.proposals import propose
 from stribeck.recording.recording import Column, Recording
@@ -29,7 +30,14 @@ from stribeck.recording.samples import check_time, drop_missing, in_runs
 from stribeck.recording.torque_at import guess_torque_at
 from stribeck.recording.weights import check_scored_weights
 
-__all__ = ["build", "nothing_moves"]
+__all__ = [
+    "build",
+    "completed",
+    "load_channels",
+    "nothing_moves",
+    "settled",
+    "torque_place",
+]
 
 
 def build(
@@ -56,9 +64,27 @@ def build(
     RecordingError
         The table lacks a channel, or its data or units cannot be used.
     """
+    data, layout = load_channels(prepared, joint, rows, mend=mend)
+    made = completed(data, layout, torque_at=torque_place(prepared))
+    made = replace(made, checks=(*data.doubts, *checked(made, prepared, data.rows)))
+    made = settled(made, data, standstill=standstill)
+    if made.averaged or prepared.settings.hold_out is None:
+        return made
+    return with_hold_out(made, prepared, data.rows, prepared.settings.hold_out)
+
+
+def load_channels(
+    prepared: Prepared, joint: str | None, rows: Ints, *, mend: bool = True, one_run: bool = False
+) -> tuple[Channels, Layout]:
+    """The channels of one joint in SI units, mended, and their layout; see `build`.
+
+    Parameters
+    ----------
+    one_run
+        Whether a table without a run column may be averaged: it is one run.
+    """
     require(prepared)
-    settings = prepared.settings
-    data, run, run_names, dropped = _loaded(prepared, rows, mend=mend)
+    data, run, run_names, dropped = _loaded(prepared, rows, mend=mend, one_run=one_run)
     kind, torque_unit, position_unit = settle_units(data)
     _say_assumed(data, kind)
     _say_proposed(data)
@@ -67,26 +93,34 @@ def build(
     if prepared.rows_removed:
         count = prepared.rows_removed
         samples = "1 sample" if count == 1 else f"{count} samples"
-        data.notes.append(f"{samples} removed by where: {settings.where}")
+        data.notes.append(f"{samples} removed by where: {prepared.settings.where}")
+    return data, layout
+
+
+def completed(data: Channels, layout: Layout, *, torque_at: str | None) -> Recording:
+    """The recording of loaded channels, not yet checked; `settled` comes next."""
+    settings = data.prepared.settings
+    files = ((data.path, data.prepared.source.sha256),)
+    origin = Origin(settings, tuple(data.values), tuple(data.notes), files)
     made = averaged(data, layout) if settings.average else sampled(data, layout)
     made = with_motor(with_reference(made, data), data)
-    made = replace(made, torque_at=_torque_at(prepared))
+    made = replace(made, torque_at=torque_at, origin=origin)
     if settings.rows == "all":
         made = _all_scored(made)
-    checks = (*data.doubts, *checked(made, prepared, data.rows))
-    made = replace(made, checks=checks, trusted=settings.trust)
-    if not (settings.average or standstill or made.moving.any()):
+    return replace(made, trusted=settings.trust)
+
+
+def settled(made: Recording, data: Channels, *, standstill: bool) -> Recording:
+    """A checked recording with its drive, refused where nothing moves."""
+    if not (made.averaged or standstill or made.moving.any()):
         raise nothing_moves(made)
     if made.weight is not None:
         check_scored_weights(made)
-    made = with_drive(made, prepared, data.values)
-    if settings.average or settings.hold_out is None:
-        return made
-    return with_hold_out(made, prepared, data.rows, settings.hold_out)
+    return with_drive(made, data.prepared, data.values)
 
 
 def _loaded(
-    prepared: Prepared, rows: Ints, *, mend: bool
+    prepared: Prepared, rows: Ints, *, mend: bool, one_run: bool
 ) -> tuple[Channels, Ints, tuple[str, ...], int]:
     """The channels in order, mended; the run of each sample, their names, and how many lacked one.
 
@@ -106,7 +140,7 @@ def _loaded(
     dropped = drop_missing(data)
     check_reference(data)
     check_motor(data)
-    run_names, run = in_runs(data)
+    run_names, run = in_runs(data, one_run=one_run)
     # Samples of a run together, in the order of the file.
     order = np.argsort(run, kind="stable")
     if not np.array_equal(order, np.arange(len(order))):
@@ -178,7 +212,7 @@ def _say_proposed(data: Channels) -> None:
             )
 
 
-def _torque_at(prepared: Prepared) -> str | None:
+def torque_place(prepared: Prepared) -> str | None:
     """Where the torque was measured, as given or by its name."""
     given = prepared.settings.torque_at
     if given is not None or "friction_torque" in prepared.choices:

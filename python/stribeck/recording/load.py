@@ -1,33 +1,34 @@
-"""`read` and `read_all`: from a path and options to recordings."""
+"""`read` and `read_all`: from files and options to recordings."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.base.errors import RecordingError, nearest
 from stribeck.recording.assemble import build
-from stribeck.recording.cells import labels
+from stribeck.recording.one import of_joint, read_one
 from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.recording.recording import Recording
 from stribeck.recording.settings import gather
-from stribeck.recording.table import Prepared, joint_rows, joints_of, prepare
+from stribeck.recording.several.paths import Given, listed_files, text_of
+from stribeck.recording.several.read import read_several
+from stribeck.recording.table import joint_rows, joints_of, prepare
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-__all__ = ["read", "read_all", "read_with"]
+__all__ = ["Given", "read", "read_all", "read_with"]
 
 
-def read(path: str | Path, **options: Unpack[ReadArguments]) -> Recording:
+def read(path: Given, **options: Unpack[ReadArguments]) -> Recording:
     """Read one joint of a recording.
 
     Parameters
     ----------
     path
-        CSV, TSV, Parquet, Arrow, .npz or .mat file.
+        CSV, TSV, Parquet, Arrow, .npz or .mat file. Several, a folder or a pattern such as
+        ``"run*.csv"`` are runs of one joint, named by their files; each has its own sidecar.
     sidecar
         Sidecar to use instead of ``FILE.EXT.sidecar.toml`` beside the file. An option wins over it.
     joint, joint_kind
@@ -80,12 +81,12 @@ def read(path: str | Path, **options: Unpack[ReadArguments]) -> Recording:
     return read_with(path, ReadOptions(**options))
 
 
-def read_with(path: str | Path, options: ReadOptions) -> Recording:
+def read_with(path: Given, options: ReadOptions) -> Recording:
     """Read one joint of a recording; see `read`."""
-    settings = gather(path, options)
-    prepared = prepare(str(path), settings)
-    name, own = joint_rows(prepared, settings.joint)
-    return build(_of_joint(prepared, name), name, own, standstill=options.standstill)
+    files = listed_files(path)
+    if len(files) == 1:
+        return read_one(files[0], options)
+    return read_several(files, options, text_of(path, files))
 
 
 def read_all(path: str | Path, **options: Unpack[ReadArguments]) -> list[Recording]:
@@ -97,29 +98,6 @@ def read_all(path: str | Path, **options: Unpack[ReadArguments]) -> list[Recordi
     if settings.joint is not None:
         wanted = [settings.joint]
     return [
-        build(_of_joint(prepared, name), *joint_rows(prepared, name), standstill=given.standstill)
+        build(of_joint(prepared, name), *joint_rows(prepared, name), standstill=given.standstill)
         for name in wanted
     ]
-
-
-def _of_joint(prepared: Prepared, joint: str | None) -> Prepared:
-    """The table with the settings of one joint.
-
-    Raises
-    ------
-    RecordingError
-        The sidecar names a joint that the file does not have.
-    """
-    settings, choice = prepared.settings, prepared.choices.get("joint")
-    whole = prepared.source.table
-    if settings.joints and choice is not None and choice.source in whole.columns:
-        # In the whole file: the condition may have removed some joints.
-        there = labels(whole, choice.source).unique(maintain_order=True).to_list()
-        for name in settings.joints:
-            if name not in there:
-                raise RecordingError(
-                    f"{settings.sidecar}: [joints.{name}]: {prepared.source.path} has no such joint"
-                    f"{nearest(name, there) or '; it has ' + ', '.join(there)}"
-                )
-    # A current becomes a torque joint by joint, so each joint has its own choice of columns.
-    return replace(prepared, settings=settings.for_joint(joint), choices=dict(prepared.choices))

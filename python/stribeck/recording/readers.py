@@ -13,9 +13,13 @@ from stribeck.base.errors import RecordingError, nearest
 from stribeck.recording.array_tables import read_mat, read_npz
 from stribeck.recording.text_tables import read_text
 
-__all__ = ["Source", "read_table"]
+__all__ = ["SUFFIXES", "Source", "read_table"]
 
 _TEXT = {".csv", ".tsv", ".txt", ".dat"}
+#: Ends of the names of files that are read, without .gz.
+SUFFIXES = frozenset(
+    (*_TEXT, ".parquet", ".pq", ".arrow", ".arrows", ".feather", ".ipc", ".npz", ".mat")
+)
 _KNOWN = ".csv, .tsv, .txt, .parquet, .arrow, .feather, .npz, .mat"
 
 
@@ -67,10 +71,7 @@ def read_table(path: str | Path) -> Source:
     name = str(path)
     try:
         if path.is_dir():
-            raise RecordingError(
-                f"{name}: is a directory, give one recording file (fit, diagnose and improve take "
-                "folders of Parquet files too)"
-            )
+            raise RecordingError(f"{name}: is a directory, give one recording file")
         data = path.read_bytes()
     except FileNotFoundError:
         raise RecordingError(f"{name}: no such file{_beside(path)}") from None

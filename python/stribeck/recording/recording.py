@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
 
@@ -13,6 +13,7 @@ from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.check import Check
 from stribeck.recording.derive import Smoother, jumps
+from stribeck.recording.origin import Origin
 from stribeck.recording.rows import SIGMAS, noise_level
 
 __all__ = ["Column", "Recording"]
@@ -105,6 +106,8 @@ class Recording:
         Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``; None: not known.
     motor_position, motor_velocity
         Of a second encoder on the motor's shaft, divided by the gear ratio; None: not recorded.
+    origin
+        What it was made from, so that it can be joined with others; None: it cannot.
     """
 
     path: str
@@ -158,6 +161,7 @@ class Recording:
     torque_at: str | None = None
     motor_position: Floats | None = None
     motor_velocity: Floats | None = None
+    origin: Origin | None = None
 
     def __len__(self) -> int:
         return len(self.time)
@@ -213,7 +217,22 @@ class Recording:
 
     def is_measured_as(self, other: Recording) -> bool:
         """Whether `other` is this recording, but for weights that a fit was given."""
-        return other is self or (self.unweighted is not None and other is self.unweighted)
+        if other is self or (self.unweighted is not None and other is self.unweighted):
+            return True
+        joined = self.origin is not None and len(self.origin.files) > 1
+        return joined and self.origin == other.origin and self._has_samples_of(other)
+
+    def _has_samples_of(self, other: Recording) -> bool:
+        """Whether every array is that of a recording which was joined of the same parts."""
+        pairs = [(getattr(self, f.name), getattr(other, f.name)) for f in fields(self)]
+        arrays = [(a, b) for a, b in pairs if isinstance(a, np.ndarray)]
+        return all(isinstance(b, np.ndarray) and np.array_equal(a, b) for a, b in arrays)
+
+    @property
+    def hashes(self) -> tuple[str, ...]:
+        """SHA-256 of the recording, and of each of its files where there are several."""
+        files = () if self.origin is None else self.origin.files
+        return (self.sha256, *(sha256 for _, sha256 in files if len(files) > 1))
 
     def scored(self) -> dict[str, float]:
         """The ``scored`` object of the JSON output: rows, share, velocity_threshold."""

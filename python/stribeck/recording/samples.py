@@ -17,8 +17,13 @@ __all__ = ["check_time", "drop_missing", "in_runs"]
 _MISSING_SHARE = 0.05
 
 
-def in_runs(data: Channels) -> tuple[tuple[str, ...], Ints]:
+def in_runs(data: Channels, *, one_run: bool = False) -> tuple[tuple[str, ...], Ints]:
     """Names of the runs, and the number of the run of each sample, [n].
+
+    Parameters
+    ----------
+    one_run
+        Whether the samples may be averaged without a column of runs: they are one.
 
     Raises
     ------
@@ -29,7 +34,7 @@ def in_runs(data: Channels) -> tuple[tuple[str, ...], Ints]:
         return tuple(map(str, range(1, len(data.rows) + 1))), np.arange(len(data.rows))
     choice = data.prepared.choices.get("run")
     if choice is None:
-        if data.prepared.settings.average:
+        if data.prepared.settings.average and not one_run:
             raise RecordingError(
                 f"{data.path}: {option('average', 'run')} needs a run column: name it with "
                 f"{option('map', 'run=COLUMN')}"

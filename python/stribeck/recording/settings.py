@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 from stribeck.base.errors import RecordingError, nearest, option
 from stribeck.recording.names import CHANNELS
-from stribeck.recording.options import TABLE, ReadOptions
+from stribeck.recording.options import TABLE, FilePath, ReadOptions
 from stribeck.recording.sidecar import Sidecar, find_sidecar, read_sidecar
 
 __all__ = ["Mechanics", "Settings", "gather"]
@@ -122,7 +121,7 @@ class Settings:
         return replace(self, mechanics=own, joints={})
 
 
-def gather(path: str | Path, options: ReadOptions) -> Settings:
+def gather(path: FilePath, options: ReadOptions) -> Settings:
     """Join the options with the sidecar; an option wins over the sidecar.
 
     Raises

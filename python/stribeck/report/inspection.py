@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from stribeck.recording.several.paths import run_name
 from stribeck.report.diagnosis import untestable_text
 from stribeck.report.layout import bullets, joined, paragraph, table
 from stribeck.report.numbers import listed, plain, thousands
@@ -27,7 +28,7 @@ def inspection_text(inspection: Inspection, spell: Callable[[str], str] = str) -
     spell
         Writes the options in its sentences.
     """
-    parts = [_heading(inspection), _channels(inspection)]
+    parts = [_heading(inspection), _files(inspection), _channels(inspection)]
     if inspection.problem is not None:
         problem = spell(f"Cannot be read as a recording yet: {inspection.problem}")
         parts += [paragraph(problem, 0)]
@@ -52,6 +53,24 @@ def _heading(inspection: Inspection) -> str:
         facts.append(f"{t.gaps} gap{'s' * (t.gaps != 1)}")
     heading = f"{Path(t.path).name}: {', '.join(facts)}"
     return f"{heading}\n  joints: {', '.join(t.joints)}" if t.joints else heading
+
+
+def _files(inspection: Inspection) -> str:
+    """Each of several files, with the run that it is."""
+    if not inspection.files:
+        return ""
+    rows = [["run", "file", "samples", "rate Hz", "gaps"]]
+    rows += [
+        [
+            run_name(t.path),
+            t.path,
+            thousands(t.rows),
+            plain(t.rate_hz) if t.rate_hz else "",
+            "" if t.gaps is None else str(t.gaps),
+        ]
+        for t in inspection.files
+    ]
+    return table(rows, {2, 3, 4})
 
 
 def _checked(inspection: Inspection, spell: Callable[[str], str]) -> str:

@@ -144,8 +144,9 @@ def test_no_such_file_and_directory(tmp_path, frame):
     frame.write_parquet(tmp_path / "joint_1.parquet")
     with pytest.raises(RecordingError, match=r"no such file; did you mean 'joint_1.parquet'\?"):
         read(tmp_path / "joint_l.parquet")
-    with pytest.raises(RecordingError, match="is a directory"):
-        read(tmp_path)
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(RecordingError, match="there are no recordings in this folder"):
+        read(tmp_path / "empty")
 
 
 def test_dates_are_time(write, frame):

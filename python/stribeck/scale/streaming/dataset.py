@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError
 
-__all__ = ["DataSet", "is_data_set"]
+__all__ = ["DataSet"]
 
 SUFFIXES = (".parquet", ".pq")
 #: Number of bytes hashed at a time.
@@ -118,11 +118,6 @@ class DataSet:
             return hashes[0]
         lines = (f"{h}  {Path(f).name}\n" for h, f in zip(hashes, self.files, strict=True))
         return hashlib.sha256("".join(lines).encode()).hexdigest()
-
-
-def is_data_set(path: str | Path) -> bool:
-    """Whether a path is a folder or a pattern, and so may name several files."""
-    return Path(path).is_dir() or (glob.has_magic(str(path)) and not Path(path).exists())
 
 
 def _found(path: str | Path) -> list[str]:

@@ -26,13 +26,26 @@ def folder(tmp_path: Path) -> Path:
 def test_a_folder_is_fitted_as_one_recording(folder: Path, tmp_path: Path) -> None:
     target = tmp_path / "model.toml"
     done = CliRunner().invoke(
-        cli, ["fit", str(folder), "--model", "coulomb", "--json", "-o", str(target)]
+        cli, ["fit", str(folder), "--model", "coulomb", "--stream", "--json", "-o", str(target)]
     )
     assert done.exit_code == 0, done.output
     answer = json.loads(done.stdout)
     assert answer["data"]["files"] == 2 and answer["data"]["rows"] == 6000
     assert answer["data"]["passes"] == 1
     assert sb.load(str(target)).value("coulomb_friction") == pytest.approx(3.0, abs=0.05)
+
+
+def test_without_the_flag_the_files_of_a_folder_are_runs(folder: Path) -> None:
+    done = CliRunner().invoke(cli, ["inspect", str(folder), "--json"])
+    answer = json.loads(done.stdout)
+    assert answer["runs"] == 2 and [row["rows"] for row in answer["files"]] == [3000, 3000]
+
+
+def test_several_paths_are_not_streamed(folder: Path) -> None:
+    both = [str(folder / "a.parquet"), str(folder / "b.parquet")]
+    done = CliRunner().invoke(cli, ["fit", *both, "--model", "coulomb", "--stream"])
+    assert isinstance(done.exception, sb.SpecError)
+    assert "--stream reads one file, folder or pattern, 2 are given" in str(done.exception)
 
 
 def test_one_file_needs_the_flag(folder: Path) -> None:
@@ -44,7 +57,8 @@ def test_one_file_needs_the_flag(folder: Path) -> None:
 
 
 def test_what_needs_memory_is_refused(folder: Path) -> None:
-    done = CliRunner().invoke(cli, ["fit", str(folder), "--model", "coulomb", "--passive"])
+    words = ["fit", str(folder), "--model", "coulomb"]
+    done = CliRunner().invoke(cli, [*words, "--stream", "--passive"])
     assert isinstance(done.exception, sb.SpecError)
     assert "--passive needs all samples in memory" in str(done.exception)
 

@@ -1,0 +1,1 @@
+"""Several files, or recordings, as the runs of one recording."""
