@@ -14,9 +14,10 @@ import stribeck as sb
 from numpy.typing import NDArray
 from stribeck.fitting.fit import rows_to_fit
 from stribeck.identify.effort import Effort
+from stribeck.identify.ends import Found
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.search import Found, multi_start
+from stribeck.identify.search import multi_start
 from stribeck.identify.transients import transient_rows
 from stribeck.scale.study.plan import REVIEW
 

@@ -7,6 +7,7 @@ from typing import cast
 import click
 
 from stribeck.cli.options import Command, Values, gathered
+from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON
 from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
 from stribeck.identify.loss import LOSSES
 
@@ -47,6 +48,14 @@ CHOICE_OPTIONS = [
         type=click.Choice(LOSSES),
         default=None,
         help="How residuals count: squares, or a robust loss. [default: squares]",
+    ),
+    click.option(
+        "--algorithm",
+        type=click.Choice(ALGORITHMS),
+        default=None,
+        help="Search from each start: damped Gauss-Newton steps, or an algorithm of nlopt. mlsl "
+        "and those after it search the range of all starts. All end with Gauss-Newton steps. "
+        f"[default: {GAUSS_NEWTON}]",
     ),
 ]
 

@@ -45,7 +45,6 @@ from stribeck.diagnosis.loop.add import add as add_to
 from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.loop.improve import improve as improve_from
 from stribeck.fitting.fit import fit as fit_model
-from stribeck.identify.algorithms import GAUSS_NEWTON
 from stribeck.identify.choices import parameters_of_effects
 from stribeck.identify.scaling import model_for
 from stribeck.models.catalog import check_effect
@@ -99,7 +98,6 @@ def fit(
         streaming.refuse(
             method=method.name != "rms",
             estimator=method.estimator != "ls",
-            algorithm=method.algorithm != GAUSS_NEWTON,
             passive=passive,
             errors=errors.errors != "robust",
         )
@@ -124,7 +122,6 @@ def fit(
             seed=seed,
             passive=passive,
             estimator=method.estimator,
-            algorithm=method.algorithm,
             **errors.options,
         )
     else:

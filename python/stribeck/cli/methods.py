@@ -26,7 +26,6 @@ from stribeck.fitting.methods.segments import segment_points
 from stribeck.fitting.methods.stretches import Search
 from stribeck.fitting.methods.three_step import three_step_fit
 from stribeck.fitting.result import Estimator, Fit
-from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON
 from stribeck.models.model import Model
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
@@ -41,15 +40,12 @@ class Method:
     loaded: str | None
     presliding: str | None
     estimator: Estimator = "ls"
-    algorithm: str = GAUSS_NEWTON
 
     def __post_init__(self) -> None:
         if self.grid and self.name != "grid":
             raise SpecError("--grid belongs to --method grid: give both or neither")
         if self.estimator != "ls" and self.name != "rms":
             raise SpecError(f"--estimator iv goes with --method rms, not {self.name}: omit one")
-        if self.algorithm != GAUSS_NEWTON and self.name == "grid":
-            raise SpecError("--algorithm goes with --method rms, not grid: omit one")
         given = [self.loaded is not None, self.presliding is not None]
         if any(given) and self.name != "three_step":
             raise SpecError(
@@ -85,7 +81,6 @@ def _method(values: Values) -> Method:
         loaded=values.pop("loaded"),
         presliding=values.pop("presliding"),
         estimator=values.pop("estimator"),
-        algorithm=values.pop("algorithm"),
     )
 
 
@@ -107,14 +102,6 @@ _METHOD_OPTIONS = [
         show_default=True,
         help="ls: least squares. iv: instrumental variables from the reference trajectory, which "
         "noise of the measured motion does not bias (Janot, Vandanjon and Gautier 2014).",
-    ),
-    click.option(
-        "--algorithm",
-        type=click.Choice(ALGORITHMS),
-        default=GAUSS_NEWTON,
-        show_default=True,
-        help="Search from each start: damped Gauss-Newton steps, or an algorithm of nlopt. mlsl "
-        "and those after it search the range of all starts. All end with Gauss-Newton steps.",
     ),
     click.option(
         "--grid",

@@ -18,7 +18,6 @@ from stribeck.fitting.made_passive import made_passive
 from stribeck.fitting.result import Estimator, Fit
 from stribeck.fitting.solve import Solution, solve, with_own_load
 from stribeck.fitting.stated import Under, prior_conflicts, solve_under
-from stribeck.identify.algorithms import GAUSS_NEWTON, check_algorithm
 from stribeck.identify.choices import ChoiceArguments, Choices, refuse_statements
 from stribeck.identify.effort import THOROUGH, Effort
 from stribeck.identify.estimates import Errors
@@ -45,7 +44,6 @@ def fit(
     resamples: int = RESAMPLES,
     transient: NDArray[np.bool_] | None = None,
     effort: Effort = THOROUGH,
-    algorithm: str = GAUSS_NEWTON,
     passive: bool = False,
     weights: ArrayLike | None = None,
     estimator: Estimator = "ls",
@@ -67,8 +65,8 @@ def fit(
         profile-likelihood intervals; from refits to `resamples` of blocks.
     transient : bool array [n], optional
         Samples that are scored but excluded from the fit. Detected by default.
-    effort, algorithm : Effort, str
-        Tolerances of the search, and ``"gauss-newton"`` or an algorithm of nlopt.
+    effort : Effort
+        Samples, evaluations and tolerance of the search.
     passive : bool
         If true, passivity is imposed and proved. `Fit.passive_cost` states what that costs.
     weights : array [n], optional
@@ -77,7 +75,7 @@ def fit(
         Least squares, or instrumental variables from the reference trajectory (Janot et al. 2014).
     **choices : mappings from parameter name or symbol
         ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``, and `prior`,
-        `constraints`, `ties` and `loss`: see `ChoiceArguments`.
+        `constraints`, `ties`, `loss` and `algorithm`: see `ChoiceArguments`.
 
     Raises
     ------
@@ -88,8 +86,8 @@ def fit(
     began = time.perf_counter()
     recording = with_weights(recording, weights)
     check_estimator(estimator, recording, passive=passive)
-    effort = replace(effort, algorithm=check_algorithm(algorithm))
     made = Choices.of(choices).applied(model_for(spec, recording))
+    effort = effort.by(made.stated.algorithm)
     plain = not (passive or made.stated.changes_the_search)
     uncertainty = Uncertainty(errors, resamples, seed, estimator == "ls" and plain)
     searched = (starts, seed, effort)

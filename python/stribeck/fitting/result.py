@@ -16,12 +16,12 @@ from stribeck.base.shown import Plotted
 from stribeck.fitting.exogenous import tested
 from stribeck.fitting.stated import PLAIN, HeldConstraint, Under
 from stribeck.identify.confounded import Combination
+from stribeck.identify.ends import StartsReport
 from stribeck.identify.estimates import Errors, Estimate
 from stribeck.identify.exogeneity import Exogeneity
 from stribeck.identify.figures import torque_cutoff
 from stribeck.identify.information import Information, criteria, information
 from stribeck.identify.matrix import ParameterMatrix
-from stribeck.identify.search import StartsReport
 from stribeck.identify.transients import stretches
 from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.model import Model

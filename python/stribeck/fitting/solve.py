@@ -14,10 +14,11 @@ from stribeck.base.checks import check_count
 from stribeck.effect.constants import effect_constants
 from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.identify.effort import Effort
+from stribeck.identify.ends import Found
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.search import Found, multi_start
+from stribeck.identify.search import multi_start
 from stribeck.identify.separable import minimise
 from stribeck.models.catalog import catalog
 from stribeck.models.model import Model

@@ -10,6 +10,7 @@ from typing import TypeAlias, TypedDict, TypeVar
 import numpy as np
 
 from stribeck.base.errors import SpecError, nearest, option
+from stribeck.identify.algorithms import check_algorithm
 from stribeck.identify.statements import (
     checked_loss,
     checked_prior,
@@ -41,10 +42,11 @@ class ChoiceArguments(TypedDict, total=False):
 
     ``start={"c3": 0.1}``, ``bounds={"c2": (0.0, 5.0)}`` (infinite: unbounded), ``fix={"c1": 0.3}``,
     ``prior={"inertia": (0.12, 0.01)}`` (mean and standard deviation),
-    ``constraints=["static_friction >= a2"]``, ``ties={"a5": "1.2*a4"}`` and ``loss="huber"``
-    (``"squares"``, ``"huber"``, ``"cauchy"``). All but the loss may be texts as on the command
-    line: ``bounds="c2=0:5"``. They stay in force when effects are added. They may name parameters
-    of effects that are added later.
+    ``constraints=["static_friction >= a2"]``, ``ties={"a5": "1.2*a4"}``, ``loss="huber"``
+    (``"squares"``, ``"huber"``, ``"cauchy"``) and ``algorithm="slsqp"`` (the search from each
+    start: ``"gauss-newton"``, or an algorithm of nlopt). The first six may be texts as on the
+    command line: ``bounds="c2=0:5"``. All stay in force when effects are added. They may name
+    parameters of effects that are added later.
     """
 
     start: Mapping[str, float] | Texts | None
@@ -54,6 +56,7 @@ class ChoiceArguments(TypedDict, total=False):
     constraints: Texts | None
     ties: Mapping[str, str] | Texts | None
     loss: str | None
+    algorithm: str | None
 
 
 #: The names of these arguments.
@@ -79,6 +82,7 @@ class Choices:
     constraints: tuple[str, ...] = ()
     ties: Mapping[str, str] = field(default_factory=dict)
     loss: str | None = None
+    algorithm: str | None = None
 
     @classmethod
     def of(cls, arguments: ChoiceArguments) -> Choices:
@@ -87,6 +91,7 @@ class Choices:
         An end of bounds that is left out is unbounded.
         """
         constraints, loss = arguments.get("constraints") or (), arguments.get("loss")
+        algorithm = arguments.get("algorithm")
         return cls(
             _given(arguments.get("start"), "start", "NAME=VALUE", number),
             _given(arguments.get("bounds"), "bounds", "NAME=LOW:HIGH", _range),
@@ -95,6 +100,7 @@ class Choices:
             (constraints,) if isinstance(constraints, str) else tuple(constraints),
             _given(arguments.get("ties"), "ties", "NAME=FORMULA", lambda text, _: text),
             None if loss is None else checked_loss(loss),
+            None if algorithm is None else check_algorithm(algorithm),
         )
 
     def arguments(self) -> ChoiceArguments:
@@ -107,12 +113,13 @@ class Choices:
             "constraints": self.constraints,
             "ties": self.ties,
             "loss": self.loss,
+            "algorithm": self.algorithm,
         }
 
     @property
     def is_empty(self) -> bool:
         """Whether nothing is stated."""
-        return not self.names and self.loss is None
+        return not self.names and self.loss is None and self.algorithm is None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -139,6 +146,7 @@ class Choices:
             tuple(text for text in self.constraints if is_own(text)),
             {name: text for name, text in own(self.ties).items() if is_own(text)},
             self.loss,
+            self.algorithm,
         )
 
     def applied_to_each(self, models: Sequence[Model]) -> list[Model]:
@@ -214,6 +222,7 @@ class Choices:
             (*stated.constraints, *(stated_constraint(text, known) for text in self.constraints)),
             {**stated.ties, **{name: stated_tie(name, text, known) for name, text in ties.items()}},
             stated.loss if self.loss is None else self.loss,
+            stated.algorithm if self.algorithm is None else self.algorithm,
         )
 
 

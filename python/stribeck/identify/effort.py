@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from stribeck.identify.algorithms import GAUSS_NEWTON
 from stribeck.identify.separable import TOLERANCE
@@ -35,6 +35,10 @@ class Effort:
     tolerance: float = TOLERANCE
     exact: bool = True
     algorithm: str = GAUSS_NEWTON
+
+    def by(self, algorithm: str | None) -> Effort:
+        """The same effort with the search by `algorithm`, where one is given."""
+        return self if algorithm is None else replace(self, algorithm=algorithm)
 
 
 #: For a fit that is reported.

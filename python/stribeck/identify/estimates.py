@@ -17,6 +17,7 @@ from stribeck.identify.covariance import (
 from stribeck.identify.directions import Directions
 from stribeck.identify.matrix import ParameterMatrix
 from stribeck.models.model import Model
+from stribeck.models.parameter import Parameter
 
 Array = NDArray[np.float64]
 

@@ -21,9 +21,11 @@ COARSE = 1e-6
 #: A minimum is sought in the neighbourhood of the best one for laws with at least so many
 #: nonlinear parameters.
 HOPPING = 3
-#: Hops in a round, most rounds, rounds without a better minimum that end the search, and the
-#: relative decrease that counts as better.
-HOPS, MOST_ROUNDS, IDLE_ROUNDS, BETTER = 8, 15, 6, 2e-4
+#: Hops in a round, and most rounds.
+HOPS, MOST_ROUNDS = 8, 40
+#: Rounds for each nonlinear parameter without a better minimum, after which the search ends, and
+#: the relative decrease that counts as better.
+IDLE_ROUNDS, BETTER = 3, 2e-4
 #: Smallest and largest size of a hop, in search coordinates, and the share of the parameters moved.
 SMALLEST_HOP, LARGEST_HOP, MOVED_BY_HOP = 0.01, 0.5, 0.5
 
@@ -65,6 +67,6 @@ def hopped(
         better = min(found, key=lambda search: search.square)
         idle = 0 if better.square < (1.0 - BETTER) * best.square else idle + 1
         best = better if better.square < best.square else best
-        if idle == IDLE_ROUNDS:
+        if idle == IDLE_ROUNDS * count:
             break
     return replace(best, evaluations=evaluations)

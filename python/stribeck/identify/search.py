@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.identify.algorithms import GAUSS_NEWTON, GLOBAL, search_from, search_range
 from stribeck.identify.effort import Effort
+from stribeck.identify.ends import Found
+from stribeck.identify.finish import MOST_STEPS, finished
 from stribeck.identify.hops import HOPPING, gauss_newton, hopped
+from stribeck.identify.places import SAME, leaders_of, share_alone
 from stribeck.identify.problem import Problem
 from stribeck.identify.separable import (
     CAUTIOUS,
-    MOST_ROUNDS,
     Search,
-    minimise,
     minimise_from,
-    rounding,
 )
 from stribeck.identify.space import SearchSpace
 from stribeck.identify.starts import starts_between_bounds, starts_without_bounds
@@ -26,10 +25,6 @@ from stribeck.identify.starts import starts_between_bounds, starts_without_bound
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-#: Coarse searches whose sums of squares agree to this share count as one.
-SAME = 1e-4
-#: Searches end at the same place if their search coordinates agree to this as well.
-NEAR = 0.01
 #: A search on very few samples with more than so many times the sum of squares of the best one is
 #: dropped: more samples will not compensate for an error larger by a fifth.
 HOPELESS = 1.5
@@ -37,11 +32,6 @@ HOPELESS = 1.5
 CONTINUED = 6
 #: Most restarts of a coarse search that ends where a parameter has no effect.
 ANEW = 3
-#: Sums of squares that agree to this share are at one minimum, or at equal minima.
-TIE = 1e-9
-#: Searches whose sum of squares on few samples is larger than the least by at most this share also
-#: continue on all samples, up to `MOST_FINISHED`: on all samples another one may be the best.
-CLOSE, MOST_FINISHED = 2e-3, 5
 #: A search of a model with a state starts on so many times fewer samples.
 FEWER = 2
 #: So do searches without bounds, which take more steps, often of a formula, which is slower than a
@@ -52,73 +42,6 @@ FEWER_WITHOUT_BOUNDS = 4
 COARSE_WITHOUT_BOUNDS = 1e-12
 #: As many starts again are searched where more than this share of them ended alone.
 UNSURE = 0.3
-#: Most steps of a search on all samples, and from the given start where there are no bounds.
-MOST_STEPS = 200
-
-
-@dataclass(frozen=True)
-class Ended:
-    """Where one of several starts ended.
-
-    Attributes
-    ----------
-    search
-        The search on all samples where the start continued on them, else on fewer.
-    evaluations
-        Number of evaluations.
-    leader
-        The start that continued for this one: itself, or an earlier one that reached the same
-        place.
-    finished
-        Whether the start, or its leader, continued on all samples.
-    """
-
-    search: Search
-    evaluations: int
-    leader: int
-    finished: bool
-
-
-@dataclass(frozen=True)
-class StartsReport:
-    """What the starts of a search say about its minimum.
-
-    Attributes
-    ----------
-    algorithm
-        Algorithm of the coarse search.
-    at_minimum
-        Number of starts that ended at the place of the minimum.
-    new_place
-        Estimated probability that another start would end at a place that none has reached: the
-        share of starts that ended alone (Good 1953). None for a single start.
-    """
-
-    algorithm: str
-    at_minimum: int
-    new_place: float | None
-
-
-@dataclass(frozen=True)
-class Found:
-    """The best of many searches.
-
-    Attributes
-    ----------
-    search
-        The search with the least sum of squares, on all samples.
-    ends
-        Where each start ended.
-    evaluations
-        Number of evaluations of the model.
-    report
-        What the starts say.
-    """
-
-    search: Search
-    ends: tuple[Ended, ...]
-    evaluations: int
-    report: StartsReport
 
 
 def multi_start(
@@ -152,35 +75,7 @@ def multi_start(
         tried = _between_bounds(problem, space, start, moved, starts, seed, effort)
     else:
         tried = _without_bounds(problem, space, start, moved, starts, seed, effort)
-    return _finished(problem, space, tried, effort)
-
-
-def _finished(problem: Problem, space: SearchSpace, tried: list[Search], effort: Effort) -> Found:
-    """Continue the best of coarse searches on all samples."""
-    noise = rounding(problem)
-    leaders = _leaders(tried, space)
-    evaluations = [search.evaluations for search in tried]
-    done: dict[int, Search] = {}
-    for k in _continued(tried, leaders, noise, effort.finished):
-        found = minimise(
-            problem,
-            tried[k].values,
-            space.lower,
-            space.upper,
-            tolerance=effort.tolerance,
-            most=MOST_STEPS if effort.evaluations else MOST_ROUNDS,
-        )
-        evaluations[k] += found.evaluations
-        done[int(leaders[k])] = found
-    ends = tuple(
-        Ended(done.get(leader, tried[leader]), count, leader, leader in done)
-        for leader, count in zip(leaders.tolist(), evaluations, strict=True)
-    )
-    best = _winner(list(done.values()), noise)
-    alone = _alone(leaders) if len(tried) > 1 else None
-    at_minimum = sum(end.search is best for end in ends)
-    report = StartsReport(effort.algorithm, at_minimum, alone)
-    return Found(best, ends, sum(evaluations), report)
+    return finished(problem, space, tried, effort)
 
 
 def _coarse(problem: Problem, effort: Effort) -> list[Problem]:
@@ -208,7 +103,7 @@ def _between_bounds(
     if effort.algorithm in GLOBAL:
         most = starts * effort.evaluations
         end = search_range(first, space, start, effort.algorithm, most, seed)
-        tried = [_taken_on(end, _searched(first, end.values[None, :], space, effort)[0])]
+        tried = [_searched(first, end.values[None, :], space, effort)[0].continuing(end)]
     else:
         at = starts_between_bounds(first, space, start, moved, starts, seed)
         tried = _searched(first, at, space, effort)
@@ -222,12 +117,12 @@ def _between_bounds(
         level = min(search.square for search in found) / best if best > 0.0 else 1.0
         tried = [replace(search, square=search.square * level) for search in tried]
         for k, search in zip(continued, found, strict=True):
-            tried[k] = _taken_on(tried[k], search)
+            tried[k] = search.continuing(tried[k])
         first = more
     if moved.sum() < HOPPING or not problem.in_core or effort.algorithm != GAUSS_NEWTON:
         return tried
     best = int(np.argmin([search.square for search in tried]))
-    if _alone(_leaders(tried, space)) > UNSURE:
+    if share_alone(leaders_of(tried, space)) > UNSURE:
         at = starts_between_bounds(first, space, start, moved, 2 * starts, seed)[starts:]
         others = _searched(first, at, space, effort)
         tried[best] = _better(tried[best], others)
@@ -241,19 +136,9 @@ def _better(one: Search, others: list[Search]) -> Search:
     return replace(min((one, *others), key=lambda search: search.square), evaluations=evaluations)
 
 
-def _alone(leaders: NDArray[np.intp]) -> float:
-    """The share of starts that ended where no other did."""
-    _, sizes = np.unique(leaders, return_counts=True)
-    return float(np.sum(sizes == 1)) / leaders.size
-
-
-def _taken_on(before: Search, after: Search) -> Search:
-    return replace(after, evaluations=before.evaluations + after.evaluations)
-
-
 def _promising(tried: list[Search], space: SearchSpace) -> list[int]:
     """Indices of searches that ended at different places, best first, without hopeless ones."""
-    leaders = np.unique(_leaders(tried, space)).tolist()
+    leaders = np.unique(leaders_of(tried, space)).tolist()
     ranked = sorted(leaders, key=lambda k: tried[k].square)
     near = [k for k in ranked if tried[k].square <= HOPELESS * tried[ranked[0]].square]
     return (near or ranked)[:CONTINUED]
@@ -287,7 +172,7 @@ def _descended(coarse: Problem, at: Array, space: SearchSpace, effort: Effort) -
     found = search_from(coarse, space, at, effort.algorithm, effort.evaluations)
     ends = np.stack([search.values for search in found])
     steps = gauss_newton(coarse, ends, space, effort.evaluations)
-    return [_taken_on(one, other) for one, other in zip(found, steps, strict=True)]
+    return [other.continuing(one) for one, other in zip(found, steps, strict=True)]
 
 
 def _lost(found: list[Search], space: SearchSpace) -> list[int]:
@@ -301,22 +186,6 @@ def _lost(found: list[Search], space: SearchSpace) -> list[int]:
         if np.isfinite(search.square):
             seen |= everything.difference(search.blind)
     return lost
-
-
-def _leaders(ended: Sequence[Search], space: SearchSpace) -> NDArray[np.intp]:
-    """For each coarse search the first that ended at the same place: itself or an earlier one."""
-    squares = np.array([search.square for search in ended])
-    leaders = np.arange(squares.size)
-    if not space.nonlinear.any():
-        return leaders
-    places = space.encode(np.stack([search.values for search in ended]))
-    for k in leaders[1:]:
-        own = np.unique(leaders[:k])
-        with np.errstate(invalid="ignore"):  # A sum is infinite where the model is not finite.
-            level = np.abs(squares[k] - squares[own]) <= SAME * squares[own]
-            near = np.all(np.abs(places[k] - places[own]) <= NEAR, axis=1)
-        leaders[k] = next(iter(own[level & near]), k)
-    return leaders
 
 
 def _without_bounds(
@@ -357,44 +226,3 @@ def _without_bounds(
     first = free if free.square < (1.0 - SAME) * signs.square else signs
     first = replace(first, evaluations=signs.evaluations + free.evaluations)
     return [first, *searched(at, signed, effort.evaluations)]
-
-
-def _continued(
-    tried: list[Search], leaders: NDArray[np.intp], noise: float, finished: int
-) -> list[int]:
-    """Indices of the searches that continue on all samples, best first.
-
-    Of those at one place the first continues, or the first whose sum of squares is the same but for
-    rounding.
-    """
-    ranked = sorted(np.unique(leaders).tolist(), key=lambda k: tried[k].square)
-    close = (1.0 + CLOSE) * tried[ranked[0]].square
-    kept: list[int] = []
-    for k in ranked:
-        few = len(kept) < finished or (
-            finished > 1 and len(kept) < MOST_FINISHED and tried[k].square <= close
-        )
-        if few and not any(_same(tried[k], tried[j], noise) for j in kept):
-            first = next(j for j, other in enumerate(tried) if _same(other, tried[k], noise))
-            kept.append(first if leaders[first] == first else k)
-    return kept
-
-
-def _winner(finished: list[Search], noise: float) -> Search:
-    """The search with the least sum of squares; of equal ones the first."""
-    best = min(finished, key=lambda search: search.square)
-    return next(search for search in finished if _same(search, best, noise))
-
-
-def _same(one: Search, other: Search, noise: float) -> bool:
-    """Whether two sums of squares differ only by rounding.
-
-    Parameters
-    ----------
-    noise : float
-        Norm of the rounding of the torque.
-    """
-    if one is other:
-        return True
-    margin = TIE * other.square + 16.0 * noise * np.sqrt(other.square) + noise**2
-    return bool(abs(one.square - other.square) <= margin)

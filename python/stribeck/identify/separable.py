@@ -7,7 +7,7 @@ linear parameters are solved for. Bounds hold throughout. A parameter with equal
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -74,6 +74,10 @@ class Search:
     outcome: str
     evaluations: int
     blind: Sequence[int] = ()
+
+    def continuing(self, before: Search) -> Search:
+        """This search with the evaluations of the one `before` it."""
+        return replace(self, evaluations=before.evaluations + self.evaluations)
 
 
 def minimise(

@@ -27,6 +27,8 @@ class Stated:
         Formulas that parameters are equal to, ``"1.2*a4"``, each with the names and symbols in it.
     loss
         How residuals count: ``"squares"``, ``"huber"`` or ``"cauchy"``.
+    algorithm
+        Search from each start (`stribeck.identify.algorithms`); None: the default.
     """
 
     starts: Mapping[str, float] = field(default_factory=dict)
@@ -34,6 +36,7 @@ class Stated:
     constraints: tuple[tuple[str, tuple[str, ...]], ...] = ()
     ties: Mapping[str, tuple[str, tuple[str, ...]]] = field(default_factory=dict)
     loss: str = "squares"
+    algorithm: str | None = None
 
     @property
     def changes_the_search(self) -> bool:

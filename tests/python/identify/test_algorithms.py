@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.fitting.methods.grid import grid_fit
 from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON, GLOBAL, LOCAL
 from synthetic import joint, motion, record
 
@@ -48,6 +49,19 @@ def test_a_formula_without_bounds_is_searched(recording: sb.Recording) -> None:
 def test_an_unknown_algorithm_is_refused_by_name(recording: sb.Recording) -> None:
     with pytest.raises(sb.SpecError, match="unknown algorithm 'slsq'; did you mean 'slsqp'"):
         sb.fit("coulomb", recording, algorithm="slsq")
+
+
+def test_an_algorithm_stays_in_force_when_effects_are_added(recording: sb.Recording) -> None:
+    before = sb.fit("coulomb", recording, algorithm="lbfgs")
+    after = sb.add(before, "stribeck", recording)
+    assert after.to_dict()["algorithm"] == "lbfgs"
+    assert after.rmse == pytest.approx(sb.fit("coulomb+stribeck", recording).rmse, rel=1e-6)
+
+
+def test_a_method_without_a_search_takes_no_algorithm(recording: sb.Recording) -> None:
+    model = sb.fit("bittencourt_a", recording, algorithm="slsqp", starts=1).model
+    with pytest.raises(sb.SpecError, match="the method 'grid' does not search"):
+        grid_fit(model, recording)
 
 
 def test_the_report_of_the_starts(expected: sb.Fit) -> None:

@@ -94,6 +94,8 @@ def grid_fit(
     began = time.perf_counter()
     made = _static_model(spec, recording)
     refuse_statements(made, "the method 'grid'")
+    if made.stated.algorithm is not None:
+        raise SpecError("the method 'grid' does not search: omit " + option("algorithm"))
     rows = np.flatnonzero(recording.moving)
     if rows.size < len(made.names) + 2:
         raise FitError(

@@ -11,10 +11,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from stribeck.base.errors import FitError, SpecError
+from stribeck.base.errors import FitError, SpecError, option
 from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
+from stribeck.identify.algorithms import GLOBAL
 from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
 from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
@@ -100,7 +101,13 @@ def _split(options: StudyArguments) -> tuple[ReadOptions, Choices]:
     """How the recording is read, and what is stated about parameters."""
     reading: dict[str, Any] = dict(options)
     stated = {name: reading.pop(name) for name in CHOICE_NAMES if name in reading}
-    return ReadOptions(**reading), Choices.of(cast(ChoiceArguments, stated))
+    choices = Choices.of(cast(ChoiceArguments, stated))
+    if choices.algorithm in GLOBAL:
+        raise SpecError(
+            f"a study searches from each start, {choices.algorithm} does not: give another "
+            f"{option('algorithm')}"
+        )
+    return ReadOptions(**reading), choices
 
 
 def _fit(

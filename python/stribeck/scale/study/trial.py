@@ -94,8 +94,9 @@ def run_trials(
         model = model_for(jobs[0].law, recording)
         if choices is not None:
             model = choices.about(model).applied(model)
+        effort = EFFORT.by(model.stated.algorithm)
         fits = fit_each(
-            model, recording, starts=len(jobs), seed=seed, transient=transient, effort=EFFORT
+            model, recording, starts=len(jobs), seed=seed, transient=transient, effort=effort
         )
     except StribeckError as error:
         fits = [error] * len(jobs)
