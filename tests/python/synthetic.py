@@ -73,3 +73,9 @@ def record(
     path = folder / f"{name}.parquet"
     frame.write_parquet(path)
     return sb.read(path, **{"joint_kind": "revolute", **options})
+
+
+def joint_with_stribeck_curve(rows: int = 3000) -> pl.DataFrame:
+    """`joint` with a Stribeck curve of 1.5 N m at 0.1 rad/s."""
+    v = motion(rows)[2]
+    return joint(1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2)), rows=rows)

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.fitting.methods.grid import grid_fit
 from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON, GLOBAL, LOCAL
-from synthetic import joint, motion, record
+from synthetic import joint_with_stribeck_curve, record
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
     """A joint with a Stribeck curve."""
-    v = motion(2000)[2]
-    extra = 1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2))
-    return record(tmp_path_factory.mktemp("algorithms"), joint(extra, rows=2000))
+    return record(tmp_path_factory.mktemp("algorithms"), joint_with_stribeck_curve(2000))
 
 
 @pytest.fixture(scope="module")

@@ -11,15 +11,13 @@ import stribeck as sb
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.space import SearchSpace
-from synthetic import joint, motion, record
+from synthetic import joint, joint_with_stribeck_curve, motion, record
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
     """A joint with a Stribeck curve."""
-    v = motion()[2]
-    extra = 1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2))
-    return record(tmp_path_factory.mktemp("problem"), joint(extra))
+    return record(tmp_path_factory.mktemp("problem"), joint_with_stribeck_curve())
 
 
 def problem(recording: sb.Recording, spec: str) -> tuple[Problem, np.ndarray, np.ndarray]:

@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import stribeck as sb
+from searched import problem_of
 from stribeck.identify.effort import QUICK, THOROUGH
-from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.finish import finished
 from stribeck.identify.search import _searched, multi_start
-from stribeck.identify.space import SearchSpace
-from synthetic import joint, motion, record
+from stribeck.identify.separable import Search
+from synthetic import joint_with_stribeck_curve, record
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
     """A joint with a Stribeck curve."""
-    v = motion()[2]
-    extra = 1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2))
-    return record(tmp_path_factory.mktemp("search"), joint(extra))
-
-
-def problem_of(recording: sb.Recording, law: str) -> tuple[Problem, SearchSpace, np.ndarray]:
-    model = model_for(law, recording)
-    lower, upper, start = bounds(model, recording)
-    problem = Problem(recording, model, np.flatnonzero(recording.moving))
-    return problem, SearchSpace.of(problem, lower, upper), start
+    return record(tmp_path_factory.mktemp("search"), joint_with_stribeck_curve())
 
 
 def test_a_start_whose_curve_is_lost_begins_anew(recording: sb.Recording) -> None:
@@ -76,3 +69,17 @@ def test_a_search_from_nearby_has_one_end(recording: sb.Recording) -> None:
     every = np.ones(start.size, dtype=bool)
     found = multi_start(problem, space.lower, space.upper, start, every, 1, 0, QUICK)
     assert len(found.ends) == 1 and found.report.new_place is None and found.report.at_minimum == 1
+
+
+def test_ends_of_a_model_with_a_state_are_compared_on_all_samples(recording: sb.Recording) -> None:
+    """The end that is best on few samples has lost its curve, which all samples show."""
+    problem, space, start = problem_of(recording, "coulomb+stribeck+presliding")
+    names = problem.model.names
+    lost = start.copy()
+    lost[names.index("stribeck_velocity")] = space.upper[names.index("stribeck_velocity")]
+    lost[names.index("stribeck_exponent")] = space.upper[names.index("stribeck_exponent")]
+    tried = [Search(lost, 1.0, True, "", 1), Search(start, 2.0, True, "", 1)]
+    found = finished(problem, space, tried, replace(THOROUGH, finished=1))
+    assert found.search is found.ends[1].search and not found.ends[0].finished
+    assert found.search.values[names.index("stribeck_height")] > 0.1
+    assert found.evaluations == sum(end.evaluations for end in found.ends)

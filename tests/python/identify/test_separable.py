@@ -8,15 +8,13 @@ import stribeck as sb
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.separable import CAUTIOUS, minimise
-from synthetic import joint, motion, record
+from synthetic import joint_with_stribeck_curve, record
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
     """A joint with a Stribeck curve."""
-    v = motion()[2]
-    extra = 1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2))
-    return record(tmp_path_factory.mktemp("separable"), joint(extra))
+    return record(tmp_path_factory.mktemp("separable"), joint_with_stribeck_curve())
 
 
 def problem(recording: sb.Recording, spec: str) -> tuple[Problem, np.ndarray, np.ndarray]:

@@ -5,31 +5,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.identify.problem import Problem
+from searched import problem_of
 from stribeck.identify.reduced import squares
-from stribeck.identify.scaling import bounds, model_for, scaled_parameters
-from stribeck.identify.space import Polynomial, SearchSpace
+from stribeck.identify.scaling import scaled_parameters
+from stribeck.identify.space import Polynomial
 from stribeck.identify.starts import starts_between_bounds
-from synthetic import joint, motion, record
+from synthetic import joint_with_stribeck_curve, record
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
     """A joint with a Stribeck curve that warms up."""
-    v = motion()[2]
-    extra = 1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2))
-    return record(tmp_path_factory.mktemp("starts"), joint(extra))
-
-
-def space_of(recording: sb.Recording, law: str) -> tuple[Problem, SearchSpace, np.ndarray]:
-    model = model_for(law, recording)
-    lower, upper, start = bounds(model, recording)
-    problem = Problem(recording, model, np.flatnonzero(recording.moving))
-    return problem, SearchSpace.of(problem, lower, upper), start
+    return record(tmp_path_factory.mktemp("starts"), joint_with_stribeck_curve())
 
 
 def test_a_start_depends_on_the_seed_and_its_number_alone(recording: sb.Recording) -> None:
-    problem, space, first = space_of(recording, "bittencourt_a")
+    problem, space, first = problem_of(recording, "bittencourt_a")
 
     def starts(count: int, seed: int) -> np.ndarray:
         return starts_between_bounds(problem, space, first, space.sought, count, seed)
@@ -43,7 +34,7 @@ def test_a_start_depends_on_the_seed_and_its_number_alone(recording: sb.Recordin
 
 
 def test_plain_starts_fill_the_range_to_expect(recording: sb.Recording) -> None:
-    problem, space, first = space_of(recording, "bittencourt_a")
+    problem, space, first = problem_of(recording, "bittencourt_a")
     starts = starts_between_bounds(problem, space, first, space.sought, 601, 0)
     k = problem.model.names.index("stribeck_velocity")
     low, high = scaled_parameters(problem.model, recording)[k].drawn
@@ -55,7 +46,7 @@ def test_plain_starts_fill_the_range_to_expect(recording: sb.Recording) -> None:
 
 
 def test_screened_starts_are_better_than_others(recording: sb.Recording) -> None:
-    problem, space, first = space_of(recording, "bittencourt_a")
+    problem, space, first = problem_of(recording, "bittencourt_a")
     starts = starts_between_bounds(problem, space, first, space.sought, 61, 0)
     found = squares(problem, starts, space.lower, space.upper)
     assert np.median(found[1::3]) < np.median(found[2::3])
@@ -74,7 +65,7 @@ def test_a_polynomial_in_temperature_is_converted_both_ways() -> None:
 
 
 def test_the_coefficients_of_a_quantity_are_found_by_name(recording: sb.Recording) -> None:
-    problem, space, _ = space_of(recording, "iskandar")
+    problem, space, _ = problem_of(recording, "iskandar")
     found = {tuple(problem.model.names[k] for k in p.indices) for p in space.polynomials}
     assert found == {
         tuple(f"{name}{end}" for end in ("", "_slope", "_square"))
@@ -83,6 +74,6 @@ def test_the_coefficients_of_a_quantity_are_found_by_name(recording: sb.Recordin
 
 
 def test_a_step_of_zero_stays(recording: sb.Recording) -> None:
-    _, space, first = space_of(recording, "iskandar")
+    _, space, first = problem_of(recording, "iskandar")
     stayed = space.moved(first, np.zeros(int(space.nonlinear.sum())))
     np.testing.assert_allclose(stayed, first, rtol=1e-9, atol=1e-12)
