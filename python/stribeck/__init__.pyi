@@ -38,6 +38,7 @@ from .passivity.check import check
 from .projects.project import Project, project
 from .recording.load import read
 from .recording.recording import Recording
+from .recording.several.concat import concat
 from .scale.fleet.fleet import fleet
 from .scale.fleet.result import Fleet
 from .scale.streaming.result import StreamedFit
@@ -79,6 +80,7 @@ __all__ = [
     "check",
     "compare",
     "compensate",
+    "concat",
     "diagnose",
     "effects",
     "evaluate",

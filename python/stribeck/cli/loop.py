@@ -1,6 +1,8 @@
-"""The loop's commands: fit, compare, diagnose, add, improve."""
+"""The loop's commands after `fit`: compare, diagnose, add, improve."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import click
 
@@ -25,7 +27,7 @@ from stribeck.cli.common import (
     stored_model,
 )
 from stribeck.cli.data import arguments_of_both, data_argument, split
-from stribeck.cli.errors import ErrorChoice, error_options
+from stribeck.cli.evaluation import evaluate_option, judged
 from stribeck.cli.formulas import (
     Written,
     candidate_option,
@@ -34,7 +36,6 @@ from stribeck.cli.formulas import (
     model_options,
     written_fit,
 )
-from stribeck.cli.methods import Method, method_options
 from stribeck.cli.options import Values
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
@@ -44,6 +45,7 @@ from stribeck.diagnosis.loop.add import Addition, parameters_brought_by
 from stribeck.diagnosis.loop.add import add as add_to
 from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.loop.improve import improve as improve_from
+from stribeck.fitting.evaluate import evaluated_on
 from stribeck.fitting.fit import fit as fit_model
 from stribeck.identify.choices import parameters_of_effects
 from stribeck.identify.scaling import model_for
@@ -53,83 +55,6 @@ from stribeck.models.model import Model
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
-
-
-@click.command()
-@data_argument
-@click.option(
-    "--model", "spec", default=None, help="LAW[+effect...], or a model file to start from."
-)
-@model_options
-@error_options
-@click.option(
-    "--passive",
-    is_flag=True,
-    help="Identify under passivity conditions; `stribeck check` proves the result.",
-)
-@output_option
-@method_options
-@starts_option
-@stream_options
-@recording_options
-@seed_option
-@json_option
-def fit(
-    data: tuple[str, ...],
-    spec: str | None,
-    written: Written,
-    errors: ErrorChoice,
-    passive: bool,
-    output: str | None,
-    method: Method,
-    starts: int,
-    streaming: Streaming,
-    reading: ReadOptions,
-    seed: int,
-    as_json: bool,
-) -> None:
-    """Identify a model's parameters on DATA.
-
-    Several files, a folder or a pattern are runs of one joint, fitted together. With --stream,
-    Parquet files are read in passes: all samples are fitted, few are in memory.
-    """
-    check_output(output, "model file", *data, reading.sidecar)
-    if streaming.asked:
-        streaming.refuse(
-            method=method.name != "rms",
-            estimator=method.estimator != "ls",
-            passive=passive,
-            errors=errors.errors != "robust",
-        )
-        model, choices = written.model(spec), written.choices.arguments()
-        opened = streaming.open(data, reading, seed)
-        with RowProgress() as bar:
-            streamed = opened.fit(model, starts=starts, seed=seed, told=bar.show_pass, **choices)
-        if output is not None:
-            save_streamed(streamed, output)
-        show(streamed, as_json)
-        return
-    if passive and method.name != "rms":
-        raise SpecError(f"--passive goes with --method rms, not {method.name}: omit one")
-    errors.refuse(method.name)
-    recording = read_recording(data, reading)
-    if method.name == "rms":
-        fitted = written_fit(
-            spec,
-            written,
-            recording,
-            starts=starts,
-            seed=seed,
-            passive=passive,
-            estimator=method.estimator,
-            **errors.options,
-        )
-    else:
-        model = written.choices.applied(model_for(written.model(spec), recording))
-        fitted = method.fit(model, recording, reading, starts=starts, seed=seed)
-    if output is not None:
-        save_fit(fitted, output)
-    echo_result(fitted, as_json)
 
 
 @click.command()
@@ -299,6 +224,7 @@ def add(
 @report_option
 @click.option("--plot", "picture", default=None, help="Write the figure (PNG).")
 @figures_option
+@evaluate_option
 @least_fall_option
 @click.option(
     "--max-steps",
@@ -322,6 +248,7 @@ def improve(
     report: str | None,
     picture: str | None,
     figures: str | None,
+    evaluate: tuple[str, ...],
     least_fall: float,
     max_steps: int,
     candidates: tuple[str, ...],
@@ -352,14 +279,15 @@ def improve(
     options |= {**written.choices.arguments(), "candidates": candidates, "progress": say}
     streamed: StreamedImprovement | None = None
     if streaming.asked:
+        streaming.refuse(evaluate=bool(evaluate))
         opened = streaming.open(data, reading, seed)
         with RowProgress() as bar:
             streamed = opened.improve(start, told=bar.show_pass, **options)
         improvement = streamed.found
     else:
-        improvement = improve_from(
-            start, read_recording(data, reading), sample_rows=streaming.sample_rows, **options
-        )
+        recording, others = read_recording(data, reading), judged(evaluate, reading)
+        improvement = improve_from(start, recording, sample_rows=streaming.sample_rows, **options)
+        improvement = replace(improvement, final=evaluated_on(improvement.final, others))
     if output is not None:
         if streamed is not None:
             save_streamed(streamed.final, output)

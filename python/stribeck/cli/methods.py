@@ -17,6 +17,8 @@ from stribeck.cli.common import (
     say,
     seed_option,
 )
+from stribeck.cli.data import data_argument
+from stribeck.cli.evaluation import evaluate_option, judged
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.fitting.exogenous import ESTIMATORS
 from stribeck.fitting.methods.arm import arm_fit
@@ -208,7 +210,7 @@ def points(
 
 
 @click.command()
-@click.argument("data")
+@data_argument
 @click.option(
     "--first-link-length",
     required=True,
@@ -237,16 +239,18 @@ def points(
     metavar="NAME",
     help="Write the friction of both joints to NAME_joint_1.toml and NAME_joint_2.toml.",
 )
+@evaluate_option
 @recording_options
 @seed_option
 @json_option
 def arm(
-    data: str,
+    data: tuple[str, ...],
     first_link_length: float,
     joints: tuple[str, str],
     slowest: float,
     plain: bool,
     output: str | None,
+    evaluate: tuple[str, ...],
     reading: ReadOptions,
     seed: int,
     as_json: bool,
@@ -264,9 +268,12 @@ def arm(
         )
     check_output(output)
     first, second = (read_recording(data, replace(reading, joint=name)) for name in joints)
+    others = [judged(evaluate, replace(reading, joint=name)) for name in joints]
     made = arm_fit(
         first, second, first_link_length=first_link_length, slowest=slowest, weighted=not plain
     )
+    for one, other in zip(*others, strict=True):
+        made = made.on(one, other)
     if output is not None:
         for joint in (1, 2):
             made.friction(joint).save(f"{output}_joint_{joint}.toml")

@@ -24,6 +24,7 @@ from stribeck.identify.information import (
 )
 from stribeck.identify.weights import weighted
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.concat import Recordings, as_one
 
 Array = NDArray[np.float64]
 
@@ -124,7 +125,7 @@ class Comparison(Plotted):
 
 def compare(
     fits: Sequence[Fit],
-    recording: Recording,
+    recording: Recordings,
     *,
     floor: bool = True,
 ) -> Comparison:
@@ -132,6 +133,7 @@ def compare(
 
     A fit made on another recording is not refitted: its error here is a held-out error.
     """
+    recording = as_one(recording)
     fits = [
         f
         if f.recording.is_measured_as(recording)

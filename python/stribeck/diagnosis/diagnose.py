@@ -21,7 +21,7 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
-from stribeck.recording.recording import Recording
+from stribeck.recording.several.concat import Recordings
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -33,7 +33,7 @@ NOT_ASKED = Unexplained(None, None)
 
 def diagnose(
     fitted: Fit,
-    recording: Recording | None = None,
+    recording: Recordings | None = None,
     *,
     least_fall: float = LEAST_FALL,
     rejected: Collection[str] = (),

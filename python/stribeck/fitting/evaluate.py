@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, option
+from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.prediction import refuse_infinite
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
@@ -17,11 +19,12 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import check_channels
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.concat import Recordings, as_one
 
 
 def evaluate(
     model: Model,
-    recording: Recording,
+    recording: Recordings,
     *,
     fitted_on: str | Collection[str] | None = None,
     stderr: Mapping[str, float] | None = None,
@@ -30,11 +33,14 @@ def evaluate(
 
     Parameters
     ----------
+    recording : Recording or sequence of them
+        Several are runs of one joint.
     fitted_on : str or collection of str
         SHA-256 of the files that the model was fitted on; on one of these there is no held-out
         figure.
     """
     began = time.perf_counter()
+    recording = as_one(recording)
     recording.require_consistent()
     check_channels(model, recording)
     if recording.load_torque is not None and model.rigid_body:
@@ -67,6 +73,27 @@ def evaluate(
         load=load,
         rank=None if same else 0,
     )
+
+
+def evaluated_on(fitted: Fit, recordings: Iterable[Recording]) -> Fit:
+    """The fit with its errors on recordings that it was not fitted to.
+
+    Raises
+    ------
+    FitError
+        It was fitted to one of them.
+    """
+    made = []
+    for recording in recordings:
+        judged = evaluate(fitted.model, recording, fitted_on=fitted.recording.hashes)
+        if judged.rmse_held_out is None:
+            raise FitError(
+                f"{recording.path}: the model is fitted to it, so that its error there judges "
+                f"nothing: give another recording with {option('evaluate')}"
+            )
+        rows = int(recording.moving.sum())
+        made.append(Evaluated(recording.path, rows, judged.rmse, judged.relative_residual))
+    return replace(fitted, evaluated=tuple(made))
 
 
 def _stored(model: Model, stderr: Mapping[str, float]) -> dict[str, Estimate]:

@@ -28,6 +28,7 @@ from stribeck.identify.transients import transient_rows
 from stribeck.identify.uncertainty import RESAMPLES, Uncertainty
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.concat import Recordings, as_one
 from stribeck.recording.weights import with_weights
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 
 def fit(
     spec: str | Model,
-    recording: Recording,
+    recording: Recordings,
     *,
     starts: int = 20,
     seed: int = 0,
@@ -56,10 +57,11 @@ def fit(
     Parameters
     ----------
     spec : str or Model
-        ``"coulomb+load"``, a law by formula (``"c1*v + c2*tanh(v/c3)"``), or a model. The values of
-        a model are the first start.
+        ``"coulomb+load"``, a law by formula, or a model, whose values are the first start.
+    recording : Recording or sequence of them
+        Several are runs of one joint.
     starts, seed : int
-        Random starts of the nonlinear parameters (20 in the UR5e review, eqs 4-5), and their seed.
+        Random starts of the nonlinear parameters (UR5e review, eqs 4-5), and their seed.
     errors : {"robust", "independent", "profile", "bootstrap"}
         For noise correlated in time; for independent noise (``s^2 (J'J)^-1``); as robust, with
         profile-likelihood intervals; from refits to `resamples` of blocks.
@@ -80,11 +82,10 @@ def fit(
     Raises
     ------
     SpecError, FitError
-        An unknown law or effect; a channel that the model needs is missing; too few moving samples;
-        no values with a proof of passivity.
+        Unknown names; a channel that is missing; too few moving samples; no proof of passivity.
     """
     began = time.perf_counter()
-    recording = with_weights(recording, weights)
+    recording = with_weights(as_one(recording), weights)
     check_estimator(estimator, recording, passive=passive)
     made = Choices.of(choices).applied(model_for(spec, recording))
     effort = effort.by(made.stated.algorithm)
@@ -135,12 +136,13 @@ def refined(
     return made_passive(squares, solution, effort) if passive else squares
 
 
-def on_recording(fitted: Fit, recording: Recording | None, seed: int = 0) -> Fit:
-    """Return `fitted`, or its model refitted if `recording` is a different one.
+def on_recording(fitted: Fit, given: Recordings | None, seed: int = 0) -> Fit:
+    """Return `fitted`, or its model refitted if `given` is a different recording.
 
     A fit by instrumental variables is refitted as well: its errors are not those of least squares,
     with which effects are compared.
     """
+    recording = None if given is None else as_one(given)
     if recording is None or fitted.recording.is_measured_as(recording):
         recording = fitted.recording
     if recording is fitted.recording and fitted.estimator != "iv":

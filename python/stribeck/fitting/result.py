@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
 from stribeck.base.shown import Plotted
+from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.exogenous import tested
 from stribeck.fitting.stated import PLAIN, HeldConstraint, Under
 from stribeck.identify.confounded import Combination
@@ -67,6 +68,8 @@ class Fit(Plotted):
         The test of the least squares that a fit by instrumental variables started from.
     search : StartsReport, optional
         What the starts say about the minimum; None for other methods.
+    evaluated : tuple of Evaluated
+        Its errors on other recordings, where some were asked for.
     """
 
     model: Model
@@ -94,6 +97,7 @@ class Fit(Plotted):
     tested: Exogeneity | None = None
     search: StartsReport | None = None
     under: Under | None = None
+    evaluated: tuple[Evaluated, ...] = ()
     _answers: dict[str, bool | None] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -220,7 +224,13 @@ class Fit(Plotted):
             "transients": [list(pair) for pair in stretches(self.recording, self.transient)],
             "scored": self.recording.scored(),
             "notes": [*self.recording.notes, *self.notes],
+            **self.evaluations_dict(),
         }
+
+    def evaluations_dict(self) -> dict[str, object]:
+        """The JSON of the errors on other recordings; empty without any."""
+        rows = [one.to_dict() for one in self.evaluated]
+        return {"evaluated": rows} if rows else {}
 
     def to_frame(self) -> pl.DataFrame:
         """The parameters as a table."""

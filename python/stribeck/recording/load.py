@@ -2,33 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
+from stribeck.base.errors import RecordingError
 from stribeck.recording.assemble import build
 from stribeck.recording.one import of_joint, read_one
 from stribeck.recording.options import ReadArguments, ReadOptions
+from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
 from stribeck.recording.settings import gather
-from stribeck.recording.several.paths import Given, listed_files, text_of
+from stribeck.recording.several.paths import Given, listed_files, run_names, text_of
 from stribeck.recording.several.read import read_several
 from stribeck.recording.table import joint_rows, joints_of, prepare
+from stribeck.recording.tables import is_table, table_source
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+#: Tables in memory: one, or several.
+Tables: TypeAlias = Any
+
 __all__ = ["Given", "read", "read_all", "read_with"]
 
 
-def read(path: Given, **options: Unpack[ReadArguments]) -> Recording:
+def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
     """Read one joint of a recording.
 
     Parameters
     ----------
     path
-        CSV, TSV, Parquet, Arrow, .npz or .mat file. Several, a folder or a pattern such as
-        ``"run*.csv"`` are runs of one joint, named by their files; each has its own sidecar.
+        A file (CSV, TSV, Parquet, Arrow, .npz, .mat), or a table in memory: a polars or pandas
+        frame, a pyarrow table, a mapping from names to arrays [n]. Several, a folder or a pattern
+        (``"run*.csv"``) are runs of one joint; each file has its own sidecar.
     sidecar
         Sidecar to use instead of ``FILE.EXT.sidecar.toml`` beside the file. An option wins over it.
     joint, joint_kind
@@ -38,8 +46,7 @@ def read(path: Given, **options: Unpack[ReadArguments]) -> Recording:
     inertia
         Known inertia [kg m2] or mass [kg]: load torque = inertia * acceleration (+ gravity).
     km, kb, kt
-        Motor constant [N m/W^0.5], back-EMF constant [V s/rad] and torque constant [N m/A] for the
-        electrical energy. A voltage drive takes kt as known, and the resistance from km.
+        Motor constant [N m/W^0.5], back-EMF constant [V s/rad] and torque constant [N m/A].
     unit
         ``"COLUMN=UNIT"`` texts: the unit of a column of the file.
     map
@@ -49,44 +56,76 @@ def read(path: Given, **options: Unpack[ReadArguments]) -> Recording:
     where
         Condition on the columns; rows for which it does not hold become gaps.
     average
-        ``"run"``: one point per run, the median of each channel. ``"row"``: each row of the file is
-        a steady-state point, as in a friction map; it needs no time.
+        ``"run"``: one point per run, its medians. ``"row"``: each row is a point; no time needed.
     drive
-        ``"voltage"``: the effort is the mean voltage on a DC motor. The load torque must then be
-        known, from rigid-body terms or a column; a column `enabled` says where the motor is on.
+        ``"voltage"``: that on a DC motor is the effort; a column `enabled` says where it is on.
     hold_out
-        ``"COLUMN"``: each held-out block has one value of this column of the file, whichever runs
-        it is in. ``"COLUMN=VALUE"``: the held-out error is that of this block alone.
+        ``"COLUMN"``: each held-out block has one value of this column of the file.
+        ``"COLUMN=VALUE"``: the held-out error is that of this block alone.
     weights
         ``"COLUMN"`` or a formula of columns of the file: the weight of each sample's squared error
-        in a fit, ``"1/sigma^2"`` for a column of standard deviations. Only ratios of weights
-        matter.
+        in a fit, ``"1/sigma^2"`` for a column of standard deviations.
     rows, moving_above
-        ``"moving"``: samples at rest are not scored, since the torque that holds a joint at rest
-        is not its friction in motion; those move that are faster than `moving_above` [rad/s or
-        m/s], by default than five times the noise of the velocity. ``"all"``: all are scored.
+        ``"moving"``: samples at rest are not scored. Those move that are faster than `moving_above`
+        [rad/s or m/s], by default than five times the noise of the velocity. ``"all"``: all are.
     torque_at
         Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``.
     unwrap, trust
-        Unwrap a position even if it is not certain that it wraps; fit channels that contradict
-        each other (`Recording.checks`).
+        Unwrap a position that may wrap; fit channels that contradict each other.
     standstill
         Accept a recording in which no sample moves: presliding, or very slow motion.
 
     Raises
     ------
     RecordingError
-        One sentence that says what is wrong, where, and what to do.
+        What is wrong, where, and what to do.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(500) / 100.0
+    >>> sb.read({"t": t, "qd_rpm": np.sin(t), "tau": np.sign(np.sin(t))}).columns["velocity"].unit
+    'rad/s'
     """
     return read_with(path, ReadOptions(**options))
 
 
-def read_with(path: Given, options: ReadOptions) -> Recording:
+def read_with(path: Given | Tables, options: ReadOptions) -> Recording:
     """Read one joint of a recording; see `read`."""
+    given: list[Any] = _listed(path)
+    tables = [table_source(one) if is_table(one) else None for one in given]
+    if any(tables):
+        return _with_tables(given, tables, options)
     files = listed_files(path)
     if len(files) == 1:
         return read_one(files[0], options)
-    return read_several(files, options, text_of(path, files))
+    return read_several(files, run_names(files), options, text_of(path, files))
+
+
+def _with_tables(
+    given: Sequence[Any], tables: Sequence[Source | None], options: ReadOptions
+) -> Recording:
+    """Tables in memory, and perhaps files among them; their runs are numbered."""
+    listed: list[str | Source] = []
+    for one, table in zip(given, tables, strict=True):
+        listed += listed_files(one) if table is None else [table]
+    if len(listed) == 1:
+        return read_one(listed[0], options)
+    names = [str(k) for k in range(1, len(listed) + 1)]
+    return read_several(listed, names, options, f"{len(listed)} tables")
+
+
+def _listed(given: Any) -> list[Any]:
+    """What is given, as a list of files and tables."""
+    is_list = isinstance(given, Iterable) and not (isinstance(given, str) or is_table(given))
+    listed = list(given) if is_list else [given]
+    for one in listed:
+        if not (isinstance(one, str | os.PathLike) or is_table(one)):
+            raise RecordingError(
+                f"{type(one).__name__} {one!r:.40} cannot be read: give a file, a folder, a "
+                "pattern, a table (polars, pandas, pyarrow, or arrays by name), or a list of them"
+            )
+    return listed
 
 
 def read_all(path: str | Path, **options: Unpack[ReadArguments]) -> list[Recording]:

@@ -10,22 +10,26 @@ from stribeck.recording.assemble import build
 from stribeck.recording.cells import labels
 from stribeck.recording.options import FilePath, ReadOptions
 from stribeck.recording.prepared import Prepared, joint_rows
+from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
 from stribeck.recording.settings import gather
-from stribeck.recording.table import prepare
+from stribeck.recording.table import prepare, prepared_table
 
 __all__ = ["of_joint", "one_joint", "read_one"]
 
 
-def read_one(path: FilePath, options: ReadOptions) -> Recording:
-    """Read one joint of one file; see `stribeck.read`."""
-    return build(*one_joint(path, options), standstill=options.standstill)
+def read_one(given: FilePath | Source, options: ReadOptions) -> Recording:
+    """Read one joint of one file or table; see `stribeck.read`."""
+    return build(*one_joint(given, options), standstill=options.standstill)
 
 
-def one_joint(path: FilePath, options: ReadOptions) -> tuple[Prepared, str | None, Ints]:
-    """The table of a file, the joint to read, and its rows."""
-    settings = gather(path, options)
-    prepared = prepare(str(path), settings)
+def one_joint(given: FilePath | Source, options: ReadOptions) -> tuple[Prepared, str | None, Ints]:
+    """The table of a file or in memory, the joint to read, and its rows."""
+    settings = gather(given.path if isinstance(given, Source) else given, options)
+    if isinstance(given, Source):
+        prepared = prepared_table(given, settings)
+    else:
+        prepared = prepare(str(given), settings)
     name, own = joint_rows(prepared, settings.joint)
     return of_joint(prepared, name), name, own
 

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import importlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from pathlib import Path
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 import polars as pl
 
 from stribeck.base.errors import RecordingError, option
+from stribeck.base.shown import Plotted
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.check import Check
 from stribeck.recording.derive import Smoother, jumps
@@ -50,8 +54,13 @@ class Column:
         return cls(name, source, unit, derived, float(values.min()), float(values.max()))
 
 
+def _of_room(module: str) -> ModuleType:
+    """A module that makes recordings, loaded when it is needed, since it needs this one."""
+    return importlib.import_module(f"{__package__}.{module}")
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Recording:
+class Recording(Plotted):
     """One joint's measurements, checked, in SI units; arrays are read-only.
 
     Attributes
@@ -176,13 +185,58 @@ class Recording:
         """Number of runs."""
         return len(self.run_names)
 
-    def __repr__(self) -> str:
-        joint = f", joint {self.joint}" if self.joint else ""
-        return (
-            f"<Recording {Path(self.path).name}{joint}: {self.rows} rows, {self.runs} run"
-            f"{'s' if self.runs > 1 else ''}, {self.rate_hz:.4g} Hz, {self.joint_kind}, "
-            f"{self.torque_unit}>"
-        )
+    @classmethod
+    def from_columns(cls, *, units: Mapping[str, str] | None = None, **columns: Any) -> Recording:
+        """A recording of arrays, each given as the channel that it is.
+
+        Parameters
+        ----------
+        units
+            Unit of each array that is not in SI units.
+        **columns
+            Arrays [n]: `time`, `position`, `velocity`, `acceleration`, `torque`, `load_torque`,
+            `temperature` and the other channels of a file, with `run` and `joint`; and options of
+            `stribeck.read`.
+
+        Raises
+        ------
+        RecordingError
+            As of `stribeck.read`, or arrays of different lengths.
+
+        Examples
+        --------
+        >>> import numpy as np, stribeck as sb
+        >>> t = np.arange(500) / 100.0
+        >>> v = 10.0 * np.sin(t)
+        >>> sb.Recording.from_columns(
+        ...     time=t, velocity=v, torque=np.sign(v), units={"velocity": "deg/s"}, gear_ratio=101
+        ... )
+        <Recording the given table: 500 rows, 1 run, 100 Hz, revolute, N m>
+        """
+        made: Recording = _of_room("given_columns").from_columns(units, columns)
+        return made
+
+    def where(self, condition: str) -> Recording:
+        """The samples for which a condition on the channels holds; the others become gaps.
+
+        Channels are in SI units, as in `to_frame`. Filters, noise and scored samples are found
+        again.
+
+        Raises
+        ------
+        RecordingError
+            The condition cannot be used or keeps no sample; the recording holds medians of runs.
+
+        Examples
+        --------
+        >>> import numpy as np, stribeck as sb
+        >>> t = np.arange(500) / 100.0
+        >>> whole = sb.Recording.from_columns(time=t, velocity=np.sin(t), torque=np.sign(np.sin(t)))
+        >>> whole.where("velocity > 0 and time < 4").rows
+        314
+        """
+        made: Recording = _of_room("several.cut").where(self, condition)
+        return made
 
     def require_consistent(self) -> None:
         """Refuse channels that contradict each other, unless the recording was read with trust.

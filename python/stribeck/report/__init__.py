@@ -8,6 +8,10 @@ from stribeck.base.shown import register
 
 #: Renderers by class and kind, in modules of this room.
 RENDERERS: dict[str, dict[str, str]] = {
+    "stribeck.recording.recording:Recording": {
+        "text": "recording:recording_text",
+        "figure": "recording_figure:recording_figure",
+    },
     "stribeck.fitting.result:Fit": {
         "text": "fit:fit_text",
         "figure": "fit:fit_figure",

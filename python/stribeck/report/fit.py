@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -139,6 +140,10 @@ def errors_text(fit: Fit) -> str:
     if fit.rmse_held_out is not None:
         rows.append(("held-out error", f"{plain(fit.rmse_held_out)} {unit}", held_out_meaning(r)))
     rows += _weighted_rows(fit)
+    rows += [
+        ("other recording", f"{plain(one.rmse)} {unit}", f"not fitted: {Path(one.file).name}")
+        for one in fit.evaluated
+    ]
     if fit.relative_residual is not None:
         cutoff = torque_cutoff(r)
         below = f", both below {cutoff:.3g} Hz" if cutoff else ""

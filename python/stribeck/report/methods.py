@@ -48,6 +48,11 @@ def arm_text(arm: ArmFit) -> str:
         f"fitted to {thousands(used)} samples"
         for k, (error, used) in enumerate(zip(arm.relative_errors, arm.rows, strict=True), 1)
     ]
+    errors += [
+        f"  {Path(e.file).name}, not fitted: torque error {percent(e.relative_residual[0])} and "
+        f"{percent(e.relative_residual[1])} of the measured torques"
+        for e in arm.evaluated
+    ]
     return joined(
         f"Planar two-joint arm from {Path(arm.recordings[0].path).name}, first link "
         f"{plain(arm.first_link_length)} m",

@@ -30,6 +30,15 @@ REGIMES = {
 }
 
 
+def recording_text(r: Recording) -> str:
+    """A recording in one line."""
+    joint = f", joint {r.joint}" if r.joint else ""
+    return (
+        f"<Recording {Path(r.path).name}{joint}: {r.rows} rows, {r.runs} run"
+        f"{'s' if r.runs > 1 else ''}, {r.rate_hz:.4g} Hz, {r.joint_kind}, {r.torque_unit}>"
+    )
+
+
 def file_name(recording: Recording) -> str:
     """The recording's file, and its joint where it has a name."""
     name = Path(recording.path).name

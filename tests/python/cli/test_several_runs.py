@@ -107,3 +107,35 @@ def test_refusals(folder: Path) -> None:
     refused("add", "run1.csv", "coulomb", folder=folder, said="one model and one effect")
     refused("inspect", "run1.csv", "logs", "--write-sidecar", folder=folder, said="one at a time")
     refused("improve", folder=folder, said="DATA")
+
+
+def test_the_error_on_another_recording(folder: Path) -> None:
+    words = ["run1.csv", "--evaluate", "run2.csv", "--evaluate", "logs"]
+    fitted = answer("fit", *words, "--model", "coulomb", "-o", "one.toml", folder=folder)
+    rows = fitted["evaluated"]
+    assert [row["file"] for row in rows] == ["run2.csv", "logs/run3.parquet"]
+    # The same figures as a model file that is not refitted.
+    compared = answer("compare", "run2.csv", "one.toml", folder=folder)["models"][0]
+    assert rows[0]["rmse"] == compared["rmse"]
+    assert rows[0]["relative_residual"] == compared["relative_residual"]
+    text = stribeck("fit", *words, "--model", "coulomb", folder=folder).stdout
+    assert "other recording" in text and "not fitted: run2.csv" in text
+    assert "evaluated" not in answer("fit", "run1.csv", "--model", "coulomb", folder=folder)
+
+
+def test_improve_with_another_recording(folder: Path) -> None:
+    words = ["improve", "run1.csv", "--evaluate", "run2.csv", "--max-steps", "0"]
+    made = answer(*words, folder=folder)
+    assert made["evaluated"][0]["rmse"] == pytest.approx(made["final"]["rmse"], rel=0.2)
+
+
+def test_refused_other_recordings(folder: Path) -> None:
+    fit = ("fit", "run*.csv", "--model", "coulomb", "--evaluate")
+    refused(*fit, "run2.csv", folder=folder, said="run2.csv: the model is fitted to it")
+    refused(*fit, "absent.csv", folder=folder, said="absent.csv: no such file")
+    refused(*fit, "m.toml", folder=folder, said="m.toml: is a model file")
+    refused(
+        *("fit", "logs", "--stream", "--model", "coulomb", "--evaluate", "run1.csv"),
+        folder=folder,
+        said="--evaluate needs all samples in memory",
+    )

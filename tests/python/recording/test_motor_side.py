@@ -8,6 +8,7 @@ from pathlib import Path
 import polars as pl
 import pytest
 import stribeck as sb
+
 from .conftest import DATA
 
 Write = Callable[..., Path]

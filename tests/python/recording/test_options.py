@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stribeck.base.errors import RecordingError
-from stribeck.cli.loop import fit
+from stribeck.cli.fit import fit
 from stribeck.projects.source import READING
 from stribeck.recording import options
 from stribeck.recording.options import TABLE, ReadArguments, ReadOptions, split_pairs

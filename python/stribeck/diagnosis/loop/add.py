@@ -12,7 +12,7 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import check_effect, simpler_effect
 from stribeck.models.formula_law import is_formula
-from stribeck.recording.recording import Recording
+from stribeck.recording.several.concat import Recordings
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -44,7 +44,7 @@ class Addition(Shown):
 def add(
     fitted: Fit,
     effect: str,
-    recording: Recording | None = None,
+    recording: Recordings | None = None,
     *,
     starts: int = 20,
     seed: int = 0,

@@ -36,6 +36,7 @@ from stribeck.identify.transients import transient_rows
 from stribeck.models.model import Model
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.concat import Recordings, as_one
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -78,6 +79,7 @@ class Improvement(Plotted):
             "indistinguishable": [group.to_dict() for group in self.last.groups],
             "scored": self.final.recording.scored(),
             "notes": [*self.final.recording.notes, *self.final.notes],
+            **self.final.evaluations_dict(),
         }
         if self.noise_floor.value is None:
             made["noise_floor_why"] = self.noise_floor.why
@@ -100,7 +102,7 @@ class Improvement(Plotted):
 
 def improve(
     base: str | Model,
-    recording: Recording,
+    recording: Recordings,
     *,
     starts: int = 20,
     seed: int = 0,
@@ -130,6 +132,7 @@ def improve(
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the base model or of effects
         that may be added. They stay in force throughout.
     """
+    recording = as_one(recording)
     progress(f"fitting {base if isinstance(base, str) else base.spec}")
     few = excerpt(recording, sample_rows, seed)
     later = parameters_of_effects(candidates=candidates)

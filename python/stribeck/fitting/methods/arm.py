@@ -14,7 +14,7 @@ curve, which a cubic polynomial does not fit, so that the inertial terms would b
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import polars as pl
@@ -61,6 +61,25 @@ class ArmParameter:
     description: str
 
 
+@dataclass(frozen=True)
+class ArmEvaluated:
+    """The errors of an arm on a recording that it was not fitted to.
+
+    Attributes
+    ----------
+    file
+        As sentences name the recording.
+    rmse
+        Of each joint, over all samples, N m.
+    relative_residual
+        RMS of the torque error over RMS of the measured torque, of each joint.
+    """
+
+    file: str
+    rmse: tuple[float, float]
+    relative_residual: tuple[float, float]
+
+
 @dataclass(frozen=True, repr=False)
 class ArmFit(Shown):
     """Inertial and friction parameters of a planar two-joint arm.
@@ -84,11 +103,33 @@ class ArmFit(Shown):
     first_link_length: float
     recordings: tuple[Recording, Recording]
     rows: tuple[int, int]
+    evaluated: tuple[ArmEvaluated, ...] = ()
 
     @property
     def values(self) -> Array:
         """The parameter vector of eq 14, array [12]."""
         return np.array([p.value for p in self.parameters])
+
+    def on(self, first: Recording, second: Recording) -> ArmFit:
+        """The fit with its errors on both joints of a recording that it was not fitted to.
+
+        Raises
+        ------
+        FitError
+            Times or units that do not fit, or a recording that the arm was fitted to.
+        """
+        _check(first, second, self.first_link_length, 0.0)
+        if not set(self.recordings[0].hashes).isdisjoint(first.hashes):
+            raise FitError(
+                f"{first.path}: the arm is fitted to it, so that its error there judges nothing: "
+                f"give another recording with {option('evaluate')}"
+            )
+        torque = np.column_stack([first.torque, second.torque])
+        residual = torque - _regressor((first, second), self.first_link_length) @ self.values
+        error = [rms(column) for column in residual.T]
+        share = [e / rms(t) for e, t in zip(error, torque.T, strict=True)]
+        made = ArmEvaluated(first.path, (error[0], error[1]), (share[0], share[1]))
+        return replace(self, evaluated=(*self.evaluated, made))
 
     def friction(self, joint: int) -> Model:
         """The friction of joint 1 or 2 as a model: the law ``hao_a``, the polynomial of eq 10."""
@@ -111,6 +152,7 @@ class ArmFit(Shown):
             "relative_errors": list(self.relative_errors),
             "first_link_length": self.first_link_length,
             "rows": list(self.rows),
+            **({"evaluated": [vars(e) for e in self.evaluated]} if self.evaluated else {}),
         }
 
     def to_frame(self) -> pl.DataFrame:

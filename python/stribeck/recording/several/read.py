@@ -13,12 +13,12 @@ from stribeck.recording.assemble import completed, load_channels, torque_place
 from stribeck.recording.cells import labels
 from stribeck.recording.consistency.run import checked
 from stribeck.recording.one import one_joint
-from stribeck.recording.options import FilePath, ReadOptions
+from stribeck.recording.options import ReadOptions
 from stribeck.recording.prepared import Prepared
+from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.join import join
 from stribeck.recording.several.part import Part
-from stribeck.recording.several.paths import run_names
 
 __all__ = ["read_several"]
 
@@ -29,11 +29,15 @@ _PARQUET = (".parquet", ".pq")
 _OWN = ("file", "run")
 
 
-def read_several(files: Sequence[str], options: ReadOptions, path: str) -> Recording:
-    """One recording of several files, in this order; each is a run, or several.
+def read_several(
+    given: Sequence[str | Source], names: Sequence[str], options: ReadOptions, path: str
+) -> Recording:
+    """One recording of several files or tables, in this order; each is a run, or several.
 
     Parameters
     ----------
+    names
+        Of the run of each.
     path
         As sentences name the recording.
 
@@ -42,9 +46,8 @@ def read_several(files: Sequence[str], options: ReadOptions, path: str) -> Recor
     RecordingError
         A file cannot be used, or the files are not of one joint.
     """
-    names = run_names(files)
-    _refuse_too_many(files, path)
-    parts = [_part(file, name, options) for file, name in zip(files, names, strict=True)]
+    _refuse_too_many([one for one in given if isinstance(one, str)], path)
+    parts = [_part(one, name, options) for one, name in zip(given, names, strict=True)]
     return join(parts, path, standstill=options.standstill)
 
 
@@ -63,8 +66,8 @@ def _refuse_too_many(files: Sequence[str], path: str) -> None:
         )
 
 
-def _part(file: FilePath, name: str, options: ReadOptions) -> Part:
-    """What is read of one file."""
+def _part(file: str | Source, name: str, options: ReadOptions) -> Part:
+    """What is read of one file or table."""
     prepared, joint, rows = one_joint(file, options)
     data, layout = load_channels(prepared, joint, rows, one_run=True)
     torque_at = torque_place(prepared)

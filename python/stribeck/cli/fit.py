@@ -1,0 +1,122 @@
+"""`stribeck fit`."""
+
+from __future__ import annotations
+
+import click
+
+from stribeck.base.errors import SpecError
+from stribeck.cli.common import (
+    check_output,
+    echo_result,
+    json_option,
+    output_option,
+    read_recording,
+    recording_options,
+    save_fit,
+    seed_option,
+    starts_option,
+)
+from stribeck.cli.data import data_argument
+from stribeck.cli.errors import ErrorChoice, error_options
+from stribeck.cli.evaluation import evaluate_option, judged
+from stribeck.cli.formulas import (
+    Written,
+    model_options,
+    written_fit,
+)
+from stribeck.cli.methods import Method, method_options
+from stribeck.cli.progress import RowProgress
+from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
+from stribeck.fitting.evaluate import evaluated_on
+from stribeck.identify.scaling import model_for
+from stribeck.recording.options import ReadOptions
+from stribeck.scale.streaming.result import StreamedFit
+from stribeck.scale.streaming.stream import Stream
+
+
+@click.command()
+@data_argument
+@click.option(
+    "--model", "spec", default=None, help="LAW[+effect...], or a model file to start from."
+)
+@model_options
+@error_options
+@click.option(
+    "--passive",
+    is_flag=True,
+    help="Identify under passivity conditions; `stribeck check` proves the result.",
+)
+@output_option
+@method_options
+@evaluate_option
+@starts_option
+@stream_options
+@recording_options
+@seed_option
+@json_option
+def fit(
+    data: tuple[str, ...],
+    spec: str | None,
+    written: Written,
+    errors: ErrorChoice,
+    passive: bool,
+    output: str | None,
+    method: Method,
+    evaluate: tuple[str, ...],
+    starts: int,
+    streaming: Streaming,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Identify a model's parameters on DATA.
+
+    Several files, a folder or a pattern are runs of one joint, fitted together. With --stream,
+    Parquet files are read in passes: all samples are fitted, few are in memory.
+    """
+    check_output(output, "model file", *data, reading.sidecar)
+    if streaming.asked:
+        streaming.refuse(
+            method=method.name != "rms",
+            estimator=method.estimator != "ls",
+            passive=passive,
+            errors=errors.errors != "robust",
+            evaluate=bool(evaluate),
+        )
+        opened = streaming.open(data, reading, seed)
+        streamed = _in_passes(opened, written, spec, starts=starts, seed=seed)
+        if output is not None:
+            save_streamed(streamed, output)
+        show(streamed, as_json)
+        return
+    if passive and method.name != "rms":
+        raise SpecError(f"--passive goes with --method rms, not {method.name}: omit one")
+    errors.refuse(method.name)
+    recording = read_recording(data, reading)
+    others = judged(evaluate, reading)
+    if method.name == "rms":
+        fitted = written_fit(
+            spec,
+            written,
+            recording,
+            starts=starts,
+            seed=seed,
+            passive=passive,
+            estimator=method.estimator,
+            **errors.options,
+        )
+    else:
+        model = written.choices.applied(model_for(written.model(spec), recording))
+        fitted = method.fit(model, recording, reading, starts=starts, seed=seed)
+    fitted = evaluated_on(fitted, others)
+    if output is not None:
+        save_fit(fitted, output)
+    echo_result(fitted, as_json)
+
+
+def _in_passes(opened: Stream, written: Written, spec: str | None, **options: int) -> StreamedFit:
+    """The fit of data that is read in passes, with its progress on stderr."""
+    with RowProgress() as bar:
+        return opened.fit(
+            written.model(spec), told=bar.show_pass, **options, **written.choices.arguments()
+        )
