@@ -478,8 +478,23 @@ fn invalid_boxes_are_refused() {
         let sentence = refused("coulomb", &driving, &[side(Channel::Velocity, lower, upper)]);
         assert_eq!(sentence, "the box contains no motion");
     }
+    let twice = [speed(1.0), speed(0.1)].concat();
+    assert_eq!(refused("coulomb", &driving, &twice), "the box gives two ranges for velocity");
+    // A channel that the law does not read is checked too.
+    let mut sides = speed(1.0);
+    sides.push(side(Channel::Temperature, 30.0, 20.0));
+    assert!(refused("coulomb", &driving, &sides).starts_with("the range 30 to 20 of temperature"));
     let weak = refused("lugre", &[1e4, 1.0, 0.1, 1.0, -0.5, 0.1, 2.0], &speed(1.0));
     assert!(weak.starts_with("a bristle needs dry friction above zero"), "{weak}");
+}
+
+/// A law that branches on the sizes of its channels: nothing is proved, not even a margin.
+#[test]
+fn nothing_is_claimed_of_a_law_that_intervals_cannot_follow() {
+    let spec = made("bam_m6");
+    let found = check(&spec, &common::values(&spec), &wide(), BUDGET).unwrap();
+    assert_eq!((found.passive, found.condition), (None, Condition::Unknown));
+    assert!(found.margins.iter().all(|margin| margin.lower == f64::NEG_INFINITY));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The largest factor of a compensator, against the least ratio over a grid of friction models.
 
-use stribeck::passivity::{Side, largest_factor};
+use stribeck::passivity::{PassivityError, Side, largest_factor};
 use stribeck::{Channel, Sample, Spec};
 
 const SIDES: [Side; 1] = [Side { channel: Channel::Velocity, lower: -1.0, upper: 2.0 }];
@@ -65,4 +65,58 @@ fn no_friction_within_the_bounds_is_exceeded() {
     // The bound is also tight.
     assert!(found.proved > least - 0.02, "{} far below {least}", found.proved);
     assert!(found.proved <= found.at_point);
+}
+
+/// Bounds or a box that are empty, reversed or not finite would prove anything.
+#[test]
+fn what_is_no_interval_is_refused() {
+    let of = |values: &[f64], bounds: &[[f64; 2]], sides: &[Side]| {
+        largest_factor((&spec(), values), (&spec(), bounds), sides, BUDGET)
+    };
+    for (lower, upper) in [
+        (2.0, -2.0),
+        (f64::NAN, 1.0),
+        (0.0, f64::NAN),
+        (0.0, f64::INFINITY),
+        (f64::NEG_INFINITY, 0.0),
+    ] {
+        let mut bounds = within(0.1);
+        bounds[1] = [lower, upper];
+        let error = of(&VALUES, &bounds, &SIDES).unwrap_err();
+        assert!(matches!(error, PassivityError::Bounds(1, _)), "{lower} {upper}: {error}");
+        assert!(error.to_string().ends_with("of parameter 2 are not two finite numbers in order"));
+        let sides = [Side { channel: Channel::Velocity, lower, upper }];
+        let error = of(&VALUES, &within(0.1), &sides).unwrap_err();
+        assert!(matches!(error, PassivityError::Range(_)), "{lower} {upper}: {error}");
+    }
+    let mut values = VALUES;
+    values[1] = f64::NAN;
+    assert!(matches!(of(&values, &within(0.1), &SIDES), Err(PassivityError::Model(_))));
+    let twice = [SIDES[0], SIDES[0]];
+    let error = of(&VALUES, &within(0.1), &twice).unwrap_err();
+    assert!(matches!(error, PassivityError::Repeated(Channel::Velocity)));
+}
+
+#[test]
+fn no_factor_is_proved_for_a_law_that_intervals_cannot_follow() {
+    let bam = Spec::new("bam_m6", []).unwrap();
+    let values: Vec<f64> = bam.parameters().map(|p| p.start).collect();
+    let bounds: Vec<_> = values.iter().map(|&x| [x, x]).collect();
+    let sides: Vec<_> = [Channel::Velocity, Channel::MotorTorque, Channel::ExternalTorque]
+        .map(|channel| Side { channel, lower: -1.0, upper: 1.0 })
+        .into();
+    let error = largest_factor((&bam, &values), (&bam, &bounds), &sides, BUDGET).unwrap_err();
+    assert_eq!(error, PassivityError::Branches);
+}
+
+/// Friction that drives the motion where little is cancelled: the ratio there is far below the one
+/// over the most that is cancelled.
+#[test]
+fn no_factor_is_admissible_where_friction_drives() {
+    let plain = Spec::new("coulomb", []).unwrap();
+    let (cancels, drives) = ([1.0, 1e-3], [[0.0; 2], [-1.0; 2]]);
+    let found = largest_factor((&plain, &cancels), (&plain, &drives), &SIDES, BUDGET).unwrap();
+    let slowest = cancels[1] + 1e-9;
+    assert!(found.proved <= -1.0 / slowest, "{found:?}");
+    assert!(found.at_point <= 0.0);
 }

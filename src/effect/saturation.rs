@@ -45,7 +45,7 @@ impl<S: Real> FrictionEffect<S> for Saturation<S> {
         let total = friction.shift(sample.load_torque);
         let ratio = total.abs().scale(S::Plain::one() / constants.reference_torque);
         let largest = S::Plain::from_f64(LARGEST_RATIO);
-        let bounded = S::choose(ratio.is_below(largest), ratio, S::from_plain(largest));
+        let bounded = ratio.choose_below(largest, ratio, S::from_plain(largest));
         let excess = self.saturation * bounded.powf(self.saturation_exponent) * total;
         friction + S::choose(ratio.at_zero(), S::zero(), excess)
     }

@@ -53,7 +53,7 @@ impl<S: Real> IndriB<S> {
         let ratio = (sample.acceleration * unit).abs() / speed;
         // Above this ratio the square overflows in single precision; the term is then negligible.
         let most = S::Plain::from_f64(1e15);
-        let ratio = S::Plain::choose(ratio.is_below(most.plain()), ratio, most);
+        let ratio = ratio.choose_below(most.plain(), ratio, most);
         let fall = self.acceleration_weight.scale(ratio * ratio).shift(S::Plain::one()).sqrt();
         self.damping_torque / fall.scale(speed) + self.bristle_damping
     }

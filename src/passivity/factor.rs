@@ -15,7 +15,7 @@ use super::enclosure::Enclosure;
 use super::friction::sliding;
 use super::region::{Point, Region, Side};
 use super::search::Search;
-use super::{PassivityError, regions_of};
+use super::{PassivityError, branches, regions_of};
 use crate::composed::{Composed, Spec};
 use crate::error::ModelError;
 use crate::scalar::Dual;
@@ -29,7 +29,8 @@ const DERIVATIVES_PER_PASS: usize = 8;
 /// The largest admissible factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Factor {
-    /// Proved: with this factor friction is nowhere exceeded. Infinite where nothing is cancelled.
+    /// Proved: with this factor friction is nowhere exceeded. Infinite where nothing is cancelled;
+    /// not above zero where no factor is admissible.
     pub proved: f64,
     /// The factor that is admissible at `point` alone.
     pub at_point: f64,
@@ -49,6 +50,16 @@ pub fn largest_factor(
     budget: usize,
 ) -> Result<Factor, PassivityError> {
     let regions = regions_of(&[compensator, friction], sides)?;
+    let disordered =
+        |&[lower, upper]: &[f64; 2]| !(lower.is_finite() && upper.is_finite() && lower <= upper);
+    if let Some(position) = bounds.iter().position(disordered) {
+        return Err(PassivityError::Bounds(position, bounds[position]));
+    }
+    if branches(compensator) || branches(friction) {
+        return Err(PassivityError::Branches);
+    }
+    // Refuses values that are not finite, which an interval would take for unknown.
+    compensator.with(values)?;
     let bounds: Vec<_> =
         bounds.iter().map(|&[lower, upper]| Enclosure::new(lower, upper)).collect();
     let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
@@ -64,7 +75,9 @@ pub fn largest_factor(
     let share = |region: &Region| pair.share(region);
     let channels: Vec<_> = sides.iter().map(|side| side.channel).collect();
     let mut search = Search::over(&regions, &channels, &share);
-    search.run(budget, |s| s.upper() - s.lower() <= TOLERANCE * s.upper().abs());
+    // Where a point admits no factor above zero, the bound does not matter.
+    search
+        .run(budget, |s| s.upper() <= 0.0 || s.upper() - s.lower() <= TOLERANCE * s.upper().abs());
     let (at_point, point) = search.best.map_or((f64::INFINITY, None), |(x, at)| (x, Some(at)));
     Ok(Factor { proved: search.lower(), at_point, point })
 }
@@ -84,7 +97,10 @@ impl Pair {
         if cancelled.upper <= 0.0 && there.lower >= 0.0 {
             return None;
         }
-        let ratio = Enclosure::point(there.lower) / Enclosure::point(cancelled.upper.max(0.0));
+        // The least ratio: friction that opposes the motion over the most that is cancelled,
+        // friction that drives it over the least.
+        let over = if there.lower >= 0.0 { cancelled.upper } else { cancelled.lower.max(0.0) };
+        let ratio = Enclosure::point(there.lower) / Enclosure::point(over);
         let spread = self.spread.as_ref().filter(|_| cancelled.lower > 0.0);
         let mean = spread.map_or(f64::NEG_INFINITY, |spread| {
             (Enclosure::point(1.0) + spread.change(region) / cancelled).lower

@@ -6,7 +6,8 @@ use crate::dynamics::Approach;
 use crate::sample::Sample;
 use crate::scalar::{Real, Scalar};
 
-/// Error bound of the slope of an approach: a few rounded operations at a point.
+/// Error bound of the slope of an elastoplastic approach, beyond what its interval covers: the law
+/// neglects terms of the order of 1e-130 near full sliding.
 const SLOPE_SLACK: f64 = 1e-14;
 
 /// A model with one deflection, along the direction of motion: the power it dissipates is
@@ -88,7 +89,9 @@ impl Bristled<Enclosure> {
         sheared + self.drag * slope + self.resistance
     }
 
-    /// The slope decreases with `x`, or is constant.
+    /// The slope decreases with `x`, or is constant: its extremes are at the ends, where the law is
+    /// evaluated on intervals of one number. There `1 - x` is exact near 1, so that no interval lies
+    /// on both sides of a branch.
     fn slope(&self, x: Enclosure) -> Enclosure {
         let at = |x: f64| {
             if x.is_infinite() {

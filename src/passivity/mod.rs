@@ -13,7 +13,10 @@
 //! | `spread` | these conditions at points spread over the box |
 //!
 //! All motions within the box are covered: velocity, temperature, load ... may change at any time
-//! in any way. Speeds below 1e-30 count as rest.
+//! in any way. Values of a channel below 1e-30 count as zero, speeds as rest.
+//!
+//! All comparisons that a proof rests on are between outward bounds (`enclosure`), or between a
+//! bound and zero; the sum of two bounds has the sign of the exact sum.
 
 mod cycles;
 mod enclosure;
@@ -24,6 +27,8 @@ mod replay;
 mod requirement;
 mod search;
 mod spread;
+#[cfg(test)]
+mod tests;
 
 pub use factor::{Factor, largest_factor};
 pub use region::{Point, Side};
@@ -125,6 +130,12 @@ pub enum PassivityError {
     Missing(Channel),
     /// The range of a channel is empty, reversed or not finite.
     Range(Side),
+    /// The box gives two ranges for a channel.
+    Repeated(Channel),
+    /// Bounds of a parameter, by its position, that are reversed or not finite.
+    Bounds(usize, [f64; 2]),
+    /// The law branches on more than the signs of channels.
+    Branches,
     /// The box contains no motion.
     NoMotion,
     /// The box contains the pole of the law (degC).
@@ -142,6 +153,16 @@ impl fmt::Display for PassivityError {
                 f,
                 "the range {} to {} of {} is not two finite numbers in order",
                 side.lower, side.upper, side.channel
+            ),
+            Self::Repeated(channel) => write!(f, "the box gives two ranges for {channel}"),
+            Self::Bounds(position, [lower, upper]) => write!(
+                f,
+                "the bounds {lower} to {upper} of parameter {} are not two finite numbers in order",
+                position + 1
+            ),
+            Self::Branches => f.write_str(
+                "the law branches on more than the signs of channels, which interval bounds cannot \
+                 follow",
             ),
             Self::NoMotion => f.write_str("the box contains no motion"),
             Self::Pole(at) => write!(f, "the box contains {at} degC, where the law is singular"),
@@ -219,16 +240,26 @@ fn regions_of(specs: &[&Spec], sides: &[Side]) -> Result<Vec<Region>, PassivityE
             }
         }
     }
-    let is_read =
-        |side: &&Side| specs.iter().any(|spec| spec.channels().any(|c| c == side.channel));
-    let read: Vec<_> = sides.iter().filter(is_read).copied().collect();
-    for &side in &read {
+    for (number, &side) in sides.iter().enumerate() {
         if !(side.lower.is_finite() && side.upper.is_finite() && side.lower <= side.upper) {
             return Err(PassivityError::Range(side));
         }
+        if sides[..number].iter().any(|earlier| earlier.channel == side.channel) {
+            return Err(PassivityError::Repeated(side.channel));
+        }
     }
+    let is_read =
+        |side: &&Side| specs.iter().any(|spec| spec.channels().any(|c| c == side.channel));
+    let read: Vec<_> = sides.iter().filter(is_read).copied().collect();
     let regions = pieces(&read);
     if regions.is_empty() { Err(PassivityError::NoMotion) } else { Ok(regions) }
+}
+
+/// Whether a law branches on more than the signs of channels, which intervals cannot follow.
+fn branches(spec: &Spec) -> bool {
+    let smoothed = |own: &Formula| own.terms().any(|term| term.kind == TermKind::Smoothed);
+    let formula = |own: &Formula| own.compares() || (spec.has_state() && smoothed(own));
+    spec.law() == LawId::BamM6 || spec.formula().is_some_and(formula)
 }
 
 struct Task<'a> {
@@ -274,7 +305,9 @@ impl<'a> Task<'a> {
             counterexample: None,
             open: slides.point.map(Requirement::Sliding),
         };
-        if self.branches() {
+        if branches(self.spec) {
+            // No bound is proved; the point is evaluated as it is.
+            verdict.margins[0].lower = f64::NEG_INFINITY;
             verdict.condition = Condition::Unknown;
             return Ok(verdict);
         }
@@ -429,13 +462,6 @@ impl<'a> Task<'a> {
     fn is_free(&self) -> bool {
         let bound = [Channel::Position, Channel::Time];
         !self.channels.iter().any(|channel| bound.contains(channel))
-    }
-
-    /// Whether a law branches on more than the signs of channels, which intervals cannot follow.
-    fn branches(&self) -> bool {
-        let smoothed = |own: &Formula| own.terms().any(|term| term.kind == TermKind::Smoothed);
-        let formula = |own: &Formula| own.compares() || (self.bounded.has_state() && smoothed(own));
-        self.spec.law() == LawId::BamM6 || self.spec.formula().is_some_and(formula)
     }
 
     /// Whether the state consists of parallel elements of constant strength: springs and sliders.

@@ -210,6 +210,12 @@ impl<T: Real<Plain: Real<Plain: Real<Mask = T::Mask>>>, const N: usize> Real for
     }
 
     #[inline(always)]
+    fn choose_below(self, bound: T, yes: Self, no: Self) -> Self {
+        let choice = |yes: T, no: T| self.value.choose_below(bound.plain(), yes, no);
+        Self { value: choice(yes.value, no.value), derivative: yes.zip(&no, choice) }
+    }
+
+    #[inline(always)]
     fn scale(self, factor: T) -> Self {
         Self { value: self.value * factor, derivative: self.map(|d| d * factor) }
     }

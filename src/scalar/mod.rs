@@ -51,6 +51,13 @@ pub trait Real:
     /// `yes` where the mask is true, `no` elsewhere; the other alternative has no influence, not
     /// even if it is NaN.
     fn choose(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// `yes` where `x < bound`, `no` elsewhere. Other than `choose` it may be used where the order
+    /// follows from more than the sign of a channel: an interval across the bound gives both.
+    #[inline(always)]
+    #[must_use]
+    fn choose_below(self, bound: Self::Plain, yes: Self, no: Self) -> Self {
+        Self::choose(self.is_below(bound), yes, no)
+    }
     /// `a x`.
     fn scale(self, factor: Self::Plain) -> Self;
     /// `x + a`.

@@ -1,6 +1,7 @@
 """A folder that holds one run of a command, which can be stopped and continued.
 
-``manifest.json`` describes the run; the same arguments continue it, others are refused.
+``manifest.json`` describes the run; the same arguments continue it, others are refused. A lock
+keeps two runs out of the same folder.
 """
 
 from __future__ import annotations
@@ -11,13 +12,14 @@ from pathlib import Path
 
 from stribeck.base.errors import StribeckError, option
 from stribeck.base.files import write_whole
+from stribeck.base.lock import LOCK, Held, take
 
 MANIFEST = "manifest.json"
 
 
 def claim(
     folder: Path, manifest: Mapping[str, object], identity: Mapping[str, str], what: str
-) -> None:
+) -> Held:
     """Use a folder for a run: a new or empty one, or one that holds the same run.
 
     Parameters
@@ -32,23 +34,39 @@ def claim(
     what
         What the folder holds, as in "holds no study".
 
+    Returns
+    -------
+    Held
+        The lock of the folder, to be released at the end of the run.
+
     Raises
     ------
     StribeckError
-        The folder holds another run or other files, or cannot be written to.
+        The folder holds another run or other files, another process works in it, or it cannot be
+        written to.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        if (folder / MANIFEST).exists():
-            _check(folder, manifest, identity, what)
-        elif any(folder.iterdir()):
+        known = (folder / MANIFEST).exists()
+        if not known and any(path.name != LOCK for path in folder.iterdir()):
             raise StribeckError(
                 f"{folder} is not empty and holds no {what}: give another {option('output')}"
             )
-        else:
-            write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
+        held = take(
+            folder / LOCK,
+            f"another run works in {folder}: wait for its end, or give another {option('output')}",
+        )
+        try:
+            if (folder / MANIFEST).exists():
+                _check(folder, manifest, identity, what)
+            else:
+                write_whole(folder / MANIFEST, json.dumps(manifest, indent=2) + "\n")
+        except BaseException:
+            held.release()
+            raise
     except OSError as error:
         raise unwritable(folder, error) from None
+    return held
 
 
 def unwritable(folder: Path, error: OSError) -> StribeckError:

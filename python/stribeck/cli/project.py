@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from stribeck.base.errors import ProjectError
+from stribeck.base.lock import one_writer
 from stribeck.cli.common import (
     check_output,
     echo_json,
@@ -64,13 +65,14 @@ def new(
 ) -> None:
     """Make PROJECT of the recording DATA, with the base model fitted."""
     check_output(path)
-    if Path(path).exists():
-        raise ProjectError(f"{path} is there already: give another name, or remove it first")
-    model = Written().model(base)
-    made = Project.new(path, data, model, starts=starts, seed=seed, **reading.given())
-    for note in made.recording.notes:
-        say(f"note: {note}")
-    _written(made, as_json)
+    with one_writer(path):
+        if Path(path).exists():
+            raise ProjectError(f"{path} is there already: give another name, or remove it first")
+        model = Written().model(base)
+        made = Project.new(path, data, model, starts=starts, seed=seed, **reading.given())
+        for note in made.recording.notes:
+            say(f"note: {note}")
+        _written(made, as_json)
 
 
 @project.command()
@@ -105,9 +107,10 @@ def diagnose(
     for output in (report, figures):
         check_output(output)
     check_candidates(candidates)
-    made = Project.open(path)
-    made = made.diagnose(least_fall=least_fall, candidates=candidates, seed=seed)
-    made.save()
+    with one_writer(path):
+        made = Project.open(path)
+        made = made.diagnose(least_fall=least_fall, candidates=candidates, seed=seed)
+        made.save()
     say(f"wrote {made.path}")
     assert made.diagnosis is not None
     save_findings(made.diagnosis.findings, figures)
@@ -132,7 +135,8 @@ def add(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
 
     EFFECT is an id or 'NAME = FORMULA'.
     """
-    _written(Project.open(path).add(effect, starts=starts, seed=seed), as_json)
+    with one_writer(path):
+        _written(Project.open(path).add(effect, starts=starts, seed=seed), as_json)
 
 
 @project.command()
@@ -143,7 +147,8 @@ def add(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
 @json_option
 def drop(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
     """Remove EFFECT from the current model. The result is a new, current node."""
-    _written(Project.open(path).drop(effect, starts=starts, seed=seed), as_json)
+    with one_writer(path):
+        _written(Project.open(path).drop(effect, starts=starts, seed=seed), as_json)
 
 
 @project.command()
@@ -154,8 +159,9 @@ def drop(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
 @json_option
 def reject(path: str, effect: str, because: str, undo: bool, as_json: bool) -> None:
     """Exclude EFFECT at the current node and at all nodes below it."""
-    made = Project.open(path)
-    _written(made.accept(effect) if undo else made.reject(effect, because), as_json)
+    with one_writer(path):
+        made = Project.open(path)
+        _written(made.accept(effect) if undo else made.reject(effect, because), as_json)
 
 
 @project.command()
@@ -164,7 +170,8 @@ def reject(path: str, effect: str, because: str, undo: bool, as_json: bool) -> N
 @json_option
 def back(path: str, node: str | None, as_json: bool) -> None:
     """Go back to NODE, or to the parent of the current node; no node is deleted."""
-    _written(Project.open(path).back(node), as_json)
+    with one_writer(path):
+        _written(Project.open(path).back(node), as_json)
 
 
 @project.command()
@@ -173,7 +180,8 @@ def back(path: str, node: str | None, as_json: bool) -> None:
 @json_option
 def name(path: str, name: str, as_json: bool) -> None:
     """Name the branch that begins at the current node ('' removes the name)."""
-    _written(Project.open(path).named(name), as_json)
+    with one_writer(path):
+        _written(Project.open(path).named(name), as_json)
 
 
 @project.command()
@@ -202,15 +210,16 @@ def improve(
     Every step is saved at once.
     """
     check_candidates(candidates)
-    made = Project.open(path).improve(
-        least_fall=least_fall,
-        most_steps=max_steps,
-        candidates=candidates,
-        seed=seed,
-        progress=say,
-        each=Project.save,
-    )
-    _written(made, as_json)
+    with one_writer(path):
+        made = Project.open(path).improve(
+            least_fall=least_fall,
+            most_steps=max_steps,
+            candidates=candidates,
+            seed=seed,
+            progress=say,
+            each=Project.save,
+        )
+        _written(made, as_json)
 
 
 @project.command()

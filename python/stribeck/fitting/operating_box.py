@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,6 +12,17 @@ from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
+
+
+def box_of_all(model: Model, recordings: Iterable[Recording]) -> dict[str, tuple[float, float]]:
+    """Range of each channel over the scored samples of all recordings that have it."""
+    boxes = [operating_box(model, recording, None) for recording in recordings]
+    names = dict.fromkeys(name for box in boxes for name in box)
+    sides = {name: [box[name] for box in boxes if name in box] for name in names}
+    return {
+        name: (min(low for low, _ in some), max(high for _, high in some))
+        for name, some in sides.items()
+    }
 
 
 def operating_box(

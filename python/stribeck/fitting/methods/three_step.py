@@ -19,7 +19,7 @@ from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.methods.estimates import estimates, reached_bounds
 from stribeck.fitting.methods.least_squares import BoundedLeastSquares
 from stribeck.fitting.methods.presliding import Presliding
-from stribeck.fitting.operating_box import operating_box
+from stribeck.fitting.operating_box import box_of_all
 from stribeck.fitting.result import Fit
 from stribeck.identify.choices import refuse_statements
 from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
@@ -151,7 +151,7 @@ def _in_three_steps(
     made = replace(
         made,
         bounds={n: (float(a), float(b)) for n, a, b in zip(made.names, lower, upper, strict=True)},
-        box=operating_box(made, loaded, None),
+        box=box_of_all(made, (no_load, loaded, presliding)),
     ).with_values(values)
     steps = (
         _step("speed and temperature", warm, values, first),

@@ -104,7 +104,16 @@ class FleetStore:
 
     def __init__(self, folder: Path, work: Work, *, retry_failed: bool = False) -> None:
         self.folder = folder
-        claim(folder, _manifest(work), IDENTITY, "fleet's results")
+        self._lock = claim(folder, _manifest(work), IDENTITY, "fleet's results")
+        try:
+            self._open_results(work, retry_failed)
+        except BaseException:
+            self._lock.release()
+            raise
+
+    def _open_results(self, work: Work, retry_failed: bool) -> None:
+        """Read the rows of earlier runs."""
+        folder = self.folder
         self._results = folder / RESULTS
         try:
             self._results.mkdir(exist_ok=True)
@@ -142,16 +151,20 @@ class FleetStore:
             self._end_part()
 
     def close(self) -> None:
-        """Merge all parts into one, in order.
+        """Merge all parts into one, in order, and leave the folder to other runs.
 
         A folder without a result is removed, so that the next run can use it for other work.
         """
-        self._end_part()
-        self.frame = _latest([self.frame, *self._added])
-        if not (self.frame["status"] == DONE).any():
+        try:
+            self._end_part()
+            self.frame = _latest([self.frame, *self._added])
+            done = bool((self.frame["status"] == DONE).any())
+            if done and len(self._parts) > 1:
+                self._put_together()
+        finally:
+            self._lock.release()
+        if not done:
             self._discard()
-        elif len(self._parts) > 1:
-            self._put_together()
 
     def _put_together(self) -> None:
         before = list(self._parts)

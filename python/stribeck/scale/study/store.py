@@ -69,19 +69,36 @@ class StudyStore:
 
     def __init__(self, folder: Path, plan: StudyPlan) -> None:
         self.folder = folder
-        claim(folder, _manifest(plan), IDENTITY, "study")
+        self._lock = claim(folder, _manifest(plan), IDENTITY, "study")
         try:
             self.trials = _read_fits(folder / FITS, set(plan.jobs))
             self._rewrite()
             self._log = (folder / FITS).open("a", encoding="utf-8", newline="")
         except OSError as error:
+            self.release()
             raise unwritable(folder, error) from None
+        except BaseException:
+            self.release()
+            raise
+
+    def release(self) -> None:
+        """Leave the folder to other runs."""
+        self._lock.release()
 
     def add(self, trial: Trial) -> None:
-        """Write a fit to disk."""
+        """Write a fit to disk.
+
+        Raises
+        ------
+        StribeckError
+            It cannot be written; the fits before it are kept.
+        """
+        try:
+            self._log.write(_lines([trial]))
+            self._log.flush()
+        except OSError as error:
+            raise unwritable(self.folder, error) from None
         self.trials[trial.job] = trial
-        self._log.write(_lines([trial]))
-        self._log.flush()
 
     def close(self) -> None:
         """Sort the fits, and write them as Parquet too."""

@@ -90,10 +90,13 @@ def study(
         for sentence in plan.notes:
             note(sentence)
     store = StudyStore(Path(output), plan)
-    with study_workers(plan, worker_count(workers)) as processes:
-        _fit(plan, store, processes, progress)
-        result = _result(plan, store, low_speed, processes)
-        _write(result, processes)
+    try:
+        with study_workers(plan, worker_count(workers)) as processes:
+            _fit(plan, store, processes, progress)
+            result = _result(plan, store, low_speed, processes)
+            _write(result, processes)
+    finally:
+        store.release()
     return result
 
 

@@ -91,6 +91,22 @@ def test_each_step_gives_its_parameters_and_reaches_the_noise(fit: ThreeStepFit)
     assert third.rmse == pytest.approx(indy.TORQUE_NOISE, rel=0.05)
 
 
+def test_the_box_covers_what_the_steps_saw(
+    fit: ThreeStepFit, recordings: dict[str, sb.Recording]
+) -> None:
+    box = fit.model.box
+    for recording in recordings.values():
+        moving = recording.moving
+        for name in ("velocity", "temperature", "load_torque", "position"):
+            column = getattr(recording, name)
+            if column is not None and moving.any():
+                low, high = box[name]
+                assert low <= column[moving].min() and column[moving].max() <= high, name
+    warm = recordings["no_load"].temperature
+    assert warm is not None and box["temperature"] == (warm.min(), warm.max())
+    assert box["temperature"][1] - box["temperature"][0] > 30.0
+
+
 def test_standard_errors_are_those_of_the_scatter(fit: ThreeStepFit) -> None:
     for word, way in (("forward", 1), ("backward", -1)):
         estimate = fit.estimates[f"coulomb_friction_{word}"]

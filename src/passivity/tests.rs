@@ -1,0 +1,119 @@
+//! Every law on boxes contains the law at points, whatever it branches on.
+
+use std::vec::Vec;
+
+use proptest::prelude::*;
+
+use super::branches;
+use super::enclosure::Enclosure;
+use super::friction::{Bristled, sliding};
+use super::region::{Region, Side, pieces};
+use crate::catalog::LawId;
+use crate::common;
+use crate::common::random::hold;
+use crate::composed::{Composed, Spec};
+use crate::sample::Sample;
+use crate::scalar::Real;
+use crate::table::Channel;
+
+const MOST: f64 = 8.0;
+
+/// Ends of a side, as powers of ten and signs, and the place of a point between them.
+fn side() -> impl Strategy<Value = (f64, f64, f64)> {
+    let end = || {
+        prop_oneof![
+            -MOST..MOST,
+            (-32.0..1.0, any::<bool>()).prop_map(|(power, negative)| {
+                let size = Real::powf(10.0_f64, power);
+                if negative { -size } else { size }
+            })
+        ]
+    };
+    (end(), end(), 0.0..=1.0)
+}
+
+/// Friction along the motion and what the proofs for bristles are made of, as (bounds, value).
+fn quantities(
+    bounded: &Composed<Enclosure>,
+    exact: &Composed<f64>,
+    region: &Region,
+    point: &Sample<f64>,
+) -> Vec<(Enclosure, f64)> {
+    let mut all = [(sliding(bounded, region), sliding(exact, point))].to_vec();
+    let pair = Bristled::of(bounded, region).zip(Bristled::of(exact, point));
+    if let Some((whole, at)) = pair {
+        all.extend([
+            (whole.dry, at.dry),
+            (whole.resistance, at.resistance),
+            (whole.drag, at.drag),
+            (whole.strength(), at.strength()),
+        ]);
+    }
+    all
+}
+
+fn contains_its_points(spec: &Spec, values: &[f64]) {
+    let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
+    let (bounded, exact) = (spec.with(&numbers).unwrap(), spec.with(values).unwrap());
+    hold(40, &proptest::array::uniform9(side()), |ends| {
+        let sides: Vec<_> = Channel::ALL
+            .into_iter()
+            .zip(ends)
+            .map(|(channel, (a, b, _))| Side { channel, lower: a.min(b), upper: a.max(b) })
+            .collect();
+        for region in pieces(&sides) {
+            let inside = |channel: Channel| {
+                let (at, share) = (region.channel(channel), ends[channel as usize].2);
+                let mixed = at.lower + share * (at.upper - at.lower);
+                // Half of the points are uniform over decades.
+                let decades = at.lower * Real::powf((at.upper / at.lower).abs(), share);
+                let one = if share > 0.5 && decades.is_finite() { decades } else { mixed };
+                one.clamp(at.lower, at.upper)
+            };
+            let point = Sample {
+                velocity: inside(Channel::Velocity),
+                position: inside(Channel::Position),
+                acceleration: inside(Channel::Acceleration),
+                temperature: inside(Channel::Temperature),
+                load_torque: inside(Channel::LoadTorque),
+                load_torque_curvature: inside(Channel::LoadTorqueCurvature),
+                motor_torque: inside(Channel::MotorTorque),
+                external_torque: inside(Channel::ExternalTorque),
+                time: inside(Channel::Time),
+            };
+            for (k, (whole, at)) in
+                quantities(&bounded, &exact, &region, &point).into_iter().enumerate()
+            {
+                // Where the law overflows at the point it has no value there.
+                let contained = !at.is_finite() || whole.lower <= at && at <= whole.upper;
+                prop_assert!(contained, "{spec} {k}: {whole:?} {at:e} {region:?} {point:?}");
+            }
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn laws_on_boxes_contain_laws_at_points() {
+    let mut checked = 0;
+    for spec in common::every_model().into_iter().filter(|spec| !branches(spec)) {
+        contains_its_points(&spec, &common::values(&spec));
+        checked += 1;
+    }
+    assert!(checked > 2 * LawId::ALL.len() - 4, "{checked}");
+}
+
+/// With a damping that rests on the ratio of acceleration to speed.
+#[test]
+fn a_ratio_that_is_capped_is_contained() {
+    let spec = Spec::new("indri_b", []).unwrap();
+    let mut values = common::values(&spec);
+    for (value, parameter) in values.iter_mut().zip(spec.parameters()) {
+        match parameter.name {
+            "damping_torque" => *value = 5.0,
+            "acceleration_weight" => *value = 0.1,
+            _ => {}
+        }
+    }
+    contains_its_points(&spec, &values);
+}
