@@ -139,7 +139,7 @@ def test_errors_of_powers() -> None:
 def test_what_is_no_interval_proves_nothing(side: tuple[float, float]) -> None:
     """Friction here generates energy at every speed; an empty box would prove it passive."""
     drives = sb.model("coulomb", viscous_friction=-5.0, coulomb_friction=-2.0)
-    with pytest.raises(_core.ModelError, match="not two finite numbers|no motion"):
+    with pytest.raises(_core.ModelError, match=r"not two finite numbers|no motion"):
         _core.passivity(drives.core, drives.values, {"velocity": side}, 1000)
     with pytest.raises(sb.StribeckError):
         sb.check(drives, {"velocity": side})

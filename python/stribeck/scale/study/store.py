@@ -75,13 +75,16 @@ class StudyStore:
             self._rewrite()
             self._log = (folder / FITS).open("a", encoding="utf-8", newline="")
         except OSError as error:
-            self.release()
+            self._lock.release()
             raise unwritable(folder, error) from None
         except BaseException:
-            self.release()
+            self._lock.release()
             raise
 
-    def release(self) -> None:
+    def __enter__(self) -> StudyStore:
+        return self
+
+    def __exit__(self, *error: object) -> None:
         """Leave the folder to other runs."""
         self._lock.release()
 

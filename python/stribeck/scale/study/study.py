@@ -89,14 +89,13 @@ def study(
     if note is not None:
         for sentence in plan.notes:
             note(sentence)
-    store = StudyStore(Path(output), plan)
-    try:
-        with study_workers(plan, worker_count(workers)) as processes:
-            _fit(plan, store, processes, progress)
-            result = _result(plan, store, low_speed, processes)
-            _write(result, processes)
-    finally:
-        store.release()
+    with (
+        StudyStore(Path(output), plan) as store,
+        study_workers(plan, worker_count(workers)) as processes,
+    ):
+        _fit(plan, store, processes, progress)
+        result = _result(plan, store, low_speed, processes)
+        _write(result, processes)
     return result
 
 
