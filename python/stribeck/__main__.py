@@ -1,5 +1,20 @@
-"""`python -m stribeck` is the command `stribeck`."""
+"""`python -m stribeck` and the command `stribeck`."""
 
-from stribeck.cli.main import main
+from __future__ import annotations
 
-main()
+
+def start() -> None:
+    """Run the command; Ctrl-C is answered in one line from here to the end of the process."""
+    from stribeck.cli import interrupts
+
+    interrupts.while_starting()
+    from stribeck.cli.main import main
+
+    try:
+        main()
+    finally:
+        interrupts.while_ending()
+
+
+if __name__ == "__main__":
+    start()

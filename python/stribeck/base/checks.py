@@ -2,12 +2,41 @@
 
 from __future__ import annotations
 
-from stribeck.base.errors import SpecError, option
+import math
+from numbers import Integral, Real
 
-__all__ = ["check_choice", "check_count", "check_share"]
+from stribeck.base.errors import SpecError, one_line, option
+
+__all__ = ["LARGEST", "check_choice", "check_count", "check_number", "check_share"]
+
+#: The largest number that enters: products of three are still finite.
+LARGEST = 1e100
 
 
-def check_share(name: str, value: float) -> None:
+def check_number(
+    name: str, value: object, low: float = -LARGEST, high: float = LARGEST, unit: str = ""
+) -> None:
+    """Raise `SpecError` unless `value` is a number from `low` to `high`; NaN is not.
+
+    Examples
+    --------
+    >>> check_number("inertia", float("inf"))
+    Traceback (most recent call last):
+    stribeck.base.errors.SpecError: `inertia=inf`: give a finite number of at most 1e+100
+    """
+    if not isinstance(value, Real) or isinstance(value, bool):
+        raise SpecError(f"{_given(name, value)}: give a number{unit}")
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not abs(number) <= LARGEST:
+        raise SpecError(f"{_given(name, value)}: give a finite number of at most {LARGEST:g}")
+    if not low <= number <= high:
+        raise SpecError(f"{_given(name, value)}: give a number from {low:g} to {high:g}{unit}")
+
+
+def check_share(name: str, value: object) -> None:
     """Raise `SpecError` unless `value` lies between 0 and 1; NaN does not.
 
     Examples
@@ -16,17 +45,32 @@ def check_share(name: str, value: float) -> None:
     Traceback (most recent call last):
     stribeck.base.errors.SpecError: `least_fall=nan`: give a number from 0 to 1
     """
-    if not 0.0 <= value <= 1.0:
-        raise SpecError(f"{option(name, value)}: give a number from 0 to 1")
+    number = isinstance(value, Real) and not isinstance(value, bool)
+    if not number or not 0.0 <= value <= 1.0:  # type: ignore[operator]
+        raise SpecError(f"{_given(name, value)}: give a number from 0 to 1")
 
 
-def check_count(name: str, value: int, least: int = 1) -> None:
-    """Raise `SpecError` unless `value` is at least `least`."""
-    if not value >= least:
-        raise SpecError(f"{option(name, value)}: give a whole number from {least} on")
+def check_count(name: str, value: object, least: int = 1, most: int | None = None) -> None:
+    """Raise `SpecError` unless `value` is a whole number from `least` to `most`."""
+    whole = int(value) if isinstance(value, Integral) and not isinstance(value, bool) else None
+    if whole is None or whole < least or (most is not None and whole > most):
+        end = "on" if most is None else f"to {most}"
+        raise SpecError(f"{_given(name, value)}: give a whole number from {least} {end}")
 
 
-def check_choice(name: str, value: str, choices: tuple[str, ...]) -> None:
+def check_choice(name: str, value: object, choices: tuple[str, ...]) -> None:
     """Raise `SpecError` unless `value` is one of `choices`."""
-    if value not in choices:
-        raise SpecError(f"{option(name, value)}: give {' or '.join(choices)}")
+    if not isinstance(value, str) or value not in choices:
+        raise SpecError(f"{_given(name, value)}: give {' or '.join(choices)}")
+
+
+def _given(name: str, value: object) -> str:
+    """The option with its value, as sentences name it."""
+    if isinstance(value, str):
+        return option(name, one_line(value, 80))
+    if isinstance(value, Real) and not isinstance(value, bool):
+        try:
+            return option(name, float(value))
+        except OverflowError:
+            pass
+    return f"{option(name)} is {one_line(repr(value), 80)}"

@@ -20,6 +20,7 @@ import re
 from collections.abc import Callable, Iterable
 
 __all__ = [
+    "MOST_CHARACTERS",
     "FitError",
     "ModelFileError",
     "ProjectError",
@@ -27,13 +28,44 @@ __all__ = [
     "SpecError",
     "StribeckError",
     "nearest",
+    "one_line",
     "option",
     "spell_options",
 ]
 
 
+#: The longest sentence. A longer one, which repeats a long input, is cut in its middle.
+MOST_CHARACTERS = 500
+
+
+def one_line(text: str, most: int = MOST_CHARACTERS) -> str:
+    """Return `text` on one line of at most `most` characters, without control characters.
+
+    Examples
+    --------
+    >>> one_line("a\\tb\\n  c\\x1b[2J"), one_line("name " + "x" * 99 + ": rename it", 30)
+    ('a b c\\\\x1b[2J', 'name xxxxx ... xxxx: rename it')
+    """
+    # What is far beyond the limit is dropped first: a formula may have a million characters.
+    if len(text) > 8 * most:
+        text = f"{text[: 4 * most]}{text[-4 * most :]}"
+    line = " ".join(text.split())
+    line = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+    if len(line) <= most:
+        return line
+    # What to do about it stands at the end.
+    end = (most - 5) * 3 // 5
+    return f"{line[: most - 5 - end]} ... {line[-end:]}"
+
+
 class StribeckError(ValueError):
-    """Base of every error a user can cause; the command line turns it into exit code 2."""
+    """Base of every error a user can cause; the command line turns it into exit code 2.
+
+    The sentence is on one line and has at most 500 characters.
+    """
+
+    def __init__(self, sentence: str = "") -> None:
+        super().__init__(one_line(sentence))
 
 
 class RecordingError(StribeckError):

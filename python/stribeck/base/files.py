@@ -5,29 +5,34 @@ Nothing here loads the plotting library: a figure brings it along.
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
-import re
 import secrets
 import stat
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.replaceable import OWN, check_replaceable, check_table, kind_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = [
     "FORMATS",
-    "check_replaceable",
-    "kind_of",
+    "note_written",
+    "place_table",
     "png_bytes",
     "save_figure",
     "write_bytes_whole",
+    "write_table",
     "write_whole",
+    "written_files",
 ]
 
+#: Files that this process has written, in order.
+_written: list[str] = []
 #: How a new file is opened; without O_BINARY, Windows would change line ends.
 _NEW = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
 #: Formats of figures, by the ending of the path.
@@ -93,8 +98,10 @@ def write_bytes_whole(
             if target.exists():
                 os.chmod(unfinished, stat.S_IMODE(target.stat().st_mode))
             os.replace(unfinished, target)
+            note_written(path)
         except BaseException:
-            os.unlink(unfinished)
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(unfinished)
             raise
     except OSError as failure:
         raise error(
@@ -103,66 +110,59 @@ def write_bytes_whole(
         ) from None
 
 
-def check_replaceable(
-    path: str | os.PathLike[str], kind: str, error: type[StribeckError] = StribeckError
+def write_table(
+    path: str | os.PathLike[str],
+    content: bytes,
+    sidecar: str,
+    error: type[StribeckError] = StribeckError,
 ) -> None:
-    """Refuse to replace a file of another kind, a folder or a device.
+    """Write a table and its sidecar; they replace nothing but an earlier pair of this function.
 
     Parameters
     ----------
     path
-        Where a file is to be written; there need not be one.
-    kind
-        The kind of the new content, as of `kind_of`.
+        The table; its sidecar is ``PATH.sidecar.toml``.
+    content
+        The table's bytes.
+    sidecar
+        The sidecar's TOML.
     error
-        The error to raise.
+        The error to raise where one of them cannot be written.
+
+    Raises
+    ------
+    StribeckError
+        Of the type `error`: a path cannot be written, or holds what the user made.
     """
-    target = Path(path)
-    if not target.exists():
-        return
-    if not target.is_file():
-        raise error(f"cannot write {target}: it is not a regular file; give a path to a file")
-    with target.open("rb") as stream:
-        present = kind_of(stream.read(_ENOUGH))
-    if present not in ("empty", kind):
-        raise error(
-            f"cannot write {target}: a file of another kind is there ({present}, not {kind}); give "
-            f"another path, or remove it"
-        )
+    check_table(path, error)
+    write_whole(f"{path}.sidecar.toml", f"{OWN}\n{sidecar}", error)
+    write_bytes_whole(path, content, error)
 
 
-#: Bytes from which the kind of a file shows.
-_ENOUGH = 4096
-_SIGNATURES = {
-    b"PAR1": "Parquet",
-    b"ARROW1": "Arrow",
-    b"\x89PNG": "PNG",
-    b"%PDF": "PDF",
-    b"<?xml": "SVG",
-    b"<!doctype html": "HTML",
-    b"MATLAB": "MATLAB",
-    b"PK\x03\x04": "archive",
-    b"\x89HDF": "HDF5",
-}
-_TOML_KIND = re.compile(rb'^kind = "(\w+)"', re.MULTILINE)
+def place_table(unfinished: str | os.PathLike[str], path: Path, sidecar: str) -> None:
+    """As `write_table`, for a table that is in a file already: it takes the name `path`.
 
-
-def kind_of(content: bytes) -> str:
-    """The kind of a file by its first bytes; of TOML files the value of the key ``kind``.
-
-    Examples
-    --------
-    >>> kind_of(b'kind = "model"\\nlaw = "coulomb"'), kind_of(b"time,torque"), kind_of(b"")
-    ('model file', 'text', 'empty')
+    Parameters
+    ----------
+    unfinished
+        The table's file, in a folder on the same file system.
+    path, sidecar
+        As of `write_table`.
     """
-    start = content[:_ENOUGH]
-    for signature, kind in _SIGNATURES.items():
-        if start[: len(signature)].lower() == signature.lower():
-            return kind
-    stated = _TOML_KIND.search(start)
-    if stated:
-        return f"{stated[1].decode()} file"
-    return "text" if start else "empty"
+    check_table(path)
+    write_whole(f"{path}.sidecar.toml", f"{OWN}\n{sidecar}")
+    os.replace(unfinished, path)
+    note_written(path)
+
+
+def written_files() -> list[str]:
+    """The files that this process has written so far, each once, in order."""
+    return list(dict.fromkeys(_written))
+
+
+def note_written(path: str | os.PathLike[str]) -> None:
+    """Add a file to `written_files`."""
+    _written.append(os.fspath(path))
 
 
 def png_bytes(figure: Figure) -> bytes:

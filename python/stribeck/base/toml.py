@@ -16,6 +16,9 @@ else:
 
 __all__ = ["TomlText", "read_text"]
 
+#: Levels of tables and lists that a file may have.
+_DEEPEST = 20
+
 
 def read_text(path: Path, kind: str, error: type[StribeckError]) -> str:
     """The text of a file; `kind` is what it is called where it cannot be read.
@@ -63,9 +66,29 @@ class TomlText:
             Of the type `error`: the text is not TOML.
         """
         try:
-            return tomllib.loads(self.text)
-        except tomllib.TOMLDecodeError as failure:
-            raise self.error(f"{self.path}: not a TOML file ({failure})") from None
+            content = tomllib.loads(self.text)
+        except (ValueError, RecursionError) as failure:
+            # A number of thousands of digits is a ValueError of Python, a deep nest its limit.
+            reason = "too deeply nested" if isinstance(failure, RecursionError) else failure
+            raise self.error(f"{self.path}: not a TOML file ({reason})") from None
+        self._check(content)
+        return content
+
+    def _check(self, content: object) -> None:
+        """Refuse what TOML itself excludes, or no reader expects: huge numbers, deep nests."""
+        level: list[tuple[str, object]] = [("", content)]
+        for _ in range(_DEEPEST):
+            deeper: list[tuple[str, object]] = []
+            for key, value in level:
+                if isinstance(value, dict):
+                    deeper += value.items()
+                elif isinstance(value, list):
+                    deeper += [(key, item) for item in value]
+                elif isinstance(value, int) and abs(value) >= 2**63:
+                    raise self.stop(f"{key} is a whole number beyond 64 bits", key)
+            level = deeper
+        if level:
+            raise self.error(f"{self.path}: tables or lists are nested too deeply")
 
     def stop(self, what: str, *words: str) -> StribeckError:
         """An error that names a line: that of the last of `words`, searched one after the other.

@@ -9,6 +9,7 @@ import click
 
 from stribeck.base.pool import Stopped
 from stribeck.cli.common import echo_json, json_option, say, seed_option
+from stribeck.cli.outputs import CheckedCommand
 from stribeck.cli.progress import Progress
 
 
@@ -17,7 +18,7 @@ def benchmark() -> None:
     """Measure the reliability of the program on recordings with a known truth."""
 
 
-@benchmark.command()
+@benchmark.command(cls=CheckedCommand)
 @click.option(
     "--seeds",
     type=click.IntRange(min=1),

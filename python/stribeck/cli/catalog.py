@@ -7,6 +7,7 @@ import click
 from stribeck.cli.common import echo_json, json_option, recording_options, say, seed_option
 from stribeck.cli.data import data_argument
 from stribeck.cli.flags import with_flags
+from stribeck.cli.outputs import CheckedCommand
 from stribeck.diagnosis.inspect import inspect as inspect_file
 from stribeck.diagnosis.inspect import write_proposed
 from stribeck.models.catalog import catalog
@@ -15,7 +16,7 @@ from stribeck.report.catalog import catalog_text
 from stribeck.report.inspection import inspection_text
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @seed_option
 @json_option
 def models(seed: int, as_json: bool) -> None:
@@ -27,7 +28,7 @@ def models(seed: int, as_json: bool) -> None:
         click.echo(catalog_text(rows, "captures"))
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @seed_option
 @json_option
 def effects(seed: int, as_json: bool) -> None:
@@ -39,7 +40,7 @@ def effects(seed: int, as_json: bool) -> None:
         click.echo(catalog_text(rows, "needs"))
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @data_argument
 @click.option(
     "--write-sidecar",

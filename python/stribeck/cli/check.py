@@ -7,13 +7,14 @@ import sys
 import click
 
 from stribeck.cli.common import echo_result, is_model_file, json_option, seed_option
+from stribeck.cli.outputs import CheckedCommand
 from stribeck.models.build import model as named
 from stribeck.models.reader import load
 from stribeck.passivity.check import check as certify
 from stribeck.passivity.operating_box import parse_sides
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("model")
 @click.option(
     "--box",

@@ -11,10 +11,11 @@ from typing import Protocol
 
 import click
 
-from stribeck.base.errors import RecordingError
-from stribeck.base.files import check_replaceable, write_whole
+from stribeck.base.arguments import MOST_SEED, MOST_STARTS
+from stribeck.base.files import write_whole
 from stribeck.cli.flags import with_flags
 from stribeck.cli.options import Command, Values, gathered
+from stribeck.cli.outputs import FOLDER, MODEL, PAGE
 from stribeck.diagnosis.result import Finding
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
@@ -71,7 +72,7 @@ json_option = click.option(
 )
 seed_option = click.option(
     "--seed",
-    type=click.IntRange(min=0),
+    type=click.IntRange(0, MOST_SEED),
     default=0,
     show_default=True,
     help="Seed of the random numbers.",
@@ -79,13 +80,13 @@ seed_option = click.option(
 output_option = click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False),
+    type=MODEL,
     default=None,
     help="Write the fitted model to this file (TOML).",
 )
 starts_option = click.option(
     "--starts",
-    type=click.IntRange(min=1),
+    type=click.IntRange(1, MOST_STARTS),
     default=20,
     show_default=True,
     help="Random starts of the nonlinear parameters.",
@@ -99,11 +100,11 @@ least_fall_option = click.option(
 )
 
 report_option = click.option(
-    "--report", default=None, metavar="FILE", help="Write a self-contained page (HTML)."
+    "--report", type=PAGE, default=None, metavar="FILE", help="Write a self-contained page (HTML)."
 )
 figures_option = click.option(
     "--figures",
-    type=click.Path(file_okay=False),
+    type=FOLDER,
     default=None,
     metavar="FOLDER",
     help="Write the figure behind each finding to this folder (PNG).",
@@ -152,7 +153,7 @@ def read_recording(path: Given, reading: ReadOptions) -> Recording:
 
 def is_model_file(argument: str) -> bool:
     """Whether a model argument names a file rather than a spec."""
-    return argument.endswith(".toml") or Path(argument).is_file()
+    return argument.endswith(".toml") or os.path.isfile(argument)
 
 
 def stored_model(path: str, recording: Recording) -> Fit:
@@ -199,29 +200,3 @@ def save_page(page: str, path: str) -> None:
     """Write a page, all of it or nothing."""
     write_whole(path, page)
     say(f"wrote {path}")
-
-
-def check_output(
-    path: str | None, kind: str | None = None, *inputs: str | os.PathLike[str] | None
-) -> None:
-    """Refuse, before any work is done, an output that cannot be written or replaces an input.
-
-    Parameters
-    ----------
-    kind
-        Kind of the output (`stribeck.base.files.kind_of`), where it is known.
-    inputs
-        Files that the command reads; their sidecars count too.
-    """
-    if path is None:
-        return
-    folder = Path(path).resolve().parent
-    if not folder.is_dir():
-        raise RecordingError(f"cannot write {path}: the folder {folder} does not exist, make it")
-    beside = [f"{given}.sidecar.toml" for given in inputs if given is not None]
-    for given in (*inputs, *beside):
-        if given is not None and os.path.exists(given) and os.path.exists(path):
-            if os.path.samefile(path, given):
-                raise RecordingError(f"cannot write {path}: it is an input; give another path")
-    if kind is not None:
-        check_replaceable(path, kind, RecordingError)

@@ -10,7 +10,6 @@ import click
 from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure
 from stribeck.cli.common import (
-    check_output,
     echo_json,
     is_model_file,
     json_option,
@@ -26,6 +25,7 @@ from stribeck.cli.motion import (
     value_option,
 )
 from stribeck.cli.options import Values
+from stribeck.cli.outputs import FIGURE, CheckedCommand
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
@@ -41,7 +41,7 @@ from stribeck.passivity.operating_box import parse_sides
 LARGEST = "largest"
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("model")
 @value_option
 @click.option(
@@ -99,7 +99,13 @@ LARGEST = "largest"
 @click.option(
     "--temperature", type=float, help="Temperature, degC. [default: middle of the plant's box]"
 )
-@click.option("--plot", "picture", help="Write a figure of the errors (PNG, SVG, PDF).")
+@click.option(
+    "--plot",
+    "picture",
+    type=FIGURE,
+    metavar="FILE",
+    help="Write a figure of the errors (PNG, SVG, PDF).",
+)
 @seed_option
 @json_option
 def compensate(
@@ -127,7 +133,6 @@ def compensate(
     simulated joint has the friction of --plant. Without --inertia or --mass, the rigid body is the
     one that was identified with the friction.
     """
-    check_output(picture, None, model, plant, *others)
     asked = _known(model, values)
     friction = asked if plant is None else _known(plant)
     joint = joint_of(sizes)

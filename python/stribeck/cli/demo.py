@@ -10,6 +10,7 @@ import click
 from stribeck.base.errors import StribeckError
 from stribeck.base.files import write_whole
 from stribeck.cli.common import echo_json, json_option, save_fit, say, seed_option
+from stribeck.cli.outputs import CheckedCommand
 from stribeck.diagnosis.compare import Comparison, compare
 from stribeck.diagnosis.loop.improve import Improvement, improve
 from stribeck.diagnosis.result import Diagnosis
@@ -29,7 +30,7 @@ from stribeck.report.recording import held_out_meaning
 BASE = "coulomb"
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.option(
     "--output",
     type=click.Path(file_okay=False),

@@ -7,13 +7,14 @@ from pathlib import Path
 import click
 
 from stribeck.cli.common import echo_result, is_model_file, json_option, say, seed_option
+from stribeck.cli.outputs import CheckedCommand
 from stribeck.exporters.export import export as write
 from stribeck.models.build import model as named
 from stribeck.models.reader import read_model_file
 from stribeck.passivity.operating_box import parse_sides
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("model")
 @click.option(
     "--to",

@@ -6,7 +6,6 @@ import click
 
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
-    check_output,
     echo_result,
     json_option,
     output_option,
@@ -25,6 +24,7 @@ from stribeck.cli.formulas import (
     written_fit,
 )
 from stribeck.cli.methods import Method, method_options
+from stribeck.cli.outputs import CheckedCommand
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.fitting.evaluate import evaluated_on
@@ -34,7 +34,7 @@ from stribeck.scale.streaming.result import StreamedFit
 from stribeck.scale.streaming.stream import Stream
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @data_argument
 @click.option(
     "--model", "spec", default=None, help="LAW[+effect...], or a model file to start from."
@@ -74,7 +74,6 @@ def fit(
     Several files, a folder or a pattern are runs of one joint, fitted together. With --stream,
     Parquet files are read in passes: all samples are fitted, few are in memory.
     """
-    check_output(output, "model file", *data, reading.sidecar)
     if streaming.asked:
         streaming.refuse(
             method=method.name != "rms",

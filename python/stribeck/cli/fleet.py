@@ -9,7 +9,6 @@ import click
 
 from stribeck.base.pool import Stopped
 from stribeck.cli.common import (
-    check_output,
     echo_result,
     json_option,
     recording_options,
@@ -17,6 +16,7 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.outputs import FIGURE, PAGE, CheckedCommand
 from stribeck.cli.progress import Progress, stop_with
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.fleet.changes import Question
@@ -26,7 +26,7 @@ from stribeck.scale.fleet.identified import IMPROVE
 from stribeck.scale.fleet.result import Fleet
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("files", nargs=-1, required=True, metavar=f"FILES... [{IMPROVE}]")
 @click.option(
     "--model",
@@ -108,8 +108,10 @@ from stribeck.scale.fleet.result import Fleet
     help="Start a task a second time after this multiple of the median time.",
 )
 @click.option("--retry-failed", is_flag=True, help="Repeat failed tasks.")
-@click.option("--plot", "picture", default=None, metavar="FILE", help="Write the figure (PNG).")
-@click.option("--report", default=None, metavar="FILE", help="Write a self-contained page (HTML).")
+@click.option("--plot", "picture", type=FIGURE, metavar="FILE", help="Write the figure (PNG).")
+@click.option(
+    "--report", type=PAGE, default=None, metavar="FILE", help="Write a self-contained page (HTML)."
+)
 @starts_option
 @recording_options
 @seed_option
@@ -143,8 +145,6 @@ def fleet(
     set OUTPUT/results. Ctrl-C stops; the same command continues, and more files add to it. Files
     that cannot be used are reported and skipped; the exit code is 2 only if none can be used.
     """
-    for path in (picture, report):
-        check_output(path)
     if model is None and files[-1] == IMPROVE and not Path(IMPROVE).exists():
         files = files[:-1]
     since_day = None if since is None else since.date()

@@ -10,9 +10,10 @@ import click
 import polars as pl
 
 from stribeck.base.errors import SpecError
-from stribeck.base.files import write_bytes_whole, write_whole
-from stribeck.cli.common import check_output, echo_json, json_option, seed_option
+from stribeck.base.files import write_table, write_whole
+from stribeck.cli.common import echo_json, json_option, seed_option
 from stribeck.cli.options import Values
+from stribeck.cli.outputs import TABLE, CheckedCommand
 from stribeck.motion.generate.files import file_bytes, sidecar_text, write_robot
 from stribeck.motion.generate.hidden import Truth
 from stribeck.motion.generate.hidden import generate as make
@@ -26,12 +27,12 @@ OF_A_JOINT = ("effects", "law", "seconds", "noise", "warming", "joint_kind")
 OF_A_ROBOT = ("test", "repeats", "every")
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.option(
     "-o",
     "--output",
     required=True,
-    type=click.Path(dir_okay=False),
+    type=TABLE,
     help="Recording to write: .parquet or .csv.",
 )
 @click.option(
@@ -101,9 +102,6 @@ def generate(
     The sidecar and the hidden truth (.truth.json) are written beside the recording.
     """
     target = Path(output)
-    if target.suffix.lower() not in (".parquet", ".csv"):
-        raise SpecError(f"cannot write {output}: its name must end in .parquet or .csv")
-    check_output(output)
     _refuse_strangers(context, robot)
     if robot is None:
         _generate_joint(target, sizes, 200.0 if rate is None else rate, seed, as_json)
@@ -128,8 +126,8 @@ def _refuse_strangers(context: click.Context, robot: str | None) -> None:
 def _generate_joint(target: Path, sizes: Values, rate: float, seed: int, as_json: bool) -> None:
     own = {name: sizes[name] for name in OF_A_JOINT if name != "effects"}
     frame, truth = make(sizes["effects"], rate=rate, seed=seed, **own)
-    write_bytes_whole(target, file_bytes(frame, target.suffix.lower()))
-    beside = _write_beside(target, truth, sidecar_text(truth))
+    write_table(target, file_bytes(frame, target.suffix.lower()), sidecar_text(truth))
+    beside = _write_truth(target, truth)
     if as_json:
         echo_json({"path": str(target), **beside, "rows": frame.height, **truth})
     else:
@@ -145,20 +143,18 @@ def _generate_robot(target: Path, sizes: Values, rate: float, seed: int, as_json
     )
     write_robot(recording, target)
     truth = recording.truth()
-    beside = _write_beside(target, truth, recording.sidecar_text())
+    beside = _write_truth(target, truth)
     if as_json:
         echo_json({"path": str(target), **beside, **truth})
     else:
         click.echo(_robot_text(target, beside["truth_path"], truth))
 
 
-def _write_beside(target: Path, truth: Truth, sidecar: str) -> dict[str, str]:
-    """Write truth and sidecar beside the recording, and return their paths."""
+def _write_truth(target: Path, truth: Truth) -> dict[str, str]:
+    """Write the truth beside the recording, and return the paths of truth and sidecar."""
     truth_path = target.with_name(f"{target.name}.truth.json")
-    sidecar_path = target.with_name(f"{target.name}.sidecar.toml")
     write_whole(truth_path, json.dumps(truth, indent=2) + "\n")
-    write_whole(sidecar_path, sidecar)
-    return {"truth_path": str(truth_path), "sidecar_path": str(sidecar_path)}
+    return {"truth_path": str(truth_path), "sidecar_path": f"{target}.sidecar.toml"}
 
 
 def _joint_text(path: Path, truth_path: str, frame: pl.DataFrame, truth: Truth) -> str:

@@ -8,7 +8,6 @@ import click
 
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
-    check_output,
     echo_result,
     figures_option,
     is_model_file,
@@ -37,6 +36,7 @@ from stribeck.cli.formulas import (
     written_fit,
 )
 from stribeck.cli.options import Values
+from stribeck.cli.outputs import FIGURE, CheckedCommand
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.diagnosis.compare import compare as compare_fits
@@ -57,10 +57,12 @@ from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @arguments_of_both
 @formula_options
-@click.option("--plot", "picture", default=None, help="Write a figure of the residuals (PNG).")
+@click.option(
+    "--plot", "picture", type=FIGURE, metavar="FILE", help="Write a figure of the residuals (PNG)."
+)
 @starts_option
 @recording_options
 @seed_option
@@ -76,7 +78,6 @@ def compare(
 ) -> None:
     """Compare MODELS (specs, model files or formulas) with DATA, and show where each fails."""
     data, models = split(arguments)
-    check_output(picture, None, *data, reading.sidecar)
     own = written.by_formula()
     if not (models or own):
         raise SpecError("no model is given: name laws or model files, or write laws by --law")
@@ -103,7 +104,7 @@ def compare(
     echo_result(comparison, as_json)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @arguments_of_both
 @model_options
 @report_option
@@ -136,8 +137,6 @@ def diagnose(
     if len(models) > 1:
         raise SpecError(f"one model is needed, {len(models)} are given: {', '.join(models)}")
     model = models[0] if models else None
-    check_output(report, "HTML", *data, reading.sidecar)
-    check_output(figures)
     check_candidates(candidates)
     streamed: StreamedDiagnosis | None = None
     if streaming.asked:
@@ -176,7 +175,7 @@ def diagnose(
         echo_result(diagnosis, as_json)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("arguments", nargs=-1, required=True, metavar="DATA... MODEL EFFECT")
 @model_options
 @output_option
@@ -204,7 +203,6 @@ def add(
             f"({', '.join(named) or 'none'}): write `stribeck add DATA MODEL EFFECT`"
         )
     model, effect = named
-    check_output(output, "model file", *data, reading.sidecar)
     recording = read_recording(data, reading)
     before = written_fit(
         model, written, recording, parameters_brought_by(effect), starts=starts, seed=seed
@@ -216,13 +214,13 @@ def add(
     echo_result(addition, as_json)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @data_argument
 @click.option("--base", default=None, help="Spec, model file or formula. [default: coulomb]")
 @model_options
 @output_option
 @report_option
-@click.option("--plot", "picture", default=None, help="Write the figure (PNG).")
+@click.option("--plot", "picture", type=FIGURE, metavar="FILE", help="Write the figure (PNG).")
 @figures_option
 @evaluate_option
 @least_fall_option
@@ -263,10 +261,6 @@ def improve(
 
     With --stream, effects are searched on stretches of the data.
     """
-    check_output(output, "model file", *data, reading.sidecar)
-    check_output(report, "HTML", *data, reading.sidecar)
-    check_output(picture, None, *data, reading.sidecar)
-    check_output(figures)
     check_candidates(candidates)
     for effect in reject:
         check_effect(effect)

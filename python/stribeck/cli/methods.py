@@ -9,7 +9,6 @@ import click
 
 from stribeck.base.errors import RecordingError, SpecError
 from stribeck.cli.common import (
-    check_output,
     echo_result,
     json_option,
     read_recording,
@@ -20,6 +19,7 @@ from stribeck.cli.common import (
 from stribeck.cli.data import data_argument
 from stribeck.cli.evaluation import evaluate_option, judged
 from stribeck.cli.options import Command, Values, gathered
+from stribeck.cli.outputs import MODELS_OF_ARM, POINTS, CheckedCommand
 from stribeck.fitting.exogenous import ESTIMATORS
 from stribeck.fitting.methods.arm import arm_fit
 from stribeck.fitting.methods.averaging import averaged_points
@@ -139,7 +139,7 @@ def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
     return axes
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("data")
 @click.option(
     "--method",
@@ -150,7 +150,7 @@ def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
 @click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False),
+    type=POINTS,
     default=None,
     help="Write the points (CSV) and their sidecar.",
 )
@@ -195,7 +195,6 @@ def points(
     averaging needs no gravity model (Bittencourt et al. 2010, eq 4); segments takes the mean torque
     of each pass (Gantry, section 3). `stribeck fit POINTS` then identifies a static law.
     """
-    check_output(output, None, data, reading.sidecar)
     # A pass below the velocity threshold still shows in a line through many samples.
     recording = read_recording(data, replace(reading, standstill=True))
     search = Search(tolerance=tolerance, shortest=shortest, trim=trim)
@@ -209,7 +208,7 @@ def points(
     echo_result(made, as_json)
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @data_argument
 @click.option(
     "--first-link-length",
@@ -235,6 +234,7 @@ def points(
 @click.option(
     "-o",
     "--output",
+    type=MODELS_OF_ARM,
     default=None,
     metavar="NAME",
     help="Write the friction of both joints to NAME_joint_1.toml and NAME_joint_2.toml.",
@@ -266,7 +266,6 @@ def arm(
         raise RecordingError(
             f"--joint {reading.joint}: an arm has two joints, name them by --joints"
         )
-    check_output(output)
     first, second = (read_recording(data, replace(reading, joint=name)) for name in joints)
     others = [judged(evaluate, replace(reading, joint=name)) for name in joints]
     made = arm_fit(

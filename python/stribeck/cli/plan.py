@@ -7,9 +7,8 @@ from pathlib import Path
 import click
 
 from stribeck.base.errors import SpecError
-from stribeck.base.files import save_figure, write_bytes_whole
+from stribeck.base.files import save_figure, write_table
 from stribeck.cli.common import (
-    check_output,
     echo_result,
     is_model_file,
     json_option,
@@ -20,17 +19,17 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.formulas import Written, written_fit
+from stribeck.cli.outputs import FIGURE, TABLE, CheckedCommand
 from stribeck.fitting.result import Fit
+from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes
 from stribeck.recording.options import ReadOptions
 
-FORMATS = (".csv", ".parquet")
 
-
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("data")
 @click.argument("model", required=False)
 @click.option(
@@ -64,11 +63,13 @@ FORMATS = (".csv", ".parquet")
 @click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False),
+    type=TABLE,
     default=None,
     help="Write the motion (.csv or .parquet).",
 )
-@click.option("--plot", "picture", default=None, help="Write a figure of the motion (PNG).")
+@click.option(
+    "--plot", "picture", type=FIGURE, metavar="FILE", help="Write a figure of the motion (PNG)."
+)
 @starts_option
 @recording_options
 @seed_option
@@ -96,10 +97,6 @@ def plan(
     Without data: stribeck plan MODEL.toml.
     """
     limits = _range(position)
-    for path in (output, picture):
-        check_output(path, None, data, reading.sidecar)
-    if output is not None and Path(output).suffix.lower() not in FORMATS:
-        raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
     joint = _joint(data, model, noise, starts=starts, seed=seed, reading=reading)
     say("note: searching for a motion, some seconds to a minute ...")
     planned = make(
@@ -115,7 +112,11 @@ def plan(
         seed=seed,
     )
     if output is not None:
-        write_bytes_whole(Path(output), file_bytes(planned.to_frame(), Path(output).suffix.lower()))
+        write_table(
+            output,
+            file_bytes(planned.to_frame(), Path(output).suffix.lower()),
+            f'kind = "recording"\njoint_kind = "{_kind(planned.model)}"\n',
+        )
         say(f"wrote {output}")
     if picture is not None:
         save_figure(planned.plot(), picture)
@@ -141,6 +142,10 @@ def _joint(
     if not is_model_file(data) or not data.endswith(".toml"):
         raise SpecError(f"no model is given for {data}: write stribeck plan {data} MODEL")
     return read_model_file(data)
+
+
+def _kind(model: Model) -> str:
+    return "revolute" if model.position_unit == "rad" else "prismatic"
 
 
 def _range(text: str) -> tuple[float, float]:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import os
 
 import click
 
 from stribeck.base.errors import ProjectError
 from stribeck.base.lock import one_writer
+from stribeck.base.replaceable import check_folder
 from stribeck.cli.common import (
-    check_output,
     echo_json,
     echo_result,
     figures_option,
@@ -24,6 +24,7 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.formulas import Written, candidate_option, check_candidates
+from stribeck.cli.outputs import MODEL, CheckedCommand
 from stribeck.projects.project import Project
 from stribeck.recording.options import ReadOptions
 
@@ -47,7 +48,7 @@ def _written(made: Project, as_json: bool) -> None:
     _show(made, as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.argument("data")
 @click.option(
@@ -64,9 +65,9 @@ def new(
     path: str, data: str, base: str, starts: int, reading: ReadOptions, seed: int, as_json: bool
 ) -> None:
     """Make PROJECT of the recording DATA, with the base model fitted."""
-    check_output(path)
+    check_folder(path, ProjectError)
     with one_writer(path):
-        if Path(path).exists():
+        if os.path.lexists(path):
             raise ProjectError(f"{path} is there already: give another name, or remove it first")
         model = Written().model(base)
         made = Project.new(path, data, model, starts=starts, seed=seed, **reading.given())
@@ -75,7 +76,7 @@ def new(
         _written(made, as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @json_option
 def show(path: str, as_json: bool) -> None:
@@ -83,7 +84,7 @@ def show(path: str, as_json: bool) -> None:
     _show(Project.open(path), as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @report_option
 @figures_option
@@ -104,8 +105,6 @@ def diagnose(
 
     Effects that were rejected on the way to it are not tried.
     """
-    for output in (report, figures):
-        check_output(output)
     check_candidates(candidates)
     with one_writer(path):
         made = Project.open(path)
@@ -124,7 +123,7 @@ def diagnose(
         click.echo(f"Node {made.current}. {made.diagnosis!r}")
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.argument("effect")
 @starts_option
@@ -139,7 +138,7 @@ def add(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
         _written(Project.open(path).add(effect, starts=starts, seed=seed), as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.argument("effect")
 @starts_option
@@ -151,7 +150,7 @@ def drop(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
         _written(Project.open(path).drop(effect, starts=starts, seed=seed), as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.argument("effect")
 @click.option("--because", default="", metavar="TEXT", help="The reason; it is kept in the file.")
@@ -164,7 +163,7 @@ def reject(path: str, effect: str, because: str, undo: bool, as_json: bool) -> N
         _written(made.accept(effect) if undo else made.reject(effect, because), as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.argument("node", required=False)
 @json_option
@@ -174,7 +173,7 @@ def back(path: str, node: str | None, as_json: bool) -> None:
         _written(Project.open(path).back(node), as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.argument("name")
 @json_option
@@ -184,7 +183,7 @@ def name(path: str, name: str, as_json: bool) -> None:
         _written(Project.open(path).named(name), as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.option(
     "--max-steps",
@@ -222,7 +221,7 @@ def improve(
         _written(made, as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
 @click.argument("nodes", nargs=2, metavar="NODE NODE")
 @seed_option
@@ -233,13 +232,12 @@ def compare(path: str, nodes: tuple[str, str], seed: int, as_json: bool) -> None
     echo_result(sides, as_json)
 
 
-@project.command()
+@project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
-@click.option("-o", "--output", required=True, type=click.Path(dir_okay=False), help="Model file.")
+@click.option("-o", "--output", required=True, type=MODEL, help="Model file.")
 @json_option
 def save(path: str, output: str, as_json: bool) -> None:
     """Write the current model as a model file (TOML)."""
-    check_output(output, "model file", path)
     made = Project.open(path)
     made.save_model(output)
     say(f"wrote {output}")

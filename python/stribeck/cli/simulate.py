@@ -10,9 +10,8 @@ from typing import Any
 import click
 
 from stribeck.base.errors import SpecError
-from stribeck.base.files import save_figure, write_bytes_whole, write_whole
+from stribeck.base.files import save_figure, write_table
 from stribeck.cli.common import (
-    check_output,
     echo_result,
     json_option,
     say,
@@ -27,20 +26,20 @@ from stribeck.cli.motion import (
     value_option,
 )
 from stribeck.cli.options import Values
+from stribeck.cli.outputs import FIGURE, TABLE, CheckedCommand
 from stribeck.motion.generate.files import file_bytes
 from stribeck.motion.simulate.acting import take_apart
 from stribeck.motion.simulate.drive import Controller, Drive, Follow, Pull, Torque
 from stribeck.motion.simulate.joint import Joint, Transmission
 from stribeck.motion.simulate.run import simulate as move
 
-FORMATS = (".csv", ".parquet")
 #: Bandwidth of the closed loop of inertia and controller, Hz.
 BANDWIDTH = 5.0
 #: Default duration of a push or pull, s.
 SECONDS = 10.0
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("model")
 @value_option
 @joint_options
@@ -87,10 +86,16 @@ SECONDS = 10.0
 @click.option(
     "-o",
     "--output",
-    type=click.Path(dir_okay=False),
+    type=TABLE,
     help="Write the motion as a recording (.csv or .parquet), and its sidecar.",
 )
-@click.option("--plot", "picture", help="Write a figure of the motion (PNG, SVG, PDF).")
+@click.option(
+    "--plot",
+    "picture",
+    type=FIGURE,
+    metavar="FILE",
+    help="Write a figure of the motion (PNG, SVG, PDF).",
+)
 @seed_option
 @json_option
 def simulate(
@@ -110,10 +115,6 @@ def simulate(
 
     Without --inertia or --mass, the rigid body is the one that was identified with the friction.
     """
-    for path in (output, picture):
-        check_output(path, None, model)
-    if output is not None and Path(output).suffix.lower() not in FORMATS:
-        raise SpecError(f"cannot write {output}: its name must end in .csv or .parquet")
     asked = model_of(model, values)
     joint = _with_transmission(joint_of(sizes), sizes)
     drive = _drive(sizes, take_apart(asked, joint).joint, seed)
@@ -129,11 +130,9 @@ def simulate(
         temperature=temperature,
     )
     if output is not None:
-        write_bytes_whole(
-            Path(output), file_bytes(simulation.to_frame(), Path(output).suffix.lower())
-        )
-        write_whole(
-            Path(f"{output}.sidecar.toml"),
+        write_table(
+            output,
+            file_bytes(simulation.to_frame(), Path(output).suffix.lower()),
             f'kind = "recording"\njoint_kind = "{simulation.joint.kind}"\n',
         )
         say(f"wrote {output}")

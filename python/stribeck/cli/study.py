@@ -16,6 +16,7 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.outputs import CheckedCommand
 from stribeck.cli.progress import Progress, stop_with
 from stribeck.identify.choices import Choices
 from stribeck.recording.options import ReadOptions
@@ -23,7 +24,7 @@ from stribeck.scale.study.plan import REVIEW
 from stribeck.scale.study.study import study as make_study
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("data")
 @click.option(
     "--law",

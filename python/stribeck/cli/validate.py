@@ -6,7 +6,6 @@ import click
 
 from stribeck.base.files import save_figure
 from stribeck.cli.common import (
-    check_output,
     echo_result,
     json_option,
     model_fit,
@@ -16,15 +15,22 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.outputs import FIGURE, CheckedCommand
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.validation import validate as drive
 from stribeck.recording.options import ReadOptions
 
 
-@click.command()
+@click.command(cls=CheckedCommand)
 @click.argument("data")
 @click.argument("model")
-@click.option("--plot", "picture", help="Write a figure of both motions (PNG, SVG, PDF).")
+@click.option(
+    "--plot",
+    "picture",
+    type=FIGURE,
+    metavar="FILE",
+    help="Write a figure of both motions (PNG, SVG, PDF).",
+)
 @starts_option
 @recording_options
 @seed_option
@@ -42,7 +48,6 @@ def validate(
 
     A spec is fitted to DATA first. Without --inertia, the identified rigid body is used.
     """
-    check_output(picture, None, data, reading.sidecar)
     recording = read_recording(data, reading)
     fitted = model_fit(model, recording, starts=starts, seed=seed)
     inertia = reading.inertia

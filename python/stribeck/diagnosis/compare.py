@@ -9,6 +9,8 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from stribeck.base.arguments import door
+from stribeck.base.errors import FitError
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.regimes import regime_rows
@@ -123,6 +125,7 @@ class Comparison(Plotted):
         )
 
 
+@door(FitError)
 def compare(
     fits: Sequence[Fit],
     recording: Recordings,
@@ -133,6 +136,8 @@ def compare(
 
     A fit made on another recording is not refitted: its error here is a held-out error.
     """
+    if isinstance(fits, Fit) or not fits or not all(isinstance(f, Fit) for f in fits):
+        raise FitError("there is nothing to compare: give a list of fits")
     recording = as_one(recording)
     fits = [
         f

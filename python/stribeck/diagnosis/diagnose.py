@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import TYPE_CHECKING
 
+from stribeck.base.arguments import door
 from stribeck.base.checks import check_share
+from stribeck.base.errors import FitError
 from stribeck.diagnosis.all_samples import FROM_NEARBY, with_errors_on_all_samples
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import noise_floor
@@ -17,7 +19,7 @@ from stribeck.diagnosis.trials.ranking import findings
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility.visibility import visibility
 from stribeck.fitting.fit import fit, on_recording, with_choices
-from stribeck.fitting.result import Fit
+from stribeck.fitting.result import FIT, Fit
 from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
@@ -31,6 +33,7 @@ LEAST_FALL = 0.01
 NOT_ASKED = Unexplained(None, None)
 
 
+@door(FitError, fitted=FIT)
 def diagnose(
     fitted: Fit,
     recording: Recordings | None = None,

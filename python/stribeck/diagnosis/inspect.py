@@ -153,7 +153,7 @@ def inspect(path: Given, **reading: Unpack[ReadArguments]) -> Inspection:
     **options
         As of `stribeck.read`.
     """
-    options = ReadOptions(**reading)
+    options = ReadOptions.of(reading)
     files = listed_files(path)
     tables = tuple(scan_with(file, options) for file in files)
     several = tables if len(tables) > 1 else ()

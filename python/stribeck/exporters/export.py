@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeVar, get_args
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, nearest, option
 from stribeck.base.files import write_whole
 from stribeck.exporters.about import About
@@ -21,7 +22,7 @@ from stribeck.exporters.vectors import vectors
 from stribeck.fitting.result import Fit
 from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile
+from stribeck.models.model_file import WITH_MODEL, ModelFile
 
 Language = Literal["c", "rust", "json"]
 
@@ -62,6 +63,7 @@ class Export:
         return "\n".join([head, *(f"  {path}" for path in self.files)])
 
 
+@door(ModelFileError, model=WITH_MODEL)
 def export(
     model: Model | ModelFile | Fit,
     to: str,

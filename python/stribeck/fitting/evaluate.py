@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.prediction import refuse_infinite
@@ -22,6 +23,7 @@ from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
 
 
+@door(model=("a model", Model))
 def evaluate(
     model: Model,
     recording: Recordings,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.exogenous import check_estimator
 from stribeck.fitting.finish import finish
@@ -27,6 +28,7 @@ from stribeck.identify.scaling import model_for
 from stribeck.identify.transients import transient_rows
 from stribeck.identify.uncertainty import RESAMPLES, Uncertainty
 from stribeck.models.model import Model
+from stribeck.models.model_file import MODEL
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
 from stribeck.recording.weights import with_weights
@@ -35,6 +37,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
+@door(FitError, spec=MODEL)
 def fit(
     spec: str | Model,
     recording: Recordings,

@@ -248,3 +248,7 @@ class Fit(Plotted):
                 for e in self.estimates.values()
             ]
         )
+
+
+#: For `stribeck.base.arguments.door`.
+FIT = ("a fit, as `stribeck.fit` returns it", Fit)

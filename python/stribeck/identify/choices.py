@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from numbers import Real
 from typing import TypeAlias, TypedDict, TypeVar
 
 import numpy as np
 
-from stribeck.base.errors import SpecError, nearest, option
+from stribeck.base.errors import SpecError, nearest, one_line, option
 from stribeck.identify.algorithms import check_algorithm
 from stribeck.identify.statements import (
     checked_loss,
@@ -92,6 +93,10 @@ class Choices:
         """
         constraints, loss = arguments.get("constraints") or (), arguments.get("loss")
         algorithm = arguments.get("algorithm")
+        if not isinstance(constraints, Iterable) or not all(
+            isinstance(t, str) for t in constraints
+        ):
+            raise SpecError(f"{option('constraints')} is no text: give 'LEFT >= RIGHT', or a list")
         return cls(
             _given(arguments.get("start"), "start", "NAME=VALUE", number),
             _given(arguments.get("bounds"), "bounds", "NAME=LOW:HIGH", _range),
@@ -308,7 +313,11 @@ def _given(
         Reads what follows ``NAME=``, from it and from the option that names it in errors.
     """
     if said is None or isinstance(said, Mapping):
+        for key, stated in (said or {}).items():
+            _check_stated(argument, key, stated)
         return said or {}
+    if not isinstance(said, Iterable) or not all(isinstance(text, str) for text in said):
+        raise SpecError(f"{option(argument)} is neither a dict nor texts: write {form}")
     made: dict[str, Value] = {}
     for text in [said] if isinstance(said, str) else said:
         name, mark, value = (part.strip() for part in text.partition("="))
@@ -318,6 +327,28 @@ def _given(
             raise SpecError(f"{option(argument, text)}: {name} is given already, give it once")
         made[name] = read(value, option(argument, text))
     return made
+
+
+def _check_stated(argument: str, name: object, value: object) -> None:
+    """Refuse what is stated about a parameter by a mapping in another form than its argument's."""
+    if not isinstance(name, str):
+        raise SpecError(f"{option(argument)} has the key {name!r}: give a parameter's name")
+    if argument == "ties":
+        fits = isinstance(value, str)
+    elif argument in ("bounds", "prior"):
+        fits = isinstance(value, Sequence) and len(value) == 2 and all(map(_is_number, value))
+    else:
+        fits = _is_number(value)
+    if not fits:
+        form = {"ties": "a formula", "bounds": "(low, high)", "prior": "(mean, deviation)"}
+        raise SpecError(
+            f"{option(argument)} of {name} is {one_line(repr(value), 80)}: give "
+            f"{form.get(argument, 'a number')}"
+        )
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def _range(text: str, what: str) -> tuple[float, float]:

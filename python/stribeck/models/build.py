@@ -6,12 +6,15 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+from stribeck.base.arguments import door
+from stribeck.base.checks import check_number
 from stribeck.base.errors import SpecError, nearest
 from stribeck.models.formula_law import check_terms, law_terms
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
 
 
+@door(spec=("a spec, LAW[+EFFECT...]", str))
 def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **values: float) -> Model:
     """A model by its spec, with parameter values by name or by symbol.
 
@@ -43,6 +46,7 @@ def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **value
     return _with_values(made, values)
 
 
+@door()
 def law(formula: str, /, *effects: str, parameters: Iterable[str] = (), **values: float) -> Model:
     """A friction law by formula, to be fitted, compared and saved like those of the catalog.
 
@@ -99,7 +103,6 @@ def _with_values(made: Model, values: Mapping[str, float]) -> Model:
             )
         if np.isfinite(placed[name]):
             raise SpecError(f"parameter {name} of {made.spec} is given twice: omit {given}")
-        if not np.isfinite(value):
-            raise SpecError(f"parameter {given} of {made.spec} is {value}: give a finite number")
+        check_number(given, value)
         placed[name] = float(value)
     return made.with_values(list(placed.values()))

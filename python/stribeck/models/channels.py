@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from numbers import Real
 from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
+from stribeck.base.errors import SpecError
 
 Array = NDArray[np.float64]
 
@@ -75,7 +77,7 @@ def columns(
         external = -load
     step: float | Array | None = None
     if dt is not None:
-        step = float(np.asarray(dt)) if np.ndim(dt) == 0 else column(dt, speed.shape)
+        step = float(column(dt)[()]) if np.ndim(dt) == 0 else column(dt, speed.shape)
     return {
         "dt": step,
         "velocity": speed,
@@ -122,6 +124,50 @@ def _usual(core: _core.Model, name: str, box: Mapping[str, tuple[float, float]])
 
 
 def column(values: ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
-    """`values` as a contiguous array of numbers, repeated to `shape` if one is given."""
-    repeated = values if shape is None else np.broadcast_to(values, shape)
+    """`values` as a contiguous array of numbers, repeated to `shape` if one is given.
+
+    Raises
+    ------
+    SpecError
+        They are no numbers (dates, texts and complex numbers are none), or not of this shape.
+    """
+    given = np.asanyarray(values)
+    if given.dtype == object:
+        numbers = all(isinstance(value, Real) for value in given.flat)
+    else:
+        numbers = given.dtype.kind in "fiu"
+    if not numbers or given.ndim > 1 or isinstance(given, np.ma.MaskedArray):
+        what = f"an array {list(given.shape)} of {given.dtype.name}"
+        raise SpecError(f"a channel is {what}: give numbers, an array [n]")
+    if shape is not None and given.shape not in ((), (1,), shape):
+        raise SpecError(
+            f"a channel has {given.size} samples where the velocity has {shape[0]}: give as many, "
+            f"or one number"
+        )
+    repeated = given if shape is None else np.broadcast_to(given, shape)
     return np.ascontiguousarray(repeated, dtype=np.float64)
+
+
+def constant(values: ArrayLike, size: int) -> Array:
+    """A copy of `values` that cannot be written to; NaN [size] where they are not of this size."""
+    copied = np.array(values, dtype=np.float64)
+    if copied.shape != (size,):
+        copied = np.full(size, np.nan)
+    copied.setflags(write=False)
+    return copied
+
+
+def finite(result: Array, what: str) -> Array:
+    """The result of a call, if all of it is finite.
+
+    Raises
+    ------
+    SpecError
+        The values lead beyond the range of numbers.
+    """
+    if not np.isfinite(result).all():
+        sample = int(np.argwhere(~np.isfinite(result))[0][0])
+        raise SpecError(
+            f"{what} is not finite at sample {sample}: check the values given and their units"
+        )
+    return result

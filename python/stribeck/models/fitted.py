@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Protocol, TypedDict
+from typing import TYPE_CHECKING, Protocol, TypedDict, runtime_checkable
 
 if TYPE_CHECKING:
     from stribeck.models.model import Model
@@ -27,6 +27,7 @@ class FittedOn(TypedDict, total=False):
     rmse_held_out: float
 
 
+@runtime_checkable
 class HasModel(Protocol):
     """Anything that holds a model: a model file, a fit."""
 

@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
+from stribeck.base.arguments import door
 from stribeck.base.checks import check_choice
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import ModelFileError, SpecError
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
-from stribeck.models.channels import columns, split_columns
+from stribeck.models.channels import columns, constant, finite, split_columns
 from stribeck.models.compiled import compiled
 from stribeck.models.drive import ARMATURE, KNOWN, VoltageDrive
 from stribeck.models.formula_law import FormulaTerms, check_names, effect_terms, is_formula
@@ -92,8 +93,7 @@ class Model:
     def __post_init__(self) -> None:
         if self.own:
             check_names(self.names, self.spec)
-        if self.values.shape != (len(self.names),):
-            object.__setattr__(self, "values", np.full(len(self.names), np.nan))
+        object.__setattr__(self, "values", constant(self.values, len(self.names)))
 
     @cached_property
     def core(self) -> _core.Model:
@@ -201,16 +201,19 @@ class Model:
 
     def value(self, name: str) -> float:
         """The value of one parameter, by name."""
+        if name not in self.names:
+            raise SpecError(f"{self.spec} has no parameter {name!r}: {', '.join(self.names)}")
         return float(self.values[self.names.index(name)])
 
     def with_values(self, values: ArrayLike) -> Model:
         """The same model with other values, array [p]."""
         # A copy shares the compiled model.
         made = copy(self)
-        object.__setattr__(made, "values", np.asarray(values, dtype=np.float64).copy())
+        object.__setattr__(made, "values", np.asarray(values, dtype=np.float64))
         made.__post_init__()
         return made
 
+    @door()
     def with_effect(self, effect: str, constants: Mapping[str, float]) -> Model:
         """The model with one more effect; known values are kept, new ones are NaN.
 
@@ -259,6 +262,7 @@ class Model:
         known = dict(zip(self.names, self.values, strict=True))
         return other.with_values([known.get(name, np.nan) for name in other.names])
 
+    @door()
     def torque(
         self,
         velocity: ArrayLike,
@@ -313,13 +317,15 @@ class Model:
         # In the order of `OTHER_CHANNELS`.
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
-        return self.core.torque(
+        torque = self.core.torque(
             self.known_values(),
             **columns(self.core, velocity, dt, given),
             state=state,
             single=precision == "single",
         )
+        return finite(torque, f"the torque of {self.spec}")
 
+    @door()
     def gradient(
         self,
         velocity: ArrayLike,
@@ -336,14 +342,14 @@ class Model:
         load_torque_curvature: ArrayLike | None = None,
     ) -> Array:
         """Derivatives of `torque` with respect to the parameters, array [n, p]."""
-        # In the order of `OTHER_CHANNELS`.
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
         _, jacobian = self.core.gradient(
             self.known_values(), **columns(self.core, velocity, dt, given), state=state
         )
-        return jacobian
+        return finite(jacobian, f"the gradient of {self.spec}")
 
+    @door()
     def split(self, velocity: ArrayLike, **channels: ArrayLike | None) -> dict[str, Array]:
         """The parts of the steady friction torque: ``dry`` (D), ``rate``, ``additive``, arrays [n].
 
@@ -382,6 +388,7 @@ class Model:
         own = {row["name"] for row in self.core.parameters()}
         return self.values[[name in own for name in self.names]]
 
+    @door(ModelFileError)
     def save(self, path: str | PathLike[str]) -> None:
         """Write the model file (TOML).
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import tomlkit
 from tomlkit.items import Table
 
-from stribeck.models.fitted import Fitted, FittedOn
+from stribeck.models.fitted import Fitted, FittedOn, HasModel
 from stribeck.models.model import Model
 from stribeck.models.writer import add_model, model_toml, write_model
 
@@ -73,3 +73,8 @@ class ModelFile:
             A parameter has no value, or the path cannot be written.
         """
         write_model(self.model, path, self.stderr, self.fitted_on)
+
+
+#: For `stribeck.base.arguments.door`.
+MODEL = ("a spec or a model", (str, Model))
+WITH_MODEL = ("a model, a model file or a fit", (Model, HasModel))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, StribeckError, nearest
 from stribeck.base.toml import TomlText, read_text
 from stribeck.models.catalog import law_ids
@@ -49,6 +50,7 @@ BOX_KEYS = (
 FITTED_KEYS = ("path", "sha256", "files", "rows", "time_span", "rmse", "rmse_held_out")
 
 
+@door(ModelFileError)
 def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
     """Read a model file; everything that is not understood is refused with its line.
 
@@ -61,6 +63,7 @@ def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
     return parse_model_file(read_text(target, "model file", ModelFileError), target)
 
 
+@door(ModelFileError)
 def load(path: str | os.PathLike[str]) -> Model:
     """Read the model of a model file.
 

@@ -9,9 +9,11 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from stribeck import _core
+from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError
 from stribeck.models.fitted import HasModel
 from stribeck.models.model import Model
+from stribeck.models.model_file import WITH_MODEL
 from stribeck.passivity.certificate import Certificate, Counterexample, Margin
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
@@ -25,6 +27,7 @@ BUDGET = 4_000_000
 KEPT = 64
 
 
+@door(model=WITH_MODEL)
 def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     """Prove that a model generates no energy over an operating box, or find a counterexample.
 

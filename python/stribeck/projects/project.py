@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import polars as pl
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import ProjectError, SpecError, nearest
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.diagnose import LEAST_FALL
@@ -393,6 +394,7 @@ class Project(Plotted):
         return project_frame(self)
 
 
+@door(ProjectError)
 def project(path: str | os.PathLike[str]) -> Project:
     """Open a project file, and check that its data have not changed; see `Project`."""
     return Project.open(path)

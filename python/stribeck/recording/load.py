@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError
 from stribeck.recording.assemble import build
 from stribeck.recording.one import of_joint, read_one
@@ -28,6 +29,7 @@ Tables: TypeAlias = Any
 __all__ = ["Given", "read", "read_all", "read_with"]
 
 
+@door(RecordingError, path=("a path, several, or a pattern", object))
 def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
     """Read one joint of a recording.
 
@@ -87,7 +89,7 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
     >>> sb.read({"t": t, "qd_rpm": np.sin(t), "tau": np.sign(np.sin(t))}).columns["velocity"].unit
     'rad/s'
     """
-    return read_with(path, ReadOptions(**options))
+    return read_with(path, ReadOptions.of(options))
 
 
 def read_with(path: Given | Tables, options: ReadOptions) -> Recording:
@@ -130,7 +132,7 @@ def _listed(given: Any) -> list[Any]:
 
 def read_all(path: str | Path, **options: Unpack[ReadArguments]) -> list[Recording]:
     """Read every joint of a recording, in order of appearance; see `read`."""
-    given = ReadOptions(**options)
+    given = ReadOptions.of(options)
     settings = gather(path, given)
     prepared = prepare(str(path), settings)
     wanted: Iterable[str | None] = joints_of(prepared) or [None]

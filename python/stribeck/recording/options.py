@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Literal, TypedDict, cast
 
-from stribeck.base.errors import RecordingError, option
+from stribeck.base.errors import RecordingError, nearest, one_line, option
 
 __all__ = [
     "TABLE",
@@ -209,6 +209,37 @@ class ReadOptions:
         },
     )
 
+    @classmethod
+    def of(cls, arguments: Mapping[str, object]) -> ReadOptions:
+        """From keyword arguments of `stribeck.read`.
+
+        Raises
+        ------
+        RecordingError
+            There is no such option.
+        """
+        for name in arguments:
+            if name not in _BY_NAME:
+                raise RecordingError(
+                    f"there is no {option(name)}{nearest(name, tuple(_BY_NAME))}; the options are "
+                    f"{', '.join(_BY_NAME)}"
+                )
+        return cls(**cast(ReadArguments, arguments))
+
+    def __post_init__(self) -> None:
+        for entry in TABLE:
+            value = getattr(self, entry.name)
+            wrong = value is not None and (
+                (entry.kind in ("text", "path") and not isinstance(value, str | os.PathLike))
+                or (entry.kind == "switch" and not isinstance(value, bool))
+                or (entry.kind == "pairs" and not _are_pairs(value))
+            )
+            if wrong:
+                form = entry.form or entry.kind
+                raise RecordingError(
+                    f"{option(entry.name)} is {one_line(repr(value), 80)}: give {form}"
+                )
+
     def given(self) -> ReadArguments:
         """The options that are not at their default, as keyword arguments of `stribeck.read`.
 
@@ -247,6 +278,12 @@ class ReadOptions:
             A text without ``=``, or with nothing on one side of it.
         """
         return split_pairs(name, getattr(self, name))
+
+
+def _are_pairs(value: object) -> bool:
+    if isinstance(value, str | Mapping):
+        return True
+    return isinstance(value, Iterable) and all(isinstance(item, str) for item in value)
 
 
 #: Every option of `stribeck.read`, in the order of the command line's help.

@@ -95,7 +95,7 @@ def scan(path: str | Path, **options: Unpack[ReadArguments]) -> Table:
     RecordingError
         The file cannot be opened, or an option or formula is wrong.
     """
-    return scan_with(path, ReadOptions(**options))
+    return scan_with(path, ReadOptions.of(options))
 
 
 def scan_with(path: str | Path, options: ReadOptions) -> Table:

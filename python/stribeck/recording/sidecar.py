@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import re
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from stribeck.base.errors import RecordingError, nearest
+from stribeck.base.toml import TomlText
 from stribeck.recording.options import TABLE, FilePath, Limit, check_limit
 
 __all__ = ["Sidecar", "find_sidecar", "read_sidecar", "sidecar_hash"]
@@ -59,24 +60,13 @@ class Sidecar:
 def find_sidecar(path: FilePath) -> Path | None:
     """Return the sidecar beside a recording (``FILE.EXT.sidecar.toml``), if there is one."""
     beside = Path(f"{path}.sidecar.toml")
-    return beside if beside.is_file() else None
+    return beside if os.path.isfile(beside) else None
 
 
 def sidecar_hash(path: FilePath, named: FilePath | None = None) -> str | None:
     """SHA-256 of the sidecar of a recording, `named` or beside it; None where it has none."""
     beside = Path(named) if named is not None else find_sidecar(path)
     return None if beside is None else hashlib.sha256(beside.read_bytes()).hexdigest()
-
-
-def _parse(text: str) -> Toml:
-    if sys.version_info >= (3, 11):
-        import tomllib
-    else:
-        import tomli as tomllib
-    try:
-        return tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ValueError(str(error)) from None
 
 
 def _line(text: str, key: str, table: str | None = None) -> str:
@@ -137,10 +127,7 @@ class _Page:
     def __init__(self, name: str, text: str) -> None:
         self.name = name
         self.text = text
-        try:
-            self.content = _parse(text)
-        except ValueError as error:
-            raise RecordingError(f"{name}: is not TOML: {error}") from None
+        self.content = TomlText(Path(name), text, RecordingError).parsed()
 
     def stop(self, problem: str, key: str, table: str | None = None) -> RecordingError:
         """The error about a key, with its line."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from stribeck.base.arguments import door
+from stribeck.base.errors import FitError
 from stribeck.base.shown import Shown
 from stribeck.diagnosis.trials.trial import add_effect
 from stribeck.fitting.fit import on_recording, with_choices
-from stribeck.fitting.result import Fit
+from stribeck.fitting.result import FIT, Fit
 from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import check_effect, simpler_effect
 from stribeck.models.formula_law import is_formula
@@ -41,6 +43,7 @@ class Addition(Shown):
         }
 
 
+@door(FitError, fitted=FIT)
 def add(
     fitted: Fit,
     effect: str,

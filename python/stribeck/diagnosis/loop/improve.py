@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import polars as pl
 
+from stribeck.base.arguments import door
+from stribeck.base.errors import FitError
 from stribeck.base.pool import on_threads
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.all_samples import (
@@ -33,7 +35,9 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_effects
 from stribeck.identify.scaling import model_for
 from stribeck.identify.transients import transient_rows
+from stribeck.models.catalog import check_effect
 from stribeck.models.model import Model
+from stribeck.models.model_file import MODEL
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
@@ -100,6 +104,7 @@ class Improvement(Plotted):
         return pl.DataFrame(rows)
 
 
+@door(FitError, base=MODEL)
 def improve(
     base: str | Model,
     recording: Recordings,
@@ -132,6 +137,8 @@ def improve(
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the base model or of effects
         that may be added. They stay in force throughout.
     """
+    for effect in rejected:
+        check_effect(effect)
     recording = as_one(recording)
     progress(f"fitting {base if isinstance(base, str) else base.spec}")
     few = excerpt(recording, sample_rows, seed)

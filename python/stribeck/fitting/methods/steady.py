@@ -12,7 +12,7 @@ import tomlkit
 from numpy.typing import NDArray
 
 from stribeck.base.errors import ModelFileError
-from stribeck.base.files import write_whole
+from stribeck.base.files import write_table
 from stribeck.base.shown import Shown
 from stribeck.identify.covariance import correlation_length
 from stribeck.recording.recording import Recording
@@ -112,8 +112,9 @@ class SteadyPoints(Shown):
         ModelFileError
             The file cannot be written.
         """
-        write_whole(f"{path}.sidecar.toml", self._sidecar(), ModelFileError)
-        write_whole(path, self.to_frame().write_csv(), ModelFileError)
+        if Path(path).suffix.lower() != ".csv":
+            raise ModelFileError(f"cannot write {path}: its name must end in .csv")
+        write_table(path, self.to_frame().write_csv().encode(), self._sidecar(), ModelFileError)
 
     def _sidecar(self) -> str:
         sidecar = {

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck import _core
+from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError
 from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile
+from stribeck.models.model_file import WITH_MODEL, ModelFile
 from stribeck.passivity.friction import friction_part
 from stribeck.passivity.operating_box import Box, operating_box
 
@@ -66,6 +67,7 @@ class Factor(Shown):
         }
 
 
+@door(compensator=WITH_MODEL)
 def largest_factor(
     compensator: Model | ModelFile | Fit,
     friction: Model | ModelFile | Fit | None = None,

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from stribeck import _core
 from stribeck.base.errors import SpecError
 from stribeck.fitting.result import Fit
+from stribeck.models.channels import finite
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.motion.simulate.acting import Acting, friction_of, take_apart
@@ -192,6 +193,8 @@ class Bench:
             )
         except _core.ModelError as error:
             raise SpecError(f"{friction.spec} cannot be simulated: {error}") from None
+        for name in ("position", "velocity", "torque", "friction_torque"):
+            finite(answer[name], f"the simulated {name.replace('_', ' ')} of {friction.spec}")
         return ClosedLoopMotion(
             compensator=compensator,
             position=answer["position"],

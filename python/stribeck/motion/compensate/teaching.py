@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError
 from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile
+from stribeck.models.model_file import WITH_MODEL, ModelFile
 from stribeck.motion.compensate.loop import Array, Bench, ClosedLoopMotion, Compensator
 from stribeck.motion.simulate.drive import Controller
 from stribeck.motion.simulate.joint import Joint
@@ -99,6 +100,7 @@ class Teaching(Shown):
         return {"friction": self.friction.spec, "inertia": self.joint.inertia, "motions": rows}
 
 
+@door(friction=WITH_MODEL)
 def teach(
     friction: Model | ModelFile | Fit,
     joint: Joint | None,

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import polars as pl
 from numpy.typing import ArrayLike
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError
 from stribeck.base.shown import Plotted
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile
+from stribeck.models.model_file import WITH_MODEL, ModelFile
 from stribeck.motion.compensate.controller import HInfinity
 from stribeck.motion.compensate.loop import Array, Bench, ClosedLoopMotion, Compensator
 from stribeck.motion.simulate.joint import Joint
@@ -80,6 +81,7 @@ class Tracking(Plotted):
         ]
 
 
+@door(friction=WITH_MODEL)
 def compensate(
     friction: Model | ModelFile | Fit,
     joint: Joint | None,

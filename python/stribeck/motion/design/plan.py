@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError, option
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.testable import untestable
@@ -21,7 +22,7 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import catalog, check_effect, effect_ids
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile
+from stribeck.models.model_file import WITH_MODEL, ModelFile
 from stribeck.motion.design.fourier import FourierMotions
 from stribeck.motion.design.information import Sight, Wanted, sight
 from stribeck.motion.design.motion import Family, Limits
@@ -38,6 +39,7 @@ SHORTEST, LONGEST = 5.0, 3600.0
 FASTER = 5.0
 
 
+@door(of=WITH_MODEL)
 def plan(
     of: Fit | ModelFile,
     *,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import io
-import os
 import tempfile
 from pathlib import Path
 
 import polars as pl
 
+from stribeck.base.files import place_table
+from stribeck.base.replaceable import check_table
 from stribeck.motion.generate.hidden import Truth
 from stribeck.motion.generate.ur5e import JOINTS, RobotRecording
 
@@ -31,8 +32,10 @@ def write_robot(recording: RobotRecording, target: Path) -> None:
     """Write the recording of a robot as Parquet or CSV, atomically.
 
     The full Test 2 has 16 million rows. Each joint is written to a file of its own first, so that
-    one joint at a time is in memory; polars then joins the files as a stream.
+    one joint at a time is in memory; polars then joins the files as a stream. The sidecar is
+    written beside it.
     """
+    check_table(target)
     with tempfile.TemporaryDirectory(dir=target.parent, prefix=f".{target.name}.") as folder:
         parts = []
         for joint in JOINTS:
@@ -45,4 +48,4 @@ def write_robot(recording: RobotRecording, target: Path) -> None:
             joined.sink_csv(whole)
         else:
             joined.sink_parquet(whole, compression="zstd")
-        os.replace(whole, target)
+        place_table(whole, target, recording.sidecar_text())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from stribeck.base.checks import check_number
 from stribeck.base.errors import SpecError
 
 
@@ -31,15 +32,14 @@ class Transmission:
 
     def __post_init__(self) -> None:
         for name in ("motor_inertia", "stiffness"):
-            _check_positive(f"the transmission's {name}", getattr(self, name))
+            _check_positive(f"transmission.{name}", getattr(self, name))
         for name in ("damping", "backlash"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0.0):
-                raise SpecError(f"the transmission's {name} is {value:g}: give 0 or more")
+            check_number(f"transmission.{name}", getattr(self, name), 0.0)
 
 
 def _check_positive(what: str, value: float) -> None:
-    if not (math.isfinite(value) and value > 0.0):
+    check_number(what, value)
+    if not value > 0.0:
         raise SpecError(f"{what} is {value:g}: give one above 0")
 
 
@@ -75,9 +75,8 @@ class Joint:
 
     def __post_init__(self) -> None:
         for name in ("inertia", "gravity", "gravity_cos", "gravity_sin"):
-            if not math.isfinite(getattr(self, name)):
-                raise SpecError(f"the joint's {name} is {getattr(self, name)}: give a number")
-        _check_positive("the joint's inertia", self.inertia)
+            check_number(name, getattr(self, name))
+        _check_positive("inertia", self.inertia)
 
     @classmethod
     def revolute(

@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
+from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError
 from stribeck.fitting.result import Fit
+from stribeck.models.channels import finite
 from stribeck.models.model import Model
-from stribeck.models.model_file import ModelFile
+from stribeck.models.model_file import WITH_MODEL, ModelFile
 from stribeck.motion.simulate.acting import Acting, take_apart
 from stribeck.motion.simulate.drive import Drive, Follow, Pull, Torque
 from stribeck.motion.simulate.joint import Joint
@@ -23,6 +25,7 @@ Array = NDArray[np.float64]
 MOST_STEPS = 10_000_000
 
 
+@door(model=WITH_MODEL)
 def simulate(
     model: Model | ModelFile | Fit,
     joint: Joint | None,
@@ -107,6 +110,8 @@ def _simulated(
         )
     except _core.ModelError as error:
         raise SpecError(f"{model.spec} cannot be simulated: {error}") from None
+    for name in ("position", "velocity", "torque", "friction_torque"):
+        finite(answer[name], f"the simulated {name.replace('_', ' ')} of {model.spec}")
     return Simulation(
         model=model,
         joint=acting.joint,

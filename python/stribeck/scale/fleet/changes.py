@@ -9,6 +9,7 @@ from datetime import date, timedelta
 
 import polars as pl
 
+from stribeck.base.checks import check_count, check_number, check_share
 from stribeck.base.errors import option
 from stribeck.scale.fleet.moderated import (
     Difference,
@@ -53,6 +54,12 @@ class Question:
     history: int = 28
     false_discovery_rate: float = 0.05
     least_change: float = 0.02
+
+    def __post_init__(self) -> None:
+        check_count("window", self.window)
+        check_count("history", self.history)
+        check_share("false_discovery", self.false_discovery_rate)
+        check_number("least_change", self.least_change, 0.0)
 
 
 @dataclass(frozen=True)

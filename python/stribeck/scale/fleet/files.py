@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import glob
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -22,7 +23,7 @@ def expand(files: Iterable[str | Path]) -> list[str]:
     found: set[str] = set()
     for given in map(str, files):
         matches = [given]
-        if glob.has_magic(given) and not Path(given).exists():
+        if glob.has_magic(given) and not os.path.exists(given):
             matches = glob.glob(given, recursive=True)
             if not matches:
                 raise RecordingError(f"no file matches {given}: check the pattern")

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING
 
 import polars as pl
 
-from stribeck.base.errors import SpecError, StribeckError
+from stribeck.base.arguments import door
+from stribeck.base.errors import RecordingError, SpecError, StribeckError
 from stribeck.base.version import __version__
 from stribeck.models.formula_law import is_formula
 from stribeck.models.model import Model
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
 
+@door(RecordingError)
 def fleet(
     files: Iterable[str | Path],
     output: str | Path,
@@ -112,7 +114,7 @@ def _work(
     """Check the arguments and return the work to do on every joint."""
     if starts < 1 or seed < 0:
         raise SpecError(f"{starts} starts, seed {seed}: give at least 1 start and a seed from 0 on")
-    options = ReadOptions(**reading)
+    options = ReadOptions.of(reading)
     if options.sidecar is not None:
         read_sidecar(options.sidecar)
         options = replace(options, sidecar=str(Path(options.sidecar).absolute()))

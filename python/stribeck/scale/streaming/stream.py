@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError, option
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.diagnose import diagnose as diagnose_in_memory
@@ -175,6 +176,7 @@ class Stream:
         )
 
 
+@door(RecordingError)
 def stream(
     path: str | Path,
     *,
@@ -212,7 +214,7 @@ def stream(
 
         fitted = sb.stream("logs/", map=["velocity=dq_3"]).fit("coulomb+load")
     """
-    settings = gather(path, ReadOptions(**reading))
+    settings = gather(path, ReadOptions.of(reading))
     if settings.weights is not None:
         raise RecordingError(
             f"{path}: weights need all samples in memory: leave out {option('weights')}, or give "

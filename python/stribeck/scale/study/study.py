@@ -11,7 +11,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from stribeck.base.errors import FitError, SpecError, option
+from stribeck.base.arguments import door
+from stribeck.base.errors import FitError, RecordingError, SpecError, option
 from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
@@ -37,6 +38,7 @@ class StudyArguments(ReadArguments, ChoiceArguments, total=False):
 Progress = Callable[[int, int], None]
 
 
+@door(RecordingError)
 def study(
     path: str | Path,
     output: str | Path,
@@ -109,7 +111,7 @@ def _split(options: StudyArguments) -> tuple[ReadOptions, Choices]:
             f"a study searches from each start, {choices.algorithm} does not: give another "
             f"{option('algorithm')}"
         )
-    return ReadOptions(**reading), choices
+    return ReadOptions.of(reading), choices
 
 
 def _fit(
