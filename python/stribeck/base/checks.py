@@ -7,7 +7,7 @@ from numbers import Integral, Real
 
 from stribeck.base.errors import SpecError, one_line, option
 
-__all__ = ["LARGEST", "check_choice", "check_count", "check_number", "check_share"]
+__all__ = ["LARGEST", "check_choice", "check_count", "check_finite", "check_number", "check_share"]
 
 #: The largest number that enters: products of three are still finite.
 LARGEST = 1e100
@@ -20,20 +20,28 @@ def check_number(
 
     Examples
     --------
-    >>> check_number("inertia", float("inf"))
+    >>> check_number("inertia", 1e200)
     Traceback (most recent call last):
-    stribeck.base.errors.SpecError: `inertia=inf`: give a finite number of at most 1e+100
+    stribeck.base.errors.SpecError: `inertia=1e+200`: give a number of at most 1e+100
     """
+    number = check_finite(name, value)
+    if not abs(number) <= LARGEST:
+        raise SpecError(f"{_given(name, value)}: give a number of at most {LARGEST:g}")
+    if not low <= number <= high:
+        raise SpecError(f"{_given(name, value)}: give a number from {low:g} to {high:g}{unit}")
+
+
+def check_finite(name: str, value: object) -> float:
+    """The number; raises `SpecError` if `value` is none, or is not finite."""
     if not isinstance(value, Real) or isinstance(value, bool):
-        raise SpecError(f"{_given(name, value)}: give a number{unit}")
+        raise SpecError(f"{_given(name, value)}: give a number")
     try:
         number = float(value)
     except OverflowError:
         number = math.inf
-    if not abs(number) <= LARGEST:
-        raise SpecError(f"{_given(name, value)}: give a finite number of at most {LARGEST:g}")
-    if not low <= number <= high:
-        raise SpecError(f"{_given(name, value)}: give a number from {low:g} to {high:g}{unit}")
+    if not math.isfinite(number):
+        raise SpecError(f"{_given(name, value)}: give a finite number")
+    return number
 
 
 def check_share(name: str, value: object) -> None:

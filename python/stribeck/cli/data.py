@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import glob
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
 import click
 
 from stribeck.base.errors import SpecError
-from stribeck.base.files import kind_of
+from stribeck.base.replaceable import kind_of
 from stribeck.identify.statements import names_in
 from stribeck.models.formula_law import is_formula
 from stribeck.recording.readers import SUFFIXES
@@ -31,9 +32,9 @@ def is_data(argument: str) -> bool:
     other files, folders and patterns are data, and so is what is named like one of them.
     """
     path, bare = Path(argument), argument.lower().removesuffix(".gz")
-    if path.is_dir() or bare.endswith((*SUFFIXES, ".sidecar.toml")):
+    if os.path.isdir(path) or bare.endswith((*SUFFIXES, ".sidecar.toml")):
         return True
-    if path.is_file():
+    if os.path.isfile(path):
         with path.open("rb") as stream:
             kind = kind_of(stream.read(_HEAD))
         return not kind.endswith(" file") and not bare.endswith(".toml")

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from stribeck.base.arguments import door
-from stribeck.base.checks import check_number
+from stribeck.base.checks import check_finite
 from stribeck.base.errors import SpecError, nearest
 from stribeck.models.formula_law import check_terms, law_terms
 from stribeck.models.model import Model
@@ -103,6 +103,5 @@ def _with_values(made: Model, values: Mapping[str, float]) -> Model:
             )
         if np.isfinite(placed[name]):
             raise SpecError(f"parameter {name} of {made.spec} is given twice: omit {given}")
-        check_number(given, value)
-        placed[name] = float(value)
+        placed[name] = check_finite(given, value)
     return made.with_values(list(placed.values()))

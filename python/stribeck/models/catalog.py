@@ -11,7 +11,7 @@ from stribeck import _core
 from stribeck.base.errors import SpecError, nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Mapping
 
     from stribeck.models.rows import Catalog, EffectRow, LawRow
 
@@ -60,6 +60,12 @@ def check_effect(effect: str) -> str:
             f"`stribeck effects` lists them"
         )
     return effect
+
+
+def check_effects(effects: Iterable[str]) -> None:
+    """Raise `SpecError` unless the catalog has every one of `effects`."""
+    for effect in effects:
+        check_effect(effect)
 
 
 def laws() -> pl.DataFrame:

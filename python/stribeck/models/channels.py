@@ -77,7 +77,7 @@ def columns(
         external = -load
     step: float | Array | None = None
     if dt is not None:
-        step = float(column(dt)[()]) if np.ndim(dt) == 0 else column(dt, speed.shape)
+        step = float(column(dt)[0]) if np.ndim(dt) == 0 else column(dt, speed.shape)
     return {
         "dt": step,
         "velocity": speed,

@@ -314,7 +314,6 @@ class Model:
             A channel that the model reads is missing.
         """
         check_choice("precision", precision, ("double", "single"))
-        # In the order of `OTHER_CHANNELS`.
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
         torque = self.core.torque(

@@ -59,7 +59,7 @@ def test_beside_the_file(path, frame):
         ('kind = "recording"\nwhere = 3', "line 2: where must be a text"),
         ('kind = "recording"\n[map]\n\ntorque = 3', "line 4: map.torque must be a text"),
         ('kind = "recording"\nmap = 3', r"line 2: map must be a table: write \[map\]"),
-        ('kind = "recording"\nkm = ?\n', "is not TOML.*line 2"),
+        ('kind = "recording"\nkm = ?\n', "not a TOML file.*line 2"),
         ('kind = "recording"\njoint_kind = "screwed"', "joint_kind screwed: unknown kind of joint"),
         ('kind = "recording"\naverage = "joint"', "average joint: unknown value; give run or row"),
     ],

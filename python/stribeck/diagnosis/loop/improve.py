@@ -35,7 +35,7 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_effects
 from stribeck.identify.scaling import model_for
 from stribeck.identify.transients import transient_rows
-from stribeck.models.catalog import check_effect
+from stribeck.models.catalog import check_effects
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
@@ -137,8 +137,7 @@ def improve(
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the base model or of effects
         that may be added. They stay in force throughout.
     """
-    for effect in rejected:
-        check_effect(effect)
+    check_effects(rejected)
     recording = as_one(recording)
     progress(f"fitting {base if isinstance(base, str) else base.spec}")
     few = excerpt(recording, sample_rows, seed)

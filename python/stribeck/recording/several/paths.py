@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from stribeck.base.errors import RecordingError, option
-from stribeck.base.files import kind_of
+from stribeck.base.replaceable import kind_of
 from stribeck.recording.options import FilePath
 from stribeck.recording.readers import SUFFIXES
 
@@ -69,7 +69,7 @@ def _listed(given: Given) -> Sequence[FilePath]:
 
 def is_folder_or_pattern(path: FilePath) -> bool:
     """Whether a path is a folder, or a pattern that is no file."""
-    return Path(path).is_dir() or (glob.has_magic(os.fspath(path)) and not Path(path).exists())
+    return os.path.isdir(path) or (glob.has_magic(os.fspath(path)) and not os.path.exists(path))
 
 
 def text_of(given: Given, files: Sequence[str]) -> str:
@@ -114,7 +114,7 @@ def run_names(files: Sequence[str]) -> list[str]:
 
 def _found(path: str) -> list[str]:
     """The files that one path names."""
-    if Path(path).is_dir():
+    if os.path.isdir(path):
         files = [str(file) for file in Path(path).iterdir() if _is_recording(file)]
         if not files:
             raise RecordingError(
@@ -123,7 +123,7 @@ def _found(path: str) -> list[str]:
             )
         return _ordered(files)
     if is_folder_or_pattern(path):
-        files = [file for file in glob.glob(path, recursive=True) if Path(file).is_file()]
+        files = [file for file in glob.glob(path, recursive=True) if os.path.isfile(file)]
         files = [file for file in files if not file.endswith(".toml")]
         if not files:
             raise RecordingError(f"{path}: no file matches this pattern")

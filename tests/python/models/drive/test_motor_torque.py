@@ -9,7 +9,6 @@ import polars as pl
 import pytest
 import stribeck as sb
 from servo_recording import GRAVITY, INERTIA, TRUTH, balanced, friction
-from stribeck import _core
 from stribeck.base.errors import FitError
 
 
@@ -91,5 +90,5 @@ def test_explicit_and_balanced_torque_agree() -> None:
 
 def test_a_self_locking_joint_is_refused() -> None:
     model = sb.model("bam_m3", Kc=0.0, Kl=1.1, Kv=0.0)
-    with pytest.raises(_core.ModelError, match=r"no motor torque moves the joint at sample 1"):
+    with pytest.raises(sb.SpecError, match=r"no motor torque moves the joint at sample 1"):
         model.torque([0.0, 1.0], load_torque=[1.0, 1.0], external_torque=[-1.0, -1.0])
