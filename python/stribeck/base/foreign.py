@@ -48,6 +48,8 @@ def sentence_of(error: BaseException) -> str | None:
         )
     if isinstance(error, OSError):
         return one_line(_of_the_system(error))
+    if isinstance(error, ValueError) and "embedded null" in str(error):
+        return "a name has a null character: give one without"
     if type(error).__module__.startswith("stribeck._core"):
         return one_line(str(error))
     return None
