@@ -126,8 +126,7 @@ def improve(
     Parameters
     ----------
     rejected, candidates : collections of str
-        Effects that are never added, and effects by formula that are tried as well
-        (``"creep = c*abs(load)*sgn(v)"``).
+        Effects never to add, and effects by formula to try (``"creep = c*abs(load)*sgn(v)"``).
     sample_rows : int
         A longer recording is searched for effects on this number of samples, in evenly spaced
         stretches; the model of each step is then identified on all samples.

@@ -59,8 +59,7 @@ def study(
     path
         The recording. ``joint`` selects one joint.
     output
-        Folder of the study. Every fit is written there when it ends; a second run with the same
-        arguments continues from there.
+        Folder of the study. Every fit is written at its end; the same arguments continue a study.
     laws
         Specs; default: the 25 of the review.
     starts
