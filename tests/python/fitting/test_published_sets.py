@@ -17,7 +17,17 @@ NOISE = 0.1
 #: Largest speeds, rad/s, of the recordings of a law.
 SPEEDS = {"m_star": (200.0,), "indri_static": (1.0,)}
 #: Laws that are searched for more than a second.
-SLOW = ("bittencourt_b", "iskandar", "dahl", "lugre", "indri_b", "tadese_t", "m_star", "zhou")
+SLOW = (
+    "tadese_full",
+    "bittencourt_b",
+    "iskandar",
+    "dahl",
+    "lugre",
+    "indri_b",
+    "tadese_t",
+    "m_star",
+    "zhou",
+)
 
 
 def recorded(folder: Path, speed: float, torque: np.ndarray | None, name: str) -> sb.Recording:
@@ -54,7 +64,22 @@ def true_model(law: str, printed: dict[str, float], recording: sb.Recording) -> 
     return model.with_values(values)
 
 
-SETS = {**TABLE_7, "m_star": M_STAR, "indri_static": direct_drive(1)}
+#: Tadese et al. 2021 print stiffness and damping of the bristle (table 2, here joint 2); the other
+#: values are those of their curves in size, with the signs of each quadrant.
+TADESE_FULL = {
+    "s0": 12930.0,
+    "s1": 233.0,
+    "vd": 0.05,
+    **{"Fc_plus": 12.0, "Fc_minus": 13.0},
+    **{"s20_plus": 40.0, "s2T_plus": -0.4, "s30_plus": 0.9, "s3T_plus": 0.01},
+    **{"s20_minus": 38.0, "s2T_minus": -0.35, "s30_minus": 0.8, "s3T_minus": 0.012},
+    **{"g1_1": 3.0, "g2_1": 2.0, "g3_1": 0.5, "l1_1": 0.15, "l2_1": 0.02},
+    **{"g1_2": -1.0, "g2_2": 1.5, "g3_2": -0.3, "l1_2": 0.02, "l2_2": 0.005},
+    **{"g1_3": -2.5, "g2_3": 2.5, "g3_3": -0.6, "l1_3": 0.12, "l2_3": -0.015},
+    **{"g1_4": 0.8, "g2_4": 1.2, "g3_4": 0.2, "l1_4": 0.03, "l2_4": 0.004},
+}
+
+SETS = {"tadese_full": TADESE_FULL, **TABLE_7, "m_star": M_STAR, "indri_static": direct_drive(1)}
 
 
 @pytest.mark.parametrize(
