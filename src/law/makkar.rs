@@ -15,7 +15,8 @@ parameters! {
         /// How fast the Stribeck curve rises from rest.
         stribeck_rise: "a2" ["s/X"] 0.2 .. 1e5, start 100.0, InverseSpeed, Nonlinear;
         /// How fast the Stribeck curve falls again.
-        stribeck_fall: "a3" ["s/X"] -1e3 .. 1e3, start 10.0, InverseSpeed, Nonlinear;
+        stribeck_fall: "a3" ["s/X"]
+            -1e3 .. 1e3, start 10.0 drawn -30.0 .. 30.0, InverseSpeed, Nonlinear;
         /// Dry friction in full sliding.
         coulomb_friction: "a4" ["T"] 0.0 .. 10.0, start 0.5, Torque, Dry;
         /// How fast Coulomb friction rises from rest.

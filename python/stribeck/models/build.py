@@ -9,6 +9,7 @@ import numpy as np
 from stribeck.base.arguments import door
 from stribeck.base.checks import check_finite
 from stribeck.base.errors import SpecError, nearest
+from stribeck.models.catalog import constants_of
 from stribeck.models.formula_law import check_terms, law_terms
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
@@ -34,7 +35,8 @@ def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **value
     Raises
     ------
     SpecError
-        A law, effect or parameter that does not exist, or a value that is not finite.
+        A law, effect or parameter that does not exist, a constant that neither the law nor an
+        effect reads, or a value that is not finite.
 
     Examples
     --------
@@ -42,8 +44,9 @@ def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **value
     'bittencourt_a'
     """
     law, effects = parse_spec(spec)
-    made = Model(law=law, effects=effects, constants=dict(constants or {}))
-    return _with_values(made, values)
+    given = dict(constants or {})
+    _check_constants(spec, law, effects, given)
+    return _with_values(Model(law=law, effects=effects, constants=given), values)
 
 
 @door()
@@ -86,6 +89,16 @@ def law(formula: str, /, *effects: str, parameters: Iterable[str] = (), **values
     for effect in effects:
         made = made.with_effect(effect, {})
     return _with_values(made, values)
+
+
+def _check_constants(
+    spec: str, law: str, effects: Iterable[str], constants: Mapping[str, float]
+) -> None:
+    read = constants_of(law, effects)
+    for name in constants:
+        if name not in read:
+            known = f"it reads {', '.join(read)}" if read else "it reads none"
+            raise SpecError(f"{spec} does not read the constant {name!r}; {known}")
 
 
 def _with_values(made: Model, values: Mapping[str, float]) -> Model:

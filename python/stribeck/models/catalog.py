@@ -46,6 +46,18 @@ def effect_row(effect: str) -> EffectRow | None:
     return catalog()["effects"].get(effect)
 
 
+def constants_of(law: str, effects: Iterable[str]) -> list[str]:
+    """Names of the constants that a law of the catalog and its effects read.
+
+    Examples
+    --------
+    >>> constants_of("hao_b", ["load"])
+    ['base_temperature', 'reference_load']
+    """
+    rows = [catalog()["laws"][law.partition(":")[0]], *(effect_row(effect) for effect in effects)]
+    return [name for row in rows if row is not None for name in row["constants"]]
+
+
 def simpler_effect(effect: str) -> str | None:
     """The simpler effect that `effect` contains; None where there is none."""
     row = effect_row(effect)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from numpy.typing import NDArray
+from stribeck.models.catalog import constants_of
 
 Array = NDArray[np.float64]
 
@@ -46,7 +47,9 @@ def channels(rows: int, rate: float = 200.0) -> dict[str, Array]:
 def filled(spec: str, seed: int = 3) -> sb.Model:
     """A model with plausible values: each in its range, none on a bound."""
     rng = np.random.default_rng(seed)
-    empty = sb.model(spec, constants=CONSTANTS)
+    law, *effects = spec.split("+")
+    read = constants_of(law, effects)
+    empty = sb.model(spec, constants={name: CONSTANTS[name] for name in read if name in CONSTANTS})
     values = []
     for p in empty.parameters:
         if p.lower > 0:
@@ -66,6 +69,14 @@ def test_values_by_name_by_symbol_and_mixed() -> None:
         ("viscous_friction", "a1"),
         ("coulomb_friction", "a2"),
     ]
+
+
+def test_a_constant_that_is_not_read_is_refused() -> None:
+    """`hao_b` has a base temperature; a reference temperature would change nothing."""
+    with pytest.raises(sb.SpecError, match="'reference_temperature'; it reads base_temperature"):
+        sb.model("hao_b", constants={"reference_temperature": 20.0})
+    with pytest.raises(sb.SpecError, match="it reads none"):
+        sb.model("coulomb", constants={"reference_temperature": 20.0})
 
 
 def test_torque_is_the_formula_of_each_law() -> None:
