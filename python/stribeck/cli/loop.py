@@ -164,7 +164,7 @@ def diagnose(
             seed=seed,
             sample_rows=streaming.sample_rows,
         )
-    save_findings(diagnosis.findings, figures)
+    save_findings((*diagnosis.findings, *diagnosis.demoted), figures)
     if report is not None:
         from stribeck.report.page import diagnosis_page
 

@@ -112,7 +112,7 @@ def diagnose(
         made.save()
     say(f"wrote {made.path}")
     assert made.diagnosis is not None
-    save_findings(made.diagnosis.findings, figures)
+    save_findings((*made.diagnosis.findings, *made.diagnosis.demoted), figures)
     if report is not None:
         from stribeck.report.page import diagnosis_page
 

@@ -47,9 +47,14 @@ def with_excerpt_note(fitted: Fit, rows: int) -> Fit:
 
 def with_errors_on_all_samples(found: Diagnosis, whole: Fit) -> Diagnosis:
     """A diagnosis of stretches with the errors on all samples, those of `whole`."""
-    findings = []
-    for finding in found.findings:
+
+    def on_all(finding: Finding) -> Finding:
         after = on_all_samples(finding.fit, whole.recording, whole.transient)
-        findings.append(with_errors_of(finding, whole, after, found.noise_floor))
-    rows = found.fit.recording.rows
-    return replace(found, fit=with_excerpt_note(whole, rows), findings=tuple(findings))
+        return with_errors_of(finding, whole, after, found.noise_floor)
+
+    return replace(
+        found,
+        fit=with_excerpt_note(whole, found.fit.recording.rows),
+        findings=tuple(map(on_all, found.findings)),
+        demoted=tuple(map(on_all, found.demoted)),
+    )

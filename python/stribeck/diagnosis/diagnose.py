@@ -15,7 +15,8 @@ from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.trials.candidates import candidates_for, passing_trials
 from stribeck.diagnosis.trials.proxies import without_proxies
-from stribeck.diagnosis.trials.ranking import findings
+from stribeck.diagnosis.trials.ranking import Ranked, ranked
+from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility.visibility import visibility
 from stribeck.fitting.fit import fit, on_recording, with_choices
@@ -97,21 +98,34 @@ def _diagnosed(
     """A diagnosis on all samples of the fit's recording."""
     offered = candidates_for(fitted, rejected, candidates)
     passed, tried = passing_trials(fitted, offered.possible, least_fall, seed)
-    good = without_proxies(fitted, passed)
-    best = good[0].fit if good else fitted
+    sift = Sifted.of(fitted, passed, least_fall)
+    sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
+    best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)
-    ranked = findings(fitted, good, tried, least_fall, floor, seed)
-    if brief and ranked:
-        return Diagnosis(fitted, floor, "missing", ranked, offered.untestable, NOT_ASKED)
+    order = ranked(fitted, sift, tried, least_fall, floor, seed)
+    found = order.findings
+    if brief and found:
+        return Diagnosis(
+            fitted,
+            floor,
+            "missing",
+            found,
+            offered.untestable,
+            NOT_ASKED,
+            demoted=order.demoted,
+            not_claimed=order.not_claimed,
+        )
     # Without repeated states a regressor learns nothing that holds on other blocks.
-    after = ranked[0].fit if ranked else fitted
+    after = found[0].fit if found else fitted
     explained = None if floor.value is None else explainable(fitted, after)
-    structure = unexplained(after, floor, explained, last=not ranked)
-    verdict = "missing" if ranked else ("unexplained" if structure.is_structure else "none")
+    structure = unexplained(after, floor, explained, last=not found)
+    # An effect that passes the test of evidence explains more than noise, if only by imitation.
+    remains = structure.is_structure or order.demoted or order.not_claimed
+    verdict = "missing" if found else ("unexplained" if remains else "none")
     shown = visibility(
         fitted,
         [effect for effect in offered.possible if effect in effect_ids()],
-        found={e for finding in ranked for e in (finding.effect, *finding.indistinguishable_from)},
+        found=_named(order),
         tried=tried,
         significance=SIGNIFICANCE,
         least_fall=least_fall,
@@ -120,10 +134,19 @@ def _diagnosed(
         fit=fitted,
         noise_floor=floor,
         verdict=verdict,
-        findings=ranked,
+        findings=found,
         untestable=(*offered.untestable, *shown.hidden),
         unexplained=structure,
         smallest_visible=shown.smallest,
         groups=shown.groups,
         explainable=explained,
+        demoted=order.demoted,
+        not_claimed=order.not_claimed,
     )
+
+
+def _named(order: Ranked) -> set[str]:
+    """Effects that a result names."""
+    found = (*order.findings, *order.demoted)
+    named = {e for finding in found for e in (finding.effect, *finding.indistinguishable_from)}
+    return named | {row.effect for row in order.not_claimed}

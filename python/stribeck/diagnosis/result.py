@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import polars as pl
 
 from stribeck.base.shown import Plotted
+from stribeck.diagnosis.plausibility.carried import Carried
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import NotClaimed
 from stribeck.diagnosis.residual.explainable import Explainable
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.unexplained import Unexplained
@@ -25,6 +29,8 @@ class Finding(Plotted):
         One sentence: where the data shows it.
     fit, before
         The models with and without it.
+    demoted
+        Why the recording cannot show it, where it is demoted.
     """
 
     effect: str
@@ -36,6 +42,12 @@ class Finding(Plotted):
     indistinguishable_from: tuple[str, ...]
     fit: Fit
     before: Fit
+    demoted: str | None = None
+
+    @cached_property
+    def carried(self) -> Carried:
+        """Which samples and moves carry what it gains."""
+        return Carried.of(Claim(self.effect, self.before, self.fit))
 
     def to_dict(self) -> dict[str, object]:
         """The JSON of one finding."""
@@ -47,6 +59,15 @@ class Finding(Plotted):
             "share_of_unexplained": self.share_of_unexplained,
             "where": self.where,
             "indistinguishable_from": list(self.indistinguishable_from),
+            **self.support(),
+        }
+
+    def support(self) -> dict[str, object]:
+        """What carries the finding, as JSON."""
+        return {
+            "share_of_rows": self.carried.share,
+            "carried_by": self.carried.to_dict(),
+            "demoted": self.demoted,
         }
 
 
@@ -57,8 +78,13 @@ class Diagnosis(Plotted):
     Attributes
     ----------
     verdict : {"missing", "none", "unexplained"}
+        ``"unexplained"`` also where effects pass the test but are demoted or not claimed.
     findings
         Effects that pass the test, best first.
+    demoted
+        Effects that pass it, but by too few events to be claimed.
+    not_claimed
+        Effects that pass it with values that cannot be right.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
@@ -76,6 +102,13 @@ class Diagnosis(Plotted):
     smallest_visible: tuple[SmallestVisible, ...] = ()
     groups: tuple[Group, ...] = ()
     explainable: Explainable | None = None
+    demoted: tuple[Finding, ...] = ()
+    not_claimed: tuple[NotClaimed, ...] = ()
+
+    @property
+    def has_doubts(self) -> bool:
+        """Whether effects lower the held-out error that are demoted or not claimed."""
+        return bool(self.demoted or self.not_claimed)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON of `stribeck diagnose`."""
@@ -86,7 +119,8 @@ class Diagnosis(Plotted):
             "unit": self.fit.model.torque_unit,
             "noise_floor": self.noise_floor.value,
             "verdict": self.verdict,
-            "findings": [finding.to_dict() for finding in self.findings],
+            "findings": [row.to_dict() for row in (*self.findings, *self.demoted)],
+            "not_claimed": [row.to_dict() for row in self.not_claimed],
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
             "explainable": self.explainable.to_dict() if self.explainable else None,

@@ -192,6 +192,9 @@ class Effect:
         between which the smallest visible effect is searched, from large effects to small ones.
     forms
         How many forms a fit chooses from by looking at the data; they count as so many tests.
+    unresolved
+        Why the identified values lie beyond what the recording resolves, as a clause: a time
+        constant longer than a move, a distance between two samples; None where they do not.
     part_of
         Another effect that contains this one on any motion.
     design_note
@@ -218,6 +221,7 @@ class Effect:
     fixed_form: FixedForm | None = None
     size_range: tuple[float, float] | None = None
     forms: Callable[[Recording], int] = _one_form
+    unresolved: Callable[[Identified], str | None] = _nothing
     part_of: str | None = None
     design_note: str = ""
     in_motion: InMotion = "acts"

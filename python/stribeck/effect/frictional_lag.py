@@ -17,11 +17,14 @@ from stribeck.effect.columns import delayed
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.stribeck import SLOW, no_slow_motion
 from stribeck.models.model import Model
+from stribeck.recording.moves import move_seconds
 from stribeck.recording.recording import Recording
 
 #: The slow speeds must be passed within this time (s) for a lag of some hundredths of a second to
 #: show.
 SLOW_PASS = 2.0
+#: A lag beyond this share of a typical move is none: friction would belong to another move.
+LONGEST = 0.1
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
@@ -90,6 +93,19 @@ def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
     return {"frictional_lag": 0.1 * joint.stroke / joint.speed}
 
 
+def _unresolved(after: Identified) -> str | None:
+    lag, r = after.model.value("frictional_lag"), after.recording
+    longest = LONGEST * move_seconds(r)
+    if lag > longest:
+        return (
+            f"friction would lag by {number(lag)} s, more than a tenth of a typical move, which "
+            f"lasts {number(longest / LONGEST)} s"
+        )
+    if lag < r.scales()["sample_period"]:
+        return f"friction would lag by {number(1e3 * lag)} ms, less than a sample"
+    return None
+
+
 EFFECT = Effect(
     id="frictional_lag",
     view=ResidualView("acceleration_along", along="motion", regime="low_speed"),
@@ -99,4 +115,5 @@ EFFECT = Effect(
     refusal=_refusal,
     flexible_shape=_flexible_shape,
     size_range=(10.0, 1e-2),
+    unresolved=_unresolved,
 )

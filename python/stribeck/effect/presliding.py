@@ -15,9 +15,12 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.columns import displacement_since_reversal, hats
 from stribeck.effect.facts import RecordingFacts
+from stribeck.recording.moves import moves
 
 #: Reversals needed to see what happens in them.
 FEWEST_REVERSALS = 4
+#: Scored samples within the distance over which friction builds up, after each of them.
+INSIDE = 2
 
 #: What to say of averaged points where reversals are needed.
 NO_REVERSALS = Obstacle(
@@ -36,13 +39,29 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     )
 
 
-def _where(before: Identified, after: Identified) -> str:
+def _distance(after: Identified) -> float:
+    """Distance over which friction builds up, rad or m."""
     m = after.model
     slow = 1e-3 * max(abs(x) for x in m.box["velocity"])
-    distance = float(m.split(slow)["dry"][0]) / m.value("presliding_stiffness")
+    return float(m.split(slow)["dry"][0]) / m.value("presliding_stiffness")
+
+
+def _where(before: Identified, after: Identified) -> str:
     return (
-        f"after each reversal friction builds up over about {number(distance)} {m.position_unit} "
-        f"of motion instead of jumping"
+        f"after each reversal friction builds up over about {number(_distance(after))} "
+        f"{after.model.position_unit} of motion instead of jumping"
+    )
+
+
+def _unresolved(after: Identified) -> str | None:
+    r, distance = after.recording, _distance(after)
+    inside = r.moving & (displacement_since_reversal(r) <= distance)
+    seen = np.bincount(np.maximum(moves(r)[inside], 0)) >= INSIDE
+    if int(seen.sum()) >= FEWEST_REVERSALS:
+        return None
+    return (
+        f"friction would build up over {number(distance)} {after.model.position_unit}, which the "
+        f"joint passes within a sample or slower than the sensor resolves"
     )
 
 
@@ -69,6 +88,7 @@ EFFECT = Effect(
     flexible_shape=_flexible_shape,
     # The stiffer the bristles, the smaller the effect.
     size_range=(1.0, 1e4),
+    unresolved=_unresolved,
     design_note=(
         "presliding ends after micrometres to millimetres: record at the highest rate and at the "
         "finest resolution of the encoder"

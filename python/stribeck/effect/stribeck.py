@@ -23,6 +23,10 @@ FEWEST_SLOW, SHARE_SLOW = 20, 0.002
 #: The same of steady-state points, and the number that is always enough.
 FEWEST_SLOW_POINTS, ENOUGH_SLOW_POINTS = 5, 2
 
+#: Largest share of the height that may be left at the top speed: with more, friction is
+#: never seen to settle, and the curve imitates a bent viscous one.
+LEFT = 0.1
+
 
 def no_slow_motion(facts: RecordingFacts) -> Obstacle | None:
     """Slow motion in both directions is missing."""
@@ -61,6 +65,24 @@ def _flexible_shape(fit: Identified) -> list[Array]:
     return [np.sign(v) * np.exp(-np.abs(v) / (slow * k)) for k in (0.3, 1.0, 3.0)]
 
 
+def _unresolved(after: Identified) -> str | None:
+    m, r = after.model, after.recording
+    slow = m.value("stribeck_velocity")
+    top = float(np.quantile(np.abs(r.velocity[after.rows]), 0.99))
+    unit = f"{m.position_unit}/s"
+    if slow < r.velocity_threshold:
+        return (
+            f"friction would fall around {number(slow)} {unit}, slower than what is scored, "
+            f"{number(r.velocity_threshold)} {unit}"
+        )
+    if np.exp(-((top / slow) ** m.value("stribeck_exponent"))) > LEFT:
+        return (
+            f"friction would fall around {number(slow)} {unit}, and the joint reaches only "
+            f"{number(top)} {unit}"
+        )
+    return None
+
+
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
     return {
         "stribeck_height": 0.35 * joint.coulomb,
@@ -76,4 +98,5 @@ EFFECT = Effect(
     where=_where,
     plausible=_plausible,
     flexible_shape=_flexible_shape,
+    unresolved=_unresolved,
 )

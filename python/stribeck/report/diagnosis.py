@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from stribeck.effect.describe import physically
 from stribeck.report.comparison import noise_floor_sentence
 from stribeck.report.layout import bullets, joined, notes_text, paragraph
-from stribeck.report.numbers import confidence_words, listed, percent, plain
+from stribeck.report.numbers import confidence_text, confidence_words, hedge, listed, percent, plain
 from stribeck.report.recording import file_name, held_out_meaning
 from stribeck.report.residual import residual_figure
 
@@ -28,8 +28,12 @@ VERDICTS = {
     "none": "Nothing is missing: the residual is noise.",
     "unexplained": "Unexplained structure remains, but none of the known effects explains it.",
 }
-#: Headings of the two lists of a diagnosis.
+#: The verdict where effects lower the held-out error, and none may be claimed.
+NO_CLAIM = "What remains is more than noise, but no effect can be claimed on this recording."
+#: Headings of the lists of a diagnosis.
 VISIBLE = "Not found. Smallest RMS torque that would have been found 19 times in 20"
+DEMOTED = "Lowers the held-out error, but too few events show it"
+NOT_CLAIMED = "Not claimed, because the values that fit cannot be right"
 ALIKE = "Indistinguishable from each other on this data"
 
 
@@ -47,7 +51,7 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
     return joined(
         f"What is missing from {f.model.spec} on {file_name(f.recording)}?",
         paragraph(errors_sentence(diagnosis)),
-        joined(VERDICTS[diagnosis.verdict], *findings[:likely]),
+        joined(_verdict(diagnosis), *findings[:likely]),
         joined(paragraph(less_likely_sentence(likely_effects(diagnosis)), 0), *findings[likely:])
         if findings[likely:]
         else "",
@@ -56,9 +60,34 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         paragraph(following, 0),
         bullets(f"{VISIBLE}:", visible_rows(diagnosis.smallest_visible)),
         bullets(f"{ALIKE}:", group_rows(diagnosis.groups)),
+        doubts_text(diagnosis),
         untestable_text(diagnosis.untestable),
         notes_text(f.recording.notes, f.notes),
     )
+
+
+def _verdict(diagnosis: Diagnosis) -> str:
+    """The verdict as a heading, in proportion to the confidence."""
+    if not diagnosis.findings and diagnosis.has_doubts:
+        return NO_CLAIM
+    said = VERDICTS[diagnosis.verdict]
+    word = hedge(diagnosis.findings[0].confidence) if diagnosis.findings else ""
+    return f"{word.capitalize()} {said[0].lower()}{said[1:]}" if word else said
+
+
+def doubts_text(diagnosis: Diagnosis) -> str:
+    """Effects that lower the held-out error, but are demoted or not claimed, and why."""
+    return joined(*(bullets(f"{heading}:", rows) for heading, rows in doubts(diagnosis)))
+
+
+def doubts(diagnosis: Diagnosis) -> list[tuple[str, list[str]]]:
+    """The same as headings with a sentence for each effect; nothing where there is no effect."""
+    demoted = [
+        f"{row.effect} (confidence {confidence_text(row.confidence)}): {row.demoted}."
+        for row in diagnosis.demoted
+    ]
+    refused = [f"{row.effect}: {row.reason}." for row in diagnosis.not_claimed]
+    return [row for row in ((DEMOTED, demoted), (NOT_CLAIMED, refused)) if row[1]]
 
 
 def diagnosis_figure(diagnosis: Diagnosis) -> Figure:
@@ -71,16 +100,39 @@ def diagnosis_summary(diagnosis: Diagnosis) -> str:
     """What a diagnosis found, in one sentence."""
     spec, unit = diagnosis.fit.model.spec, diagnosis.fit.model.torque_unit
     if not diagnosis.findings:
-        return nothing_found(spec, unexplained=diagnosis.verdict != "none")
+        return nothing_found(diagnosis, spec, unexplained=diagnosis.verdict != "none")
     best = diagnosis.findings[0]
     return (
-        f"What the model {spec} lacks most is {best.effect}: adding it lowers the held-out error "
+        f"What the model {spec} lacks most is {hedged(best)}: adding it lowers the held-out error "
         f"from {plain(best.rmse_held_out_before)} to {plain(best.rmse_held_out_after)} {unit}."
     )
 
 
-def nothing_found(spec: str, *, unexplained: bool) -> str:
+def hedged(finding: Finding, word: str | None = None) -> str:
+    """The effect of a finding; one that is not sure with `word` before it and what speaks against.
+
+    Parameters
+    ----------
+    word
+        Default: what the confidence demands.
+    """
+    word = hedge(finding.confidence) if word is None else word
+    if not hedge(finding.confidence):
+        return finding.effect
+    ties = ""
+    if finding.indistinguishable_from:
+        others = listed(finding.indistinguishable_from, "or")
+        ties = f"; this motion cannot tell it from {others}"
+    return f"{word} {finding.effect} ({confidence_text(finding.confidence)}{ties})".strip()
+
+
+def nothing_found(last: Diagnosis, spec: str, *, unexplained: bool) -> str:
     """That no effect was found, and whether something remains unexplained."""
+    if last.has_doubts:
+        return (
+            f"The model {spec} leaves more than noise on this recording, but no effect that lowers "
+            f"its held-out error can be claimed."
+        )
     if unexplained:
         return (
             f"The model {spec} leaves unexplained structure on this recording, but no known effect "
@@ -119,13 +171,22 @@ def finding_text(finding: Finding, number: int | None = None) -> str:
         paragraph(f"In this data: {finding.where}.", 5),
         paragraph(
             f"Held-out error {plain(finding.rmse_held_out_before)} → "
-            f"{plain(finding.rmse_held_out_after)} {unit}{share}.",
+            f"{plain(finding.rmse_held_out_after)} {unit}{share}. {carried_sentence(finding)}",
             5,
         ),
     ]
     if finding.indistinguishable_from:
         parts.append(paragraph(indistinguishable_sentence(finding), 5))
     return "\n".join(parts)
+
+
+def carried_sentence(finding: Finding) -> str:
+    """Which part of the data carries a finding."""
+    carried = finding.carried
+    events = "points" if finding.fit.recording.averaged else "moves"
+    return (
+        f"{percent(carried.share)} of the samples and {carried.events} {events} carry 90 % of that."
+    )
 
 
 def indistinguishable_sentence(finding: Finding) -> str:

@@ -6,23 +6,26 @@ from typing import TYPE_CHECKING
 
 from stribeck.effect.describe import physically
 from stribeck.report.diagnosis import (
+    doubts_text,
     explainable_text,
     finding_text,
     floor_sentence,
+    hedged,
     left_text,
     nothing_found,
     untestable_text,
 )
-from stribeck.report.fit import errors_text
+from stribeck.report.fit import PASSIVITY, errors_text
 from stribeck.report.layout import bars, joined, notes_text, paragraph
-from stribeck.report.numbers import listed, percent, plain
-from stribeck.report.parameters import parameters_text
+from stribeck.report.numbers import hedge, listed, percent, plain
+from stribeck.report.parameters import not_identifiable_text, open_text, parameters_text
 from stribeck.report.recording import file_name, held_out_meaning
 
 if TYPE_CHECKING:
     from stribeck.diagnosis.loop.add import Addition
     from stribeck.diagnosis.loop.improve import Improvement
     from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+    from stribeck.diagnosis.result import Finding
     from stribeck.fitting.result import Fit
 
 STOPPED = {
@@ -41,7 +44,7 @@ def improvement_text(improvement: Improvement) -> str:
     final, floor = improvement.final, improvement.noise_floor
     r, unit = final.recording, final.model.torque_unit
     steps = [finding_text(step.finding, k) for k, step in enumerate(improvement.steps, 1)]
-    stopped = STOPPED[improvement.stopped]
+    stopped = stopped_sentence(improvement)
     is_structure = improvement.unexplained.is_structure
     return joined(
         f"Improving {improvement.base.model.spec} on {file_name(r)}",
@@ -55,10 +58,21 @@ def improvement_text(improvement: Improvement) -> str:
         paragraph(explainable_text(improvement.last.explainable, final.model.spec, unit), 0),
         f"Final model: {final.model.spec}",
         parameters_text(final.estimates),
+        open_text(final.estimates),
+        not_identifiable_text(final.estimates, final.combinations),
         errors_text(final),
+        paragraph(PASSIVITY[final.passive()]),
+        doubts_text(improvement.last),
         untestable_text(improvement.untestable),
         notes_text(r.notes, final.notes),
     )
+
+
+def stopped_sentence(improvement: Improvement) -> str:
+    """Why the loop ended."""
+    if improvement.stopped == "nothing_passes" and improvement.last.has_doubts:
+        return "Stopped: no further effect that lowers the held-out error can be claimed."
+    return STOPPED[improvement.stopped]
 
 
 def step_labels(improvement: Improvement) -> list[str]:
@@ -86,8 +100,9 @@ def summary_sentence(improvement: Improvement) -> str:
     base, final = improvement.base, improvement.final
     unit, spec = final.model.torque_unit, base.model.spec
     if not improvement.steps:
-        return nothing_found(spec, unexplained=improvement.unexplained.is_structure)
-    text = f"The model {spec} lacks {listed([step.finding.effect for step in improvement.steps])}"
+        structure = improvement.unexplained.is_structure
+        return nothing_found(improvement.last, spec, unexplained=structure)
+    text = f"The model {spec} {_lacks([step.finding for step in improvement.steps])}"
     if base.rmse_held_out is None or final.rmse_held_out is None:
         return text + "."
     it = "it" if len(improvement.steps) == 1 else "them"
@@ -102,6 +117,14 @@ def summary_sentence(improvement: Improvement) -> str:
     if final.rmse_held_out < LARGER * floor:
         return f"{text}, and the remaining error is noise ({noise})."
     return f"{text} ({noise})."
+
+
+def _lacks(findings: list[Finding]) -> str:
+    """``lacks`` and the effects, the sure ones first, the others with a word of doubt."""
+    ordered = sorted(findings, key=lambda f: ("", "probably", "perhaps").index(hedge(f.confidence)))
+    first = hedge(ordered[0].confidence)
+    said = [hedged(f, "" if hedge(f.confidence) == first else None) for f in ordered]
+    return f"{first} lacks {listed(said)}".strip()
 
 
 def _above_the_floor(fitted: Fit, floor: NoiseFloor) -> str:

@@ -105,6 +105,19 @@ def confidence_words(confidence: float) -> str:
     return f"{words} (confidence {confidence_text(confidence)})"
 
 
+def hedge(confidence: float) -> str:
+    """The word that a claim of this confidence needs before it; empty for a sure one.
+
+    Examples
+    --------
+    >>> hedge(0.98), hedge(0.9), hedge(0.3)
+    ('', 'probably', 'perhaps')
+    """
+    if confidence >= 0.95:
+        return ""
+    return "probably" if confidence >= 0.55 else "perhaps"
+
+
 def confidence_text(confidence: float) -> str:
     """A confidence (0..1) with two digits; never rounded to 0 or 1.
 

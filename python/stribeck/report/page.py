@@ -15,6 +15,7 @@ from stribeck.report.diagnosis import (
     ALIKE,
     VISIBLE,
     diagnosis_summary,
+    doubts,
     errors_sentence,
     explainable_text,
     floor_sentence,
@@ -28,7 +29,13 @@ from stribeck.report.diagnosis import (
     visible_rows,
 )
 from stribeck.report.finding import finding_figure
-from stribeck.report.improvement import STOPPED, step_errors, step_labels, summary_sentence
+from stribeck.report.fit import PASSIVITY
+from stribeck.report.improvement import (
+    step_errors,
+    step_labels,
+    stopped_sentence,
+    summary_sentence,
+)
 from stribeck.report.improvement_figure import improvement_figure
 from stribeck.report.numbers import (
     DASH,
@@ -92,9 +99,11 @@ def improvement_page(improvement: Improvement) -> str:
         floor=floor_sentence(floor, final.model.torque_unit),
         floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
         held_out=held_out_meaning(final.recording),
-        stopped=STOPPED[improvement.stopped],
+        stopped=stopped_sentence(improvement),
         left=left_text(improvement.unexplained),
         relative=None if final.relative_residual is None else percent(final.relative_residual),
+        passivity=PASSIVITY[final.passive()],
+        lists=doubts(improvement.last),
     )
 
 
@@ -119,7 +128,7 @@ def diagnosis_page(diagnosis: Diagnosis) -> str:
         likely=len(likely_effects(diagnosis)),
         less_likely=less_likely_sentence(likely_effects(diagnosis)),
         left=[sentence for sentence in sentences if sentence],
-        lists=[(heading, rows) for heading, rows in lists if rows],
+        lists=[*doubts(diagnosis), *((heading, rows) for heading, rows in lists if rows)],
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -30,9 +30,11 @@ from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.testable import Untestable
+from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_effects
+from stribeck.identify.estimates import Estimate
 from stribeck.identify.scaling import model_for
 from stribeck.identify.transients import transient_rows
 from stribeck.models.catalog import check_effects
@@ -72,10 +74,15 @@ class Improvement(Plotted):
                 "rmse_held_out": self.final.rmse_held_out,
                 "relative_residual": self.final.relative_residual,
                 "parameters": {n: e.to_dict() for n, e in self.final.estimates.items()},
+                "passive": self.final.passive(),
+                "undetermined": undetermined(self.final.estimates),
+                "determined_combinations": [row.to_dict() for row in self.final.combinations],
             },
             "rmse_held_out_base": self.base.rmse_held_out,
             "relative_residual_base": self.base.relative_residual,
             "stopped": self.stopped,
+            "demoted": [row.to_dict() for row in self.last.demoted],
+            "not_claimed": [row.to_dict() for row in self.last.not_claimed],
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
             "explainable": self.last.explainable.to_dict() if self.last.explainable else None,
@@ -157,13 +164,34 @@ def improve(
     found = path.last
     return Improvement(
         base=path.start,
-        steps=path.steps,
+        steps=_with_final_values(path),
         final=path.current,
         noise_floor=found.noise_floor,
         stopped=_stopped(path),
         untestable=found.untestable,
         unexplained=found.unexplained,
         last=found,
+    )
+
+
+def undetermined(estimates: Mapping[str, Estimate]) -> list[str]:
+    """Names of the parameters that a recording does not determine."""
+    return [name for name, e in estimates.items() if not (e.identifiable or e.held)]
+
+
+def _with_final_values(path: ImprovementPath) -> tuple[ImprovementStep, ...]:
+    """The steps, each with a sentence that states the values of the final model.
+
+    A later effect changes them, and a page must not state two values of one parameter.
+    """
+    return tuple(
+        replace(
+            step,
+            finding=replace(
+                step.finding, where=where(step.finding.effect, step.before, path.current)
+            ),
+        )
+        for step in path.steps
     )
 
 

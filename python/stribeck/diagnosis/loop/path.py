@@ -44,6 +44,7 @@ class ImprovementStep:
             "share_of_unexplained": self.finding.share_of_unexplained,
             "where": self.finding.where,
             "indistinguishable_from": list(self.finding.indistinguishable_from),
+            **self.finding.support(),
             "parameters": {n: e.to_dict() for n, e in self.after.estimates.items()},
         }
 

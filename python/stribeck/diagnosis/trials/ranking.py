@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
+from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import held_out_square
+from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
     TIE,
@@ -30,28 +33,40 @@ ALIKE = 0.9
 MATERIAL = 0.05
 
 
-def findings(
-    before: Fit, good: list[Trial], tried: int, least: float, floor: NoiseFloor, seed: int
-) -> tuple[Finding, ...]:
+@dataclass(frozen=True)
+class Ranked:
+    """Findings in order, those that are demoted, and effects that are not claimed."""
+
+    findings: tuple[Finding, ...]
+    demoted: tuple[Finding, ...]
+    not_claimed: tuple[NotClaimed, ...]
+
+
+def ranked(
+    before: Fit, sift: Sifted, tried: int, least: float, floor: NoiseFloor, seed: int
+) -> Ranked:
     """Order the trials that pass; of indistinguishable effects, the simplest first.
 
-    Empty where even the best explains hardly any of the unexplained error.
+    Without findings where even the best explains hardly any of the unexplained error.
     """
+    good = list(sift.stand)
     if not good:
-        return ()
+        return _none_but_demoted(before, sift, tried, floor)
     best = good[0]
     statistic = {t.effect: tie_statistic(best, t) for t in good}
     tied = _tied(before, good, statistic, tried, least, seed)
     ordered = tied + [t for t in good if t not in tied]
     first = refined(ordered[0], before, seed)
-    if not (passes(first, tried, least) and falls_on_all_samples(before, first)):
+    judged = Sifted.of(before, [first], least)
+    confirmed = passes(first, tried, least) and falls_on_all_samples(before, first)
+    if not (confirmed and judged.stand):
         # The thorough fit does not confirm the quick one.
-        rest = [t for t in good if t.effect != first.effect]
-        return findings(before, rest, tried, least, floor, seed)
+        rest = sift.instead(first, judged if confirmed else Sifted())
+        return ranked(before, rest, tried, least, floor, seed)
     taken = share_of_unexplained(before, first.fit, floor)
     # With a robust loss most of the unexplained error may be that of outliers.
     if taken is not None and taken < MATERIAL and before.loss_weight is None:
-        return ()
+        return _none_but_demoted(before, sift, tried, floor)
     ordered[0] = first
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
     total = sum(weights[t.effect] for t in tied)
@@ -63,7 +78,35 @@ def findings(
         share = weights[t.effect] / (total if is_tied else total + weights[t.effect])
         others = tuple(o for o in alike if o != t.effect) if is_tied else ()
         made.append(_finding(before, t, float((1.0 - chance) * share), others, floor))
-    return tuple(made)
+    rest = _none_but_demoted(before, sift, tried, floor, best, total)
+    return replace(rest, findings=tuple(made))
+
+
+def _none_but_demoted(
+    before: Fit,
+    sift: Sifted,
+    tried: int,
+    floor: NoiseFloor,
+    best: Trial | None = None,
+    total: float = 0.0,
+) -> Ranked:
+    """What the rules leave besides the findings that stand.
+
+    Parameters
+    ----------
+    best, total
+        The best trial that stands, if one does, and the weights of those tied with it, summed.
+    """
+    made = []
+    for trial, reason in ((row.trial, row.reason) for row in sift.demoted):
+        taken = share_of_unexplained(before, trial.fit, floor)
+        if taken is not None and taken < MATERIAL:
+            continue
+        weight = 1.0 if best is None else tie_weight(tie_statistic(best, trial))
+        chance = min(1.0, trial.evidence.p_value * tried)
+        confidence = min(DEMOTED, (1.0 - chance) * weight / (total + weight))
+        made.append(replace(_finding(before, trial, confidence, (), floor), demoted=reason))
+    return Ranked((), tuple(made), sift.not_claimed)
 
 
 def _tied(

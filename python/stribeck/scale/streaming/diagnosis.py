@@ -35,7 +35,7 @@ class StreamedDiagnosis(Shown):
         made["findings"] = [
             {**finding.to_dict(), **before_and_after(self.fit, after, floor)}
             for finding, after in zip(self.found.findings, self.with_finding, strict=True)
-        ]
+        ] + [row.to_dict() for row in self.found.demoted]
         own = self.fit.to_dict()
         made.update({key: own[key] for key in ("rmse", "rmse_held_out", "scored", "data", "notes")})
         return made

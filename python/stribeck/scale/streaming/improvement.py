@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.base.shown import Shown
-from stribeck.diagnosis.loop.improve import Improvement
+from stribeck.diagnosis.loop.improve import Improvement, undetermined
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.scale.streaming.result import StreamedFit
@@ -48,8 +48,12 @@ class StreamedImprovement(Shown):
             for step, before, after in zip(self.found.steps, self.fits, self.fits[1:], strict=False)
         ]
         last = self.final.to_dict()
-        same = ("model", "rmse", "rmse_held_out", "relative_residual", "parameters")
-        made["final"] = {key: last[key] for key in same}
+        same = ["model", "rmse", "rmse_held_out", "relative_residual", "parameters"]
+        same += ["passive", "determined_combinations"]
+        made["final"] = {
+            **{key: last[key] for key in same},
+            "undetermined": undetermined(self.final.estimates),
+        }
         made["rmse_held_out_base"] = self.fits[0].rmse_held_out
         made.update({key: last[key] for key in ("scored", "data", "notes")})
         return made

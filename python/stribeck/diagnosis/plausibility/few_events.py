@@ -1,0 +1,37 @@
+"""Rule: an effect shows in several independent events, and not in one alone."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.diagnosis.plausibility.carried import Carried, move_of, squares_of_moves
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.effect.base import number
+
+#: Moves that must carry an effect.
+FEWEST = 5
+
+
+def few_events(claim: Claim) -> str | None:
+    """Why too few moves carry the effect; None where enough do."""
+    events = Carried.of(claim).events
+    if events >= FEWEST:
+        return None
+    carry = "move carries" if events == 1 else "moves carry"
+    return f"only {events} {carry} 90 % of what it gains, and at least {FEWEST} must"
+
+
+def one_event(claim: Claim) -> str | None:
+    """Which move alone shows the effect; None where it shows without any of them.
+
+    Left out, the held-out error of the other moves falls less than a finding must bring.
+    """
+    squares = squares_of_moves(claim)
+    gain = squares[0] - squares[1]
+    best = int(np.argmax(gain))
+    left = [float(square.sum() - square[best]) for square in squares]
+    if left[0] > 0.0 and 1.0 - np.sqrt(left[1] / left[0]) >= claim.least_fall:
+        return None
+    first = claim.rows[move_of(claim) == best][0]
+    at = float(claim.before.recording.time[first])
+    return f"without the move that begins at {number(at)} s it would not be found"

@@ -1,0 +1,99 @@
+"""Rule: dry friction and inertia are not negative."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base import linear
+from stribeck.base.errors import StribeckError
+from stribeck.diagnosis.plausibility.claim import Array, Claim
+from stribeck.effect.base import number
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
+from stribeck.models.model import Model
+
+#: Standard errors by which a value must be negative.
+BEYOND = 1.96
+#: Share of the samples in which dry friction may be negative, and its size there as a share of the
+#: largest: the shape of an effect by a few waves or powers is not exact.
+SHARE, SIZE = 0.01, 0.05
+#: Samples on which dry friction is looked at.
+ROWS = 2000
+
+
+def negative_friction(claim: Claim) -> str | None:
+    """Why the model's dry friction is negative; None where it is not, or may not be."""
+    fit = claim.after
+    if fit.model.by_formula:
+        return None
+    rows = fit.rows[:: -(-fit.rows.size // ROWS)]
+    try:
+        dry = _dry(fit, fit.model, rows)
+    except StribeckError:
+        return None
+    least = float(np.quantile(dry, SHARE))
+    if least >= -SIZE * float(np.quantile(np.abs(dry), 1.0 - SHARE)):
+        return None
+    if float(np.quantile(dry + BEYOND * _error(fit, rows, dry), SHARE)) >= 0.0:
+        return None
+    return f"dry friction would be negative, down to {number(least)} {fit.model.load_unit}"
+
+
+def _dry(fit: Fit, model: Model, rows: NDArray[np.intp]) -> Array:
+    """Dry friction of some samples, array [m]."""
+    r = fit.recording
+    load = r.load_torque
+    if load is None:
+        load = fit.load if fit.load is not None else own_load(model, r)
+    columns = {
+        "position": r.position,
+        "acceleration": r.acceleration,
+        "temperature": r.temperature,
+        "load_torque": load,
+        "external_torque": r.external_torque,
+        "time": r.elapsed,
+    }
+    given = {name: column[rows] for name, column in columns.items() if column is not None}
+    return np.asarray(model.split(r.velocity[rows], **given)["dry"])
+
+
+def _error(fit: Fit, rows: NDArray[np.intp], dry: Array) -> Array:
+    """Standard error of dry friction, array [m]; zero where the fit has no covariance."""
+    if fit.covariance is None:
+        return np.zeros_like(dry)
+    covariance = fit.covariance.values
+    columns = []
+    for k, name in enumerate(fit.covariance.names):
+        step = 1e-3 * float(np.sqrt(max(covariance[k, k], 0.0)))
+        values = fit.model.values.copy()
+        values[fit.model.names.index(name)] += step
+        moved = _dry(fit, fit.model.with_values(values), rows) if step > 0.0 else dry
+        columns.append((moved - dry) / step if step > 0.0 else np.zeros_like(dry))
+    slope = np.column_stack(columns) if columns else np.zeros((dry.size, 0))
+    return np.sqrt(np.maximum(np.sum((slope @ covariance) * slope, axis=1), 0.0))
+
+
+def negative_inertia(claim: Claim) -> str | None:
+    """Why the whole inertia is negative; None where it is not, or may not be."""
+    fit = claim.after
+    found = fit.estimates.get("inertia")
+    if found is None or found.value >= 0.0:
+        return None
+    known = _known_inertia(fit) if "inertia" in fit.model.effects else 0.0
+    reach = BEYOND * found.stderr if found.stderr is not None else 0.0
+    if known is None or known + found.value + reach >= 0.0:
+        return None
+    return f"the inertia would be negative, {number(known + found.value)} {found.unit}"
+
+
+def _known_inertia(fit: Fit) -> float | None:
+    """Inertia in the recorded load torque: what in it is proportional to the acceleration."""
+    r, rows = fit.recording, fit.rows
+    load, a = r.load_torque, r.acceleration
+    if load is None or float(np.std(a[rows])) == 0.0:
+        return None
+    columns = [a[rows], np.ones(rows.size)]
+    if r.position is not None:
+        columns += [np.cos(r.position[rows]), np.sin(r.position[rows])]
+    return float(linear.least_norm(np.column_stack(columns), load[rows])[0])

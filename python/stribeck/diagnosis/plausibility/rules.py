@@ -1,0 +1,73 @@
+"""The table of rules, and what they say of a claim.
+
+An effect whose values are impossible only imitates another cause: it is not claimed. One that too
+few events carry may be right, but this recording cannot show it: it is demoted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from stribeck.diagnosis.plausibility.cancelling import cancelling
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.few_events import few_events, one_event
+from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
+from stribeck.diagnosis.plausibility.too_large import too_large
+from stribeck.diagnosis.plausibility.unresolved import unresolved
+
+#: A rule: the reason why a claim breaks it, or None.
+Rule = Callable[[Claim], str | None]
+
+#: An effect that breaks one of these is not claimed.
+IMPOSSIBLE: tuple[Rule, ...] = (
+    too_large,
+    cancelling,
+    negative_friction,
+    negative_inertia,
+    unresolved,
+)
+#: Nor is one with which another effect of the model breaks one of these.
+OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved)
+#: One that breaks one of these is demoted.
+WEAK: tuple[Rule, ...] = (few_events, one_event)
+
+#: The highest confidence of a demoted finding: as likely as not.
+DEMOTED = 0.5
+
+
+@dataclass(frozen=True)
+class NotClaimed:
+    """An effect that lowers the held-out error with values that cannot be right, and why."""
+
+    effect: str
+    reason: str
+
+    def to_dict(self) -> dict[str, object]:
+        """As JSON."""
+        return {"effect": self.effect, "reason": self.reason}
+
+
+def impossible(claim: Claim) -> str | None:
+    """Why the values of a claim cannot be right; None where they can.
+
+    Nor may it make those of another effect impossible.
+    """
+    if (reason := _first(IMPOSSIBLE, claim)) is not None:
+        return reason
+    for other in claim.before.model.effects:
+        reason = _first(OF_OTHERS, replace(claim, effect=other))
+        earlier = replace(claim, effect=other, after=claim.before)
+        if reason is not None and _first(OF_OTHERS, earlier) is None:
+            return f"it makes {other} impossible: {reason}"
+    return None
+
+
+def weak(claim: Claim) -> str | None:
+    """Why a recording cannot show what is claimed; None where it can."""
+    return _first(WEAK, claim)
+
+
+def _first(rules: tuple[Rule, ...], claim: Claim) -> str | None:
+    reasons = (rule(claim) for rule in rules)
+    return next((reason for reason in reasons if reason is not None), None)

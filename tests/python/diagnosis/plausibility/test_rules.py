@@ -1,0 +1,188 @@
+"""Each rule catches a made claim that cannot be right, and leaves a true one alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.plausibility.cancelling import cancelling
+from stribeck.diagnosis.plausibility.carried import Carried, fewest
+from stribeck.diagnosis.plausibility.claim import Claim, term_torques
+from stribeck.diagnosis.plausibility.few_events import few_events, one_event
+from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
+from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, weak
+from stribeck.diagnosis.plausibility.too_large import too_large
+from stribeck.diagnosis.plausibility.unresolved import unresolved
+from stribeck.identify.problem import Problem
+from synthetic import Array, joint, motion, record
+
+#: Torque of a made offset, N m.
+OFFSET = 0.5
+
+
+def made(folder: Path, extra: Array | float, effect: str, name: str = "made") -> Claim:
+    """The claim of `effect` on a recording that holds `extra` torque."""
+    recording = record(folder, joint(extra), name)
+    before = sb.fit("coulomb", recording, starts=1)
+    return Claim(effect, before, sb.add(before, effect, starts=4), 0.01)
+
+
+def with_values(claim: Claim, **values: float) -> Claim:
+    """The same claim with other values, and what the model then predicts."""
+    fit = claim.after
+    model = fit.model.with_values([values.get(n, fit.model.value(n)) for n in fit.model.names])
+    predicted = Problem(fit.recording, model, fit.rows, fit.load).predict(model.values)
+    return replace(claim, after=replace(fit, model=model, prediction=predicted))
+
+
+@pytest.fixture(scope="module")
+def offset(tmp_path_factory: pytest.TempPathFactory) -> Claim:
+    return made(tmp_path_factory.mktemp("offset"), OFFSET, "offset")
+
+
+@pytest.fixture(scope="module")
+def direction(tmp_path_factory: pytest.TempPathFactory) -> Claim:
+    _, _, v, _ = motion()
+    return made(tmp_path_factory.mktemp("direction"), 0.5 + 0.2 * np.abs(v), "direction")
+
+
+@pytest.fixture(scope="module")
+def stribeck_curve(tmp_path_factory: pytest.TempPathFactory) -> Claim:
+    _, _, v, _ = motion()
+    extra = 1.5 * np.exp(-np.abs(v) / 0.15) * np.sign(v)
+    return made(tmp_path_factory.mktemp("stribeck"), extra, "stribeck")
+
+
+@pytest.mark.parametrize("name", ["offset", "direction", "stribeck_curve"])
+def test_a_true_effect_breaks_no_rule(name: str, request: pytest.FixtureRequest) -> None:
+    claim = request.getfixturevalue(name)
+    assert [rule(claim) for rule in (*IMPOSSIBLE, *WEAK)] == [None] * len((*IMPOSSIBLE, *WEAK))
+    assert impossible(claim) is None and weak(claim) is None
+
+
+def test_a_torque_beyond_all_that_was_measured(offset: Claim) -> None:
+    r = offset.before.recording
+    span = float(np.ptp((r.torque - r.load_torque)[offset.rows]))
+    reason = too_large(with_values(offset, offset=1.01 * span))
+    assert reason is not None and reason.startswith("its torque would be")
+    assert too_large(with_values(offset, offset=0.99 * span)) is None
+
+
+def test_terms_that_cancel(tmp_path: Path) -> None:
+    """A difference between the directions of 40 N m, and an offset that takes it back."""
+    recording = record(tmp_path, joint(OFFSET))
+    before = sb.add(sb.fit("coulomb", recording, starts=1), "push = c", starts=1)
+    claim = Claim("direction", before, sb.add(before, "direction", starts=1), 0.01)
+    assert cancelling(claim) is None
+    large = with_values(claim, direction_coulomb=40.0, push=OFFSET - 40.0)
+    assert np.abs(large.after.residual[large.rows]).max() < 0.5
+    reason = cancelling(large)
+    assert reason is not None and "times their sum" in reason
+
+
+def test_gravity_and_inertia_of_a_pendulum_may_cancel(tmp_path: Path) -> None:
+    """They did so before the effect, which is not blamed."""
+    t = np.arange(4000) / 100.0
+    w = 2.0 * np.pi * 0.8
+    q = 0.5 * np.sin(w * t) * np.exp(-t / 40.0)
+    v, a = np.gradient(q, t), np.gradient(np.gradient(q, t), t)
+    friction = 0.05 * np.sign(v) + 0.02 * v
+    torque = 0.1 * a + 0.1 * w**2 * np.sin(q) + friction + 0.02
+    noise = 0.005 * np.random.default_rng(1).standard_normal(t.size)
+    frame = joint(rows=t.size).with_columns(
+        time=t, position=q, velocity=v, acceleration=a, torque=torque + noise
+    )
+    recording = record(tmp_path, frame.drop("load_torque"))
+    before = sb.fit("coulomb", recording, starts=1)
+    terms = term_torques(before)
+    assert np.std(terms["inertia"]) > 5.0 * np.std(terms["inertia"] + terms["gravity"])
+    assert cancelling(Claim("offset", before, sb.add(before, "offset", starts=1))) is None
+
+
+def test_dry_friction_below_zero(direction: Claim) -> None:
+    reason = negative_friction(with_values(direction, direction_coulomb=4.0))
+    assert reason is not None and "negative" in reason
+    # As large as Coulomb friction, within the interval.
+    coulomb = direction.after.model.value("coulomb_friction")
+    assert negative_friction(with_values(direction, direction_coulomb=coulomb)) is None
+
+
+def test_a_base_term_may_go_to_zero(tmp_path: Path) -> None:
+    """Friction in proportion to the load replaces the Coulomb term, and stays positive."""
+    frame = joint()
+    load, v = frame["load_torque"].to_numpy(), frame["velocity"].to_numpy()
+    extra = (0.4 * np.abs(load) - 3.0) * np.sign(v)
+    claim = made(tmp_path, extra, "load")
+    assert claim.after.model.value("coulomb_friction") < 0.1
+    assert impossible(claim) is None
+
+
+def test_inertia_below_zero(tmp_path: Path) -> None:
+    """The load torque holds 0.3 kg m2; an error of it may be negative, but not more than all."""
+    _, _, _, a = motion()
+    claim = made(tmp_path, -0.1 * a, "inertia")
+    assert claim.after.model.value("inertia") == pytest.approx(-0.1, abs=0.02)
+    assert negative_inertia(claim) is None
+    reason = negative_inertia(made(tmp_path, -0.8 * a, "inertia", "less"))
+    assert reason is not None and "inertia would be negative" in reason
+
+
+def test_a_stribeck_curve_that_never_ends_or_never_begins(stribeck_curve: Claim) -> None:
+    r = stribeck_curve.before.recording
+    top = float(np.quantile(np.abs(r.velocity[stribeck_curve.rows]), 0.99))
+    beyond = unresolved(with_values(stribeck_curve, stribeck_velocity=3.0 * top))
+    assert beyond is not None and "reaches only" in beyond
+    slow = unresolved(with_values(stribeck_curve, stribeck_velocity=0.5 * r.velocity_threshold))
+    assert slow is not None and "slower than what is scored" in slow
+
+
+def test_a_lag_beyond_a_move_or_within_a_sample(stribeck_curve: Claim) -> None:
+    lagging = sb.add(stribeck_curve.after, "frictional_lag", starts=2)
+    claim = Claim("frictional_lag", stribeck_curve.after, lagging, 0.01)
+    assert unresolved(with_values(claim, frictional_lag=0.03)) is None
+    long = unresolved(with_values(claim, frictional_lag=1.8))
+    assert long is not None and "typical move" in long
+    short = unresolved(with_values(claim, frictional_lag=1e-4))
+    assert short is not None and "less than a sample" in short
+
+
+def test_presliding_within_a_sample(tmp_path: Path) -> None:
+    claim = made(tmp_path, 0.0, "presliding")
+    dry = claim.after.model.value("coulomb_friction")
+    assert unresolved(with_values(claim, presliding_stiffness=dry / 0.05)) is None
+    reason = unresolved(with_values(claim, presliding_stiffness=dry / 9e-6))
+    assert reason is not None and "within a sample" in reason
+
+
+def test_one_move_carries_what_one_move_shows(tmp_path: Path) -> None:
+    """An offset during a second of the recording is a single event."""
+    t, _, _, _ = motion()
+    claim = made(tmp_path, np.where((t > 10.0) & (t < 11.0), 1.5, 0.0), "offset")
+    only = replace(
+        claim,
+        after=replace(
+            claim.after,
+            prediction=claim.before.prediction + np.where((t > 10.0) & (t < 11.0), 1.5, 0.0),
+            held_out=claim.before.held_out + np.where((t > 10.0) & (t < 11.0), 1.5, 0.0),
+        ),
+    )
+    reason = few_events(only)
+    assert reason is not None and "90 % of what it gains" in reason
+    lost = one_event(only)
+    assert lost is not None and "would not be found" in lost
+    assert weak(only) == reason
+
+
+def test_all_moves_carry_an_offset(offset: Claim) -> None:
+    found = Carried.of(offset)
+    assert found.share == pytest.approx(0.9, abs=0.02)
+    assert found.events >= 10
+
+
+def test_the_fewest() -> None:
+    assert fewest(np.zeros(4)) == 0
+    assert fewest(np.ones(10)) == 9
+    assert fewest(np.array([0.0, 100.0, 1.0])) == 1
