@@ -78,8 +78,8 @@ def ranked(
         share = weights[t.effect] / (total if is_tied else total + weights[t.effect])
         others = tuple(o for o in alike if o != t.effect) if is_tied else ()
         made.append(_finding(before, t, float((1.0 - chance) * share), others, floor))
-    rest = _none_but_demoted(before, sift, tried, floor, best, total)
-    return replace(rest, findings=tuple(made))
+    besides = _none_but_demoted(before, sift, tried, floor, best, total)
+    return replace(besides, findings=tuple(made))
 
 
 def _none_but_demoted(
