@@ -41,7 +41,8 @@ class Carried:
         changed = claim.change**2
         without, along = squares_of_moves(claim)
         of_moves = np.bincount(move_of(claim), changed, without.size)[along < without]
-        return cls(fewest(changed) / max(changed.size, 1), fewest(of_moves))
+        share = fewest(changed) / max(changed.size, 1)
+        return cls(share, fewest(of_moves.astype(np.float64)))
 
     def to_dict(self) -> dict[str, object]:
         """As JSON."""
