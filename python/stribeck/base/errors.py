@@ -27,6 +27,7 @@ __all__ = [
     "RecordingError",
     "SpecError",
     "StribeckError",
+    "listed",
     "nearest",
     "one_line",
     "option",
@@ -101,6 +102,31 @@ def nearest(name: str, options: Iterable[str]) -> str:
     by_folded = {option.casefold(): option for option in options}
     found = difflib.get_close_matches(name.casefold(), list(by_folded), n=1, cutoff=0.6)
     return f"; did you mean '{by_folded[found[0]]}'?" if found else ""
+
+
+#: Characters of a list of names in a sentence.
+_LISTED = 200
+
+
+def listed(names: Iterable[str]) -> str:
+    """Names separated by commas; of many, or of long ones, the first and how many there are more.
+
+    Examples
+    --------
+    >>> listed(["t", "q"]), listed(str(i) for i in range(3000))[-24:]
+    ('t, q', '4, 65, 66 and 2933 more')
+    """
+    every = list(names)
+    shown, size = [], 0
+    for name in every:
+        size += len(name) + 2
+        if size > _LISTED and len(every) > 1:
+            break
+        shown.append(name)
+    left = len(every) - len(shown)
+    text = ", ".join(shown) if shown else f"{every[0][:_LISTED]}..." if every else ""
+    left -= not shown and bool(every)
+    return f"{text} and {left} more" if left else text
 
 
 _OPTION = re.compile(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stribeck.base.errors import RecordingError, option
+from stribeck.base.errors import RecordingError, listed, option
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.check import Check
 from stribeck.recording.prepared import Prepared, channel_values
@@ -132,7 +132,7 @@ def require(prepared: Prepared) -> None:
     """
     path = prepared.source.path
     have = prepared.choices
-    there = f"the file has {', '.join(prepared.table.columns)}"
+    there = f"the file has {listed(prepared.table.columns)}"
     if "time" not in have and not prepared.settings.average:
         raise RecordingError(
             f"{path}: there is no time column; {there}: name it with "

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from stribeck.base.errors import RecordingError, nearest, option
+from stribeck.base.errors import RecordingError, listed, nearest, option
 from stribeck.base.units import SI, Unit, parse_unit
 from stribeck.recording.names import (
     BESIDE,
@@ -105,11 +105,11 @@ def _check_given(
                 f"{path}: {given}: '{channel}' is not a channel that stribeck knows{hint}"
             )
         if column not in known and column != "none":
-            hint = nearest(column, names) or f"; the file has {', '.join(names)}"
+            hint = nearest(column, names) or f"; the file has {listed(names)}"
             raise RecordingError(f"{path}: {given}: there is no column '{column}'{hint}")
     for column, unit in units.items():
         if column not in known and column not in CHANNELS:
-            hint = nearest(column, names) or f"; the file has {', '.join(names)}"
+            hint = nearest(column, names) or f"; the file has {listed(names)}"
             raise RecordingError(
                 f"{path}: {option('unit', f'{column}={unit}')}: there is no column '{column}'{hint}"
             )
@@ -165,7 +165,7 @@ class _Search:
         if len(best) > 1:
             same = [p.name for p in best]
             raise RecordingError(
-                f"{self.path}: {', '.join(same)} could each be the {channel}: choose with "
+                f"{self.path}: {listed(same)} could each be the {channel}: choose with "
                 f"{option('map', f'{channel}={same[0]}')}"
             )
         self.take(channel, best[0].name)
@@ -191,8 +191,8 @@ class _Search:
             return [parse_name(source)]
         if self.index is not None:
             raise RecordingError(
-                f"{self.path}: there is no joint '{self.index}' in {', '.join(columns.values())}: "
-                f"name one of {', '.join(columns)}"
+                f"{self.path}: there is no joint '{self.index}' in {listed(columns.values())}: "
+                f"name one of {listed(columns)}"
             )
         if "velocity" in self.maps and channel in ("position", "acceleration"):
             return []
@@ -248,6 +248,6 @@ def _wide_sentence(path: str, wide: Mapping[str, Mapping[str, str]]) -> str:
         advice += f" and {option('torque_constant')}"
     return (
         f"{path}: the file holds {len(first_group)} joints side by side "
-        f"({', '.join(first_group.values())}): choose one with {option('joint', first)}, or by its "
+        f"({listed(first_group.values())}): choose one with {option('joint', first)}, or by its "
         f"columns, e.g. joint {first} with {advice}"
     )

@@ -16,7 +16,7 @@ import numpy as np
 import polars as pl
 
 from stribeck import _core
-from stribeck.base.errors import RecordingError, nearest
+from stribeck.base.errors import RecordingError, listed, nearest
 from stribeck.recording.column_functions import (
     Over,
     choose,
@@ -282,7 +282,7 @@ class _Compiler:
             if name not in self.channels:
                 self.channels.append(name)
             return _Value(pl.col(channel_column(name)), "number", position)
-        hint = nearest(name, self.schema) or f"; the file has {', '.join(self.schema)}"
+        hint = nearest(name, self.schema) or f"; the file has {listed(self.schema)}"
         found = f"it is at position {position} of '{self.text}'"
         end = f" ({found})" if hint.endswith("?") else f"; {found}"
         raise RecordingError(f"{self.where}: unknown column '{name}'{hint}{end}")

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from stribeck.base.errors import RecordingError, nearest, option
+from stribeck.base.errors import RecordingError, listed, nearest, option
 from stribeck.recording.arrays import Ints, bools, ints
 from stribeck.recording.cells import labels, numbered
 from stribeck.recording.prepared import Prepared
@@ -34,7 +34,7 @@ def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, given: s
     column, mark, value = (word.strip() for word in given.partition("="))
     where = f"{path}: {option('hold_out', given)}"
     if column not in table.columns:
-        hint = nearest(column, table.columns) or f"; the file has {', '.join(table.columns)}"
+        hint = nearest(column, table.columns) or f"; the file has {listed(table.columns)}"
         raise RecordingError(f"{where}: there is no column '{column}'{hint}")
     names, block = numbered(labels(table[rows], column))
     if len(names) < 2:

@@ -36,11 +36,15 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
     Parameters
     ----------
     path
-        A file (CSV, TSV, Parquet, Arrow, .npz, .mat), or a table in memory: a polars or pandas
-        frame, a pyarrow table, a mapping from names to arrays [n]. Several, a folder or a pattern
-        (``"run*.csv"``) are runs of one joint; each file has its own sidecar.
+        A file (table, log of a robot or controller, ROS bag; the documentation lists the formats),
+        or a table in memory: a polars or pandas frame, a pyarrow table, a mapping from names to
+        arrays [n]. Several, a folder or a pattern (``"run*.csv"``) are runs of one joint; each file
+        has its own sidecar.
     sidecar
         Sidecar to use instead of ``FILE.EXT.sidecar.toml`` beside the file. An option wins over it.
+    columns, memory_limit
+        Names for the columns of a table without a header, ``"t,q,dq,tau"``; largest table [GB], by
+        default 4, or half of the free memory.
     joint, joint_kind
         Joint of a file that holds several; ``"revolute"`` or ``"prismatic"``.
     gear_ratio, torque_constant

@@ -58,12 +58,14 @@ BESIDE = REFERENCE + MOTOR
 _ALIASES: dict[str, str] = {
     "time": "time t timestamp seconds elapsed times",
     "position": (
-        "position pos q angle theta jointposition actualq qmeas qmeasured displacement jointangle"
+        "position pos q angle theta jointposition positions actualq qmeas qmeasured displacement "
+        "jointangle"
     ),
     "velocity": (
-        "velocity vel v qd dq qdot omega speed jointvelocity actualqd qdmeas thetadot dtheta qp"
+        "velocity vel v qd dq qdot omega speed jointvelocity velocities actualqd qdmeas thetadot "
+        "dtheta qp"
     ),
-    "acceleration": "acceleration acc accel a qdd ddq qddot jointacceleration qpp",
+    "acceleration": "acceleration accelerations acc accel a qdd ddq qddot jointacceleration qpp",
     "reference_position": (
         "referenceposition positionreference qref posref positionref refposition qdes qdesired "
         "desiredposition targetq targetposition"
@@ -79,23 +81,26 @@ _ALIASES: dict[str, str] = {
     "motor_position": "motorposition motorangle motorpos positionmotor posmotor motorencoder",
     "motor_velocity": "motorvelocity motorspeed motorvel velocitymotor velmotor",
     "torque": (
-        "torque tau effort force motortorque taum tm jointtorque jointeffort "
+        "torque tau effort efforts force motortorque taum tm jointtorque jointeffort "
         "taumeas actualtorque motorforce"
     ),
     "current": "current i motorcurrent iq actualcurrent jointcurrent",
     "load_torque": "loadtorque tl tauload load tload loadforce",
     "external_torque": "externaltorque te tauext tauexternal",
     "friction_torque": "frictiontorque tf taufriction tfriction frictionforce friction",
-    "temperature": "temperature temp jointtemperature motortemperature",
+    "temperature": "temperature temp jointtemperature jointtemperatures motortemperature",
     "enabled": "enabled torqueenable torqueenabled motorenabled driveenabled",
     "joint": "joint jointname jointid axis",
-    "run": "run runid trial repetition",
+    "run": "run runid trial repetition episode episodeindex",
 }
 #: Words of a name that do not change what is measured, and those of a second or relative sensor.
 _QUALIFIERS = frozenset(
     "act actual meas measured mot motor joint axis abs fb feedback cont continuous".split()
 )
 _SECOND = frozenset("se second secondary link rel relative raw".split())
+#: Parts of a path that say that its end is a reference, or no measurement.
+_REFERRED = frozenset("reference desired setpoint goal target command".split())
+_UNMEASURED = frozenset("error output".split())
 _CHANNEL_OF = {alias: channel for channel, aliases in _ALIASES.items() for alias in aliases.split()}
 
 
@@ -107,7 +112,8 @@ class ParsedName:
     ----------
     rank
         0: the channel's own name, 1: the same in another spelling, 2: an alias, 3: an alias among
-        words that do not change what is measured, 4: the same of a second sensor, 9: no channel.
+        words that do not change what is measured, 4: the same of a second sensor, 5: the end of a
+        path (``/joint_states.velocity[2]``), 9: no channel.
     """
 
     name: str
@@ -152,7 +158,28 @@ def parse_name(name: str) -> ParsedName:
         found = None if bare is None else _match(bare)
         if found is not None:
             return ParsedName(name, found[0], found[1], index, 4 if second else 3)
-    return ParsedName(name, None, None, None, 9)
+    return _end_of_path(name) or ParsedName(name, None, None, None, 9)
+
+
+def _end_of_path(name: str) -> ParsedName | None:
+    """What the last part of a path says; None for a name that is none, or of no channel.
+
+    The joint may be the part before: ``/joint_states/elbow/velocity``.
+    """
+    # Units have points and slashes too: 'drive.torque [N.m]', 'qd_rad/s'.
+    *before, end = re.split(r"[./](?!s\b)(?![^\[(]*[\])])", name)
+    if not before or not end or _UNMEASURED.intersection(before):
+        return None
+    found = parse_name(end)
+    if found.channel is None:
+        return None
+    index = found.index
+    if index is None and len(before) > 1 and name.startswith("/"):
+        index = before[-1]
+    channel: str | None = found.channel
+    if _REFERRED.intersection(before):
+        channel = f"reference_{channel}" if f"reference_{channel}" in CHANNELS else None
+    return ParsedName(name, channel, found.unit, index, 5) if channel else None
 
 
 def parse_names(names: Sequence[str]) -> list[ParsedName]:

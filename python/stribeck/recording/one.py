@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from stribeck.base.errors import RecordingError, nearest
+from stribeck.base.errors import RecordingError, listed, nearest
 from stribeck.recording.arrays import Ints
 from stribeck.recording.assemble import build
 from stribeck.recording.cells import labels
@@ -51,7 +51,7 @@ def of_joint(prepared: Prepared, joint: str | None) -> Prepared:
             if name not in there:
                 raise RecordingError(
                     f"{settings.sidecar}: [joints.{name}]: {prepared.source.path} has no such joint"
-                    f"{nearest(name, there) or '; it has ' + ', '.join(there)}"
+                    f"{nearest(name, there) or '; it has ' + listed(there)}"
                 )
     # A current becomes a torque joint by joint, so each joint has its own choice of columns.
     return replace(prepared, settings=settings.for_joint(joint), choices=dict(prepared.choices))

@@ -88,6 +88,7 @@ class ReadArguments(TypedDict, total=False):
 
     joint: str | None
     sidecar: FilePath | None
+    columns: str | Sequence[str] | None
     map: Pairs
     derive: Pairs
     where: str | None
@@ -106,6 +107,7 @@ class ReadArguments(TypedDict, total=False):
     kt: float | None
     torque_at: str | None
     moving_above: float | None
+    memory_limit: float | None
     unwrap: bool
     trust: bool
     standstill: bool
@@ -120,6 +122,10 @@ class ReadOptions:
     )
     sidecar: FilePath | None = field(
         default=None, metadata={"entry": Entry("path", "Sidecar file (TOML).")}
+    )
+    columns: str | Sequence[str] | None = field(
+        default=None,
+        metadata=_text("Names for the columns of a table without a header.", form="NAME,NAME,..."),
     )
     map: Pairs = field(default=(), metadata=_pairs("Use COLUMN as NAME.", "NAME=COLUMN"))
     derive: Pairs = field(
@@ -193,6 +199,14 @@ class ReadOptions:
         default=None,
         metadata=_number(
             "Score the samples that are faster than this.", "rad/s or m/s", "not negative"
+        ),
+    )
+    memory_limit: float | None = field(
+        default=None,
+        metadata=_number(
+            "Largest table to read; default 4, or half of the free memory if that is less.",
+            "GB",
+            "above zero",
         ),
     )
     unwrap: bool = field(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import polars as pl
 
-from stribeck.base.errors import RecordingError, nearest, option
+from stribeck.base.errors import RecordingError, listed, nearest, option
 from stribeck.base.units import SI
 from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.cells import column_numbers, labels
@@ -116,7 +116,7 @@ def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]
 
 def _listed(names: list[str]) -> str:
     """Names as they are typed; a name may be empty."""
-    return ", ".join(name or "''" for name in names)
+    return listed(name or "''" for name in names)
 
 
 def channel_values(prepared: Prepared, channel: str, rows: Ints) -> tuple[Floats, str, str]:

@@ -133,7 +133,7 @@ def _prepared(path: str, settings: Settings) -> tuple[Prepared, str | None]:
         require(prepared)
     except RecordingError as error:
         # A file that cannot be opened, or a wrong formula, is refused here as it is by `read`.
-        source = read_table(path)
+        source = read_table(path, settings.asked)
         made = apply_formulas(source, settings, Whole(source, settings))
         return Prepared(source, settings, made.table, made.row, {}, made.notes), str(error)
     return prepared, None

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from stribeck.base.errors import RecordingError, nearest, option
+from stribeck.recording.formats.door import Asked
 from stribeck.recording.names import CHANNELS
 from stribeck.recording.options import TABLE, FilePath, ReadOptions
 from stribeck.recording.sidecar import Sidecar, find_sidecar, read_sidecar
@@ -86,6 +87,10 @@ class Settings:
         Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``.
     moving_above
         Speed above which a sample moves, in the SI unit of the velocity.
+    columns
+        Names for the columns of a table without a header.
+    memory_limit
+        Largest table, GB; None: what the free memory allows.
     unwrap, trust
         Whether an uncertain wrap is undone, and contradictions between channels are accepted.
     """
@@ -105,6 +110,8 @@ class Settings:
     weights: str | None = None
     torque_at: str | None = None
     moving_above: float | None = None
+    columns: tuple[str, ...] = ()
+    memory_limit: float | None = None
     unwrap: bool = False
     trust: bool = False
     joints: dict[str, Mechanics] = field(default_factory=dict)
@@ -114,6 +121,18 @@ class Settings:
         """Whether the current of every joint can be converted into a torque."""
         own = [joint.torque_constant for joint in self.joints.values()]
         return self.mechanics.torque_constant is not None or (bool(own) and None not in own)
+
+    @property
+    def asked(self) -> Asked:
+        """What decides which of several tables of a file is read."""
+        conditions = [text for text in (self.where, self.weights) if text is not None]
+        return Asked(
+            columns=self.columns,
+            named=(*self.maps.values(), *self.units),
+            formulas=(*self.derive.values(), *conditions),
+            joint=self.joint,
+            memory_limit=self.memory_limit,
+        )
 
     def for_joint(self, joint: str | None) -> Settings:
         """What is known about one joint of a file that holds several."""
@@ -161,6 +180,8 @@ def gather(path: FilePath, options: ReadOptions) -> Settings:
         weights=options.weights,
         torque_at=texts["torque_at"],
         moving_above=given.get("moving_above", sidecar.numbers.get("moving_above")),
+        columns=_names(options, sidecar),
+        memory_limit=given.get("memory_limit", sidecar.numbers.get("memory_limit")),
         unwrap=options.unwrap or sidecar.switches.get("unwrap", False),
         trust=options.trust or sidecar.switches.get("trust", False),
         joints={
@@ -196,6 +217,20 @@ def _columns(options: ReadOptions, sidecar: Sidecar) -> tuple[dict[str, str], di
         if channel not in maps or channel in derive
     }
     return {**kept, **maps}, {**made, **derive}
+
+
+def _names(options: ReadOptions, sidecar: Sidecar) -> tuple[str, ...]:
+    """Names for the columns of a table without a header."""
+    given = options.columns if options.columns is not None else sidecar.texts.get("columns")
+    if given is None:
+        return ()
+    names = tuple(
+        str(name).strip() for name in (given.split(",") if isinstance(given, str) else given)
+    )
+    if not all(names) or len(set(names)) < len(names):
+        shown = option("columns", ",".join(names)[:80])
+        raise RecordingError(f"{shown}: give each column a name of its own, separated by commas")
+    return names
 
 
 def _chosen(name: str, options: ReadOptions, sidecar: Sidecar) -> str | None:

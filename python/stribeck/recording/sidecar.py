@@ -24,6 +24,7 @@ _NUMBERS: dict[str, Limit] = {
 }
 _TEXTS = (
     "kind",
+    "columns",
     "joint_kind",
     "where",
     "average",

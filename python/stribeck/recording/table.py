@@ -29,7 +29,7 @@ __all__ = [
 
 def prepare(path: str, settings: Settings) -> Prepared:
     """Read a file, apply formulas and condition, and choose its columns."""
-    return prepared_table(read_table(path), settings)
+    return prepared_table(read_table(path, settings.asked), settings)
 
 
 def prepared_table(source: Source, settings: Settings) -> Prepared:
@@ -41,7 +41,7 @@ def prepared_table(source: Source, settings: Settings) -> Prepared:
         derived=tuple(settings.derive),
         maps=settings.maps,
         units=computed.units,
-        index=wide_index(computed.table, settings),
+        index=wide_index(source, computed.table, settings),
     )
     weight = None
     if settings.weights is not None:

@@ -31,12 +31,14 @@ __all__ = ["Whole", "wide_index"]
 _MOTION = ("position", "velocity", "acceleration")
 
 
-def wide_index(table: pl.DataFrame, settings: Settings) -> str | None:
+def wide_index(source: Source, table: pl.DataFrame, settings: Settings) -> str | None:
     """The joint of a wide file that was named, where there is no joint column."""
     if settings.joint is None or "joint" in settings.maps or "joint" in settings.derive:
         return None
     if any(parse_name(name).channel == "joint" for name in table.columns):
         return None
+    if settings.joint in source.joints:
+        return source.joints[settings.joint]
     return settings.joint.removeprefix("joint_").removeprefix("joint")
 
 
@@ -112,7 +114,7 @@ class Whole:
             derived=tuple(name for name in settings.derive if name in there),
             maps={c: column for c, column in settings.maps.items() if column in there},
             units={c: u for c, u in settings.units.items() if c in there or c in CHANNELS},
-            index=wide_index(table, settings),
+            index=wide_index(self.source, table, settings),
             wanted=wanted,
         )
         settings = replace(settings, average=None, torque_at=None)

@@ -129,7 +129,7 @@ def test_truncated(tmp_path, frame, name):
         ("x.csv", b"PAR1\0\0\0\0", "is a binary file"),
         ("x.xlsx", b"PK..", "'.xlsx' files are not known"),
         ("noext", b"time", "without an extension"),
-        ("x.mcap", b"\x89MCAP", "MCAP and ROS bags are not read yet"),
+        ("x.mcap", b"\x89MCAP", "not a whole MCAP file"),
         ("x.npz", b"PK nonsense", "not a whole .npz"),
     ],
 )
