@@ -36,15 +36,12 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
     Parameters
     ----------
     path
-        A file (table, log of a robot or controller, ROS bag; the documentation lists the formats),
-        or a table in memory: a polars or pandas frame, a pyarrow table, a mapping from names to
-        arrays [n]. Several, a folder or a pattern (``"run*.csv"``) are runs of one joint; each file
-        has its own sidecar.
+        A file, or a table in memory: a polars or pandas frame, a pyarrow table, a mapping from
+        names to arrays [n]. Several, a folder or a pattern (``"run*.csv"``) are runs of one joint.
     sidecar
         Sidecar to use instead of ``FILE.EXT.sidecar.toml`` beside the file. An option wins over it.
     columns, memory_limit
-        Names for the columns of a table without a header, ``"t,q,dq,tau"``; largest table [GB], by
-        default 4, or half of the free memory.
+        Names for the columns of a table without a header (``"t,q,dq,tau"``); largest table [GB].
     joint, joint_kind
         Joint of a file that holds several; ``"revolute"`` or ``"prismatic"``.
     gear_ratio, torque_constant
@@ -69,8 +66,7 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
         ``"COLUMN"``: each held-out block has one value of this column of the file.
         ``"COLUMN=VALUE"``: the held-out error is that of this block alone.
     weights
-        ``"COLUMN"`` or a formula of columns of the file: the weight of each sample's squared error
-        in a fit, ``"1/sigma^2"`` for a column of standard deviations.
+        A column or formula: the weight of each sample's squared error in a fit (``"1/sigma^2"``).
     rows, moving_above
         ``"moving"``: samples at rest are not scored. Those move that are faster than `moving_above`
         [rad/s or m/s], by default than five times the noise of the velocity. ``"all"``: all are.

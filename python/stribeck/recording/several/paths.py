@@ -149,6 +149,9 @@ def _is_sidecar_of(file: str, files: Sequence[str]) -> bool:
 
 def _refuse_other_kinds(file: str) -> None:
     """Refuse model files and sidecars, which have a place of their own."""
+    # To open a pipe would wait for its other end.
+    if not os.path.isfile(file):
+        return
     try:
         with open(file, "rb") as stream:
             kind = kind_of(stream.read(_HEAD))
