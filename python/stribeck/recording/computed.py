@@ -189,8 +189,8 @@ def _compile(
         return compile_formula(text, table.schema, where, over, table.height)
     except RecordingError:
         # One bad cell makes a column of numbers a column of text: then the cell is refused.
-        for name in table.columns:
-            if table.schema[name] == pl.String and name in text:
+        for name, dtype in table.schema.items():
+            if dtype == pl.String and name in text:
                 bare = table[name].str.strip_chars().drop_nulls()
                 numbers = bare.cast(pl.Float64, strict=False).drop_nulls()
                 if 2 * len(numbers) > len(bare):

@@ -88,7 +88,7 @@ class ReadArguments(TypedDict, total=False):
 
     joint: str | None
     sidecar: FilePath | None
-    columns: str | Sequence[str] | None
+    columns: str | None
     map: Pairs
     derive: Pairs
     where: str | None
@@ -123,7 +123,7 @@ class ReadOptions:
     sidecar: FilePath | None = field(
         default=None, metadata={"entry": Entry("path", "Sidecar file (TOML).")}
     )
-    columns: str | Sequence[str] | None = field(
+    columns: str | None = field(
         default=None,
         metadata=_text("Names for the columns of a table without a header.", form="NAME,NAME,..."),
     )

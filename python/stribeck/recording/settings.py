@@ -224,9 +224,7 @@ def _names(options: ReadOptions, sidecar: Sidecar) -> tuple[str, ...]:
     given = options.columns if options.columns is not None else sidecar.texts.get("columns")
     if given is None:
         return ()
-    names = tuple(
-        str(name).strip() for name in (given.split(",") if isinstance(given, str) else given)
-    )
+    names = tuple(name.strip() for name in given.split(","))
     if not all(names) or len(set(names)) < len(names):
         shown = option("columns", ",".join(names)[:80])
         raise RecordingError(f"{shown}: give each column a name of its own, separated by commas")
