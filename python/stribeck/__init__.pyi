@@ -15,7 +15,9 @@ from .diagnosis.result import Diagnosis, Finding
 from .exporters.export import Export, export
 from .fitting.evaluate import evaluate
 from .fitting.fit import fit
+from .fitting.protocols.found import Protocol, found_protocols
 from .fitting.result import Fit
+from .fitting.transmission.measure import Transmission, measure_transmission
 from .identify.estimates import Estimate
 from .models.build import law, model
 from .models.catalog import catalog, effects, laws
@@ -66,6 +68,7 @@ __all__ = [
     "Plan",
     "Project",
     "ProjectError",
+    "Protocol",
     "Recording",
     "RecordingError",
     "Simulation",
@@ -74,6 +77,7 @@ __all__ = [
     "StreamedFit",
     "StribeckError",
     "Tracking",
+    "Transmission",
     "__version__",
     "add",
     "catalog",
@@ -87,11 +91,13 @@ __all__ = [
     "export",
     "fit",
     "fleet",
+    "found_protocols",
     "improve",
     "largest_factor",
     "law",
     "laws",
     "load",
+    "measure_transmission",
     "model",
     "plan",
     "project",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import click
@@ -25,8 +25,16 @@ from stribeck.fitting.methods.arm import arm_fit
 from stribeck.fitting.methods.averaging import averaged_points
 from stribeck.fitting.methods.grid import Axis, grid_fit
 from stribeck.fitting.methods.segments import segment_points
+from stribeck.fitting.methods.steady import SteadyPoints
 from stribeck.fitting.methods.stretches import Search
 from stribeck.fitting.methods.three_step import three_step_fit
+from stribeck.fitting.protocols.coast_down import coast_down_points
+from stribeck.fitting.protocols.points import (
+    BristleStiffness,
+    breakaway_points,
+    bristle_stiffness,
+    protocol_points,
+)
 from stribeck.fitting.result import Estimator, Fit
 from stribeck.models.model import Model
 from stribeck.recording.options import ReadOptions
@@ -139,13 +147,28 @@ def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
     return axes
 
 
+#: How `stribeck points` reduces a recording, by method: of the recording, bins and search.
+_POINTS: dict[str, Callable[[Recording, int, Search], SteadyPoints | BristleStiffness]] = {
+    "averaging": lambda r, bins, search: averaged_points(r, bins=bins, search=search),
+    "segments": lambda r, bins, search: segment_points(r, bins=bins, search=search),
+    "breakaway": lambda r, bins, search: breakaway_points(r),
+    "coast_down": lambda r, bins, search: coast_down_points(r, bins=10 * bins),
+    "presliding": lambda r, bins, search: bristle_stiffness(r),
+    "protocols": lambda r, bins, search: protocol_points(r, bins=bins, search=search),
+}
+
+
 @click.command(cls=CheckedCommand)
 @click.argument("data")
 @click.option(
     "--method",
-    type=click.Choice(["averaging", "segments"]),
+    type=click.Choice(
+        ["averaging", "segments", "breakaway", "coast_down", "presliding", "protocols"]
+    ),
     required=True,
-    help="averaging: half the difference of both directions; segments: mean of each pass.",
+    help="averaging: half the difference of both directions; segments: mean of each pass; "
+    "breakaway: static friction of torque ramps; coast_down: free decelerations; presliding: "
+    "stiffness of small loops; protocols: segments, breakaway and coast_down.",
 )
 @click.option(
     "-o",
@@ -158,7 +181,8 @@ def _axes(said: tuple[str, ...]) -> dict[str, Axis]:
     "--bins",
     default=1,
     show_default=True,
-    help="Points per pass (or pair of passes), each over an equal share of it.",
+    help="Points per pass (or pair of passes), each over an equal share of it; a coast-down gives "
+    "ten times as many.",
 )
 @click.option(
     "--tolerance",
@@ -190,19 +214,19 @@ def points(
     seed: int,
     as_json: bool,
 ) -> None:
-    """Reduce passes at constant speed in DATA to steady-state friction points.
+    """Reduce test-bench protocols in DATA to friction points.
 
     averaging needs no gravity model (Bittencourt et al. 2010, eq 4); segments takes the mean torque
-    of each pass (Gantry, section 3). `stribeck fit POINTS` then identifies a static law.
+    of each pass at constant speed (Gantry, section 3). `stribeck fit POINTS` then identifies a
+    static law. presliding gives a stiffness, and the `--prior` that hands it to a fit.
     """
     # A pass below the velocity threshold still shows in a line through many samples.
     recording = read_recording(data, replace(reading, standstill=True))
     search = Search(tolerance=tolerance, shortest=shortest, trim=trim)
-    if method == "averaging":
-        made = averaged_points(recording, bins=bins, search=search)
-    else:
-        made = segment_points(recording, bins=bins, search=search)
-    if output is not None:
+    made = _POINTS[method](recording, bins, search)
+    if output is not None and isinstance(made, BristleStiffness):
+        raise SpecError("--method presliding gives a stiffness and no points: leave out -o")
+    if output is not None and isinstance(made, SteadyPoints):
         made.write(output)
         say(f"wrote {output} and {output}.sidecar.toml")
     echo_result(made, as_json)

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.errors import RecordingError, option
+from stribeck.base.errors import FitError, RecordingError, option
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.fitting.fit import fit
+from stribeck.fitting.protocols.found import Protocol, found_protocols
 from stribeck.fitting.rigid_body import own_load
+from stribeck.fitting.transmission.measure import Transmission, measure_transmission
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.assemble import nothing_moves
@@ -48,6 +50,10 @@ class Inspection:
         Columns that are not read, and the channel that each may hold.
     files
         Each file by itself, where there are several.
+    transmissions
+        Of the joints with two encoders, by name: the transmission, or why it cannot be measured.
+    protocols
+        Test-bench protocols that were found, by joint.
     """
 
     table: Table
@@ -56,6 +62,8 @@ class Inspection:
     problem: str | None
     proposed: tuple[Proposal, ...] = ()
     files: tuple[Table, ...] = ()
+    transmissions: dict[str, Transmission | str] = field(default_factory=dict)
+    protocols: dict[str, tuple[Protocol, ...]] = field(default_factory=dict)
 
     @property
     def testable(self) -> tuple[str, ...]:
@@ -101,6 +109,16 @@ class Inspection:
             made["files"] = [
                 {"file": t.path, "rows": t.rows, "rate_hz": t.rate_hz, "gaps": t.gaps}
                 for t in self.files
+            ]
+        made["protocols"] = [
+            {"joint": name, **protocol.to_dict()}
+            for name, found in self.protocols.items()
+            for protocol in found
+        ]
+        if self.transmissions:
+            made["transmissions"] = [
+                {"joint": name, **({"why": spell(t)} if isinstance(t, str) else t.to_dict())}
+                for name, t in self.transmissions.items()
             ]
         if len(self.recordings) == 1:
             made["scored"] = self.recordings[0].scored()
@@ -171,14 +189,37 @@ def inspect(path: Given, **reading: Unpack[ReadArguments]) -> Inspection:
     still = [r for r in recordings if needs_motion and not r.moving.any()]
     if still:
         problem = str(nothing_moves(still[0]))
-        return Inspection(table, recordings, {}, problem, proposed, several)
+        shown = Inspection(table, recordings, {}, problem, proposed, several)
+        return _with_findings(shown)
     answers = [untestable(r, _load(r)) for r in recordings]
     common = {
         effect: answers[0][effect]
         for effect in answers[0]
         if all(effect in answer for answer in answers)
     }
-    return Inspection(table, recordings, common, None, proposed, several)
+    return _with_findings(Inspection(table, recordings, common, None, proposed, several))
+
+
+def _with_findings(inspection: Inspection) -> Inspection:
+    """With the protocols, and the transmissions of joints with two encoders."""
+    recordings = inspection.recordings
+    return replace(
+        inspection,
+        transmissions=_transmissions(recordings),
+        protocols={r.joint or "": found_protocols(r) for r in recordings},
+    )
+
+
+def _transmissions(recordings: tuple[Recording, ...]) -> dict[str, Transmission | str]:
+    """What two encoders show of the transmission, by joint."""
+    found: dict[str, Transmission | str] = {}
+    for recording in recordings:
+        if recording.motor_position is not None:
+            try:
+                found[recording.joint or ""] = measure_transmission(recording)
+            except FitError as error:
+                found[recording.joint or ""] = str(error)
+    return found
 
 
 def _proposed(

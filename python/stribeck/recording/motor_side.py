@@ -19,6 +19,8 @@ __all__ = ["check_motor", "load_motor", "with_motor"]
 
 #: A measured ratio of both encoders within this share of the known one confirms it.
 _NEAR = 0.02
+#: A joint that moves less than this share of its motor's motion is held.
+_STILL = 0.2
 
 
 def load_motor(data: Channels, prepared: Prepared) -> None:
@@ -58,7 +60,9 @@ def with_motor(recording: Recording, data: Channels) -> Recording:
         if joint is None:
             _leave_out(data, channel, "is left out: there is no position of the joint beside it")
             continue
-        ratio = _confirmed(recording, data, channel, _measured(recording, own, joint))
+        ratio = _held(data, channel, own, joint)
+        if ratio is None:
+            ratio = _confirmed(recording, data, channel, _measured(recording, own, joint))
         if ratio is None:
             continue
         made[channel] = floats(own / ratio)
@@ -66,6 +70,15 @@ def with_motor(recording: Recording, data: Channels) -> Recording:
         source = data.prepared.choices[channel].source
         data.columns[channel] = Column.of(channel, source, unit, ratio != 1.0, made[channel])
     return replace(recording, notes=tuple(data.notes), **made)  # type: ignore[arg-type]
+
+
+def _held(data: Channels, channel: str, own: Floats, joint: Floats) -> float | None:
+    """The given gear ratio, where the motor alone moves and cannot confirm it; None otherwise."""
+    ratio = data.prepared.settings.mechanics.motor.get("gear_ratio")
+    if ratio is None or np.ptp(joint) > _STILL * np.ptp(own) / abs(ratio):
+        return None
+    data.notes.append(f"{channel} is divided by {ratio:.6g}, as given: the joint is held")
+    return ratio
 
 
 def _measured(recording: Recording, own: Floats, joint: Floats) -> float:

@@ -21,6 +21,12 @@ RENDERERS: dict[str, dict[str, str]] = {
         "text": "methods:arm_text",
         "notebook": "notebook:frame",
     },
+    "stribeck.fitting.protocols.points:BristleStiffness": {
+        "text": "methods:stiffness_text",
+    },
+    "stribeck.fitting.transmission.measure:Transmission": {
+        "text": "transmission:transmission_text",
+    },
     "stribeck.fitting.methods.steady:SteadyPoints": {
         "text": "methods:points_text",
         "notebook": "notebook:frame",

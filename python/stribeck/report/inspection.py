@@ -11,9 +11,11 @@ from stribeck.report.diagnosis import untestable_text
 from stribeck.report.layout import bullets, joined, paragraph, table
 from stribeck.report.numbers import listed, plain, thousands
 from stribeck.report.recording import scored_sentence
+from stribeck.report.transmission import transmission_text
 
 if TYPE_CHECKING:
     from stribeck.diagnosis.inspect import Inspection
+    from stribeck.fitting.protocols.found import Protocol
 
 
 #: How many of the columns that are not read are listed.
@@ -33,6 +35,11 @@ def inspection_text(inspection: Inspection, spell: Callable[[str], str] = str) -
         problem = spell(f"Cannot be read as a recording yet: {inspection.problem}")
         parts += [paragraph(problem, 0)]
     parts += [_checked(inspection, spell), _not_read(inspection)]
+    parts += [
+        transmission_text(spell(t) if isinstance(t, str) else t, name)
+        for name, t in inspection.transmissions.items()
+    ]
+    parts += [_protocols(name, found) for name, found in inspection.protocols.items()]
     if inspection.problem is not None:
         return joined(*parts)
     testable = f"Can be tested with this data: {listed(inspection.testable) or 'no effect'}."
@@ -95,6 +102,13 @@ def _not_read(inspection: Inspection) -> str:
     ]
     left = len(inspection.proposed) - _PROPOSED
     return bullets("Not read:", [*rows, *([f"and {left} more"] if left > 0 else [])])
+
+
+def _protocols(joint: str, found: tuple[Protocol, ...]) -> str:
+    """The test-bench protocols of a joint, and how each becomes points."""
+    heading = f"Protocols found{f' for joint {joint}' if joint else ''}:"
+    rows = [f"{p.count} {p.says} (stribeck points --method {p.method})" for p in found]
+    return bullets(heading, rows)
 
 
 def _channels(inspection: Inspection) -> str:

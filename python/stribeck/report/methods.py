@@ -12,6 +12,7 @@ from stribeck.report.recording import file_name
 if TYPE_CHECKING:
     from stribeck.fitting.methods.arm import ArmFit
     from stribeck.fitting.methods.steady import SteadyPoints
+    from stribeck.fitting.protocols.points import BristleStiffness
 
 
 def points_text(points: SteadyPoints) -> str:
@@ -34,6 +35,32 @@ def points_text(points: SteadyPoints) -> str:
         f"{len(points)} steady-state points by {points.method} from {file_name(r)}",
         table(rows, right=[0, 1, 2, 4, *range(6, len(heading))]),
         notes_text(r.notes, points.notes),
+    )
+
+
+def stiffness_text(stiffness: BristleStiffness) -> str:
+    """Presliding loops, one line each, and how a fit uses them."""
+    r = stiffness.recording
+    heading = [
+        "loop",
+        "from [s]",
+        f"torque [{r.torque_unit}]",
+        f"position [{r.position_unit}]",
+        f"stiffness [{r.torque_unit}/{r.position_unit}]",
+        "energy [J]",
+    ]
+    rows = [heading]
+    for k, loop in enumerate(stiffness.loops, 1):
+        sizes = (loop.torque_amplitude, loop.amplitude, loop.stiffness, loop.area)
+        rows.append([str(k), f"{loop.time:.1f}", *map(plain, sizes)])
+    value, error = with_error(stiffness.value, stiffness.stderr)
+    return joined(
+        f"{len(stiffness.loops)} presliding loops from {file_name(r)}; torque and position are "
+        "half amplitudes",
+        table(rows, right=[0, 1, 2, 3, 4, 5]),
+        f"Stiffness {value} ± {error} {r.torque_unit}/{r.position_unit}. In a fit of a law with a "
+        f'bristle:\n  --prior "{stiffness.prior}"',
+        notes_text(r.notes, ()),
     )
 
 

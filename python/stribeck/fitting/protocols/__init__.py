@@ -1,0 +1,1 @@
+"""Test-bench protocols in a recording: one file each, pure functions from recording to results."""

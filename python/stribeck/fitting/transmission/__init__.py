@@ -1,0 +1,1 @@
+"""The transmission between two encoders: stiffness, backlash and hysteresis of its windup."""
