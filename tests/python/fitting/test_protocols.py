@@ -188,7 +188,7 @@ def stribeck(*words: object, code: int = 0) -> subprocess.CompletedProcess[str]:
 
 def test_nothing_is_found_without_a_protocol(tmp_path: Path) -> None:
     demo = sb.read(ROOT / "python" / "stribeck" / "data" / "demo.parquet")
-    assert {p.protocol for p in found_protocols(demo)} <= {"plateau"}
+    assert found_protocols(demo) == ()
     with pytest.raises(FitError, match="has no breakaway"):
         breakaway_points(demo)
     with pytest.raises(FitError, match="has no coast-down"):
@@ -202,7 +202,9 @@ def test_closed_loop_measurements_hold_no_loops_and_no_coast_downs() -> None:
     files |= {f"ur10e_joint_{j}": f"ur10e/ur-20_01_22-joint_{j}.parquet" for j in range(1, 7)}
     for name, file in files.items():
         recording = sb.read(DATA / file, sidecar=SIDECARS / f"{name}.sidecar.toml")
-        assert {p.protocol for p in found_protocols(recording)} <= {"plateau"}, name
+        # The slide of EMPS moves in trapezoids.
+        plateaux = ["plateau"] if name.startswith("emps") else []
+        assert [p.protocol for p in found_protocols(recording)] == plateaux, name
     for file in ("u14", "l14", "u8", "u12"):
         for joint in "123456":
             path = DATA / "ur10e_robot" / f"{file}.parquet"

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 
+import numpy as np
+
 from stribeck.fitting.methods.stretches import constant_speed
 from stribeck.fitting.protocols.breakaway import breakaways, dependence
 from stribeck.fitting.protocols.coast_down import coast_downs
 from stribeck.fitting.protocols.loops import presliding_loops
-from stribeck.fitting.protocols.rests import is_measured
+from stribeck.fitting.protocols.rests import is_measured, still_speed
 from stribeck.recording.recording import Recording
 
 __all__ = ["Protocol", "found_protocols"]
+
+#: Least share of the motion that passes at constant speed take.
+_PASSES = 0.5
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,10 @@ def _plateaux(recording: Recording) -> Protocol | None:
     if not is_measured(recording) or recording.position is None:
         return None
     lines = constant_speed(recording.time, recording.position, recording.segment)
+    rows = sum(line.rows for line in lines)
+    # The fastest part of any smooth motion is nearly constant, too: a fifth of a sine.
+    if rows < _PASSES * float((np.abs(recording.velocity_smooth) > still_speed(recording)).sum()):
+        return None
     if not lines:
         return None
     speeds = sorted(abs(line.velocity) for line in lines)
