@@ -29,8 +29,10 @@ from stribeck.passivity.operating_box import Box, operating_box
 Array = NDArray[np.float64]
 
 #: Reserves of the margins, as shares of their sizes: the first one at the start, the next one
-#: whenever a proof fails although every condition holds.
+#: whenever a proof fails although every condition holds, and after each `PATIENCE` rounds, since
+#: conditions at single points approach a proof ever more slowly.
 RESERVES = (1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1)
+PATIENCE = 15
 #: Most fits under conditions, one a round.
 MOST_ROUNDS = 60
 
@@ -109,7 +111,9 @@ def impose(
     problem = objective.problem
     conditions = Conditions(FrictionOf.of(problem.model.with_values(values)))
     evaluations, converged = 0, True
-    for _ in range(MOST_ROUNDS):
+    for number in range(MOST_ROUNDS):
+        if number and number % PATIENCE == 0:
+            conditions = replace(conditions, reserve=_larger(conditions.reserve) or RESERVES[-1])
         box = _box(conditions.part.friction, box_of(values, problem.load))
         more = _missed(conditions, values, box)
         if more is None:
@@ -152,11 +156,15 @@ def _missed(conditions: Conditions, values: Array, box: Box) -> Conditions | Non
         if len(more.requirements) > held:
             return more
     # No condition is violated, and still there is no proof: keep larger margins.
-    reserve = next((reserve for reserve in RESERVES if reserve > conditions.reserve), None)
+    reserve = _larger(conditions.reserve)
     if reserve is None:
         raise FitError(_undecidable(friction, condition))
     more = replace(conditions, reserve=reserve)
     return more.with_missed([asked, *more.spread(values, box)], values)
+
+
+def _larger(reserve: float) -> float | None:
+    return next((larger for larger in RESERVES if larger > reserve), None)
 
 
 def _box(friction: Model, box: Box) -> dict[str, tuple[float, float]]:
