@@ -46,6 +46,12 @@ from stribeck.scale.streaming.stream import Stream
     is_flag=True,
     help="Identify under passivity conditions; `stribeck check` proves the result.",
 )
+@click.option(
+    "--per-run",
+    multiple=True,
+    metavar="NAME,...",
+    help="Parameters with a value of their own in each run; the others are shared.",
+)
 @output_option
 @method_options
 @evaluate_option
@@ -60,6 +66,7 @@ def fit(
     written: Written,
     errors: ErrorChoice,
     passive: bool,
+    per_run: tuple[str, ...],
     output: str | None,
     method: Method,
     evaluate: tuple[str, ...],
@@ -81,6 +88,7 @@ def fit(
             passive=passive,
             errors=errors.errors != "robust",
             evaluate=bool(evaluate),
+            per_run=bool(per_run),
         )
         opened = streaming.open(data, reading, seed)
         streamed = _in_passes(opened, written, spec, starts=starts, seed=seed)
@@ -88,8 +96,7 @@ def fit(
             save_streamed(streamed, output)
         show(streamed, as_json)
         return
-    if passive and method.name != "rms":
-        raise SpecError(f"--passive goes with --method rms, not {method.name}: omit one")
+    _check_method(method.name, passive=passive, per_run=bool(per_run))
     errors.refuse(method.name)
     recording = read_recording(data, reading)
     others = judged(evaluate, reading)
@@ -102,6 +109,7 @@ def fit(
             seed=seed,
             passive=passive,
             estimator=method.estimator,
+            per_run=per_run,
             **errors.options,
         )
     else:
@@ -119,3 +127,11 @@ def _in_passes(opened: Stream, written: Written, spec: str | None, **options: in
         return opened.fit(
             written.model(spec), told=bar.show_pass, **options, **written.choices.arguments()
         )
+
+
+def _check_method(method: str, **given: bool) -> None:
+    """Refuse options of the least-squares fit beside another method."""
+    for name, is_given in given.items():
+        if is_given and method != "rms":
+            flag = "--" + name.replace("_", "-")
+            raise SpecError(f"{flag} goes with --method rms, not {method}: omit one")

@@ -30,7 +30,8 @@ class Streaming:
         for flag, is_given in given.items():
             if is_given:
                 raise SpecError(
-                    f"--{flag} needs all samples in memory: omit it, or leave out --stream"
+                    f"--{flag.replace('_', '-')} needs all samples in memory: omit it, or leave "
+                    "out --stream"
                 )
 
     def open(self, data: Sequence[str], reading: ReadOptions, seed: int) -> Stream:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from stribeck.fitting.exogenous import check_estimator
 from stribeck.fitting.finish import finish
 from stribeck.fitting.instrumented import instrumented
 from stribeck.fitting.made_passive import made_passive
+from stribeck.fitting.per_run import named_per_run, refuse_beside, with_own_values
 from stribeck.fitting.result import Estimator, Fit
 from stribeck.fitting.solve import Solution, solve, with_own_load
 from stribeck.fitting.stated import Under, prior_conflicts, solve_under
@@ -51,11 +52,10 @@ def fit(
     passive: bool = False,
     weights: ArrayLike | None = None,
     estimator: Estimator = "ls",
+    per_run: str | Collection[str] = (),
     **choices: Unpack[ChoiceArguments],
 ) -> Fit:
     """Identify the parameters of `spec` on `recording` by bounded least squares.
-
-    Linear parameters are eliminated (variable projection); the others are searched from `starts`.
 
     Parameters
     ----------
@@ -63,24 +63,23 @@ def fit(
         ``"coulomb+load"``, a law by formula, or a model, whose values are the first start.
     recording : Recording or sequence of them
         Several are runs of one joint.
-    starts, seed : int
-        Random starts of the nonlinear parameters (UR5e review, eqs 4-5), and their seed.
+    starts, seed, effort : int, int, Effort
+        Random starts (UR5e review, eqs 4-5), their seed, and how thorough the search is.
     errors : {"robust", "independent", "profile", "bootstrap"}
         For noise correlated in time; for independent noise (``s^2 (J'J)^-1``); as robust, with
         profile-likelihood intervals; from refits to `resamples` of blocks.
     transient : bool array [n], optional
         Samples that are scored but excluded from the fit. Detected by default.
-    effort : Effort
-        Samples, evaluations and tolerance of the search.
     passive : bool
         If true, passivity is imposed and proved. `Fit.passive_cost` states what that costs.
     weights : array [n], optional
         Weight of each sample's squared error, in place of those that were read with the recording.
     estimator : {"ls", "iv"}
         Least squares, or instrumental variables from the reference trajectory (Janot et al. 2014).
+    per_run : str or collection of str
+        Parameters, by name or symbol, that have a value of their own in each run.
     **choices : mappings from parameter name or symbol
-        ``start={"c3": 0.1}, bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}``, and `prior`,
-        `constraints`, `ties`, `loss` and `algorithm`: see `ChoiceArguments`.
+        ``bounds={"c2": (0.0, 5.0)}, fix={"c1": 0.3}`` and others: see `ChoiceArguments`.
 
     Raises
     ------
@@ -91,12 +90,15 @@ def fit(
     recording = with_weights(as_one(recording), weights)
     check_estimator(estimator, recording, passive=passive)
     made = Choices.of(choices).applied(model_for(spec, recording))
-    effort = effort.by(made.stated.algorithm)
     plain = not (passive or made.stated.changes_the_search)
     uncertainty = Uncertainty(errors, resamples, seed, estimator == "ls" and plain)
-    searched = (starts, seed, effort)
+    varied = named_per_run(per_run, made, recording)
+    refuse_beside(varied, errors, estimator, passive=passive)
+    searched = (starts, seed, effort.by(made.stated.algorithm))
     squares, solution = _least_squares(made, recording, transient, searched, uncertainty, began)
-    return refined(squares, solution, effort, estimator, passive)
+    if varied:
+        return with_own_values(squares, solution, made, varied, searched, uncertainty)
+    return refined(squares, solution, searched[2], estimator, passive)
 
 
 def _least_squares(
@@ -146,6 +148,11 @@ def on_recording(fitted: Fit, given: Recordings | None, seed: int = 0) -> Fit:
     with which effects are compared.
     """
     recording = None if given is None else as_one(given)
+    if fitted.per_run:
+        raise FitError(
+            f"{', '.join(fitted.per_run)} of {fitted.model.spec} have a value in each run, and "
+            f"effects are sought with one value of each parameter: fit without {option('per_run')}"
+        )
     if recording is None or fitted.recording.is_measured_as(recording):
         recording = fitted.recording
     if recording is fitted.recording and fitted.estimator != "iv":

@@ -64,7 +64,8 @@ def _finite_prediction(problem: Problem, values: Array) -> Array:
     prediction = problem.predict(values)
     refuse_infinite(problem, prediction)
     if problem.model.has("presliding"):
-        _refuse_slack_bristle(problem)
+        for own in problem.by_run(values):
+            _refuse_slack_bristle(own)
     return prediction
 
 
@@ -90,6 +91,12 @@ def _refuse_slack_bristle(problem: Problem) -> None:
     A bristle needs D > 0: its deflection is bounded by |z| <= D/s0.
     """
     recording, moving = problem.recording, problem.recording.moving
+    if problem.span is not None:
+        inside = np.zeros_like(moving)
+        inside[slice(*problem.span)] = True
+        moving = moving & inside
+    if not moving.any():
+        return
     channels = {
         name: column[moving]
         for name in ("position", "acceleration", "temperature")

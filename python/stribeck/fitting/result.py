@@ -70,6 +70,9 @@ class Fit(Plotted):
         What the starts say about the minimum; None for other methods.
     evaluated : tuple of Evaluated
         Its errors on other recordings, where some were asked for.
+    per_run : mapping of mappings of Estimate
+        The values of a parameter in each run, by parameter and run, where they were asked for;
+        `model` and `estimates` have their mean.
     """
 
     model: Model
@@ -98,6 +101,7 @@ class Fit(Plotted):
     search: StartsReport | None = None
     under: Under | None = None
     evaluated: tuple[Evaluated, ...] = ()
+    per_run: Mapping[str, Mapping[str, Estimate]] = field(default_factory=dict)
     _answers: dict[str, bool | None] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -164,7 +168,7 @@ class Fit(Plotted):
 
         It compares estimators within bounds alone, so that there is none where more is stated.
         """
-        if self.under is not None:
+        if self.under is not None or self.per_run:
             return None
         if self.estimator != "ls":
             return self.tested
@@ -225,6 +229,14 @@ class Fit(Plotted):
             "scored": self.recording.scored(),
             "notes": [*self.recording.notes, *self.notes],
             **self.evaluations_dict(),
+            **({"per_run": self.per_run_dict()} if self.per_run else {}),
+        }
+
+    def per_run_dict(self) -> dict[str, dict[str, object]]:
+        """The JSON of the values of each run, by parameter and run."""
+        return {
+            name: {run: e.to_dict() for run, e in of_runs.items()}
+            for name, of_runs in self.per_run.items()
         }
 
     def evaluations_dict(self) -> dict[str, object]:

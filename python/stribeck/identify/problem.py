@@ -255,9 +255,18 @@ class Problem:
             if rows is not None and self.model.memoryless:
                 some = self._channels_at(rows)
                 return self.model.predictor.torque(values, **some) + self.known[rows]
-            everything = self._stretch(0, self.recording.time.size, values)
-            predicted = self.model.predictor.torque(values, **everything) + self.known
+            predicted = self.predict_stretch(values, 0, self.recording.time.size)
         return predicted if rows is None else predicted[rows]
+
+    def predict_stretch(self, values: Array, start: int, stop: int) -> Array:
+        """Predicted torque of contiguous samples, which no state enters from before."""
+        with self._named_errors():
+            channels = self._stretch(start, stop, values)
+            return self.model.predictor.torque(values, **channels) + self.known[start:stop]
+
+    def by_run(self, values: Array) -> list[Problem]:
+        """The problems whose models have `values`: one, unless parameters differ by run."""
+        return [replace(self, model=self.model.with_values(values))]
 
     def residual(self, values: Array) -> Array:
         """Measured minus predicted torque of `rows`, array [m]."""

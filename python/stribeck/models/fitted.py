@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Protocol, TypedDict, runtime_checkable
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypedDict, runtime_checkable
 
 if TYPE_CHECKING:
     from stribeck.models.model import Model
@@ -27,6 +27,10 @@ class FittedOn(TypedDict, total=False):
     rmse_held_out: float
 
 
+#: Value and standard error of a parameter in each run, by parameter and run.
+PerRun: TypeAlias = Mapping[str, Mapping[str, tuple[float, float | None]]]
+
+
 @runtime_checkable
 class HasModel(Protocol):
     """Anything that holds a model: a model file, a fit."""
@@ -44,6 +48,14 @@ class HasStandardError(Protocol):
         """Standard error in the parameter's unit; None where it is not known."""
 
 
+class HasValue(HasStandardError, Protocol):
+    """An identified value of a parameter."""
+
+    @property
+    def value(self) -> float:
+        """In the parameter's unit."""
+
+
 class Fitted(HasModel, Protocol):
     """A model that was fitted to a recording."""
 
@@ -58,6 +70,10 @@ class Fitted(HasModel, Protocol):
     @property
     def rmse_held_out(self) -> float | None:
         """RMSE on held-out samples, in the same unit; None where it is not known."""
+
+    @property
+    def per_run(self) -> Mapping[str, Mapping[str, HasValue]]:
+        """The values of each run, by parameter and run, where they differ."""
 
     @property
     def estimates(self) -> Mapping[str, HasStandardError]:

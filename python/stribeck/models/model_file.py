@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import tomlkit
 from tomlkit.items import Table
 
-from stribeck.models.fitted import Fitted, FittedOn, HasModel
+from stribeck.models.fitted import Fitted, FittedOn, HasModel, PerRun
 from stribeck.models.model import Model
 from stribeck.models.writer import add_model, model_toml, write_model
 
@@ -27,11 +27,15 @@ class ModelFile:
     fitted_on : dict
         ``path``, ``sha256``, ``files`` (hashes of several files), ``rows`` (scored samples),
         ``time_span`` [s, s], ``rmse``, ``rmse_held_out``.
+    per_run : dict of dicts of pairs
+        Value and standard error in each run, by parameter and run, of parameters that have one
+        value in each; `model` has their means.
     """
 
     model: Model
     stderr: Mapping[str, float] = field(default_factory=dict)
     fitted_on: FittedOn = field(default_factory=FittedOn)
+    per_run: PerRun = field(default_factory=dict)
 
     @classmethod
     def of(cls, fitted: Fitted) -> ModelFile:
@@ -48,7 +52,11 @@ class ModelFile:
         if fitted.rmse_held_out is not None:
             fitted_on["rmse_held_out"] = fitted.rmse_held_out
         errors = {n: e.stderr for n, e in fitted.estimates.items() if e.stderr is not None}
-        return cls(fitted.model, errors, fitted_on)
+        per_run = {
+            name: {run: (e.value, e.stderr) for run, e in of_runs.items()}
+            for name, of_runs in fitted.per_run.items()
+        }
+        return cls(fitted.model, errors, fitted_on, per_run)
 
     @property
     def hashes(self) -> tuple[str, ...]:
@@ -58,11 +66,11 @@ class ModelFile:
 
     def to_toml(self) -> str:
         """The file's text; numbers are written so that they read back with the same bits."""
-        return model_toml(self.model, self.stderr, self.fitted_on)
+        return model_toml(self.model, self.stderr, self.fitted_on, self.per_run)
 
     def write_into(self, document: tomlkit.TOMLDocument | Table) -> None:
         """Add what the file holds to a document or table of tomlkit."""
-        add_model(document, self.model, self.stderr, self.fitted_on)
+        add_model(document, self.model, self.stderr, self.fitted_on, self.per_run)
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the file whole or not at all.
@@ -72,7 +80,7 @@ class ModelFile:
         ModelFileError
             A parameter has no value, or the path cannot be written.
         """
-        write_model(self.model, path, self.stderr, self.fitted_on)
+        write_model(self.model, path, self.stderr, self.fitted_on, self.per_run)
 
 
 #: For `stribeck.base.arguments.door`.

@@ -37,7 +37,7 @@ TOP_KEYS = (
     "formulas",
 )
 TABLES = ("constants", "parameters", "fitted_on", "box", "formulas")
-PARAMETER_KEYS = ("value", "symbol", "unit", "bounds", "stderr")
+PARAMETER_KEYS = ("value", "symbol", "unit", "bounds", "stderr", "per_run")
 BOX_KEYS = (
     "velocity",
     "position",
@@ -199,6 +199,7 @@ class _Reader:
         self, made: Model, rows: Mapping[str, object], fitted: Mapping[str, object]
     ) -> ModelFile:
         values, errors, bounds = [], {}, {}
+        per_run: dict[str, dict[str, tuple[float, float | None]]] = {}
         for name in rows:
             if name not in made.names:
                 raise self.stop(
@@ -220,10 +221,26 @@ class _Reader:
                 errors[p.name] = self._number(row["stderr"], header, "stderr")
             if "bounds" in row:
                 bounds[p.name] = self._bounds(row["bounds"], header, "bounds")
+            if "per_run" in row:
+                per_run[p.name] = self._of_runs(row["per_run"], f"{header}.per_run]")
         # Equal bounds hold a parameter in every fit that follows.
         limits = {name: pair for name, pair in bounds.items() if pair[0] == pair[1]}
         filled = replace(made, bounds=bounds, limits=limits).with_values(np.array(values))
-        return ModelFile(filled, errors, self._fitted_on(fitted))
+        return ModelFile(filled, errors, self._fitted_on(fitted), per_run)
+
+    def _of_runs(self, table: object, header: str) -> dict[str, tuple[float, float | None]]:
+        """Value and standard error of a parameter in each run."""
+        if not isinstance(table, dict):
+            raise self.stop(f"per_run is {table!r}, a table of runs is needed", header)
+        made: dict[str, tuple[float, float | None]] = {}
+        for run, row in table.items():
+            if not isinstance(row, dict) or "value" not in row or set(row) - {"value", "stderr"}:
+                raise self.stop(
+                    f"run {run!r} is {row!r}, {{ value = ..., stderr = ... }} is needed", header
+                )
+            error = self._number(row["stderr"], header, run) if "stderr" in row else None
+            made[run] = self._number(row["value"], header, run), error
+        return made
 
     def _fitted_on(self, table: Mapping[str, object]) -> FittedOn:
         self.source.check_keys(table, FITTED_KEYS, "fitted_on")

@@ -15,7 +15,7 @@ from stribeck.base.errors import ModelFileError
 from stribeck.base.files import write_whole
 
 if TYPE_CHECKING:
-    from stribeck.models.fitted import FittedOn
+    from stribeck.models.fitted import FittedOn, PerRun
     from stribeck.models.model import Model
 
 #: Version of the file's layout.
@@ -28,6 +28,7 @@ def write_model(
     path: str | os.PathLike[str],
     stderr: Mapping[str, float] = _NOTHING,
     fitted_on: FittedOn | None = None,
+    per_run: PerRun | None = None,
 ) -> None:
     """Write a model file whole or not at all.
 
@@ -41,6 +42,8 @@ def write_model(
         Standard errors by parameter name, in the parameters' units.
     fitted_on
         Provenance, as in `stribeck.ModelFile`.
+    per_run
+        Value and standard error by parameter and run, of parameters that have one in each run.
 
     Raises
     ------
@@ -56,13 +59,15 @@ def write_model(
         raise ModelFileError(
             f"{model.spec} has no value for {', '.join(unknown)}: fit it before saving"
         )
-    write_whole(path, model_toml(model, stderr, fitted_on or {}), ModelFileError)
+    write_whole(path, model_toml(model, stderr, fitted_on or {}, per_run or {}), ModelFileError)
 
 
-def model_toml(model: Model, stderr: Mapping[str, float], fitted_on: FittedOn) -> str:
+def model_toml(
+    model: Model, stderr: Mapping[str, float], fitted_on: FittedOn, per_run: PerRun
+) -> str:
     """The text of a model file."""
     document = tomlkit.document()
-    add_model(document, model, stderr, fitted_on)
+    add_model(document, model, stderr, fitted_on, per_run)
     return tomlkit.dumps(document)
 
 
@@ -71,6 +76,7 @@ def add_model(
     model: Model,
     stderr: Mapping[str, float],
     fitted_on: FittedOn,
+    per_run: PerRun,
 ) -> None:
     """Add what a model file holds to a document or table."""
     document.add("kind", tomlkit.item("model"))
@@ -86,7 +92,7 @@ def add_model(
         document.add("formulas", _table({terms.name: terms.text for terms in model.own}))
     if model.constants:
         document.add("constants", _table({k: float(v) for k, v in model.constants.items()}))
-    document.add("parameters", _parameters(model, stderr))
+    document.add("parameters", _parameters(model, stderr, per_run))
     if fitted_on:
         document.add("fitted_on", _table(fitted_on))
     if model.box:
@@ -94,7 +100,7 @@ def add_model(
         document.add("box", _table(box))
 
 
-def _parameters(model: Model, stderr: Mapping[str, float]) -> Table:
+def _parameters(model: Model, stderr: Mapping[str, float], per_run: PerRun) -> Table:
     rows = tomlkit.table(is_super_table=True)
     of_formulas = {name for terms in model.own for name in terms.names}
     for p, value in zip(model.parameters, model.values, strict=True):
@@ -106,8 +112,23 @@ def _parameters(model: Model, stderr: Mapping[str, float]) -> Table:
             row["bounds"] = [float(end) for end in bounds]
         if stderr.get(p.name) is not None:
             row["stderr"] = stderr[p.name]
-        rows.add(p.name, _table(row))
+        table = _table(row)
+        if p.name in per_run:
+            table.add("per_run", _of_runs(per_run[p.name]))
+        rows.add(p.name, table)
     return rows
+
+
+def _of_runs(values: Mapping[str, tuple[float, float | None]]) -> Table:
+    """Value and standard error of each run, one line a run."""
+    table = tomlkit.table()
+    for run, (value, stderr) in values.items():
+        row = tomlkit.inline_table()
+        row.append("value", float(value))
+        if stderr is not None:
+            row.append("stderr", float(stderr))
+        table.add(run, row)
+    return table
 
 
 def _table(values: Mapping[str, object]) -> Table:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import fields
 from typing import Any
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError, nearest
 from stribeck.recording.assemble import build
 from stribeck.recording.names import CHANNELS
@@ -19,6 +20,7 @@ __all__ = ["from_columns"]
 _OPTIONS = frozenset(field.name for field in fields(ReadOptions)) - {"unit", "map", "sidecar"}
 
 
+@door(RecordingError)
 def from_columns(units: Mapping[str, str] | None, given: Mapping[str, Any]) -> Recording:
     """A recording of arrays; see `Recording.from_columns`."""
     columns: dict[str, object] = {}

@@ -19,6 +19,7 @@ from stribeck.report.parameters import (
     not_identifiable_text,
     open_text,
     parameters_text,
+    per_run_text,
 )
 from stribeck.report.recording import file_name, held_out_meaning, scored_sentence
 from stribeck.report.residual import velocity_panel
@@ -77,6 +78,7 @@ def fit_text(fit: Fit) -> str:
         f"{fit.model.spec} {'fitted to' if search else 'evaluated on'} {file_name(r)}",
         paragraph(search + scored_sentence(r)),
         parameters_text(fit.estimates, fit.errors in INTERVALS) + ("\n" + legend if legend else ""),
+        per_run_text(fit.per_run),
         open_text(fit.estimates),
         not_identifiable_text(fit.estimates, fit.combinations),
         correlation_text(fit.correlation),

@@ -66,6 +66,30 @@ def parameters_text(estimates: Mapping[str, Estimate], intervals: bool = False) 
     )
 
 
+def per_run_text(per_run: Mapping[str, Mapping[str, Estimate]]) -> str:
+    """The values of each run, one column a parameter; nothing where all runs share them."""
+    if not per_run:
+        return ""
+    runs = list(next(iter(per_run.values())))
+    rows = [["run", *(f"{name} [{_unit(es)}]" for name, es in per_run.items())]]
+    for run in runs:
+        cells = [_with_error(of_runs[run]) for of_runs in per_run.values()]
+        rows.append([run, *cells])
+    words = f"Values of each run; {listed(list(per_run))} above: the mean."
+    return paragraph(words) + "\n\n" + table(rows)
+
+
+def _unit(of_runs: Mapping[str, Estimate]) -> str:
+    return unit_text(next(iter(of_runs.values())).unit)
+
+
+def _with_error(e: Estimate) -> str:
+    value, error = with_error(e.value, e.stderr)
+    flags = _flags(e)
+    shown = f"{value} ± {error}".removesuffix(" ± ").replace("-", MINUS, 1)
+    return shown + (f" ({flags})" if flags else "")
+
+
 def _interval(e: Estimate) -> str:
     """The interval, each end with two digits of half its distance from the value."""
     if e.ci95 is None:

@@ -54,7 +54,8 @@ def recording_figure(r: Recording) -> Figure:
     time = clock(r)
     for axes, (label, lines) in zip(panels, shown, strict=True):
         style(axes)
-        zero_line(axes)
+        if not label.startswith("temperature"):
+            zero_line(axes)
         for values, colour, name in lines:
             assert values is not None
             over_time(axes, r, time.values, broken(r, values), colour, (0.9, 3.0), name)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeAlias
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.join import join
@@ -19,6 +20,7 @@ __all__ = ["Recordings", "as_one", "concat"]
 Recordings: TypeAlias = Recording | Sequence[Recording]
 
 
+@door(RecordingError, recordings=("a list of recordings", Sequence))
 def concat(recordings: Sequence[Recording], names: Sequence[str] | None = None) -> Recording:
     """Join recordings of one joint: each is a run, as if they had been read together.
 

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import polars as pl
 
+from stribeck.base.arguments import door
+from stribeck.base.errors import RecordingError
 from stribeck.recording.arrays import bools
 from stribeck.recording.computed import apply_formulas
 from stribeck.recording.readers import Source
@@ -16,6 +18,7 @@ from stribeck.recording.several.part import Part
 __all__ = ["where"]
 
 
+@door(RecordingError, condition=("a condition", str))
 def where(recording: Recording, condition: str) -> Recording:
     """The samples of a recording for which a condition holds; see `Recording.where`."""
     part = Part.of(recording, "")

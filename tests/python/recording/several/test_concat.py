@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -82,10 +83,11 @@ def test_a_part_of_a_recording(files: list[Path]) -> None:
         ("time > 1e9", "keeps none of 3000 rows"),
         ("velocty > 0", "did you mean 'velocity'"),
         ("velocity >", "position"),
+        (3, "a condition"),
     ],
 )
-def test_wrong_conditions(files: list[Path], condition: str, said: str) -> None:
-    with pytest.raises(sb.RecordingError, match=said):
+def test_wrong_conditions(files: list[Path], condition: Any, said: str) -> None:
+    with pytest.raises(sb.StribeckError, match=said):
         sb.read(files).where(condition)
 
 
@@ -99,6 +101,8 @@ def test_wrong_lists(files: list[Path]) -> None:
     ):
         with pytest.raises(sb.RecordingError, match=said):
             sb.fit("coulomb", given)
+    with pytest.raises(sb.StribeckError, match="a list of recordings"):
+        sb.concat(one)
     with pytest.raises(sb.RecordingError, match="a name of its own"):
         sb.concat([one, one], names=["a", "a"])
     assert sb.concat([one, one]).run_names == ("1", "2")
