@@ -106,8 +106,9 @@ def _not_read(inspection: Inspection) -> str:
 
 def _protocols(joint: str, found: tuple[Protocol, ...]) -> str:
     """The test-bench protocols of a joint, and how each becomes points."""
-    heading = f"Protocols found{f' for joint {joint}' if joint else ''}:"
-    rows = [f"{p.count} {p.says} (stribeck points --method {p.method})" for p in found]
+    of = f" of joint {joint}" if joint else ""
+    heading = f"Protocols{of}, which `stribeck points --method METHOD` turns into points:"
+    rows = [f"{p.method}: {p.count} {p.says}" for p in found]
     return bullets(heading, rows)
 
 

@@ -155,8 +155,8 @@ def test_the_command_lists_and_reduces(tmp_path: Path) -> None:
     log, points = tmp_path / "ramps.csv", tmp_path / "points.csv"
     bench.measured(bench.ramps([2.0, 5.0])).write_csv(log)
     shown = stribeck("inspect", log)
-    assert "2 breakaways from rest at" in shown.stdout
-    assert "stribeck points --method breakaway" in shown.stdout
+    assert "breakaway: 2 breakaways from rest at 5.0" in shown.stdout
+    assert "stribeck points --method METHOD" in shown.stdout
     (row,) = [
         p
         for p in json.loads(stribeck("inspect", log, "--json").stdout)["protocols"]

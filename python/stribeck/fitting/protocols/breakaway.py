@@ -31,8 +31,8 @@ Array = NDArray[np.float64]
 _RISE = 0.3
 #: ... and by this many standard deviations of its noise.
 _CLEAR = 6.0
-#: Its standard error is below it by this factor.
-_SIGMAS = 3.0
+#: It is known to a tenth, and the joint rests this long before it, s: it does not only turn round.
+_SIGMAS, _SHORTEST = 10.0, 0.1
 #: Over the last part of the rest, a line leaves at most this share of the torque's rise.
 _STRAIGHT = 0.15
 #: The motion is followed until it is this many times as fast as noise looks.
@@ -145,7 +145,8 @@ def _ramped(
     spread = max(float(t.var()), 1e-300)
     own_error = scatter * float(np.sqrt((1.0 + t.mean() ** 2 / spread) / independent))
     stderr = float(np.hypot(own_error, rate * error))
-    if abs(level) < _SIGMAS * stderr:
+    dwell = instant - float(recording.time[rest.start])
+    if abs(level) < _SIGMAS * stderr or dwell < _SHORTEST:
         return None
     return Breakaway(
         time=instant,
@@ -153,7 +154,7 @@ def _ramped(
         torque=level,
         stderr=stderr,
         rate=rate,
-        dwell=instant - float(recording.time[rest.start]),
+        dwell=dwell,
         row=rest.stop,
         rows=rows.stop - rows.start,
     )

@@ -84,6 +84,8 @@ def _breakaways(recording: Recording) -> Protocol | None:
         return None
     sizes = sorted(abs(b.torque) for b in found)
     says = f"breakaways from rest at {sizes[0]:.3g} to {sizes[-1]:.3g} {recording.torque_unit}"
+    if recording.load_torque is None:
+        says += ", gravity included"
     for name, of in dependence(found).items():
         if of.slope is not None and of.low is not None and of.high is not None:
             if of.low <= 0.0 <= of.high:
