@@ -46,7 +46,9 @@ def named_per_run(given: str | Collection[str], model: Model, recording: Recordi
     FitError
         There is one run only, or friction depends on a rigid body that is identified.
     """
-    texts = [given] if isinstance(given, str) else list(given)
+    texts = [given] if isinstance(given, str) else given
+    if not (isinstance(texts, Collection) and all(isinstance(text, str) for text in texts)):
+        raise SpecError(f"`per_run` is {given!r:.40}: give the name of a parameter, or several")
     said = [part.strip() for text in texts for part in text.split(",") if part.strip()]
     if not said:
         return []

@@ -135,6 +135,8 @@ def test_what_needs_one_value_is_refused() -> None:
     each = runs(rows=400)
     for options, said in (
         ({"per_run": "ofset"}, "did you mean 'offset'"),
+        ({"per_run": 3}, "`per_run` is 3: give the name"),
+        ({"per_run": [3]}, "give the name of a parameter"),
         ({"per_run": "offset", "fix": {"offset": 0.1}}, "offset is held"),
         ({"per_run": "offset", "prior": {"offset": (0.0, 1.0)}}, "does not take .*prior"),
         ({"per_run": "offset", "passive": True}, "passive=.*|passive.* one value"),

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import polars as pl
+import numpy as np
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError
-from stribeck.recording.arrays import bools
 from stribeck.recording.computed import apply_formulas
 from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
@@ -26,7 +25,8 @@ def where(recording: Recording, condition: str) -> Recording:
     settings = replace(part.settings, where=condition, derive={}, units={})
     source = Source(recording.path, recording.sha256, table, 0)
     kept = apply_formulas(source, settings, None).row
-    mask = bools(pl.Series(range(table.height)).is_in(kept.tolist()))
+    mask = np.zeros(table.height, dtype=bool)
+    mask[kept] = True
     count = recording.rows - int(mask.sum())
     samples = "1 sample" if count == 1 else f"{count} samples"
     cut = part.kept(mask, f"{samples} removed by where: {condition}")

@@ -131,6 +131,19 @@ def test_arm(folder: Path, tmp_path: Path) -> None:
         assert model.law == "hao_a" and model.values[0] == expected
 
 
+def test_an_arm_on_another_recording(folder: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.parquet"
+    planar_arm.recording_frame(seed=7, repetitions=1).write_parquet(other)
+    words = ("arm", folder / "arm.parquet", "--first-link-length", 0.35, "--evaluate")
+    made = answer(*words, other)
+    (row,) = made["evaluated"]
+    assert row["file"] == str(other) and all(error > 0.0 for error in row["rmse"])
+    # The same motion with other noise: the same errors.
+    assert row["relative_residual"] == pytest.approx(made["relative_errors"], rel=0.05)
+    assert "other.parquet, not fitted: torque error" in stribeck(*words, other).stdout
+    assert "the arm is fitted to it" in refused(*words, folder / "arm.parquet")
+
+
 def test_tables_are_readable(folder: Path) -> None:
     for words in (
         ("points", folder / "passes.csv", "--method", "averaging"),
