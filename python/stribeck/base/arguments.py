@@ -12,8 +12,8 @@ import os
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import ParamSpec, TypeAlias, TypeVar
 
-from stribeck.base.checks import check_count, check_number, check_share
-from stribeck.base.errors import SpecError, StribeckError, one_line
+from stribeck.base.checks import check_count, check_number, check_share, shown
+from stribeck.base.errors import SpecError, StribeckError
 from stribeck.base.foreign import sentence_of
 
 __all__ = ["MOST_SEED", "MOST_STARTS", "RULES", "door"]
@@ -37,19 +37,24 @@ def _count(least: int, most: int) -> Rule:
 
 def _path(name: str, value: object) -> None:
     if not isinstance(value, str | os.PathLike):
-        raise SpecError(f"`{name}` is {_shown(value)}: give a path")
+        raise SpecError(f"`{name}` is {shown(value)}: give a path")
     if "\0" in os.fsdecode(value):
-        raise SpecError(f"`{name}` is {_shown(value)}: a path has no null character")
+        raise SpecError(f"`{name}` is {shown(value)}: a path has no null character")
 
 
 def _text(name: str, value: object) -> None:
     if not isinstance(value, str):
-        raise SpecError(f"`{name}` is {_shown(value)}: give a text")
+        raise SpecError(f"`{name}` is {shown(value)}: give a text")
+
+
+def _text_or_none(name: str, value: object) -> None:
+    if value is not None:
+        _text(name, value)
 
 
 def _texts(name: str, value: object) -> None:
     if isinstance(value, str) or not isinstance(value, Collection):
-        raise SpecError(f"`{name}` is {_shown(value)}: give a list of texts")
+        raise SpecError(f"`{name}` is {shown(value)}: give a list of texts")
     for item in value:
         _text(name, item)
 
@@ -58,12 +63,12 @@ def _box(name: str, value: object) -> None:
     if value is None:
         return
     if not isinstance(value, Mapping):
-        raise SpecError(f"`{name}` is {_shown(value)}: give a dict of (low, high) by channel")
+        raise SpecError(f"`{name}` is {shown(value)}: give a dict of (low, high) by channel")
     for channel, sides in value.items():
         if not isinstance(channel, str):
-            raise SpecError(f"`{name}` has the channel {_shown(channel)}: give its name")
+            raise SpecError(f"`{name}` has the channel {shown(channel)}: give its name")
         if isinstance(sides, str) or not isinstance(sides, Iterable) or len([*sides]) != 2:
-            raise SpecError(f"`{name}` of {channel} is {_shown(sides)}: give (low, high)")
+            raise SpecError(f"`{name}` of {channel} is {shown(sides)}: give (low, high)")
         for side in sides:
             check_number(f"{name} of {channel}", side)
 
@@ -73,12 +78,14 @@ RULES: dict[str, Rule] = {
     "starts": _count(1, MOST_STARTS),
     "seed": _count(0, MOST_SEED),
     "least_fall": check_share,
+    "resamples": _count(1, 10**6),
     "most_steps": _count(0, 1000),
     "sample_rows": _count(1, _MOST_ROWS),
     "window_rows": _count(1, _MOST_ROWS),
     "rejected": _texts,
     "candidates": _texts,
     "effect": _text,
+    "name": _text_or_none,
     "formula": _text,
     "to": _text,
     "box": _box,
@@ -144,11 +151,4 @@ def door(
 
 def _check_kind(name: str, value: object, words: str, kinds: type | tuple[type, ...]) -> None:
     if not isinstance(value, kinds):
-        raise SpecError(f"`{name}` is {_shown(value)}: give {words}")
-
-
-def _shown(value: object) -> str:
-    """A value in a sentence."""
-    if value is None or isinstance(value, bool | int | float | str):
-        return one_line(repr(value), 80)
-    return f"a {type(value).__name__}"
+        raise SpecError(f"`{name}` is {shown(value)}: give {words}")

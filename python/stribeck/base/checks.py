@@ -7,7 +7,15 @@ from numbers import Integral, Real
 
 from stribeck.base.errors import SpecError, one_line, option
 
-__all__ = ["LARGEST", "check_choice", "check_count", "check_finite", "check_number", "check_share"]
+__all__ = [
+    "LARGEST",
+    "check_choice",
+    "check_count",
+    "check_finite",
+    "check_number",
+    "check_share",
+    "shown",
+]
 
 #: The largest number that enters: products of three are still finite.
 LARGEST = 1e100
@@ -81,4 +89,11 @@ def _given(name: str, value: object) -> str:
             return option(name, float(value))
         except OverflowError:
             pass
-    return f"{option(name)} is {one_line(repr(value), 80)}"
+    return f"{option(name)} is {shown(value)}"
+
+
+def shown(value: object) -> str:
+    """A value in a sentence: numbers and texts as they are written, others by their type."""
+    if value is None or isinstance(value, bool | int | float | str | list | tuple | dict):
+        return one_line(repr(value), 80)
+    return f"a {type(value).__name__}"

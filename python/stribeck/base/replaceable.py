@@ -9,7 +9,7 @@ from pathlib import Path
 
 from stribeck.base.errors import StribeckError
 
-__all__ = ["OWN", "check_folder", "check_replaceable", "check_table", "kind_of"]
+__all__ = ["OWN", "check_folder", "check_regular", "check_replaceable", "check_table", "kind_of"]
 
 #: First line of the sidecars that are written together with a table.
 OWN = "# Written by stribeck together with the table, and replaced with it."
@@ -80,6 +80,12 @@ def kind_of(content: bytes) -> str:
     if stated:
         return f"{stated[1].decode()} file"
     return "text" if start else "empty"
+
+
+def check_regular(path: str | os.PathLike[str], error: type[StribeckError]) -> None:
+    """Refuse to read a device or a pipe, which may never end; a missing file passes."""
+    if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
+        raise error(f"cannot read {path}: it is not a regular file; give a path to a file")
 
 
 def check_folder(path: str | os.PathLike[str], error: type[StribeckError] = StribeckError) -> None:

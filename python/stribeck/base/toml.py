@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from stribeck.base.errors import StribeckError, nearest
+from stribeck.base.replaceable import check_regular
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -28,6 +29,7 @@ def read_text(path: Path, kind: str, error: type[StribeckError]) -> str:
     StribeckError
         Of the type `error`: the file cannot be read, or is not text.
     """
+    check_regular(path, error)
     try:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as failure:

@@ -136,7 +136,7 @@ def compare(
 
     A fit made on another recording is not refitted: its error here is a held-out error.
     """
-    if isinstance(fits, Fit) or not fits or not all(isinstance(f, Fit) for f in fits):
+    if not isinstance(fits, Sequence) or not fits or not all(isinstance(f, Fit) for f in fits):
         raise FitError("there is nothing to compare: give a list of fits")
     recording = as_one(recording)
     fits = [

@@ -68,6 +68,8 @@ def check_algorithm(name: str, what: str = "algorithm") -> str:
     SpecError
         There is none of that name.
     """
+    if not isinstance(name, str):
+        raise SpecError(f"{what} is {name!r}: give the name of one")
     if name not in ALGORITHMS:
         raise SpecError(
             f"unknown {what} {name!r}{nearest(name, ALGORITHMS)}; there are {', '.join(ALGORITHMS)}"

@@ -77,7 +77,10 @@ def columns(
         external = -load
     step: float | Array | None = None
     if dt is not None:
-        step = float(column(dt)[0]) if np.ndim(dt) == 0 else column(dt, speed.shape)
+        steps = column(dt, speed.shape)
+        if not np.isfinite(steps).all() or (steps < 0.0).any():
+            raise SpecError("dt is not finite, or negative: give the steps in s")
+        step = float(steps[0]) if np.ndim(dt) == 0 and steps.size else steps
     return {
         "dt": step,
         "velocity": speed,

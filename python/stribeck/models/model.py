@@ -199,6 +199,7 @@ class Model:
         row = law_row(self.law)
         return effect in self.effects or (row is not None and effect in row["captures"])
 
+    @door()
     def value(self, name: str) -> float:
         """The value of one parameter, by name."""
         if name not in self.names:

@@ -12,7 +12,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import Literal, TypedDict, cast
 
-from stribeck.base.errors import RecordingError, nearest, one_line, option
+from stribeck.base.checks import shown
+from stribeck.base.errors import RecordingError, nearest, option
 
 __all__ = [
     "TABLE",
@@ -249,10 +250,9 @@ class ReadOptions:
                 or (entry.kind == "pairs" and not _are_pairs(value))
             )
             if wrong:
-                form = entry.form or entry.kind
-                raise RecordingError(
-                    f"{option(entry.name)} is {one_line(repr(value), 80)}: give {form}"
-                )
+                words = {"text": "a text", "path": "a path", "switch": "True or False"}
+                form = entry.form or words[entry.kind]
+                raise RecordingError(f"{option(entry.name)} is {shown(value)}: give {form}")
 
     def given(self) -> ReadArguments:
         """The options that are not at their default, as keyword arguments of `stribeck.read`.
@@ -275,9 +275,9 @@ class ReadOptions:
         if given is None:
             return None
         try:
-            value = float(given)
+            value = math.nan if isinstance(given, bool) else float(given)
         except (TypeError, ValueError):
-            raise RecordingError(f"{option(name, str(given))}: is not a number") from None
+            raise RecordingError(f"{option(name)} is {shown(given)}: is not a number") from None
         problem = check_limit(value, entry.limit)
         if problem is not None:
             raise RecordingError(f"{option(name, value)}: {problem}")

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from stribeck.base.errors import RecordingError, nearest
+from stribeck.base.replaceable import check_regular
 from stribeck.base.toml import TomlText
 from stribeck.recording.options import TABLE, FilePath, Limit, check_limit
 
@@ -110,6 +111,7 @@ def read_sidecar(path: FilePath) -> Sidecar:
 
 
 def _text(name: str) -> str:
+    check_regular(name, RecordingError)
     try:
         return Path(name).read_bytes().decode("utf-8-sig")
     except FileNotFoundError:

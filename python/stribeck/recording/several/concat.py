@@ -83,7 +83,7 @@ def as_one(recording: Recordings) -> Recording:
 
 
 def _wrong(given: object) -> RecordingError:
-    what = f"'{given}'" if isinstance(given, str | Path) else f"a {type(given).__name__}"
+    what = f"'{given}'" if isinstance(given, str | Path | None) else f"a {type(given).__name__}"
     return RecordingError(
         f"{what} is not a recording: read it first, with `stribeck.read`, or give a list of "
         "recordings"
