@@ -277,7 +277,8 @@ class ReadOptions:
         try:
             value = math.nan if isinstance(given, bool) else float(given)
         except (TypeError, ValueError):
-            raise RecordingError(f"{option(name)} is {shown(given)}: is not a number") from None
+            given_as = option(name, given) if isinstance(given, str) else option(name)
+            raise RecordingError(f"{given_as}: is not a number") from None
         problem = check_limit(value, entry.limit)
         if problem is not None:
             raise RecordingError(f"{option(name, value)}: {problem}")
