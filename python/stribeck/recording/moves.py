@@ -25,9 +25,9 @@ def moves(recording: Recording) -> Ints:
     Examples
     --------
     >>> import numpy as np
-    >>> from stribeck.recording.from_columns import from_columns
     >>> t = np.arange(0.0, 6.0, 0.01)
-    >>> r = from_columns(time=t, velocity=np.sin(2 * np.pi * t / 2), torque=np.ones(t.size))
+    >>> v = np.sin(2 * np.pi * t / 2)
+    >>> r = Recording.from_columns(time=t, velocity=v, torque=np.ones(t.size))
     >>> int(moves(r).max()) + 1
     6
     """
