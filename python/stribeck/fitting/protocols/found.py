@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from stribeck.fitting.methods.stretches import constant_speed
+from stribeck.fitting.methods.stretches import Search, constant_speed
 from stribeck.fitting.protocols.breakaway import breakaways, dependence
 from stribeck.fitting.protocols.coast_down import coast_downs
 from stribeck.fitting.protocols.loops import presliding_loops
@@ -17,6 +17,8 @@ __all__ = ["Protocol", "found_protocols"]
 
 #: Least share of the motion that passes at constant speed take.
 _PASSES = 0.5
+#: From this number of samples on, a quick look decides whether passes are sought.
+_LONG = 30_000
 
 
 @dataclass(frozen=True)
@@ -62,12 +64,18 @@ def found_protocols(recording: Recording) -> tuple[Protocol, ...]:
 def _plateaux(recording: Recording) -> Protocol | None:
     if not is_measured(recording) or recording.position is None:
         return None
+    speed = np.abs(recording.velocity_smooth)
+    moving = speed > still_speed(recording)
+    if len(recording) > _LONG:
+        # Straight lines take seconds to find: first see whether the speed stays the same at all.
+        later = max(1, int(Search.shortest * recording.rate_hz))
+        change = np.abs(speed[later:] - speed[:-later])
+        steady = moving[later:] & (change < 2.0 * Search.tolerance * speed[later:])
+        if steady.sum() < 0.5 * _PASSES * moving.sum():
+            return None
     lines = constant_speed(recording.time, recording.position, recording.segment)
-    rows = sum(line.rows for line in lines)
     # The fastest part of any smooth motion is nearly constant, too: a fifth of a sine.
-    if rows < _PASSES * float((np.abs(recording.velocity_smooth) > still_speed(recording)).sum()):
-        return None
-    if not lines:
+    if not lines or sum(line.rows for line in lines) < _PASSES * float(moving.sum()):
         return None
     speeds = sorted(abs(line.velocity) for line in lines)
     forward = sum(line.velocity > 0.0 for line in lines)
