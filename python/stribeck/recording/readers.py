@@ -94,15 +94,16 @@ def read_table(path: str | Path, asked: Asked | None = None) -> Source:
         import_module(f"stribeck.recording.formats.{module}"), function
     )
     try:
-        got = read(file, asked)
-        sha256 = file.sha256
+        with file.hashing() as sha256:
+            got = read(file, asked)
+            hashed = sha256()
     except MemoryError:
         raise file.above("the table") from None
     if got.table.width == 0 or got.table.height == 0:
         raise RecordingError(f"{file.name}: there are no rows of data in the file")
     if asked.columns and module != "logs":
         raise RecordingError(f"{file.name}: its columns have names: omit the names of columns")
-    return Source(file.name, sha256, got.table, got.first_line, got.notes, got.joints)
+    return Source(file.name, hashed, got.table, got.first_line, got.notes, got.joints)
 
 
 def _unknown(file: Entered) -> RecordingError:

@@ -13,13 +13,11 @@ import polars as pl
 from polars.datatypes import DataTypeClass
 
 from stribeck.base.errors import RecordingError
-from stribeck.recording.formats.door import Asked, Entered
+from stribeck.recording.formats.door import MOST_COLUMNS, Asked, Entered
 from stribeck.recording.formats.part import Read
 
 __all__ = ["read_arrow", "read_parquet"]
 
-#: Rows of lists that are looked at together.
-_ROWS = 1 << 16
 _Type: TypeAlias = pl.DataType | DataTypeClass
 #: What polars raises on damaged files; a panic is no subclass of the others.
 _DAMAGED = (
@@ -49,7 +47,7 @@ def read_parquet(file: Entered, asked: Asked) -> Read:
             frame = pl.scan_parquet(source, glob=False)
             rows = int(frame.select(pl.len()).collect().item())
             file.check_table(rows, len(schema))
-            return _spread(file, frame, schema, rows)
+            return _spread(file, frame.collect())
     except _DAMAGED as error:
         if isinstance(error, RecordingError):
             raise
@@ -77,27 +75,28 @@ def read_arrow(file: Entered, asked: Asked) -> Read:
                 rows = int(frame.select(pl.len()).collect().item())
             file.check_columns(list(schema))
             file.check_table(rows, len(schema))
-            return _spread(file, frame, schema, rows)
+            return _spread(file, frame.collect())
     except _DAMAGED as error:
         if isinstance(error, RecordingError):
             raise
         raise file.damaged("Arrow", error, "write or copy it again") from None
 
 
-def _spread(file: Entered, frame: pl.LazyFrame, schema: pl.Schema, rows: int) -> Read:
+def _spread(file: Entered, table: pl.DataFrame) -> Read:
     """The table with a column for each place of a list, and for each field of a struct."""
     made: list[pl.Expr] = []
     left: list[str] = []
-    cells = 0
-    for name, dtype in schema.items():
-        for expression, kind in _leaves(file, frame, name, pl.col(name), dtype, rows):
-            if kind is None:
-                left.append(expression.meta.output_name())
-            else:
+    for name, dtype in table.schema.items():
+        if _single(dtype):
+            made.append(pl.col(name))
+            continue
+        for expression, read in _leaves(table, name, pl.col(name), dtype):
+            if read:
                 made.append(expression)
-                cells += 1
-    file.check_table(rows, cells)
-    table = frame.select(made).collect()
+            else:
+                left.append(expression.meta.output_name())
+        file.check_table(table.height, len(made))
+    table = table.select(made) if left or len(made) != table.width else table
     file.check_columns(table.columns)
     notes: tuple[str, ...] = ()
     if left:
@@ -107,28 +106,26 @@ def _spread(file: Entered, frame: pl.LazyFrame, schema: pl.Schema, rows: int) ->
 
 
 def _leaves(
-    file: Entered, frame: pl.LazyFrame, name: str, at: pl.Expr, dtype: _Type, rows: int
-) -> Iterator[tuple[pl.Expr, _Type | None]]:
-    """The expressions of the single values of a column, with their types; None: not read."""
+    table: pl.DataFrame, name: str, at: pl.Expr, dtype: _Type
+) -> Iterator[tuple[pl.Expr, bool]]:
+    """The expressions of the single values of a column, and whether they can be read."""
     if isinstance(dtype, pl.Struct):
         for field in dtype.fields:
             inner = at.struct.field(field.name)
-            yield from _leaves(file, frame, f"{name}.{field.name}", inner, field.dtype, rows)
+            yield from _leaves(table, f"{name}.{field.name}", inner, field.dtype)
     elif isinstance(dtype, pl.Array) and _single(dtype.inner):
-        for i in range(dtype.size):
-            yield at.arr.get(i).alias(f"{name}[{i}]"), dtype.inner
+        for i in range(min(dtype.size, MOST_COLUMNS + 1)):
+            yield at.arr.get(i).alias(f"{name}[{i}]"), True
     elif isinstance(dtype, pl.List) and _single(dtype.inner):
-        length = _length(frame, at, rows)
-        if length is None:
-            yield at.alias(name), None
+        lengths = table.select(at.list.len().alias("n"))["n"].drop_nulls().unique().to_list()
+        # Lists of several lengths are no columns; an empty one is a missing value.
+        if len({*lengths} - {0}) > 1:
+            yield at.alias(name), False
             return
-        file.check_table(rows, length)
-        for i in range(length):
-            yield at.list.get(i, null_on_oob=True).alias(f"{name}[{i}]"), dtype.inner
-    elif _single(dtype) or dtype == pl.Null:
-        yield at.alias(name), dtype
+        for i in range(min(max(lengths, default=0), MOST_COLUMNS + 1)):
+            yield at.list.get(i, null_on_oob=True).alias(f"{name}[{i}]"), True
     else:
-        yield at.alias(name), None
+        yield at.alias(name), _single(dtype)
 
 
 def _single(dtype: object) -> bool:
@@ -136,17 +133,6 @@ def _single(dtype: object) -> bool:
     return not (
         isinstance(dtype, pl.List | pl.Array | pl.Struct) or dtype in (pl.Binary, pl.Object)
     )
-
-
-def _length(frame: pl.LazyFrame, at: pl.Expr, rows: int) -> int | None:
-    """The number of values that each list has; None where they differ."""
-    lengths: set[int] = set()
-    for first in range(0, rows, _ROWS):
-        part = frame.slice(first, _ROWS).select(at.list.len().alias("n")).collect()["n"]
-        lengths.update(part.drop_nulls().unique().to_list())
-        if len(lengths - {0}) > 1:
-            return None
-    return max(lengths, default=0)
 
 
 @contextmanager

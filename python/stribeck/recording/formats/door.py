@@ -9,10 +9,13 @@ import os
 import stat
 import sys
 import zlib
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from threading import Event
 from typing import BinaryIO
 
 import psutil
@@ -96,16 +99,25 @@ class Entered:
         """The path, as sentences begin with it."""
         return str(self.path)
 
-    @cached_property
-    def sha256(self) -> str:
-        """Hash of the bytes of the file."""
-        if not self.compressed and "data" in self.__dict__:
-            return hashlib.sha256(self.data).hexdigest()
-        made = hashlib.sha256()
-        with open(self.path, "rb") as stream:
-            while piece := stream.read(_PIECE):
-                made.update(piece)
-        return made.hexdigest()
+    @contextmanager
+    def hashing(self) -> Iterator[Callable[[], str]]:
+        """Hash the bytes of the file while it is read; gives what waits for the hash."""
+        stop = Event()
+
+        def sha256() -> str:
+            made = hashlib.sha256()
+            with open(self.path, "rb") as stream:
+                while not stop.is_set() and (piece := stream.read(_PIECE)):
+                    made.update(piece)
+            return made.hexdigest()
+
+        with ThreadPoolExecutor(1) as beside:
+            running = beside.submit(sha256)
+            try:
+                yield running.result
+            finally:
+                # Nobody waits for the hash of a file that is refused.
+                stop.set()
 
     @cached_property
     def data(self) -> bytes:

@@ -60,6 +60,10 @@ def look(file: Entered, data: bytes, start: int, first: int, mark: bytes, expect
     RecordingError
         A line is too long, a quote is not closed, or there are bytes of a binary file.
     """
+    quotes = data.find(b'"', start) >= 0
+    even = _all_even(file, data, start, first, mark, expected)
+    if even is not None and not quotes:
+        return even
     count, before, last = 0, 0, start - 1
     uneven: tuple[int, int] | None = None
     whole = np.frombuffer(data, dtype=np.uint8)
@@ -85,15 +89,42 @@ def look(file: Entered, data: bytes, start: int, first: int, mark: bytes, expect
         if uneven is None and before != expected:
             uneven = (first + count, before)
         count += 1
-    quotes = data.find(b'"', start) >= 0
     if quotes:
         _check_quotes(file, whole[start:], first)
+    return Lines(count, quotes, _has_blank(data, start), uneven, end)
+
+
+def _all_even(
+    file: Entered, data: bytes, start: int, first: int, mark: bytes, expected: int
+) -> Lines | None:
+    """The lines if all may have as many cells as expected: by counts, which are fast.
+
+    A line with fewer cells than expected is then made up for by one with more, which is refused
+    when the table is made.
+    """
     if data.find(b"\0", start) >= 0:
         raise RecordingError(
             f"{file.name}: holds NUL characters, which text has not: give it the extension of its "
             "format, or write it again"
         )
-    return Lines(count, quotes, _has_blank(data, start), uneven, end)
+    at = start
+    while len(data) - at > LONGEST_LINE:
+        at = data.rfind(b"\n", at, at + LONGEST_LINE) + 1
+        if not at:
+            # The line is named below.
+            return None
+    whole = marks = 0
+    text = np.frombuffer(data, dtype=np.uint8)
+    for begin in range(start, len(data), _PIECE):
+        piece = text[begin : begin + _PIECE]
+        whole += np.count_nonzero(piece == _NEWLINE)
+        marks += np.count_nonzero(piece == mark[0])
+    end = data.rfind(b"\n", start) + 1 or start
+    count = whole + bool(data[end:].strip())
+    # A blank line has too few cells, unless there is one cell in each.
+    if marks != count * expected or (not expected and _has_blank(data, start)):
+        return None
+    return Lines(count, False, False, None, end)
 
 
 def _first_uneven(numbers: NDArray[np.int64], expected: int, line: int) -> tuple[int, int]:
@@ -135,4 +166,6 @@ def _has_blank(data: bytes, start: int) -> bool:
     """Whether a line between others is blank."""
     if data.find(b"\n\n", start) >= 0 or data.find(b"\n\r\n", start) >= 0:
         return True
+    if data.find(b"\n ", start) < 0 and data.find(b"\n\t", start) < 0:
+        return False
     return _BLANK.search(data, start) is not None

@@ -21,7 +21,7 @@ _NULLS = ["", "NA", "N/A", "n/a", "null", "NULL", "None"]
 #: Rows from which the types of the columns are taken at first.
 _TYPED_ROWS = 1000
 #: Bytes in which the first lines are looked for, and how many of these decide.
-_HEAD, _DECIDING = 1 << 22, 100
+_HEAD, _DECIDING = 1 << 20, 100
 
 
 @dataclass(frozen=True)
