@@ -117,8 +117,8 @@ def _all_even(
     text = np.frombuffer(data, dtype=np.uint8)
     for begin in range(start, len(data), _PIECE):
         piece = text[begin : begin + _PIECE]
-        whole += np.count_nonzero(piece == _NEWLINE)
-        marks += np.count_nonzero(piece == mark[0])
+        whole += int(np.count_nonzero(piece == _NEWLINE))
+        marks += int(np.count_nonzero(piece == mark[0]))
     end = data.rfind(b"\n", start) + 1 or start
     count = whole + bool(data[end:].strip())
     # A blank line has too few cells, unless there is one cell in each.
