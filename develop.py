@@ -4,10 +4,13 @@
     python3 develop.py setup         build and install only
     python3 develop.py demo          run `stribeck demo`
     python3 develop.py test          run all Rust tests and the fast Python tests
-    python3 develop.py slow          run the slow Python tests
+    python3 develop.py slow          run the slow tests
     python3 develop.py check         run formatters, linters, type checks, import contracts, docs
     python3 develop.py docs          serve the documentation at http://127.0.0.1:8000
     python3 develop.py lock          update requirements.lock to the newest versions
+    python3 develop.py oldest        run the fast Python tests with the oldest dependencies
+    python3 develop.py audit         look for known vulnerabilities of the locked dependencies
+    python3 develop.py mutants       change the crate one operator at a time (needs cargo-mutants)
     python3 develop.py embedded      compare and count steps on emulated microcontrollers
     python3 develop.py processors    compare an identification on emulated processors
     python3 develop.py instructions  count the instructions of each kernel (--write: keep the table)
@@ -105,6 +108,7 @@ def test() -> None:
 
 
 def slow() -> None:
+    run("cargo", "test", "--quiet", "--locked", "--release", "--test", "soak", "--", "--ignored")
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "slow", *sys.argv[2:])
 
 
@@ -132,6 +136,34 @@ def lock() -> None:
     run(BIN / "uv", "pip", "compile", "--quiet", "--universal", "--python-version", "3.10",
         "--all-extras", "--upgrade", "--no-header", "--no-annotate",
         "--output-file", LOCK, "pyproject.toml")  # fmt: skip
+
+
+def oldest() -> None:
+    """Run the fast Python tests with the oldest supported version of each dependency."""
+    venv = ROOT / "target" / "oldest"
+    python = venv / BIN.name / "python"
+    run(PYTHON, "-m", "pip", "install", "--quiet", "uv")
+    run(BIN / "uv", "venv", "--quiet", "--clear", "--python", PYTHON, venv)
+    run(BIN / "uv", "pip", "install", "--quiet", "--python", python,
+        "--resolution", "lowest-direct", "-r", "pyproject.toml")  # fmt: skip
+    # The tools of the tests may be new; the extension module is that of `setup`.
+    run(BIN / "uv", "pip", "install", "--quiet", "--python", python, "--constraint", LOCK,
+        "pytest", "pytest-timeout", "hypothesis", "mpmath", "syrupy", "distributed")  # fmt: skip
+    os.environ["PYTHONPATH"] = str(ROOT / "python")
+    run(python, "-m", "pytest", "-q", "-m", "not slow", *sys.argv[2:])
+
+
+def audit() -> None:
+    """Look for known vulnerabilities of the locked dependencies; needs the network."""
+    run(PYTHON, "-m", "pip", "install", "--quiet", "pip-audit")
+    run(PYTHON, "-m", "pip_audit", "--disable-pip", "--no-deps", "-r", LOCK)
+
+
+def mutants() -> None:
+    """Change the crate's proofs one operator at a time; the tests must notice. Takes hours."""
+    files = [f"--file={path}" for path in MUTATED]
+    os.environ["CARGO_PROFILE_DEV_OPT_LEVEL"] = "1"
+    run("cargo", "mutants", "--jobs", "1", *files, *sys.argv[2:], "--", "--lib")
 
 
 def embedded() -> None:
@@ -167,6 +199,9 @@ def in_one_thread() -> None:
         os.environ[threads] = "1"
 
 
+#: What a wrong sign in would prove too much, or alter an answer.
+MUTATED = ("src/passivity/*.rs", "src/scalar/*.rs", "src/law/*.rs", "src/dynamics/*.rs")
+
 TASKS = {
     "setup": lambda: None,
     "demo": demo,
@@ -175,6 +210,9 @@ TASKS = {
     "check": check,
     "docs": docs,
     "lock": lock,
+    "oldest": oldest,
+    "audit": audit,
+    "mutants": mutants,
     "embedded": embedded,
     "processors": processors,
     "instructions": instructions,

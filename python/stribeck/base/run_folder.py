@@ -47,8 +47,7 @@ def claim(
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        known = (folder / MANIFEST).exists()
-        if not known and any(path.name != LOCK for path in folder.iterdir()):
+        if not _is_empty(folder) and not (folder / MANIFEST).exists():
             raise StribeckError(
                 f"{folder} is not empty and holds no {what}: give another {option('output')}"
             )
@@ -67,6 +66,12 @@ def claim(
     except OSError as error:
         raise unwritable(folder, error) from None
     return held
+
+
+def _is_empty(folder: Path) -> bool:
+    """Return whether nothing is in a folder but what a run makes before its manifest."""
+    begun = (LOCK, f".{MANIFEST}-")
+    return all(path.name.startswith(begun) for path in folder.iterdir())
 
 
 def unwritable(folder: Path, error: OSError) -> StribeckError:

@@ -7,6 +7,7 @@ end. It can be read at any time: ``polars.read_parquet("FOLDER/results/*.parquet
 
 from __future__ import annotations
 
+import contextlib
 import io
 import json
 from collections.abc import Iterable
@@ -159,14 +160,21 @@ class FleetStore:
             self._end_part()
             self.frame = _latest([self.frame, *self._added])
             done = bool((self.frame["status"] == DONE).any())
-            if done and len(self._parts) > 1:
+            # One part too: its rows are in the order in which the tasks ended.
+            if done and (self._added or len(self._parts) > 1):
                 self._put_together()
+            if not done:
+                self._discard()
         finally:
             self._lock.release()
         if not done:
-            self._discard()
+            with contextlib.suppress(OSError):
+                self.folder.rmdir()  # Not if it holds anything else.
 
     def _put_together(self) -> None:
+        if len(self._parts) == 1:
+            self._write(self.frame, self._parts[0])
+            return
         before = list(self._parts)
         self._write(self.frame)
         for path in before:
@@ -176,9 +184,8 @@ class FleetStore:
     def _discard(self) -> None:
         for path in (*self._parts, self.folder / MANIFEST):
             path.unlink(missing_ok=True)
-        for folder in (self._results, self.folder):
-            if not any(folder.iterdir()):
-                folder.rmdir()
+        if not any(self._results.iterdir()):
+            self._results.rmdir()
 
     def _end_part(self) -> None:
         """Leave the last part as it is; the next row begins another."""
