@@ -114,7 +114,7 @@ def listed(names: Iterable[str]) -> str:
     Examples
     --------
     >>> listed(["t", "q"]), listed(str(i) for i in range(3000))[-24:]
-    ('t, q', '4, 65, 66 and 2933 more')
+    ('t, q', '49, 50, 51 and 2948 more')
     """
     every = list(names)
     shown, size = [], 0

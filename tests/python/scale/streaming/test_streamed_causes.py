@@ -43,7 +43,7 @@ def test_what_is_missing_is_found_on_a_part_and_counted_on_all(folder: Path) -> 
 @pytest.mark.slow
 def test_the_command_says_what_was_looked_at(folder: Path) -> None:
     done = CliRunner().invoke(
-        cli, ["diagnose", str(folder), "coulomb", "--sample-rows", "8000", "--json"]
+        cli, ["diagnose", str(folder), "coulomb", "--stream", "--sample-rows", "8000", "--json"]
     )
     assert done.exit_code == 0, done.output
     answer = json.loads(done.stdout)
