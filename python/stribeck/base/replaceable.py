@@ -9,7 +9,7 @@ from pathlib import Path
 
 from stribeck.base.errors import StribeckError
 
-__all__ = ["OWN", "check_folder", "check_regular", "check_replaceable", "check_table", "kind_of"]
+__all__ = ["OWN", "check_folder", "check_own", "check_regular", "check_replaceable", "check_table", "kind_of"]
 
 #: First line of the sidecars that are written together with a table.
 OWN = "# Written by stribeck together with the table, and replaced with it."
@@ -48,6 +48,8 @@ def check_replaceable(
         )
 
 
+#: First bytes that two exports of the same kind and name share.
+_SAME = 12
 #: Bytes from which the kind of a file shows.
 _ENOUGH = 4096
 _SIGNATURES = {
@@ -86,6 +88,19 @@ def check_regular(path: str | os.PathLike[str], error: type[StribeckError]) -> N
     """Refuse to read a device or a pipe, which may never end; a missing file passes."""
     if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
         raise error(f"cannot read {path}: it is not a regular file; give a path to a file")
+
+
+def check_own(path: str | os.PathLike[str], text: str, error: type[StribeckError]) -> None:
+    """Refuse to replace a file that neither names stribeck nor begins as the new `text` does."""
+    if os.path.isfile(path):
+        with open(path, "rb") as stream:
+            start = stream.read(_ENOUGH)
+        same = start[:_SAME] == text.encode()[:_SAME]
+        if start and not same and b"stribeck" not in start.lower():
+            raise error(
+                f"cannot write {path}: a file that stribeck did not write is there; give another "
+                f"folder, or remove it"
+            )
 
 
 def check_folder(path: str | os.PathLike[str], error: type[StribeckError] = StribeckError) -> None:

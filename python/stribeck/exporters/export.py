@@ -11,6 +11,7 @@ from typing import Literal, TypeVar, get_args
 from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, nearest, option
 from stribeck.base.files import write_whole
+from stribeck.base.replaceable import check_own
 from stribeck.exporters.about import About
 from stribeck.exporters.c.files import c_files, identifier
 from stribeck.exporters.document import json_files
@@ -210,6 +211,8 @@ def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
         raise ModelFileError(
             f"cannot create the folder {folder}: {error.strerror or error}; give another one"
         ) from None
+    for name, text in texts.items():
+        check_own(folder / name, text, ModelFileError)
     for name, text in texts.items():
         write_whole(folder / name, text, ModelFileError)
     return tuple(folder / name for name in texts)

@@ -118,6 +118,7 @@ def make_workspace(folder: Path) -> None:
     (folder / "photo.png").write_bytes(b"\x89PNG mine")
     (folder / "folder").mkdir()
     (folder / "folder" / "kept.txt").write_text("mine")
+    (folder / "folder" / "own.c").write_text("int main(void) { return 0; }")
 
 
 #: A call from Python that must raise one of our errors.

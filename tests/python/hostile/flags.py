@@ -185,6 +185,7 @@ OTHER: tuple[Row, ...] = (
     ("check", "m.toml", "--box", "velocity=nan:1"), ("check", "m.toml", "--box", "nope=0:1"),
     ("check", "m.toml", "--box", "velocity=a:b"), ("check", "m.toml", "--box", "=:"),
     ("export", "m.toml", "--to", "cobol", "new"), ("export", "m.toml", "--to", "c", "notes.txt"),
+    ("export", "m.toml", "--to", "c", "folder", "--name", "own"),
     ("export", "m.toml", "--to", "c", "nowhere\x00"),
     ("export", "m.toml", "--to", "c", "new", "--precision", "half"),
     ("export", "m.toml", "--to", "c", "new", "--box", "velocity=inf:nan"),
