@@ -9,7 +9,15 @@ from pathlib import Path
 
 from stribeck.base.errors import StribeckError
 
-__all__ = ["OWN", "check_folder", "check_own", "check_regular", "check_replaceable", "check_table", "kind_of"]
+__all__ = [
+    "OWN",
+    "check_folder",
+    "check_own",
+    "check_regular",
+    "check_replaceable",
+    "check_table",
+    "kind_of",
+]
 
 #: First line of the sidecars that are written together with a table.
 OWN = "# Written by stribeck together with the table, and replaced with it."
