@@ -98,3 +98,13 @@ def test_moving_rows_of_the_cases():
         slope = np.gradient(recording.position, recording.time)
         error = np.std((recording.velocity_smooth - slope)[50:-50])
         assert error < recording.velocity_noise
+
+
+@real
+@pytest.mark.parametrize("joint", [str(j) for j in range(1, 7)])
+@pytest.mark.parametrize("name", ["kr300/A.mat", "ur10e_robot/u8.parquet"])
+def test_robots_need_the_joint_and_the_gain_alone(name, joint):
+    known = {"torque_constant": 10.0} if name.startswith("ur10e") else {}
+    recording = read(DATA / name, joint=joint, **known)
+    assert recording.rows > 2000 and recording.gaps == 0
+    assert all(recording.columns[c].source.endswith(f"_{joint}") for c in ("position", "torque"))
