@@ -34,7 +34,7 @@ impl Numbers {
 
     /// Between 0 and 1.
     fn share(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * 2.0_f64.powi(-53)
+        (self.next() >> 11) as f64 * (0.5 * f64::EPSILON)
     }
 }
 
@@ -64,7 +64,7 @@ impl Sensor {
     fn read(&mut self, velocity: f64, step: u64) -> Option<f64> {
         if self.fault.is_none_or(|(_, end)| step >= end) {
             self.fault = None;
-            if self.numbers.next() % RATE == 0 {
+            if self.numbers.next().is_multiple_of(RATE) {
                 let kind = FAULTS[(self.numbers.next() % 6) as usize];
                 // From one step to ten seconds, uniform over decades.
                 let lasts = 1 + Real::powf(10.0, 4.0 * self.numbers.share()) as u64;
