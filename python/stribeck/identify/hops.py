@@ -23,9 +23,11 @@ COARSE = 1e-6
 HOPPING = 3
 #: Hops in a round, and most rounds.
 HOPS, MOST_ROUNDS = 8, 40
-#: Rounds for each nonlinear parameter without a better minimum, after which the search ends, and
-#: the relative decrease that counts as better.
-IDLE_ROUNDS, BETTER = 3, 2e-4
+#: Rounds without a better minimum that end the search of a law with effects, which starts near the
+#: minimum without the last effect; of a law alone, for each nonlinear parameter.
+IDLE_ROUNDS, IDLE_ROUNDS_EACH = 6, 3
+#: Relative decrease that counts as better.
+BETTER = 2e-4
 #: Smallest and largest size of a hop, in search coordinates, and the share of the parameters moved.
 SMALLEST_HOP, LARGEST_HOP, MOVED_BY_HOP = 0.01, 0.5, 0.5
 
@@ -55,6 +57,7 @@ def hopped(
     random = np.random.default_rng([seed, 1])
     count = int(space.nonlinear.sum())
     movable = moved[space.nonlinear]
+    most_idle = IDLE_ROUNDS if coarse.model.effects else IDLE_ROUNDS_EACH * count
     evaluations, idle = best.evaluations, 0
     for _ in range(MOST_ROUNDS):
         at = []
@@ -67,6 +70,6 @@ def hopped(
         better = min(found, key=lambda search: search.square)
         idle = 0 if better.square < (1.0 - BETTER) * best.square else idle + 1
         best = better if better.square < best.square else best
-        if idle == IDLE_ROUNDS * count:
+        if idle == most_idle:
             break
     return replace(best, evaluations=evaluations)
