@@ -340,7 +340,7 @@ def _check_stated(argument: str, name: object, value: object) -> None:
     else:
         fits = _is_number(value)
     if not fits:
-        form = {"ties": "a formula", "bounds": "(low, high)", "prior": "(mean, deviation)"}
+        form = {"ties": "a formula", "bounds": "(low, high)", "prior": "(mean, standard deviation)"}
         raise SpecError(
             f"{option(argument)} of {name} is {one_line(repr(value), 80)}: give "
             f"{form.get(argument, 'a number')}"

@@ -41,12 +41,7 @@ def read_prior(text: str, what: str) -> tuple[float, float]:
 
 def checked_prior(name: str, prior: tuple[float, float]) -> tuple[float, float]:
     """A prior with a finite mean and a standard deviation above zero."""
-    try:
-        mean, deviation = (float(value) for value in prior)
-    except (TypeError, ValueError):
-        raise SpecError(
-            f"the prior of {name} is {prior!r}: give its mean and its standard deviation"
-        ) from None
+    mean, deviation = (float(value) for value in prior)
     if not (math.isfinite(mean) and math.isfinite(deviation) and deviation > 0.0):
         raise SpecError(
             f"the prior of {name} is {mean:g} +- {deviation:g}: give a finite mean and a standard "

@@ -65,7 +65,10 @@ CASES = [
     ("coulomb+stribeck", {"constraints": "vs*alpha >= 0.3"}),
     ("coulomb+stribeck", {"constraints": "a1 >= 1.3", "bounds": {"alpha": (0.9, 1.1)}}),
     ("coulomb+stribeck", {"constraints": "a1^2 + a2^2 <= 9", "ties": {"dFs": "0.5*a2"}}),
-    ("lugre", {"constraints": ["a3 <= 0.9", "a4 <= 0.85*a5"]}),
+    (
+        "lugre",
+        {"constraints": ["a3 <= 0.9", "a4 <= 0.85*a5"], "bounds": {"a6": (0.02, 1.0)}},
+    ),
     (CURVE, {"constraints": "exp(c1) >= 1.2*c2", "start": {"c4": 0.1}}),
     ("coulomb+stribeck", {"constraints": "a1 >= 1.25", "loss": "huber"}),
 ]
@@ -206,7 +209,7 @@ def test_the_loop_keeps_them_in_force(recording: sb.Recording) -> None:
         ({"ties": "a1"}, 'write `ties="NAME=FORMULA"`'),
         ({"loss": "absolute"}, "give squares or huber or cauchy"),
         ({"prior": {"a1": (1.0, 0.0)}}, "a standard deviation above 0"),
-        ({"prior": {"a1": 1.0}}, "give its mean and its standard deviation"),
+        ({"prior": {"a1": 1.0}}, "give (mean, standard deviation)"),
         ({"prior": "a1=1"}, 'write `prior="NAME=MEAN+-SD"`'),
         ({"prior": {"a9": (1.0, 1.0)}}, "no parameter 'a9'"),
         ({"loss": "huber", "estimator": "iv"}, "reference"),

@@ -7,7 +7,6 @@ from itertools import product
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck import _core
 from stribeck.models.catalog import law_ids
 
 from laws.points import LARGEST, SCALES, SPEEDS, draw_constants, generator
@@ -77,7 +76,7 @@ def test_temperatures_around_a_pole_are_refused(law: str) -> None:
     model = corner(law, generator(law, "pole"))
     pole = model.constants.get("base_temperature", 0.0)
     for temperatures in ([pole - 1, pole + 1], [pole]):
-        with pytest.raises(_core.ModelError, match="singular"):
+        with pytest.raises(sb.SpecError, match="singular"):
             model.torque([1.0] * len(temperatures), temperature=temperatures, load_torque=0.0)
 
 
