@@ -131,10 +131,14 @@ def _grown(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
     )
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=200, derandomize=True)
 @given(st.recursive(_LEAVES, _grown, max_leaves=8))
 def test_a_formula_means_the_same_in_a_law(text: str) -> None:
-    """What a law accepts, columns accept, and the numbers agree to rounding."""
+    """What a law accepts, columns accept, and the numbers agree to rounding.
+
+    Where a change of the columns in the last digits changes the number, as in ``sin(T^T)``, rounding
+    decides, and nothing is compared.
+    """
     table = pl.DataFrame(CHANNELS)
     formula = compile_formula(text, table.schema, "t.csv: f")
     found = table.select(pl.lit(0.0) * pl.col("v") + formula.expression).to_series().to_numpy()
@@ -145,9 +149,13 @@ def test_a_formula_means_the_same_in_a_law(text: str) -> None:
         assume("not a finite number" not in str(error) and "too long" not in str(error))
         raise
     columns = [np.array(CHANNELS[name]) for name in ("v", "q", "a", "T")]
-    expected = law.torque(np.array([1.0]), None, *columns) - 1.0
+    expected, moved = (
+        law.torque(np.array([1.0]), None, *(column * factor for column in columns)) - 1.0
+        for factor in (1.0, 1.0 + 1e-12)
+    )
     finite = np.isfinite(found) & np.isfinite(expected) & (np.abs(expected) < 1e6)
-    np.testing.assert_allclose(found[finite], expected[finite], rtol=1e-6, atol=1e-6)
+    steady = finite & np.isclose(moved, expected, rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(found[steady], expected[steady], rtol=1e-6, atol=1e-6)
 
 
 def test_every_function_of_a_law_is_known() -> None:
