@@ -136,8 +136,8 @@ def _grown(inner: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
 def test_a_formula_means_the_same_in_a_law(text: str) -> None:
     """What a law accepts, columns accept, and the numbers agree to rounding.
 
-    Where a change of the columns in the last digits changes the number, as in ``sin(T^T)``, rounding
-    decides, and nothing is compared.
+    Where a change of the columns in the last digits changes the number, as in ``sin(T^T)``,
+    rounding decides, and nothing is compared.
     """
     table = pl.DataFrame(CHANNELS)
     formula = compile_formula(text, table.schema, "t.csv: f")
