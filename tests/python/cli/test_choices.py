@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import csv
 import json
-import subprocess
-import sys
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from as_user import answer, stribeck
 from synthetic import joint, motion
 
 
@@ -21,21 +19,6 @@ def curve_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("choices") / "joint.parquet"
     joint(1.2 * np.exp(-np.abs(v / 0.12)) * np.sign(v)).write_parquet(path)
     return path
-
-
-def stribeck(*words: object) -> subprocess.CompletedProcess[str]:
-    """Run the command as a user does."""
-    command = [sys.executable, "-m", "stribeck", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
-
-
-def answer(*words: object) -> dict[str, Any]:
-    """The one JSON object that a command prints."""
-    done = stribeck(*words, "--json")
-    assert done.returncode == 0, done.stderr
-    made = json.loads(done.stdout)
-    assert isinstance(made, dict)
-    return made
 
 
 def test_fit_ends_at_a_bound_and_says_what_to_do(curve_file: Path) -> None:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +10,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from as_user import stribeck
 
 INERTIA, VISCOUS, COULOMB = 0.5, 1.5, 2.0
 #: The reference has a name that says nothing.
@@ -41,11 +40,6 @@ def noisy_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("estimator") / "axis.parquet"
     pl.DataFrame(frame).write_parquet(path)
     return path
-
-
-def stribeck(*words: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "stribeck", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
 
 
 def answer(*words: object) -> dict[str, Any]:

@@ -2,31 +2,13 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
-import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 import stribeck as sb
+from as_user import answer, stribeck
 
 LAW = "c1*v + c2*tanh(v/c3)"
-
-
-def stribeck(*words: object) -> subprocess.CompletedProcess[str]:
-    """Run the command as a user does."""
-    command = [sys.executable, "-m", "stribeck", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
-
-
-def answer(*words: object) -> dict[str, Any]:
-    """The one JSON object that a command prints."""
-    done = stribeck(*words, "--json")
-    assert done.returncode == 0, done.stderr
-    made = json.loads(done.stdout)
-    assert isinstance(made, dict)
-    return made
 
 
 def test_fit_writes_a_file_that_every_command_takes(plain_file: Path, tmp_path: Path) -> None:

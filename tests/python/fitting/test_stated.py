@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import stribeck as sb
+from as_user import stribeck
 from numpy.typing import NDArray
 from scipy.optimize import minimize, nnls
 from stribeck.identify.problem import Problem
@@ -220,12 +219,6 @@ def test_what_cannot_be(recording: sb.Recording, said: dict[str, Any], sentence:
     with pytest.raises(sb.StribeckError, match=r"\w") as refusal:
         sb.fit("coulomb", recording, **said)
     assert sentence in str(refusal.value) and "\n" not in str(refusal.value)
-
-
-def stribeck(*words: object) -> subprocess.CompletedProcess[str]:
-    """Run the command as a user does."""
-    command = [sys.executable, "-m", "stribeck", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
 
 
 def test_the_command(recording: sb.Recording) -> None:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +10,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from as_user import stribeck
 from numpy.typing import NDArray
 from stribeck.identify.held_out import held_out_prediction
 from stribeck.identify.problem import Problem
@@ -44,12 +43,6 @@ def curved(recording: sb.Recording, tmp_path_factory: pytest.TempPathFactory) ->
     made = joint(curve, noise=0.05)
     made = made.with_columns(weight=pl.Series(recording.weight))
     return record(tmp_path_factory.mktemp("curved"), made, weights="weight")
-
-
-def stribeck(*words: object) -> subprocess.CompletedProcess[str]:
-    """Run the command as a user does."""
-    command = [sys.executable, "-m", "stribeck", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=300)
 
 
 def by_hand(recording: sb.Recording) -> tuple[Array, Array]:
