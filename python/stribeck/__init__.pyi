@@ -24,6 +24,7 @@ from .models.catalog import catalog, effects, laws
 from .models.model import Model
 from .models.model_file import ModelFile
 from .models.parameter import Parameter
+from .models.published.sets import PublishedSet, published, published_sets
 from .models.reader import load, read_model_file
 from .motion.compensate.controller import HInfinity
 from .motion.compensate.factor import largest_factor
@@ -69,6 +70,7 @@ __all__ = [
     "Project",
     "ProjectError",
     "Protocol",
+    "PublishedSet",
     "Recording",
     "RecordingError",
     "Simulation",
@@ -101,6 +103,8 @@ __all__ = [
     "model",
     "plan",
     "project",
+    "published",
+    "published_sets",
     "read",
     "read_model_file",
     "simulate",

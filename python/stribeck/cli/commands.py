@@ -17,6 +17,7 @@ COMMANDS = {
     "inspect": ("catalog", "Show what DATA holds, and which effects it can show."),
     "models": ("catalog", "List the friction laws."),
     "effects": ("catalog", "List the effects that can be missing."),
+    "published": ("published", "List the parameter sets printed in the literature."),
     "fit": ("fit", "Identify the parameters of a model on DATA."),
     "compare": ("loop", "Compare MODELS with DATA, and show where each fails."),
     "diagnose": ("loop", "Find which physical effect MODEL lacks on DATA."),

@@ -21,6 +21,7 @@ from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.model_file import ModelFile
+from stribeck.models.published.sets import PREFIX
 from stribeck.models.reader import read_model_file
 from stribeck.recording.load import read_with
 from stribeck.recording.options import TABLE, Entry, ReadOptions
@@ -152,8 +153,8 @@ def read_recording(path: Given, reading: ReadOptions) -> Recording:
 
 
 def is_model_file(argument: str) -> bool:
-    """Whether a model argument names a file rather than a spec."""
-    return argument.endswith(".toml") or os.path.isfile(argument)
+    """Whether a model argument names a file or a published set rather than a spec."""
+    return argument.startswith(PREFIX) or argument.endswith(".toml") or os.path.isfile(argument)
 
 
 def stored_model(path: str, recording: Recording) -> Fit:

@@ -13,6 +13,7 @@ from stribeck.base.errors import SpecError
 from stribeck.base.replaceable import kind_of
 from stribeck.identify.statements import names_in
 from stribeck.models.formula_law import is_formula
+from stribeck.models.published.sets import PREFIX
 from stribeck.recording.readers import SUFFIXES
 from stribeck.recording.several.paths import named_files
 
@@ -38,7 +39,7 @@ def is_data(argument: str) -> bool:
         with path.open("rb") as stream:
             kind = kind_of(stream.read(_HEAD))
         return not kind.endswith(" file") and not bare.endswith(".toml")
-    if argument.startswith("published:") or bare.endswith(".toml"):
+    if argument.startswith(PREFIX) or bare.endswith(".toml"):
         return False
     if glob.has_magic(argument) and glob.glob(argument, recursive=True):
         return True

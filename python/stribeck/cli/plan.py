@@ -10,7 +10,6 @@ from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure, write_table
 from stribeck.cli.common import (
     echo_result,
-    is_model_file,
     json_option,
     read_recording,
     recording_options,
@@ -23,6 +22,7 @@ from stribeck.cli.outputs import FIGURE, TABLE, CheckedCommand
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
+from stribeck.models.published.sets import PREFIX
 from stribeck.models.reader import read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes
@@ -139,7 +139,7 @@ def _joint(
             raise SpecError("--noise is for a model file only: with DATA the noise is estimated")
         recording = read_recording(data, reading)
         return written_fit(model, Written(), recording, starts=starts, seed=seed)
-    if not is_model_file(data) or not data.endswith(".toml"):
+    if not data.endswith(".toml") and not data.startswith(PREFIX):
         raise SpecError(f"no model is given for {data}: write stribeck plan {data} MODEL")
     return read_model_file(data)
 

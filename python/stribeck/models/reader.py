@@ -18,6 +18,7 @@ from stribeck.models.fitted import FittedOn
 from stribeck.models.formula_law import Declaration, FormulaTerms, check_terms
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
+from stribeck.models.published.sets import PREFIX, published
 from stribeck.models.spec import parse_effects, parse_spec
 from stribeck.models.writer import SCHEMA
 
@@ -54,18 +55,27 @@ FITTED_KEYS = ("path", "sha256", "files", "rows", "time_span", "rmse", "rmse_hel
 def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
     """Read a model file; everything that is not understood is refused with its line.
 
+    Parameters
+    ----------
+    path
+        A file, or ``"published:ID"`` for a parameter set of the literature.
+
     Raises
     ------
     ModelFileError
         The file cannot be read, or holds something else than a model.
+    SpecError
+        There is no such published set.
     """
     target = Path(path)
+    if str(path).startswith(PREFIX):
+        return ModelFile(published(str(path)))
     return parse_model_file(read_text(target, "model file", ModelFileError), target)
 
 
 @door(ModelFileError)
 def load(path: str | os.PathLike[str]) -> Model:
-    """Read the model of a model file.
+    """Read the model of a model file, or of ``"published:ID"``.
 
     Raises
     ------

@@ -20,6 +20,7 @@ from stribeck.base.version import __version__
 from stribeck.models.formula_law import is_formula
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
+from stribeck.models.published.sets import PREFIX
 from stribeck.models.reader import read_model_file
 from stribeck.models.spec import parse_spec
 from stribeck.recording.options import ReadArguments, ReadOptions
@@ -149,7 +150,7 @@ def _model_text(model: str | Model) -> str:
     """Return a valid spec, or the text of a model file."""
     if isinstance(model, Model):
         return ModelFile(model).to_toml()
-    if model.endswith(".toml"):
+    if model.endswith(".toml") or model.startswith(PREFIX):
         return read_model_file(model).to_toml()
     if model != IMPROVE and not is_formula(model):
         parse_spec(model)

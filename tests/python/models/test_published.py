@@ -1,0 +1,76 @@
+"""Published parameter sets: read, listed, and used as models."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import stribeck as sb
+from as_user import answer, stribeck
+from stribeck.models.published.sets import every_set
+
+SPEEDS = np.concatenate([-np.geomspace(3.0, 1e-3, 12), [0.0], np.geomspace(1e-3, 3.0, 12)])
+COMPLETE = [one.id for one in every_set().values() if not one.missing]
+
+
+def torque(model: sb.Model, temperature: float, load: float) -> np.ndarray:
+    return model.torque(
+        SPEEDS,
+        position=0.0 * SPEEDS,
+        acceleration=0.1 + 0.0 * SPEEDS,
+        temperature=temperature,
+        load_torque=load,
+        motor_torque=10.0 * SPEEDS,
+        dt=1e-3,
+    )
+
+
+@pytest.mark.parametrize("id", COMPLETE)
+def test_numbers_typed_in_as_printed_give_the_torque_of_the_set(id: str) -> None:
+    one = every_set()[id]
+    typed = sb.model(one.model.law, constants=one.model.constants, **one.printed)
+    for temperature, load in ((30.0, 0.0), (38.0, -0.5), (24.0, 20.0)):
+        np.testing.assert_array_equal(
+            torque(sb.published(id), temperature, load), torque(typed, temperature, load)
+        )
+
+
+def test_every_set_names_its_source_and_how_it_was_turned() -> None:
+    for one in every_set().values():
+        assert one.paper and one.where and one.machine and one.rule, one.id
+        assert one.id.endswith(f"/{one.model.law}")
+    frame = sb.published_sets()
+    assert frame["id"].to_list() == list(every_set())
+
+
+def test_units_are_those_of_the_joint() -> None:
+    gantry = sb.published("gantry/table_1/gantry_map")
+    assert {p.symbol: p.unit for p in gantry.parameters}["s2_minus"] == "N s/m"
+
+
+def test_a_set_with_values_missing_says_so() -> None:
+    partial = sb.published("tadese/table_2/joint_2/tadese_full")
+    assert partial.value("bristle_stiffness") == 12930.0
+    with pytest.raises(sb.SpecError, match="has no value for coulomb_friction_forward"):
+        partial.torque(1.0, temperature=30.0, load_torque=0.0, dt=1e-3)
+
+
+def test_an_unknown_set_is_answered_with_the_nearest() -> None:
+    with pytest.raises(sb.SpecError, match="did you mean 'gantry/table_1/gantry_map'"):
+        sb.published("gantry/table_1/gantry")
+
+
+def test_the_command_lists_and_shows() -> None:
+    listed = answer("published", "indri")["published"]
+    assert listed[0]["id"] == "indri/table_1/joint_1/indri_static"
+    shown = answer("published", "published:gantry/table_1/gantry_map")
+    assert shown["parameters"]["static_friction"]["value"] == 12300.0
+    assert "N s/m" in stribeck("published", "gantry/table_1/gantry_map").stdout
+
+
+def test_a_set_stands_for_a_model_file(tmp_path) -> None:
+    named = "published:ur5e_review/table_7/joint_1/coulomb"
+    assert sb.load(named).value("viscous_friction") == 12.35
+    checked = answer("check", named, "--box", "velocity=-3:3")
+    assert checked["passive"] is True
+    answer("export", named, "--to", "json", str(tmp_path / "made"), "--box", "velocity=-3:3")
+    assert list((tmp_path / "made").iterdir())
