@@ -42,6 +42,8 @@ FEWER_WITHOUT_BOUNDS = 4
 COARSE_WITHOUT_BOUNDS = 1e-12
 #: As many starts again are searched where more than this share of them ended alone.
 UNSURE = 0.3
+#: The neighbourhood of the best minimum is searched unless this share of the starts ended there.
+AGREED = 1.0 / 3.0
 
 
 def multi_start(
@@ -122,7 +124,10 @@ def _between_bounds(
     if moved.sum() < HOPPING or not problem.in_core or effort.algorithm != GAUSS_NEWTON:
         return tried
     best = int(np.argmin([search.square for search in tried]))
-    if share_alone(leaders_of(tried, space)) > UNSURE:
+    leaders = leaders_of(tried, space)
+    if np.mean(leaders == leaders[best]) >= AGREED:
+        return tried
+    if share_alone(leaders) > UNSURE:
         at = starts_between_bounds(first, space, start, moved, 2 * starts, seed)[starts:]
         others = _searched(first, at, space, effort)
         tried[best] = _better(tried[best], others)
