@@ -38,7 +38,7 @@ def main() -> None:
     chosen = [case for case in chosen if searched(case)]
     known = json.loads(TABLE.read_text())
     print(f"{len(chosen)} fits, 20 starts\n")
-    print(f"{'algorithm':<22}{'found':>7}{'processor, s':>9}{'evaluations':>13}")
+    print(f"{'algorithm':<22}{'found':>7}{'CPU, s':>9}{'evaluations':>13}")
     for name in rows(options.algorithms):
         print(row(name, chosen, known), flush=True)
 
