@@ -88,7 +88,8 @@ class CaseAnswer:
         for key in ("hidden", "implied", "cannot_show", "sizes", "untestable"):
             fields[key] = tuple(fields[key])
         case = fields["case"]
-        fields["case"] = Case(**{**case, "effects": tuple(case["effects"])})
+        tuples = {key: tuple(case.get(key, ())) for key in ("effects", "nuisances")}
+        fields["case"] = Case(**{**case, **tuples})
         fields["steps"] = tuple(
             NamedEffect(s["effect"], s["confidence"], tuple(s["indistinguishable_from"]))
             for s in fields["steps"]

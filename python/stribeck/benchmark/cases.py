@@ -2,17 +2,20 @@
 
 They contain each effect alone in three sizes, two or three effects together, no effect, motions
 that cannot show an effect, effects outside the library, and autocorrelated noise for the confidence
-intervals.
+intervals. Those of the first three kinds may have nuisances.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
 
 from stribeck.base.errors import StribeckError, nearest
+from stribeck.benchmark.distortion import distorted, drawn
 from stribeck.benchmark.generators import GENERATORS, Generator
+from stribeck.benchmark.nuisances.table import NUISANCES
 from stribeck.benchmark.sample import Sample
+from stribeck.benchmark.sealed.table import SEALED
 
 #: Size of a single effect relative to the noise.
 SIZES = (5.0, 1.0, 0.3)
@@ -61,6 +64,10 @@ COVERAGE_PER_SEED = 20
 CORRELATIONS = (0.0, 0.9, 0.99)
 AUTOREGRESSIVE = "autoregressive"
 
+#: Groups whose recordings may have nuisances, and the largest number of nuisances in one.
+WITH_NUISANCES = ("one", "two", "three", "none")
+MOST_NUISANCES = 3
+
 #: Smaller seeds are used by the tests, so that the recordings of the benchmark are independent.
 FIRST_SEED = 100_000
 
@@ -76,6 +83,8 @@ class Case:
         Autocorrelation of the noise at lag one, in the group "coverage".
     quick
         Whether it belongs to the subset that runs in minutes.
+    nuisances
+        What the bench adds, by name.
     """
 
     group: str
@@ -86,6 +95,7 @@ class Case:
     limit: str | None = None
     correlation: float | None = None
     quick: bool = False
+    nuisances: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -95,12 +105,14 @@ class Case:
             parts.append(f"{self.size:g}x")
         if self.correlation is not None:
             parts.append(f"rho{self.correlation:g}")
+        parts.append("+".join(self.nuisances))
         return "-".join([p for p in parts if p] + [str(self.seed)])
 
     def make(self) -> Sample:
         """Generate the recording and its truth."""
         limits = {self.limit: True} if self.limit else {}
-        return GENERATORS[self.generator].make(self.effects, self.seed, self.size, **limits)
+        made = GENERATORS[self.generator].make(self.effects, self.seed, self.size, **limits)
+        return distorted(made, self.nuisances, self.seed) if self.nuisances else made
 
 
 def cases(
@@ -110,6 +122,9 @@ def cases(
     only: str | None = None,
     quick: bool = False,
     seed: int = 0,
+    realism: int = 0,
+    nuisance: str | None = None,
+    sealed: bool = False,
 ) -> list[Case]:
     """Return the cases to run.
 
@@ -125,11 +140,18 @@ def cases(
         Only the subset that runs in minutes.
     seed
         Seed of all recordings.
+    realism
+        Number of nuisances in each recording of the groups `WITH_NUISANCES`; the other groups are
+        left out then.
+    nuisance
+        One that every recording has; the others are drawn.
+    sealed
+        Draw from the sealed nuisances.
 
     Raises
     ------
     StribeckError
-        A generator is unknown, `only` matches no case, or the seed is negative.
+        A generator or a nuisance is unknown, `only` matches no case, or the seed is negative.
     """
     names = tuple(generators)
     for name in names:
@@ -144,15 +166,42 @@ def cases(
     made = [c for n in names for c in _of_generator(GENERATORS[n], seeds, first)]
     made += _coverage(seeds, first)
     made = [c for c in made if c.quick or not quick]
-    if only is not None:
-        exact = [c for c in made if only in (c.group, c.limit, c.generator) or c.effects == (only,)]
-        made = exact or [c for c in made if only in c.name]
-        if not made:
-            raise StribeckError(
-                f"no case has {only!r} in its name: give a group (one, two, three, none, limited, "
-                f"outside, coverage), an effect, a limit of the motion, or part of a case's name"
-            )
-    return made
+    made = _with_nuisances(made, realism, nuisance, SEALED if sealed else NUISANCES)
+    return made if only is None else _named(made, only)
+
+
+def _named(made: list[Case], only: str) -> list[Case]:
+    """The cases of a group, an effect or a limit, or else those with `only` in their name."""
+    exact = [c for c in made if only in (c.group, c.limit, c.generator) or c.effects == (only,)]
+    found = exact or [c for c in made if only in c.name]
+    if not found:
+        raise StribeckError(
+            f"no case has {only!r} in its name: give a group (one, two, three, none, limited, "
+            f"outside, coverage), an effect, a limit of the motion, or part of a case's name"
+        )
+    return found
+
+
+def _with_nuisances(
+    made: list[Case], realism: int, nuisance: str | None, pool: Collection[str]
+) -> list[Case]:
+    """The cases that may have nuisances, each with as many as asked for."""
+    if nuisance is not None and nuisance not in pool:
+        raise StribeckError(
+            f"there is no nuisance {nuisance!r}{nearest(nuisance, pool)}; "
+            f"there are {', '.join(pool)}"
+        )
+    if not 0 <= realism <= MOST_NUISANCES:
+        raise StribeckError(f"realism is {realism}: give 0 to {MOST_NUISANCES}")
+    fixed = () if nuisance is None else (nuisance,)
+    count = max(realism, len(fixed), int(pool is SEALED))
+    if count == 0:
+        return made
+    return [
+        replace(c, nuisances=drawn(pool, count, c.seed, fixed))
+        for c in made
+        if c.group in WITH_NUISANCES
+    ]
 
 
 def _of_generator(generator: Generator, seeds: int, first: int) -> Iterator[Case]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.benchmark.answer import CaseAnswer, NamedEffect
+from stribeck.effect.describe import is_friction
 from stribeck.models.catalog import effect_ids
 
 #: Columns of the confusion matrix for results without an effect.
@@ -37,6 +38,10 @@ class Judgement:
 def judge(answer: CaseAnswer) -> Judgement:
     """Judge a result of any group except "coverage".
 
+    With nuisances every hidden effect is named, and no friction effect that is not hidden is
+    claimed. Causes other than friction may be named: the nuisances are such causes. One without
+    nuisances is right by its group:
+
     one
         The first effect is the hidden one, or one reported as indistinguishable from it. An effect
         that contains a simpler one may come after the simpler one.
@@ -53,7 +58,8 @@ def judge(answer: CaseAnswer) -> Judgement:
         return Judgement(False, False, FAILED, answer.failure)
     missed, wrong = _compare(answer)
     named = _top(answer)
-    problems = _PROBLEMS[answer.case.group](answer, missed, wrong, named)
+    rule = _with_nuisances if answer.case.nuisances else _PROBLEMS[answer.case.group]
+    problems = rule(answer, missed, wrong, named)
     return Judgement(not problems, not missed and not wrong, named, "; ".join(problems))
 
 
@@ -113,6 +119,26 @@ def _several(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str
 
 def _none(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str) -> list[str]:
     return [] if named == NONE else [f"named {named}, nothing is hidden"]
+
+
+def _with_nuisances(
+    answer: CaseAnswer, missed: list[str], wrong: list[str], named: str
+) -> list[str]:
+    problems = [f"missed {effect}" for effect in missed]
+    return problems + [f"claimed {effect}, which is not hidden" for effect in false_claims(answer)]
+
+
+def false_claims(answer: CaseAnswer) -> list[str]:
+    """Friction effects that were claimed and are not hidden.
+
+    One that is reported as indistinguishable from a cause other than friction is not claimed.
+    """
+    _, wrong = _compare(answer)
+    return [
+        step.effect
+        for step in answer.steps
+        if step.effect in wrong and all(map(is_friction, _names(step)))
+    ]
 
 
 def _limited(answer: CaseAnswer, missed: list[str], wrong: list[str], named: str) -> list[str]:

@@ -8,12 +8,13 @@ from itertools import pairwise
 
 import numpy as np
 import polars as pl
-import scipy
 from numpy.typing import NDArray
 
 from stribeck.benchmark.answer import CaseAnswer
+from stribeck.benchmark.by_nuisance import OfNuisance, by_nuisance
 from stribeck.benchmark.cases import CORRELATIONS, SIZES
 from stribeck.benchmark.judge import FAILED, NONE, UNEXPLAINED, Judgement, is_right, judge
+from stribeck.benchmark.share import Share
 from stribeck.models.catalog import effect_ids
 
 #: Smallest share of correct results of each group, and of single effects by relative size.
@@ -26,6 +27,14 @@ TITLES = {
     "limited": "limited motion: untestable, not claimed",
     "outside": "effect outside the library: unexplained",
 }
+#: The same with nuisances: every hidden effect found, and no friction claimed that is not hidden.
+BARS_WITH_NUISANCES = {"one": 0.90, "two": 0.80, "three": 0.75, "none": 0.95}
+TITLES_WITH_NUISANCES = {
+    "one": "one hidden effect, with nuisances: found, no false friction",
+    "two": "two hidden effects, with nuisances: found, no false friction",
+    "three": "three hidden effects, with nuisances: found, no false friction",
+    "none": "no hidden effect, with nuisances: no false friction",
+}
 #: Smallest and largest acceptable coverage of the 95 % intervals.
 COVERAGE_BAR = (0.90, 0.98)
 #: Largest acceptable ratio of the final held-out error to that of the generator's formula, for
@@ -36,36 +45,6 @@ RATIO_SIZES = (1.0, 0.3)
 CONFIDENCE_EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
 #: Row of the confusion matrix for effects outside the library.
 OUTSIDE = "outside the library"
-
-
-@dataclass(frozen=True)
-class Share:
-    """A count out of a total, with the 95 % interval of the share (Wilson)."""
-
-    count: int
-    total: int
-
-    @property
-    def value(self) -> float:
-        """The share; NaN if the total is 0."""
-        return self.count / self.total if self.total else float("nan")
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """95 % interval of the share."""
-        if not self.total:
-            return (0.0, 1.0)
-        ci = scipy.stats.binomtest(self.count, self.total).proportion_ci(method="wilson")
-        return (float(ci.low), float(ci.high))
-
-    def to_dict(self) -> dict[str, object]:
-        """As JSON."""
-        return {
-            "right": self.count,
-            "of": self.total,
-            "share": self.value,
-            "interval95": list(self.interval),
-        }
 
 
 @dataclass(frozen=True)
@@ -151,6 +130,7 @@ class Score:
     ratios: tuple[Ratio, ...]
     coverage: tuple[Coverage, ...]
     failures: tuple[tuple[CaseAnswer, Judgement], ...]
+    nuisances: tuple[OfNuisance, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -167,6 +147,7 @@ class Score:
                 {"group": g.title, **g.share.to_dict(), "bar": g.bar, "passed": g.passed}
                 for g in self.groups
             ],
+            "nuisances": [row.to_dict() for row in self.nuisances],
             "confusion": {
                 "rows": list(self.confusion.rows),
                 "columns": list(self.confusion.columns),
@@ -230,6 +211,7 @@ def score(answers: Iterable[CaseAnswer]) -> Score:
         tuple(_ratios(judged)),
         tuple(_coverages(every)),
         tuple(wrong),
+        tuple(by_nuisance(every)),
     )
 
 
@@ -237,14 +219,19 @@ Judged = Sequence[tuple[CaseAnswer, Judgement]]
 
 
 def _groups(judged: Judged) -> Iterable[ScoreGroup]:
+    plain = [(a, j) for a, j in judged if not a.case.nuisances]
     for size, bar in BARS_BY_SIZE.items():
-        of = [j for a, j in judged if a.case.group == "one" and a.case.size == size]
+        of = [j for a, j in plain if a.case.group == "one" and a.case.size == size]
         if of:
             yield ScoreGroup(f"one hidden effect, {size:g} x the noise", _right(of), bar)
-    for group, bar in BARS.items():
-        of = [j for a, j in judged if a.case.group == group]
-        if of:
-            yield ScoreGroup(TITLES[group], _right(of), bar)
+    for titles, bars, of_kind in (
+        (TITLES, BARS, plain),
+        (TITLES_WITH_NUISANCES, BARS_WITH_NUISANCES, [r for r in judged if r[0].case.nuisances]),
+    ):
+        for group, bar in bars.items():
+            of = [j for a, j in of_kind if a.case.group == group]
+            if of:
+                yield ScoreGroup(titles[group], _right(of), bar)
 
 
 def _right(judgements: Sequence[Judgement]) -> Share:

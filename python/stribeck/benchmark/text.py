@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
+from stribeck.benchmark.by_nuisance import OfNuisance
 from stribeck.benchmark.score import (
     COVERAGE_BAR,
     RATIO_BAR,
@@ -14,8 +15,8 @@ from stribeck.benchmark.score import (
     Reliability,
     Score,
     ScoreGroup,
-    Share,
 )
+from stribeck.benchmark.share import Share
 from stribeck.report.layout import table
 
 #: Largest number of wrong results that are listed.
@@ -26,6 +27,7 @@ def score_text(score: Score) -> str:
     """Return all statistics as text."""
     parts = [
         _part("Share of answers that are right", _groups(score.groups)),
+        _part("Recordings with each nuisance, alone or among others", _nuisances(score.nuisances)),
         _part("Hidden effect, and what was named first", _confusion(score.confusion)),
         _part(
             "Findings by confidence, and how many of them are right",
@@ -75,6 +77,26 @@ def _groups(groups: Sequence[ScoreGroup]) -> str:
         for g in groups
     ]
     return table(rows, right=(1, 2, 3, 4, 5))
+
+
+def _nuisances(rows_of: Sequence[OfNuisance]) -> str:
+    if not rows_of:
+        return ""
+    rows = [
+        ["nuisance", "nothing hidden", "no friction claimed", "hidden", "right", "falsely claimed"]
+    ]
+    rows += [
+        [
+            r.nuisance,
+            str(r.controls.total),
+            str(r.controls.count),
+            str(r.effects.total),
+            str(r.effects.count),
+            ", ".join(f"{name} {count}" for name, count in r.claimed) or "-",
+        ]
+        for r in rows_of
+    ]
+    return table(rows, right=(1, 2, 3, 4))
 
 
 def _confusion(confusion: Confusion) -> str:

@@ -39,6 +39,24 @@ def benchmark() -> None:
     metavar="WORD",
     help="Only cases with this group, effect, or part of the name.",
 )
+@click.option(
+    "--realism",
+    type=click.IntRange(0, 3),
+    default=0,
+    show_default=True,
+    help="Nuisances in each recording: filters, lags, vibration, jitter, warm-up, wrong scales.",
+)
+@click.option(
+    "--nuisance",
+    default=None,
+    metavar="NAME",
+    help="One that every recording has, such as structural_mode.",
+)
+@click.option(
+    "--sealed",
+    is_flag=True,
+    help="Nuisances on which the diagnosis was not developed.",
+)
 @click.option("--quick", is_flag=True, help="One recording of most kinds; takes minutes.")
 @click.option(
     "--workers",
@@ -59,6 +77,9 @@ def diagnosis(
     seeds: int,
     generators: tuple[str, ...],
     only: str | None,
+    realism: int,
+    nuisance: str | None,
+    sealed: bool,
     quick: bool,
     workers: int | None,
     output: str | None,
@@ -75,7 +96,14 @@ def diagnosis(
     from stribeck.benchmark.text import score_text
 
     chosen = cases(
-        seeds, generators=generators or tuple(GENERATORS), only=only, quick=quick, seed=seed
+        seeds,
+        generators=generators or tuple(GENERATORS),
+        only=only,
+        quick=quick,
+        seed=seed,
+        realism=realism,
+        nuisance=nuisance,
+        sealed=sealed,
     )
     folder = None if output is None else Path(output)
     with Progress("cases") as bar:

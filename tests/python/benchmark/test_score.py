@@ -10,7 +10,8 @@ from stribeck.benchmark.answer import CaseAnswer, NamedEffect
 from stribeck.benchmark.cases import Case
 from stribeck.benchmark.coverage import Interval
 from stribeck.benchmark.figures import calibration_figure, confusion_figure
-from stribeck.benchmark.score import OUTSIDE, Share, score
+from stribeck.benchmark.score import OUTSIDE, score
+from stribeck.benchmark.share import Share
 from stribeck.benchmark.text import score_text
 
 

@@ -1,0 +1,106 @@
+"""The channels of a recording on their way from the joint to the file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import TypeAlias
+
+import numpy as np
+import polars as pl
+import scipy
+from numpy.typing import NDArray
+
+from stribeck.benchmark.draws import root_mean_square
+from stribeck.benchmark.sample import Oracle, Sample
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Channels of a recording, and the torque of the best possible model through the same chain.
+
+    Attributes
+    ----------
+    channels : dict of arrays [n]
+        The columns of the recording.
+    prediction, tangents
+        As in `Oracle`: a nuisance that acts on the torque acts on these, so that the oracle knows
+        it.
+    noise
+        RMS of the noise of the torque.
+    """
+
+    channels: Mapping[str, Array]
+    prediction: Array
+    tangents: Mapping[str, Array]
+    noise: float
+
+    @classmethod
+    def of(cls, sample: Sample) -> Bench:
+        """The bench of a recording as generated."""
+        return cls(
+            {name: sample.frame[name].to_numpy() for name in sample.frame.columns},
+            sample.oracle.prediction,
+            sample.oracle.tangents,
+            float(sample.truth["noise_rms"]),
+        )
+
+    def __getitem__(self, channel: str) -> Array:
+        """One channel [n]."""
+        return self.channels[channel]
+
+    @property
+    def dt(self) -> float:
+        """Sampling period, s."""
+        return float(np.median(np.diff(self["time"])))
+
+    @property
+    def unknown(self) -> float:
+        """RMS of the torque without the recorded load torque."""
+        return root_mean_square(self["torque"] - self["load_torque"])
+
+    def with_channels(self, **channels: Array) -> Bench:
+        """The same with other values in some channels."""
+        return replace(self, channels={**self.channels, **channels})
+
+    def torque_through(self, chain: Callable[[Array], Array]) -> Bench:
+        """The same with the torque, as recorded and as predicted, through a measuring `chain`."""
+        prediction = chain(self.prediction)
+        return replace(
+            self.with_channels(torque=chain(self["torque"])),
+            prediction=prediction,
+            tangents={
+                name: chain(self.prediction + column) - prediction
+                for name, column in self.tangents.items()
+            },
+        )
+
+    def kept(self, rows: NDArray[np.bool_]) -> Bench:
+        """The same with some of the rows, bool [n]."""
+        return replace(
+            self,
+            channels={name: values[rows] for name, values in self.channels.items()},
+            prediction=self.prediction[rows],
+            tangents={name: column[rows] for name, column in self.tangents.items()},
+        )
+
+    def sample(self, truth: Mapping[str, object]) -> Sample:
+        """The recording with its `truth`."""
+        return Sample(
+            pl.DataFrame(dict(self.channels)), dict(truth), Oracle(self.prediction, self.tangents)
+        )
+
+
+#: What a bench adds to a recording; random quantities come from the generator.
+Nuisance: TypeAlias = Callable[[Bench, np.random.Generator], Bench]
+
+
+def first_order(values: Array, dt: float, lag: float) -> Array:
+    """Low-pass filter of first order with the time constant `lag`, at rest before the start."""
+    share = -math.expm1(-dt / lag)
+    return np.asarray(
+        scipy.signal.lfilter([share], [1.0, share - 1.0], values - values[0]) + values[0]
+    )
