@@ -18,6 +18,7 @@
 //! | `composed`, `error` | [`Spec`] and [`Composed`]: a law with effects; [`ModelError`] |
 //! | `fixed`, `feedforward` | [`FixedLaw`], a law chosen at compile time; [`Feedforward`] |
 //! | [`joint`] | friction coupled to an inertia: joints in motion |
+//! | [`robot`] | rigid bodies of a whole robot: torques, mass matrix, regressor |
 //! | `graph` (`std`) | the operations of a law, recorded, differentiated and vectorised |
 //! | `batch` (`std`) | whole recordings: torque, gradient, delay |
 //! | `identify` (`identify`) | parameters from recordings: separable least squares |
@@ -61,6 +62,7 @@ pub mod passivity;
 pub mod prelude;
 #[cfg(feature = "python")]
 mod python;
+pub mod robot;
 mod sample;
 mod scalar;
 mod table;

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 from stribeck.exporters.rows import ProgramRow
 from stribeck.models.rows import CoreCatalog, ParameterRow
 from stribeck.passivity.rows import AnswerRow
+from stribeck.robot.arm import LinkRow
 
 __all__ = [
     "Expression",
@@ -14,6 +15,7 @@ __all__ = [
     "Model",
     "ModelError",
     "Requirement",
+    "RigidBodies",
     "__version__",
     "bounded_least_squares",
     "catalog",
@@ -81,6 +83,20 @@ class _Units(TypedDict):
     dimensions: list[_Dimension]
     units: list[_Unit]
     channels: list[_Channel]
+
+class RigidBodies:
+    def __init__(self, links: Sequence[LinkRow], gravity: Sequence[float]) -> None: ...
+    def inverse_dynamics(
+        self, position: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike
+    ) -> NDArray[np.float64]: ...
+    def regressor(
+        self, position: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike
+    ) -> NDArray[np.float64]: ...
+    def mass_matrix(self, position: ArrayLike) -> NDArray[np.float64]: ...
+    def gravity_torque(self, position: ArrayLike) -> NDArray[np.float64]: ...
+    def forward_dynamics(
+        self, position: ArrayLike, velocity: ArrayLike, torque: ArrayLike
+    ) -> NDArray[np.float64]: ...
 
 def units() -> _Units: ...
 def column_formula(text: str) -> list[tuple[str, float | str | tuple[str, int] | None, int]]: ...

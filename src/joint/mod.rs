@@ -49,7 +49,7 @@ mod rigid;
 mod root;
 mod trajectory;
 
-pub use algebra::Number;
+pub use algebra::{MassMatrix, Matrix, Number, Vector};
 pub use arm::{ArmPosture, ArmPush, PlanarArm};
 pub use ball_screw::BallScrew;
 pub use body::{Body, Push};

@@ -12,6 +12,7 @@ mod joint;
 mod model;
 mod normal;
 mod passivity;
+mod robot;
 mod units;
 
 use std::string::ToString;
@@ -61,6 +62,8 @@ mod _core {
     use super::normal::normal_equations;
     #[pymodule_export]
     use super::passivity::{Requirement, margins, missed, passivity, requirements, work};
+    #[pymodule_export]
+    use super::robot::RigidBodies;
     #[pymodule_export]
     use super::units::units;
 

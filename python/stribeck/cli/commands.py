@@ -31,6 +31,7 @@ COMMANDS = {
     "validate": ("validate", "Simulate MODEL from the torque of DATA; compare the motion."),
     "export": ("export", "Write MODEL as a program for a controller."),
     "points": ("methods", "Reduce passes at constant speed to steady-state points."),
+    "robot": ("robot", "Rigid bodies and friction of a whole robot."),
     "arm": ("methods", "Identify a planar two-joint arm."),
     "study": ("study", "Fit many laws to every joint of DATA and compare them."),
     "fleet": ("fleet", "Fit every joint of many FILES; find the joints that changed."),

@@ -17,6 +17,11 @@ RENDERERS: dict[str, dict[str, str]] = {
         "figure": "fit:fit_figure",
         "notebook": "notebook:frame",
     },
+    "stribeck.robot.arm:Robot": {"text": "robot:robot_text"},
+    "stribeck.robot.result:RobotFit": {
+        "text": "robot:robot_fit_text",
+        "notebook": "notebook:frame",
+    },
     "stribeck.fitting.methods.arm:ArmFit": {
         "text": "methods:arm_text",
         "notebook": "notebook:frame",

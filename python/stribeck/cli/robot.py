@@ -1,0 +1,171 @@
+"""`stribeck robot`: whole robots."""
+
+from __future__ import annotations
+
+import click
+
+from stribeck.base.errors import SpecError
+from stribeck.cli.common import (
+    echo_json,
+    echo_result,
+    json_option,
+    recording_options,
+    say,
+    seed_option,
+    starts_option,
+)
+from stribeck.cli.options import Command, Values, gathered
+from stribeck.cli.outputs import CheckedCommand
+from stribeck.recording.options import ReadOptions
+from stribeck.robot.arm import Robot
+from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.describe import read_robot
+from stribeck.robot.fit import ORDINARY, fit_robot
+from stribeck.robot.motion import RobotMotion, read_motion
+
+runs_argument = click.argument("runs", nargs=-1, required=True, metavar="RUNS...")
+cutoff_option = click.option(
+    "--cutoff",
+    type=float,
+    default=None,
+    help="Low-pass on both sides of the torque balance [Hz]. [default: ten times the bandwidth of "
+    "the motion]",
+)
+evaluate_option = click.option(
+    "--evaluate",
+    multiple=True,
+    metavar="FILE",
+    help="Score the result on this recording, on which nothing is chosen.",
+)
+joint_model_option = click.option(
+    "--joint-model",
+    multiple=True,
+    metavar="JOINT=SPEC",
+    help="Model of one joint, in place of --model.",
+)
+payload_option = click.option(
+    "--payload", multiple=True, metavar="RUN", help="Run in which the last link carries a payload."
+)
+
+
+def robot_options(command: Command) -> Command:
+    """Add `--robot` and `--urdf`; the command receives the robot as `described`."""
+    options = (
+        click.option("--robot", "robot_file", default=None, metavar="FILE", help="Robot file."),
+        click.option("--urdf", default=None, metavar="FILE", help="URDF of the robot."),
+    )
+
+    def build(values: Values) -> Robot:
+        given = [path for path in (values.pop("robot_file"), values.pop("urdf")) if path]
+        if len(given) != 1:
+            raise SpecError("one description of the robot is needed: --robot FILE or --urdf FILE")
+        return read_robot(given[0])
+
+    return gathered(command, options, "described", build)
+
+
+@click.group()
+def robot() -> None:
+    """Identify the rigid bodies of a robot and the friction of all its joints.
+
+    RUNS are recordings of all joints; several are runs of one robot.
+    """
+
+
+@robot.command(cls=CheckedCommand)
+@click.argument("described", metavar="ROBOT")
+@json_option
+def show(described: str, as_json: bool) -> None:
+    """Show the joints of ROBOT (a robot file or a URDF), and what torques can show of it."""
+    found = read_robot(described)
+    if not as_json:
+        click.echo(repr(found))
+        return
+    base = BaseParameters.of(found)
+    joints = [
+        {
+            "joint": joint.name,
+            "kind": joint.movement,
+            "parent": None if joint.parent is None else found.names[joint.parent],
+            "drive_gain": joint.drive_gain,
+            "mass": None if joint.inertial is None else float(joint.inertial[0]),
+        }
+        for joint in found.joints
+    ]
+    combinations = [
+        {"combination": text, "unit": unit}
+        for text, unit in zip(base.texts, base.units, strict=True)
+    ]
+    echo_json(
+        {
+            "robot": found.name,
+            "joints": joints,
+            "gravity": list(found.gravity),
+            "base_parameters": combinations,
+            "not_identifiable": list(base.not_shown),
+        }
+    )
+
+
+def read_runs(
+    described: Robot, runs: tuple[str, ...], reading: ReadOptions, cutoff: float | None
+) -> RobotMotion:
+    """Read the recordings of all joints, and refuse channels that contradict each other."""
+    motion = read_motion(described, runs, reading, cutoff)
+    for recording in motion.joints:
+        recording.require_consistent()
+        for check in recording.checks:
+            if not check.ok:
+                say(f"note: joint {recording.joint}: accepted with --trust: {check.said}")
+    return motion
+
+
+def by_joint(given: tuple[str, ...]) -> dict[str, str]:
+    """`JOINT=SPEC` texts as a mapping."""
+    made = {}
+    for text in given:
+        name, equals, spec = text.partition("=")
+        if not equals or not name or not spec:
+            raise SpecError(f"--joint-model {text}: write JOINT=SPEC, such as 2=coulomb+load")
+        made[name.strip()] = spec.strip()
+    return made
+
+
+@robot.command(cls=CheckedCommand)
+@runs_argument
+@robot_options
+@click.option("--model", "spec", default=ORDINARY, show_default=True, help="LAW[+effect...].")
+@joint_model_option
+@payload_option
+@evaluate_option
+@cutoff_option
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def fit(
+    runs: tuple[str, ...],
+    described: Robot,
+    spec: str,
+    joint_model: tuple[str, ...],
+    payload: tuple[str, ...],
+    evaluate: tuple[str, ...],
+    cutoff: float | None,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Identify base parameters of the rigid bodies and the friction of every joint."""
+    motion = read_runs(described, runs, reading, cutoff)
+    others = [read_runs(described, (path,), reading, motion.cutoff) for path in evaluate]
+    found = fit_robot(
+        motion,
+        spec,
+        of_joints=by_joint(joint_model),
+        payload=payload,
+        evaluate=others,
+        starts=starts,
+        seed=seed,
+    )
+    echo_result(found, as_json)

@@ -1,0 +1,128 @@
+"""Whole robots as text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from stribeck.report.layout import joined, paragraph, table
+from stribeck.report.numbers import DASH, percent, plain, unit_text, with_error
+
+if TYPE_CHECKING:
+    from stribeck.robot.arm import Robot
+    from stribeck.robot.result import Evaluated, JointFit, Payload, RobotFit
+
+#: Base parameters that a terminal shows; the JSON has all.
+MOST_ROWS = 8
+
+
+def robot_text(robot: Robot) -> str:
+    """The joints of a robot and what torques can show of its links."""
+    from stribeck.robot.base_parameters import BaseParameters
+
+    rows = [["joint", "kind", "on", "drive gain", "mass [kg]"]]
+    for joint in robot.joints:
+        carrier = "base" if joint.parent is None else robot.joints[joint.parent].name
+        gain = f"{plain(joint.drive_gain, 6)} {joint.torque_unit}/A" if joint.drive_gain else DASH
+        mass = DASH if joint.inertial is None else plain(float(joint.inertial[0]))
+        rows.append([joint.name, joint.movement, carrier, gain, mass])
+    base = BaseParameters.of(robot)
+    hidden = ", ".join(base.not_shown) or "none"
+    return joined(
+        f"{robot.name}: {len(robot.joints)} joints",
+        table(rows, right=[4]),
+        paragraph(
+            f"Torques depend on {base.count} combinations of the links' {10 * len(robot.joints)} "
+            f"inertial parameters and {len(robot.joints)} rotor inertias (base parameters).",
+            0,
+        ),
+        paragraph(f"No torque shows: {hidden}.", 0),
+    )
+
+
+def robot_fit_text(found: RobotFit) -> str:
+    """Errors of each joint, friction, base parameters and what they say of the links."""
+    balance = found.solved.balance
+    runs = balance.motion.joints[0].run_names
+    from_runs = f"{len(runs)} runs" if len(runs) > 1 else "1 run"
+    bodies = (
+        "Bodies of positive mass density have these base parameters."
+        if found.consistent
+        else "No bodies of positive mass density have these base parameters: the nearest ones are "
+        f"{found.bodies.deviation:.1f} standard errors away."
+    )
+    return joined(
+        f"{balance.base.robot.name}: {len(found.joints)} joints, {balance.motion.rows} samples, "
+        f"{from_runs}; low-pass {balance.motion.cutoff:.3g} Hz on both sides",
+        errors_text(found.joints, found.ordinary, balance.held_out),
+        friction_text(found.joints),
+        _base_text(found),
+        bodies,
+        "" if found.payload is None else _payload_text(found.payload),
+        *(evaluated_text(found.joints, row) for row in found.evaluated),
+    )
+
+
+def errors_text(joints: Sequence[JointFit], ordinary: Sequence[JointFit], held_out: str) -> str:
+    """The errors of each joint beside those of the ordinary model."""
+    rows = [["joint", "model", "RMSE held out", "", "relative", "ordinary", "ratio"]]
+    for mine, other in zip(joints, ordinary, strict=True):
+        relative, before = mine.relative_residual_held_out, other.relative_residual_held_out
+        rmse = f"{plain(mine.rmse_held_out)}"
+        unit = mine.model.torque_unit
+        ratio = f"{relative / before:.2f}"
+        rows.append(
+            [mine.joint, mine.model.spec, rmse, unit, percent(relative), percent(before), ratio]
+        )
+    legend = (
+        f"relative: held-out residual over torque, both filtered; held out by {held_out}. "
+        "ordinary: the same with Coulomb and viscous friction and a constant on each joint."
+    )
+    return joined(table(rows, right=[2, 4, 5, 6]), paragraph(legend, 2))
+
+
+def friction_text(joints: Sequence[JointFit]) -> str:
+    """The friction parameters of all joints."""
+    rows = [["joint", "parameter", "value", "error", "unit", ""]]
+    for joint in joints:
+        for k, e in enumerate(joint.estimates.values()):
+            value, error = with_error(e.value, e.stderr)
+            flag = "at its bound" if e.at_bound else "" if e.identifiable else "not identifiable"
+            name = joint.joint if k == 0 else ""
+            rows.append(
+                [name, e.name, value, f"± {error}" if error else "", unit_text(e.unit), flag]
+            )
+    return table(rows, right=[2])
+
+
+def _base_text(found: RobotFit) -> str:
+    shown = sorted(found.base_parameters, key=lambda b: b.stderr / (abs(b.value) or 1e-300))
+    rows = [["base parameter", "value", "error", "unit"]]
+    for row in shown[:MOST_ROWS]:
+        value, error = with_error(row.value, row.stderr)
+        text = row.combination if len(row.combination) < 60 else f"{row.combination[:57]}..."
+        rows.append([text, value, f"± {error}", row.unit])
+    left = len(shown) - MOST_ROWS
+    more = f"  and {left} more, less certain: --json has all" if left > 0 else ""
+    return table(rows, right=[1]) + (f"\n{more}" if more else "")
+
+
+def _payload_text(payload: Payload) -> str:
+    low, high = payload.mass_ci95
+    runs = ", ".join(payload.runs)
+    return paragraph(
+        f"Payload in {runs}: {plain(payload.mass, 4)} kg, 95 % interval {plain(low, 4)} to "
+        f"{plain(high, 4)} kg. It scales with the drive gains, which are taken as exact.",
+        0,
+    )
+
+
+def evaluated_text(joints: Sequence[JointFit], row: Evaluated) -> str:
+    """Errors on a recording that nothing was fitted to."""
+    rows = [["joint", "relative", "ordinary", "ratio"]]
+    for joint, mine, other, ratio in zip(
+        joints, row.relative_residual, row.ordinary, row.ratio, strict=True
+    ):
+        rows.append([joint.joint, percent(mine), percent(other), f"{ratio:.2f}"])
+    return f"{Path(row.path).name}, not fitted:\n{table(rows, right=[1, 2, 3])}"

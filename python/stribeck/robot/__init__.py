@@ -1,0 +1,1 @@
+"""Whole robots: rigid bodies and the friction of every joint, identified together."""

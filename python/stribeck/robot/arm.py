@@ -1,0 +1,161 @@
+"""A robot: a tree of links, each moved by a revolute or prismatic joint."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck import _core
+from stribeck.base.shown import Shown
+
+Array = NDArray[np.float64]
+
+Movement = Literal["revolute", "prismatic"]
+
+#: The inertial parameters of a link in the order of the regressor's columns: symbol and unit.
+PARAMETERS = (
+    ("m", "kg"),
+    ("mx", "kg m"),
+    ("my", "kg m"),
+    ("mz", "kg m"),
+    ("Ixx", "kg m2"),
+    ("Ixy", "kg m2"),
+    ("Iyy", "kg m2"),
+    ("Ixz", "kg m2"),
+    ("Iyz", "kg m2"),
+    ("Izz", "kg m2"),
+    ("Ir", "kg m2"),
+)
+#: Standard gravity, m/s2, along -z of the base.
+GRAVITY = (0.0, 0.0, -9.80665)
+
+
+class LinkRow(TypedDict):
+    """A link with its joint, in the form of the compiled core."""
+
+    parent: int | None
+    prismatic: bool
+    axis: list[float]
+    rotation: list[list[float]]
+    translation: list[float]
+    parameters: list[float]
+    rotor: float
+
+
+@dataclass(frozen=True)
+class RobotJoint:
+    """A joint and the link that it moves.
+
+    Attributes
+    ----------
+    name
+        As recordings and results name the joint.
+    movement
+        ``"revolute"`` (rad, N m) or ``"prismatic"`` (m, N).
+    parent
+        Index of the joint that carries it; None: the base.
+    axis
+        Unit vector along the axis, in the frame of the link.
+    rotation, translation
+        Frame of the link at position 0 in the frame of the parent: array [3, 3] with its axes as
+        columns, and origin [3] in m.
+    inertial
+        Mass, first moments, and inertia about the origin of the frame (xx, xy, yy, xz, yz, zz),
+        array [10]; None: not known.
+    rotor
+        Inertia of the rotor through the gear, kg m2 or kg.
+    drive_gain
+        Torque at the joint per motor current, N m/A or N/A; None: torques are recorded.
+    """
+
+    name: str
+    movement: Movement
+    parent: int | None
+    axis: tuple[float, float, float]
+    rotation: Array
+    translation: Array
+    inertial: Array | None = None
+    rotor: float = 0.0
+    drive_gain: float | None = None
+
+    @property
+    def torque_unit(self) -> str:
+        """``"N m"`` or ``"N"``."""
+        return "N m" if self.movement == "revolute" else "N"
+
+    def row(self) -> LinkRow:
+        """The joint in the form of the compiled core."""
+        inertial = np.zeros(10) if self.inertial is None else self.inertial
+        return {
+            "parent": self.parent,
+            "prismatic": self.movement == "prismatic",
+            "axis": [float(x) for x in self.axis],
+            "rotation": self.rotation.tolist(),
+            "translation": self.translation.tolist(),
+            "parameters": inertial.tolist(),
+            "rotor": self.rotor,
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class Robot(Shown):
+    """A robot as it is described, before anything is identified.
+
+    Attributes
+    ----------
+    joints
+        Parents first.
+    gravity
+        Acceleration of gravity in the frame of the base, m/s2.
+    columns
+        Column of a recording by channel, with ``{joint}`` and ``{number}`` (from 1) for the joint.
+    source
+        The file that describes it.
+    """
+
+    name: str
+    joints: tuple[RobotJoint, ...]
+    gravity: tuple[float, float, float] = GRAVITY
+    columns: tuple[tuple[str, str], ...] = ()
+    source: str = ""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the joints."""
+        return tuple(joint.name for joint in self.joints)
+
+    @property
+    def has_inertia(self) -> bool:
+        """Whether the inertial parameters of every link are known."""
+        return all(joint.inertial is not None for joint in self.joints)
+
+    @cached_property
+    def core(self) -> _core.RigidBodies:
+        """The rigid bodies, in the compiled core."""
+        return _core.RigidBodies([joint.row() for joint in self.joints], list(self.gravity))
+
+    def regressor(self, position: Array, velocity: Array, acceleration: Array) -> Array:
+        """Derivatives of the torques by the inertial parameters, array [n, N, 11 N].
+
+        Parameters
+        ----------
+        position, velocity, acceleration : arrays [n, N]
+            In rad or m, and their derivatives.
+        """
+        return self.core.regressor(position, velocity, acceleration)
+
+    def torque(self, position: Array, velocity: Array, acceleration: Array) -> Array:
+        """Torques or forces that the rigid bodies need, array [n, N]: recursive Newton-Euler.
+
+        Examples
+        --------
+        >>> from stribeck.robot.tables import from_tables
+        >>> arm = from_tables("pendulum", [{"a": 0.5, "alpha": 1.5707963267948966}])
+        >>> arm.torque(np.zeros((1, 1)), np.zeros((1, 1)), np.ones((1, 1)))
+        array([[0.]])
+        """
+        return self.core.inverse_dynamics(position, velocity, acceleration)

@@ -1,0 +1,139 @@
+"""Robot files: `kind = "robot"`, with a Denavit-Hartenberg table or the name of a URDF."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from stribeck.base.errors import ModelFileError
+from stribeck.base.toml import TomlText, read_text
+from stribeck.robot.arm import GRAVITY, Movement, Robot
+from stribeck.robot.tables import Convention, from_tables
+from stribeck.robot.urdf import read_urdf
+
+#: Version of the file's layout.
+SCHEMA = 1
+_KEYS = ("kind", "schema", "name", "urdf", "convention", "gravity", "joint", "columns")
+_ROW = ("name", "kind", "a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
+_NUMBERS = ("a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
+#: Channels of a joint that `[columns]` may name.
+CHANNELS = ("time", "position", "velocity", "acceleration", "torque", "current", "temperature")
+
+
+def read_robot(path: str | Path) -> Robot:
+    """Read a robot from a robot file (TOML) or a URDF.
+
+    Raises
+    ------
+    ModelFileError
+        What is wrong, with the line.
+    """
+    where = Path(path)
+    if where.suffix.lower() in (".urdf", ".xml"):
+        return read_urdf(where)
+    text = TomlText(where, read_text(where, "robot file", ModelFileError), ModelFileError)
+    content = text.parsed()
+    if content.get("kind") != "robot":
+        raise text.stop(f'kind = "robot" is needed, not {content.get("kind")!r}', "kind")
+    text.check_keys(content, _KEYS)
+    if content.get("schema", SCHEMA) != SCHEMA:
+        raise text.stop(f"schema {content['schema']!r} is not {SCHEMA}", "schema")
+    if ("urdf" in content) == ("convention" in content):
+        raise text.stop("either urdf = FILE or convention with a table of joints is needed")
+    made = _with_urdf(text, content) if "urdf" in content else _with_table(text, content)
+    return replace(made, columns=_columns(text, content), source=str(where))
+
+
+def _rows(text: TomlText, content: Mapping[str, object]) -> list[Mapping[str, object]]:
+    rows = content.get("joint", [])
+    if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+        raise text.stop("[[joint]] is a list of tables", "joint")
+    for row in rows:
+        text.check_keys(row, _ROW)
+        for key in _NUMBERS:
+            value = row.get(key, 0.0)
+            if not isinstance(value, int | float) or not math.isfinite(value):
+                raise text.stop(f"{key} is a number, not {value!r}", key)
+        if row.get("drive_gain", 1.0) == 0.0:
+            raise text.stop("drive_gain is not 0", "drive_gain")
+    return rows
+
+
+def _number(row: Mapping[str, object], key: str) -> float:
+    value = row.get(key, 0.0)
+    return float(value) if isinstance(value, int | float) else 0.0
+
+
+def _gain(row: Mapping[str, object]) -> float | None:
+    return _number(row, "drive_gain") if "drive_gain" in row else None
+
+
+def _with_table(text: TomlText, content: Mapping[str, object]) -> Robot:
+    convention = content["convention"]
+    if convention not in ("standard", "modified"):
+        raise text.stop(f"convention is standard or modified, not {convention!r}", "convention")
+    chosen: Convention = "standard" if convention == "standard" else "modified"
+    rows = _rows(text, content)
+    if not rows:
+        raise text.stop("there is no joint: write a [[joint]] for each", "convention")
+    movements: list[Movement] = []
+    for row in rows:
+        kind = row.get("kind", "revolute")
+        if kind not in ("revolute", "prismatic"):
+            raise text.stop(f"a joint is revolute or prismatic, not {kind!r}", "[[joint]]", "kind")
+        movements.append("revolute" if kind == "revolute" else "prismatic")
+    names = [str(row.get("name", k + 1)) for k, row in enumerate(rows)]
+    if len(set(names)) < len(names):
+        raise text.stop("two joints have the same name", "[[joint]]", "name")
+    table = [
+        {
+            "a": _number(row, "a"),
+            "d": _number(row, "d"),
+            "alpha": _number(row, "alpha") + math.radians(_number(row, "alpha_deg")),
+            "theta": _number(row, "theta") + math.radians(_number(row, "theta_deg")),
+        }
+        for row in rows
+    ]
+    return from_tables(
+        str(content.get("name", text.path.stem)),
+        table,
+        convention=chosen,
+        names=names,
+        movements=movements,
+        drive_gains=[_gain(row) for row in rows],
+        gravity=_gravity(text, content),
+    )
+
+
+def _with_urdf(text: TomlText, content: Mapping[str, object]) -> Robot:
+    made = read_urdf(text.path.parent / str(content["urdf"]))
+    gains = {}
+    for row in _rows(text, content):
+        if row.get("name") not in made.names:
+            raise text.stop(f"{row.get('name')!r} is no joint of the URDF", "[[joint]]", "name")
+        gains[row["name"]] = _gain(row)
+    joints = tuple(replace(joint, drive_gain=gains.get(joint.name)) for joint in made.joints)
+    name = str(content.get("name", made.name))
+    return replace(made, name=name, joints=joints, gravity=_gravity(text, content))
+
+
+def _gravity(text: TomlText, content: Mapping[str, object]) -> tuple[float, float, float]:
+    given = content.get("gravity", list(GRAVITY))
+    if (
+        not isinstance(given, list)
+        or len(given) != 3
+        or not all(isinstance(x, int | float) and math.isfinite(x) for x in given)
+    ):
+        raise text.stop("gravity is three numbers, in m/s2 in the frame of the base", "gravity")
+    x, y, z = given
+    return float(x), float(y), float(z)
+
+
+def _columns(text: TomlText, content: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
+    given = content.get("columns", {})
+    if not isinstance(given, dict):
+        raise text.stop("[columns] is a table of channels", "columns")
+    text.check_keys(given, CHANNELS, "columns")
+    return tuple((channel, str(column)) for channel, column in given.items())

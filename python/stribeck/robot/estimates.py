@@ -1,0 +1,125 @@
+"""Standard errors and held-out errors of what is identified of a robot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from stribeck.identify.covariance import covariance_of, seen
+from stribeck.identify.estimates import APART, Estimate, reached
+from stribeck.robot.result import BaseEstimate, JointFit, Payload
+from stribeck.robot.solve import Solved
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Errors:
+    """The covariance of all parameters.
+
+    Attributes
+    ----------
+    covariance : array [P, P]
+        Valid for residuals that are correlated in time and between joints.
+    shown : bool array [P]
+        Parameters that the motion determines.
+    quantile
+        Standard errors to each end of a 95 % interval.
+    """
+
+    base: tuple[BaseEstimate, ...]
+    covariance: Array
+    shown: NDArray[np.bool_]
+    at_bound: NDArray[np.bool_]
+    quantile: float
+
+
+def base_estimates(solved: Solved) -> Errors:
+    """The base parameters, and the covariance of all parameters."""
+    jacobian, residual, cell = solved.stacked()
+    low, high = solved.balance.bounds()
+    values = solved.values.whole()
+    held = low == high
+    at_bound = ~held & reached(values, low, high)
+    covariance, freedom = covariance_of(jacobian, residual, cell, ~held & ~at_bound, APART)
+    base = solved.balance.base
+    errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    rows = tuple(
+        BaseEstimate(text, float(values[k]), float(errors[k]), unit)
+        for k, (text, unit) in enumerate(zip(base.texts, base.units, strict=True))
+    )
+    quantile = float(scipy.special.stdtrit(freedom, 0.975))
+    return Errors(rows, covariance, seen(jacobian, ~held, APART), at_bound, quantile)
+
+
+def joint_fits(solved: Solved, errors: Errors) -> tuple[JointFit, ...]:
+    """The friction of each joint, with its errors on the samples fitted to and held out."""
+    balance, motion = solved.balance, solved.balance.motion
+    raw = balance.factors(solved.values, filtered=False)
+    steps = solved.held_out_steps()
+    rows = np.maximum(motion.scored.sum(axis=0), 1)
+    made = []
+    for joint, (model, place) in enumerate(zip(balance.models, solved.places(), strict=True)):
+        figures = []
+        for factors in (raw[joint], solved.factors[joint]):
+            fitted = factors.square(solved.every)
+            left = sum(
+                factors.square_after(step[place], balance.group_of_cell == group)
+                for group, step in steps.items()
+            )
+            figures.append([float(np.sqrt(square / rows[joint])) for square in (fitted, left)])
+        size = balance.torque_size(joint)
+        (rmse, held_out), (filtered, filtered_held_out) = figures
+        made.append(
+            JointFit(
+                motion.robot.names[joint],
+                model.with_values(solved.values.friction[joint]),
+                _of_joint(solved, errors, joint),
+                rmse,
+                held_out,
+                filtered / size,
+                filtered_held_out / size,
+            )
+        )
+    return tuple(made)
+
+
+def _of_joint(solved: Solved, errors: Errors, joint: int) -> dict[str, Estimate]:
+    low, high = solved.balance.bounds()
+    place = solved.places()[joint][solved.values.base.size :]
+    made = {}
+    for parameter, k in zip(solved.balance.models[joint].parameters, place, strict=True):
+        known = bool(errors.shown[k]) and not errors.at_bound[k] and low[k] < high[k]
+        made[parameter.name] = Estimate.symmetric(
+            parameter,
+            float(solved.values.whole()[k]),
+            float(np.sqrt(errors.covariance[k, k])) if known else None,
+            errors.quantile,
+            (float(low[k]), float(high[k])),
+            at_bound=bool(errors.at_bound[k]),
+            identifiable=bool(errors.shown[k]),
+            held=bool(low[k] == high[k]),
+        )
+    return made
+
+
+def payload_of(solved: Solved, errors: Errors) -> Payload | None:
+    """The payload, where runs carry one; its columns follow the base parameters."""
+    runs = solved.balance.payload
+    if not runs:
+        return None
+    first = solved.balance.base.count
+    mass, *moment = solved.values.base[first : first + 4]
+    error = float(np.sqrt(errors.covariance[first, first]))
+    reach = errors.quantile * error
+    centre = tuple(float(m / mass) for m in moment) if mass > 0 else None
+    return Payload(
+        runs,
+        float(mass),
+        error,
+        (float(mass - reach), float(mass + reach)),
+        None if centre is None else (centre[0], centre[1], centre[2]),
+    )

@@ -1,0 +1,176 @@
+"""Identify the rigid bodies of a robot and the friction of every joint together."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from stribeck.base.errors import FitError, listed, nearest, option
+from stribeck.fitting.fit import fit
+from stribeck.identify.scaling import bounds, model_for
+from stribeck.models.model import Model
+from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.consistent import consistent_bodies
+from stribeck.robot.estimates import base_estimates, joint_fits, payload_of
+from stribeck.robot.motion import RobotMotion
+from stribeck.robot.problem import Balance, Values
+from stribeck.robot.result import Evaluated, RobotFit
+from stribeck.robot.solve import Solved, solve
+
+#: The ordinary model of every joint: Coulomb and viscous friction, and a constant.
+ORDINARY = "coulomb+offset"
+
+
+def fit_robot(
+    motion: RobotMotion,
+    spec: str = ORDINARY,
+    *,
+    of_joints: Mapping[str, str] | None = None,
+    payload: Sequence[str] = (),
+    evaluate: Sequence[RobotMotion] = (),
+    starts: int = 20,
+    seed: int = 0,
+) -> RobotFit:
+    """Identify base parameters and friction by weighted least squares.
+
+    Parameters
+    ----------
+    spec
+        ``LAW[+effect...]`` of every joint. The load that effects read is the torque of the rigid
+        bodies.
+    of_joints : mapping
+        Other specs, by name of the joint.
+    payload : sequence of str
+        Runs in which the last link carries one payload of unknown inertia.
+    evaluate : sequence of RobotMotion
+        Motions on which the result is scored, and nothing is chosen.
+    starts, seed
+        Random starts of the nonlinear parameters of each joint, and their seed.
+
+    Raises
+    ------
+    FitError
+        A joint or run that does not exist; a joint that does not move.
+    """
+    began = time.perf_counter()
+    specs = _specs(motion, spec, of_joints or {})
+    _check(motion, payload)
+    base = BaseParameters.of(motion.robot)
+    ordinary = solve_ordinary(motion, base, payload)
+    solved = ordinary
+    if any(chosen != ORDINARY for chosen in specs):
+        solved = solve_laws(motion, specs, ordinary, starts=starts, seed=seed)
+    return result_of(solved, ordinary, evaluate, time.perf_counter() - began)
+
+
+def solve_ordinary(motion: RobotMotion, base: BaseParameters, payload: Sequence[str]) -> Solved:
+    """The ordinary model of every joint, from zero."""
+    models = tuple(
+        model_for(ORDINARY, motion.with_load(j, np.zeros(motion.rows)))
+        for j in range(len(motion.joints))
+    )
+    balance = Balance(motion, base, models, tuple(payload))
+    start = Values(
+        np.zeros(balance.columns.shape[2]), tuple(_start(balance, j) for j in range(len(models)))
+    )
+    return solve(balance, start)
+
+
+def _start(balance: Balance, joint: int) -> np.ndarray:
+    lower, upper, _ = bounds(balance.models[joint], balance.motion.joints[joint])
+    return np.clip(0.0, lower, upper)
+
+
+def solve_laws(
+    motion: RobotMotion, specs: Sequence[str | Model], near: Solved, *, starts: int, seed: int
+) -> Solved:
+    """Given laws on all joints: each alone under the load of `near`, then all together."""
+    load = near.balance.load(near.values.base)
+    models, friction = [], []
+    for joint, spec in enumerate(specs):
+        if spec == near.balance.models[joint].spec:
+            models.append(near.balance.models[joint])
+            friction.append(near.values.friction[joint])
+            continue
+        alone = fit(spec, motion.with_load(joint, load[:, joint]), starts=starts, seed=seed)
+        models.append(alone.model)
+        friction.append(np.asarray(alone.model.values, dtype=np.float64))
+    balance = Balance(motion, near.balance.base, tuple(models), near.balance.payload)
+    return solve(balance, Values(near.values.base, tuple(friction)), near.weights)
+
+
+def result_of(
+    solved: Solved, ordinary: Solved, evaluate: Sequence[RobotMotion], seconds: float
+) -> RobotFit:
+    """The result of a solution, and of the ordinary model beside it."""
+    errors = base_estimates(solved)
+    return RobotFit(
+        solved=solved,
+        joints=joint_fits(solved, errors),
+        ordinary=joint_fits(ordinary, base_estimates(ordinary)),
+        base_parameters=errors.base,
+        payload=payload_of(solved, errors),
+        bodies=consistent_bodies(solved, errors),
+        evaluated=tuple(scored_on(solved, ordinary, motion) for motion in evaluate),
+        seconds=seconds,
+    )
+
+
+def scored_on(solved: Solved, ordinary: Solved, motion: RobotMotion) -> Evaluated:
+    """Errors on another motion, on which nothing is fitted."""
+    mine = set(solved.balance.motion.joints[0].hashes)
+    if not mine.isdisjoint(motion.joints[0].hashes):
+        raise FitError(
+            f"{motion.path}: the robot is fitted to it, so that its error there judges nothing: "
+            f"give another recording with {option('evaluate')}"
+        )
+    rmse, relative = _errors(solved, motion)
+    return Evaluated(motion.path, rmse, relative, _errors(ordinary, motion)[1])
+
+
+def _errors(solved: Solved, motion: RobotMotion) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """RMSE of every joint as recorded, and relative error after the low-pass."""
+    base = solved.balance.base
+    balance = Balance(motion, base, solved.balance.models)
+    values = Values(solved.values.base[: base.count], solved.values.friction)
+    rows = np.maximum(motion.scored.sum(axis=0), 1)
+    every = np.ones(balance.group_of_cell.size, dtype=bool)
+
+    def sizes(*, filtered: bool) -> list[float]:
+        factors = balance.factors(values, filtered=filtered)
+        pairs = zip(factors, rows, strict=True)
+        return [float(np.sqrt(joint.square(every) / count)) for joint, count in pairs]
+
+    left = sizes(filtered=True)
+    relative = tuple(size / balance.torque_size(j) for j, size in enumerate(left))
+    return tuple(sizes(filtered=False)), relative
+
+
+def _specs(motion: RobotMotion, spec: str, of_joints: Mapping[str, str]) -> list[str]:
+    names = motion.robot.names
+    for name in of_joints:
+        if name not in names:
+            hint = nearest(name, names) or f"; the joints are {listed(names)}"
+            raise FitError(f"{motion.robot.name} has no joint '{name}'{hint}")
+    return [of_joints.get(name, spec) for name in names]
+
+
+def _check(motion: RobotMotion, payload: Sequence[str]) -> None:
+    for name, moving in zip(motion.robot.names, motion.scored.T, strict=True):
+        if not moving.any():
+            raise FitError(
+                f"{motion.path}: joint {name} does not move, so its friction cannot be identified: "
+                f"record a motion of all joints"
+            )
+    runs = motion.joints[0].run_names
+    for run in payload:
+        if run not in runs:
+            hint = nearest(run, runs) or f"; the runs are {listed(runs)}"
+            raise FitError(f"{motion.path} has no run '{run}'{hint}")
+    if payload and len(set(payload)) == len(runs):
+        raise FitError(
+            f"{motion.path}: every run has the payload, which cannot be told from the last link: "
+            f"add a run without it"
+        )

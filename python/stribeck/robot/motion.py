@@ -1,0 +1,199 @@
+"""Recordings of a whole robot: one recording per joint, of the same samples."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from stribeck.base.errors import RecordingError, option
+from stribeck.recording.load import read_with
+from stribeck.recording.options import ReadOptions, split_pairs
+from stribeck.recording.recording import Column, Recording
+from stribeck.robot.arm import Robot
+
+Array = NDArray[np.float64]
+
+#: The filter's cut-off as a multiple of the fastest joint's bandwidth of motion.
+BANDWIDTHS = 10.0
+#: Segments of so many samples are too short to be filtered.
+SHORTEST = 30
+
+
+@dataclass(frozen=True)
+class RobotMotion:
+    """A motion of all joints, and their torques.
+
+    Attributes
+    ----------
+    joints
+        The recording of each joint; all have the same samples.
+    position, velocity, acceleration : arrays [n, N]
+        After the zero-phase low-pass; what the rigid bodies see.
+    cutoff
+        Of the low-pass that both sides of the torque balance pass, Hz.
+    """
+
+    robot: Robot
+    joints: tuple[Recording, ...]
+    position: Array
+    velocity: Array
+    acceleration: Array
+    cutoff: float
+
+    @classmethod
+    def of(
+        cls, robot: Robot, joints: Sequence[Recording], cutoff: float | None = None
+    ) -> RobotMotion:
+        """Join the recordings of the joints.
+
+        Parameters
+        ----------
+        cutoff
+            Hz; default: ten times the bandwidth of the fastest joint's motion.
+        """
+        first = joints[0]
+        for recording in joints:
+            if recording.position is None:
+                raise RecordingError(f"{recording.path}: joint {recording.joint} has no position")
+            if not np.array_equal(recording.time, first.time):
+                raise RecordingError(
+                    f"{recording.path}: the joints have different samples; remove rows in which a "
+                    f"value is missing with {option('where')}"
+                )
+        chosen = _cutoff(first.path, joints, cutoff)
+        order = _Filter(first, chosen)
+        position = order.smooth(np.stack([np.asarray(r.position) for r in joints], axis=1))
+        measured = np.stack([r.velocity for r in joints], axis=1)
+        velocity = order.smooth(measured)
+        return cls(robot, tuple(joints), position, velocity, order.slope(velocity), chosen)
+
+    @property
+    def path(self) -> str:
+        """The file or files."""
+        return self.joints[0].path
+
+    @property
+    def rows(self) -> int:
+        """Number of samples."""
+        return int(self.joints[0].time.size)
+
+    @cached_property
+    def scored(self) -> NDArray[np.bool_]:
+        """Samples at which a joint moves, bool array [n, N]."""
+        return np.stack([recording.moving for recording in self.joints], axis=1)
+
+    @cached_property
+    def torque(self) -> Array:
+        """Measured torques, array [n, N]."""
+        return np.stack([recording.torque for recording in self.joints], axis=1)
+
+    @cached_property
+    def regressor(self) -> Array:
+        """Derivatives of the torques by the inertial parameters, array [n, N, 11 N]."""
+        return self.robot.regressor(self.position, self.velocity, self.acceleration)
+
+    def filtered(self, values: Array, joint: int | None = None) -> Array:
+        """The zero-phase low-pass of `values` [n, ...].
+
+        With a `joint`, samples at which it rests are bridged by straight lines first: friction at
+        rest is whatever holds the joint.
+        """
+        if joint is not None and not self.scored[:, joint].all():
+            moving = np.flatnonzero(self.scored[:, joint])
+            if moving.size:
+                values = scipy.interpolate.interp1d(
+                    moving,
+                    values[moving],
+                    axis=0,
+                    bounds_error=False,
+                    fill_value=(values[moving[0]], values[moving[-1]]),
+                )(np.arange(len(values)))
+        return _Filter(self.joints[0], self.cutoff).smooth(values)
+
+    def with_load(self, joint: int, load: Array) -> Recording:
+        """The recording of a joint whose load torque [n] is that of the rigid bodies."""
+        recording = self.joints[joint]
+        column = Column.of("load_torque", "rigid bodies", recording.torque_unit, True, load)
+        return replace(
+            recording,
+            load_torque=load,
+            load_torque_smooth=load,
+            columns={**recording.columns, "load_torque": column},
+            origin=None,
+        )
+
+
+def read_motion(
+    robot: Robot,
+    files: Sequence[str],
+    reading: ReadOptions | None = None,
+    cutoff: float | None = None,
+) -> RobotMotion:
+    """Read the recordings of all joints; several files are runs.
+
+    Parameters
+    ----------
+    reading
+        Options of `stribeck.read`; in `map`, ``{joint}`` and ``{number}`` stand for the joint.
+        Without a column that depends on the joint, the file has a column ``joint``.
+    """
+    options = ReadOptions() if reading is None else reading
+    given = {**dict(robot.columns), **dict(split_pairs("map", options.map))}
+    made = []
+    for number, joint in enumerate(robot.joints, start=1):
+        names = {c: n.format(joint=joint.name, number=number) for c, n in given.items()}
+        own = replace(options, map=names, joint_kind=joint.movement)
+        if names == given:
+            own = replace(own, joint=joint.name)
+        known = options.torque_constant is not None or "torque" in given
+        if joint.drive_gain is not None and not known:
+            own = replace(own, torque_constant=joint.drive_gain, gear_ratio=1.0)
+        made.append(replace(read_with(list(files), own), joint=joint.name))
+    return RobotMotion.of(robot, made, cutoff)
+
+
+def _cutoff(path: str, joints: Sequence[Recording], given: float | None) -> float:
+    """The cut-off of the low-pass, Hz."""
+    rate = joints[0].rate_hz
+    if given is not None:
+        if not 0.0 < given < 0.4 * rate:
+            raise RecordingError(
+                f"{path}: {option('cutoff', given)} Hz lies outside 0 .. {0.4 * rate:.3g} Hz, two "
+                f"fifths of the sampling rate"
+            )
+        return given
+    bands = [recording.motion_band for recording in joints]
+    fastest = max((band for band in bands if band is not None), default=0.04 * rate)
+    return min(BANDWIDTHS * fastest, 0.39 * rate)
+
+
+class _Filter:
+    """A zero-phase low-pass of all columns, segment by segment."""
+
+    def __init__(self, recording: Recording, cutoff: float) -> None:
+        first = np.flatnonzero(np.diff(recording.segment, prepend=-1))
+        self.parts = [
+            slice(a, b) for a, b in zip(first, [*first[1:], recording.time.size], strict=True)
+        ]
+        self.time = recording.time
+        self.sections = scipy.signal.butter(4, cutoff, fs=recording.rate_hz, output="sos")
+
+    def smooth(self, values: Array) -> Array:
+        made = np.array(values, dtype=np.float64)
+        for part in self.parts:
+            if part.stop - part.start > SHORTEST:
+                made[part] = scipy.signal.sosfiltfilt(self.sections, values[part], axis=0)
+        return made
+
+    def slope(self, values: Array) -> Array:
+        """Derivative by time, by central differences."""
+        made = np.zeros_like(values)
+        for part in self.parts:
+            if part.stop - part.start > 1:
+                made[part] = np.gradient(values[part], self.time[part], axis=0)
+        return made

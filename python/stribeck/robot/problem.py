@@ -1,0 +1,211 @@
+"""The torque balance of all joints: what is left of it, and its derivatives.
+
+Torques are ``X b + f_j(p_j; motion, load)``: X is the regressor of the base parameters b, f_j the
+friction of joint j, and its load the torque ``X b`` of the rigid bodies. Both sides pass the same
+zero-phase low-pass (Gautier, Vandanjon, Presse, CDC 1994).
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck import _core
+from stribeck.identify.problem import Problem
+from stribeck.identify.scaling import bounds
+from stribeck.models.model import Model
+from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.motion import RobotMotion
+
+Array = NDArray[np.float64]
+
+#: Contiguous stretches of samples, each within one run or block: batches of the standard errors.
+CELLS = 60
+#: The step in the load with which friction is differentiated, as a share of its size.
+LOAD_STEP = 1e-4
+
+
+@dataclass(frozen=True)
+class Values:
+    """Base parameters [b] and friction parameters of every joint [p_j]."""
+
+    base: Array
+    friction: tuple[Array, ...]
+
+    def moved(self, step: Array, share: float = 1.0) -> Values:
+        """The values after a step [b + sum p_j]."""
+        sizes = np.cumsum([self.base.size, *(f.size for f in self.friction)])
+        base, *friction = np.split(share * step, sizes[:-1])
+        moved = tuple(f + change for f, change in zip(self.friction, friction, strict=True))
+        return Values(self.base + base, moved)
+
+    def whole(self) -> Array:
+        """All of them, array [b + sum p_j]."""
+        return np.concatenate([self.base, *self.friction])
+
+
+@dataclass(frozen=True)
+class Factors:
+    """Triangular factors of the balance of one joint, cell by cell.
+
+    Attributes
+    ----------
+    whole : array [cells, b + p_j + 1, b + p_j + 1]
+        Factors of ``[J r]`` over base parameters and the joint's friction parameters.
+    """
+
+    whole: Array
+
+    def square(self, cells: NDArray[np.bool_]) -> float:
+        """Sum of squares of r over some cells."""
+        return float(np.sum(self.whole[cells, :, -1] ** 2))
+
+    def square_after(self, step: Array, cells: NDArray[np.bool_]) -> float:
+        """The same after a step [b + p_j]."""
+        left = self.whole[cells, :, -1] - self.whole[cells, :, :-1] @ step
+        return float(np.sum(left**2))
+
+
+@dataclass(frozen=True)
+class Balance:
+    """The torque balance of a robot with given laws, on a motion.
+
+    Attributes
+    ----------
+    models
+        Friction of each joint.
+    payload
+        Runs in which the last link carries a payload of unknown inertia.
+    """
+
+    motion: RobotMotion
+    base: BaseParameters
+    models: tuple[Model, ...]
+    payload: tuple[str, ...] = ()
+
+    @cached_property
+    def columns(self) -> Array:
+        """Regressor of base parameters, and of the payload where there is one, array [n, N, b]."""
+        chosen = self.motion.regressor[:, :, self.base.chosen]
+        if not self.payload:
+            return chosen
+        first = self.motion.joints[0]
+        among = [k for k, name in enumerate(first.run_names) if name in self.payload]
+        carried = np.isin(first.run, among)
+        last = self.motion.regressor[:, :, -11:-1] * carried[:, None, None]
+        return np.concatenate([chosen, last], axis=2)
+
+    @cached_property
+    def filtered_columns(self) -> tuple[Array, ...]:
+        """`columns` of each joint after the low-pass, at its scored samples."""
+        return tuple(self._passed(self.columns[:, j], j) for j in range(len(self.models)))
+
+    def _passed(self, values: Array, joint: int) -> Array:
+        return self.motion.filtered(values, joint)[self.motion.scored[:, joint]]
+
+    @cached_property
+    def group(self) -> NDArray[np.intp]:
+        """What each sample is held out with, int array [n]: its run, or a block.
+
+        The payload is held out by blocks: without its runs it could not be identified.
+        """
+        first = self.motion.joints[0]
+        groups = first.run if self.held_out == "runs" else first.block
+        return np.asarray(groups, dtype=np.intp)
+
+    @property
+    def held_out(self) -> str:
+        """``"runs"`` or ``"blocks"``."""
+        several = len(self.motion.joints[0].run_names) > 1
+        return "runs" if several and not self.payload else "blocks"
+
+    @cached_property
+    def cell(self) -> NDArray[np.uint32]:
+        """Cell of each sample, int array [n]."""
+        group, size = self.group, self.motion.rows
+        part = np.arange(size) * CELLS // size
+        key = group * CELLS + part
+        return np.unique(key, return_inverse=True)[1].astype(np.uint32)
+
+    @cached_property
+    def group_of_cell(self) -> NDArray[np.intp]:
+        """What each cell is held out with, int array [cells]."""
+        made = np.zeros(int(self.cell.max()) + 1, dtype=np.intp)
+        made[self.cell] = self.group
+        return made
+
+    def load(self, base: Array) -> Array:
+        """Torques of the rigid bodies, array [n, N]."""
+        return np.asarray(self.columns @ base)
+
+    def problem(self, joint: int, load: Array) -> Problem:
+        """The friction of a joint under a load [n]; every sample is a row."""
+        recording = self.motion.with_load(joint, load)
+        return Problem(recording, self.models[joint], np.arange(self.motion.rows))
+
+    def residual(self, values: Values, joint: int) -> Array:
+        """Measured minus modelled torque of every sample, array [n]."""
+        load = self.load(values.base)[:, joint]
+        return self.problem(joint, load).residual(values.friction[joint])
+
+    def factors(self, values: Values, *, filtered: bool = True) -> list[Factors]:
+        """The balance of every joint, linearised at `values`."""
+        load = self.load(values.base)
+        return [self._of_joint(values, j, load[:, j], filtered) for j in range(len(self.models))]
+
+    def _of_joint(self, values: Values, joint: int, load: Array, filtered: bool) -> Factors:
+        friction = values.friction[joint]
+        residual, by_friction = self.problem(joint, load).linearise(friction)
+        slope = self._by_load(joint, load, friction)
+        scored = self.motion.scored[:, joint]
+        if filtered:
+            made = self._passed(np.column_stack([by_friction, residual]), joint)
+            by_friction, residual = made[:, :-1], made[:, -1]
+            by_base = (
+                self.filtered_columns[joint]
+                if slope is None
+                else self._passed(self.columns[:, joint] * (1.0 + slope[:, None]), joint)
+            )
+        else:
+            grown = 1.0 if slope is None else 1.0 + slope[scored, None]
+            by_friction, residual = by_friction[scored], residual[scored]
+            by_base = self.columns[scored, joint] * grown
+        jacobian = np.ascontiguousarray(np.concatenate([by_base, by_friction], axis=1))
+        cells = int(self.cell.max()) + 1
+        return Factors(_core.triangle(jacobian, residual, self.cell[scored], cells))
+
+    def _by_load(self, joint: int, load: Array, friction: Array) -> Array | None:
+        """Derivative of friction by the load, array [n]; None where it does not depend on it."""
+        if "load_torque" not in self.models[joint].core.needs:
+            return None
+        h = LOAD_STEP * max(float(np.sqrt(np.mean(load**2))), 1e-9)
+        up = self.problem(joint, load + h).predict(friction)
+        down = self.problem(joint, load - h).predict(friction)
+        return (up - down) / (2.0 * h) - 1.0
+
+    def bounds(self) -> tuple[Array, Array]:
+        """Bounds of all values, arrays [b + sum p_j]; base parameters have none."""
+        free = np.full(self.columns.shape[2], np.inf)
+        low, high = [-free], [free]
+        for joint, model in enumerate(self.models):
+            lower, upper, _ = bounds(model, self.motion.joints[joint])
+            low.append(lower)
+            high.append(upper)
+        return np.concatenate(low), np.concatenate(high)
+
+    def torque_size(self, joint: int) -> float:
+        """RMS of a joint's filtered torque at its scored samples."""
+        torque = self.motion.filtered(self.motion.torque[:, joint])
+        return float(np.sqrt(np.mean(torque[self.motion.scored[:, joint]] ** 2)))
+
+
+def places(models: Sequence[int], base: int) -> list[NDArray[np.intp]]:
+    """Where the local columns of each joint stand among all, from its number of parameters."""
+    starts = base + np.concatenate([[0], np.cumsum(models)])
+    own = [np.arange(a, b) for a, b in itertools.pairwise(starts)]
+    return [np.concatenate([np.arange(base), part]) for part in own]
