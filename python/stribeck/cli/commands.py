@@ -35,6 +35,7 @@ COMMANDS = {
     "arm": ("methods", "Identify a planar two-joint arm."),
     "study": ("study", "Fit many laws to every joint of DATA and compare them."),
     "fleet": ("fleet", "Fit every joint of many FILES; find the joints that changed."),
+    "reproduce": ("reproduce", "Repeat the tables and figures of a paper."),
     "generate": ("generate", "Make a synthetic recording with hidden effects."),
     "benchmark": ("benchmark", "Measure how often the diagnosis is right."),
 }

@@ -17,7 +17,8 @@ AT_BOUND = 1e-6
 
 def reached_bounds(values: Array, lower: Array, upper: Array) -> NDArray[np.bool_]:
     """Which values are at a bound, bool array [p]."""
-    span = AT_BOUND * (upper - lower)
+    bounded = np.isfinite(lower) & np.isfinite(upper)
+    span = AT_BOUND * np.where(bounded, upper - lower, 0.0)
     return (values <= lower + span) | (values >= upper - span)
 
 

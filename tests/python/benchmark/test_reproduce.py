@@ -1,0 +1,93 @@
+"""The papers repeated: what every reproduction holds, and some of its numbers."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import polars as pl
+import pytest
+from stribeck.base.errors import SpecError
+from stribeck.benchmark.reproduce.page import write_reproduction
+from stribeck.benchmark.reproduce.papers import PAPERS, reproduce
+from stribeck.benchmark.reproduce.result import Reproduction, Row, last_digit
+from stribeck.benchmark.reproduce.text import reproduction_text
+
+#: Rows whose tolerance allows no doubt about what is compared: place and quantity.
+KNOWN = {
+    "bittencourt": ("section II-B", "decay constant κ"),
+    "tadese": ("table 2, joint 2", "sigma_1"),
+}
+
+
+@pytest.fixture(scope="module", params=PAPERS)
+def made(request: pytest.FixtureRequest) -> Reproduction:
+    return reproduce(request.param, quick=True)
+
+
+def test_every_row_is_a_number_beside_a_number_with_a_reason(made: Reproduction) -> None:
+    assert made.rows and made.data
+    for row in made.rows:
+        assert math.isfinite(row.paper) and math.isfinite(row.ours), row
+        assert row.tolerance > 0.0 and row.why and row.where, row
+    assert len(made.missed) < 0.5 * len(made.rows)
+
+
+def test_a_known_row_is_met(made: Reproduction) -> None:
+    place = KNOWN[made.paper]
+    (row,) = [r for r in made.rows if (r.where, r.quantity) == place]
+    assert row.within and row.tolerance < 0.2 * abs(row.paper)
+
+
+def test_the_files_hold_all_rows_and_figures(made: Reproduction, tmp_path: Path) -> None:
+    figures = write_reproduction(made, tmp_path)
+    assert len(figures) == len(made.pictures) == len({p.name for p in made.pictures})
+    stored = json.loads((tmp_path / "rows.json").read_text())
+    assert stored["figures"] == figures
+    assert len(stored["rows"]) == pl.read_csv(tmp_path / "rows.csv").height == len(made.rows)
+    page = (tmp_path / f"{made.paper}.html").read_text()
+    assert page.count("data:image/png") == len(figures) and "http" not in page
+
+
+def test_the_text_names_every_miss(made: Reproduction) -> None:
+    text = reproduction_text(made)
+    assert text.count("MISS") == len(made.missed)
+    assert max(map(len, text.splitlines())) <= 98
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("paper", PAPERS)
+def test_the_whole_reproduction_repeats_bit_by_bit(paper: str) -> None:
+    first, quick = reproduce(paper), reproduce(paper, quick=True)
+    assert len(first.rows) >= len(quick.rows)
+    assert first.to_dict() != reproduce(paper, seed=1, quick=True).to_dict()
+
+
+@pytest.mark.parametrize(
+    ("meaning", "ours", "within"),
+    [
+        ("value", 1.2, False),
+        ("at most", 0.2, True),
+        ("at most", 1.2, False),
+        ("at least", 1.2, True),
+    ],
+)
+def test_a_limit_is_kept_on_one_side(meaning: str, ours: float, within: bool) -> None:
+    row = Row("table", "x", "", 1.0, ours, 0.1, "", meaning)  # type: ignore[arg-type]
+    assert row.within is within
+
+
+def test_a_row_that_is_not_a_number_is_a_miss() -> None:
+    assert not Row("table", "x", "", 1.0, math.nan, 1.0, "").within
+    assert not Row("table", "x", "", 1.0, 1.0, math.nan, "").within
+
+
+def test_half_a_unit_of_the_last_digit() -> None:
+    assert last_digit("-25.00") == pytest.approx(0.005)
+    assert last_digit("1.31e-3") == pytest.approx(5e-6)
+
+
+def test_an_unknown_paper_is_refused() -> None:
+    with pytest.raises(SpecError, match="did you mean 'tadese'"):
+        reproduce("tadesse")
