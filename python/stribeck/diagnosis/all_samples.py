@@ -12,12 +12,8 @@ from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import QUICK, THOROUGH, Effort
+from stribeck.identify.effort import QUICK, Effort
 from stribeck.recording.recording import Recording
-
-#: Effort of a reported fit that starts close to the solution. With a million samples the values
-#: converge to about a thousandth of their standard error.
-FROM_NEARBY = replace(THOROUGH, evaluations=0, finished=1, tolerance=1e-12)
 
 
 def on_all_samples(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from stribeck.base.arguments import door
 from stribeck.base.checks import check_share
 from stribeck.base.errors import FitError
-from stribeck.diagnosis.all_samples import FROM_NEARBY, with_errors_on_all_samples
+from stribeck.diagnosis.all_samples import with_errors_on_all_samples
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
@@ -22,6 +22,7 @@ from stribeck.diagnosis.visibility.visibility import visibility
 from stribeck.fitting.fit import fit, on_recording, with_choices
 from stribeck.fitting.result import FIT, Fit
 from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
+from stribeck.identify.effort import FROM_NEARBY
 from stribeck.models.catalog import effect_ids
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.several.concat import Recordings

@@ -82,7 +82,7 @@ class Diagnosis(Plotted):
     findings
         Effects that pass the test, best first.
     demoted
-        Effects that pass it, but by too few events to be claimed.
+        Effects that pass it, but that the recording does not show well enough to be claimed.
     not_claimed
         Effects that pass it with values that cannot be right.
     smallest_visible

@@ -45,3 +45,6 @@ class Effort:
 THOROUGH = Effort()
 #: For one of many candidates whose values are roughly known.
 QUICK = Effort(evaluations=0, finished=1, tolerance=1e-6, exact=False)
+#: For a reported fit that starts close to the solution. With a million samples the values converge
+#: to about a thousandth of their standard error.
+FROM_NEARBY = replace(THOROUGH, evaluations=0, finished=1, tolerance=1e-12)

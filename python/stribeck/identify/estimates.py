@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -37,6 +38,8 @@ AT_BOUND = 1e-6
 #: A parameter is identifiable if the others leave at least this share of its effect: more than
 #: systematic errors of a recording, or more than rounding.
 APART, APART_INDEPENDENT = 1e-4, 1e-8
+#: A standard error above this share of the value makes a parameter poorly determined.
+POOR = 0.5
 
 
 @dataclass(frozen=True)
@@ -133,6 +136,29 @@ class Identified:
     combinations: tuple[Combination, ...]
     rank: int
     notes: tuple[str, ...] = ()
+
+
+def poorly_determined(estimates: Iterable[Estimate]) -> list[str]:
+    """Names of the parameters whose standard error is large beside the value.
+
+    A coefficient of a series, such as ``position_3``, is judged beside the largest of the series: a
+    small one says that the shape does not need it.
+    """
+    rows = list(estimates)
+    size: dict[str, float] = {}
+    for e in rows:
+        size[_series(e.name)] = max(size.get(_series(e.name), 0.0), abs(e.value))
+    return [
+        e.name
+        for e in rows
+        if e.stderr is not None and e.identifiable and e.stderr > POOR * size[_series(e.name)]
+    ]
+
+
+def _series(name: str) -> str:
+    """The name without its number: that of a series of coefficients."""
+    stem, _, number = name.rpartition("_")
+    return stem if stem and number.isdigit() else name
 
 
 def estimates_by_rows(

@@ -364,8 +364,7 @@ class Project(Plotted):
         for gone in way.superfluous:
             node = project.tree.holding(gone.before)
             if node is not None and gone.effect not in project.tree.rejected(node.number):
-                why = f"superfluous once {gone.because} is in the model"
-                project = project._rejecting(node.number, gone.effect, why)
+                project = project._rejecting(node.number, gone.effect, gone.reason)
         for step in way.steps:
             project = project._with_step(step)
         asked = project.tree.holding(way.last.fit)

@@ -32,7 +32,7 @@ VERDICTS = {
 NO_CLAIM = "What remains is more than noise, but no effect can be claimed on this recording."
 #: Headings of the lists of a diagnosis.
 VISIBLE = "Not found. Smallest RMS torque that would have been found 19 times in 20"
-DEMOTED = "Lowers the held-out error, but too few events show it"
+DEMOTED = "Lowers the held-out error, but this recording does not show it well enough"
 NOT_CLAIMED = "Not claimed, because the values that fit cannot be right"
 ALIKE = "Indistinguishable from each other on this data"
 
@@ -56,7 +56,7 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         if findings[likely:]
         else "",
         paragraph(left_after(diagnosis), 0),
-        paragraph(explainable_text(diagnosis.explainable, f.model.spec, f.model.torque_unit), 0),
+        paragraph(explainable_after(diagnosis), 0),
         paragraph(following, 0),
         bullets(f"{VISIBLE}:", visible_rows(diagnosis.smallest_visible)),
         bullets(f"{ALIKE}:", group_rows(diagnosis.groups)),
@@ -239,15 +239,28 @@ def left_text(left: Unexplained) -> str:
 
 
 def explainable_text(explainable: Explainable | None, spec: str, unit: str) -> str:
-    """How much a model explains of what the channels could explain."""
+    """How much of the error of the best model the channels could still explain.
+
+    Parameters
+    ----------
+    spec
+        The best model: the regressor learns its residual.
+    """
     if explainable is None:
         return ""
-    share = f"{100.0 * explainable.share:.1f} %" if explainable.share < 0.9995 else "> 99.9 %"
+    regressor = f"A flexible regressor without physics, fitted to the residual of {spec},"
+    if explainable.left <= 0.0:
+        return f"{regressor} does not lower its held-out error."
     return (
-        f"{spec} explains {share} of the torque variation that the recorded channels can explain: "
-        f"a flexible regressor without physics, fitted to its residual, brings the held-out error "
-        f"to {plain(explainable.rmse)} {unit}."
+        f"{regressor} removes {percent(explainable.left)} of its squared held-out error, which "
+        f"leaves {plain(explainable.rmse)} {unit}."
     )
+
+
+def explainable_after(diagnosis: Diagnosis) -> str:
+    """The same for a diagnosis, once the first finding is added."""
+    best = diagnosis.findings[0].fit if diagnosis.findings else diagnosis.fit
+    return explainable_text(diagnosis.explainable, best.model.spec, best.model.torque_unit)
 
 
 def untestable_rows(rows: Iterable[Untestable]) -> list[tuple[str, str, str]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from stribeck.diagnosis.loop.determined import undetermined
 from stribeck.effect.describe import physically
 from stribeck.report.diagnosis import (
     doubts_text,
@@ -17,8 +18,13 @@ from stribeck.report.diagnosis import (
 )
 from stribeck.report.fit import PASSIVITY, errors_text
 from stribeck.report.layout import bars, joined, notes_text, paragraph
-from stribeck.report.numbers import hedge, listed, percent, plain
-from stribeck.report.parameters import not_identifiable_text, open_text, parameters_text
+from stribeck.report.numbers import change_text, hedge, listed, percent, plain
+from stribeck.report.parameters import (
+    not_identifiable_text,
+    open_text,
+    parameters_text,
+    poorly_determined_text,
+)
 from stribeck.report.recording import file_name, held_out_meaning
 
 if TYPE_CHECKING:
@@ -59,9 +65,10 @@ def improvement_text(improvement: Improvement) -> str:
         f"Final model: {final.model.spec}",
         parameters_text(final.estimates),
         open_text(final.estimates),
-        not_identifiable_text(final.estimates, final.combinations),
+        not_identifiable_text(final.estimates, ()),
+        poorly_determined_text(undetermined(final.estimates), improvement.combinations),
         errors_text(final),
-        paragraph(PASSIVITY[final.passive()]),
+        paragraph(passivity_sentence(improvement)),
         doubts_text(improvement.last),
         untestable_text(improvement.untestable),
         notes_text(r.notes, final.notes),
@@ -73,6 +80,24 @@ def stopped_sentence(improvement: Improvement) -> str:
     if improvement.stopped == "nothing_passes" and improvement.last.has_doubts:
         return "Stopped: no further effect that lowers the held-out error can be claimed."
     return STOPPED[improvement.stopped]
+
+
+def passivity_sentence(improvement: Improvement) -> str:
+    """Whether the final model is passive, and what that would cost."""
+    said, made = PASSIVITY[improvement.final.passive()], improvement.made_passive
+    if made is None:
+        return said
+    if made.rmse is None:
+        return f"{said} Made passive, it cannot be fitted: {made.why}."
+    name, before, after = "RMSE", improvement.final.rmse, made.rmse
+    if made.rmse_held_out is not None and improvement.final.rmse_held_out is not None:
+        name, before = "held-out error", improvement.final.rmse_held_out
+        after = made.rmse_held_out
+    unit = improvement.final.model.torque_unit
+    return (
+        f"{said} Made passive, its {name} is {plain(after)} instead of {plain(before)} {unit} "
+        f"({change_text(before, after)})."
+    )
 
 
 def step_labels(improvement: Improvement) -> list[str]:

@@ -53,7 +53,12 @@ def notes_text(*groups: Iterable[str]) -> str:
     return "\n".join(paragraph(f"note: {note}", 2, 6) for note in notes)
 
 
-def table(rows: Sequence[Sequence[str]], right: Collection[int] = (), indent: int = 2) -> str:
+def table(
+    rows: Sequence[Sequence[str]],
+    right: Collection[int] = (),
+    indent: int = 2,
+    whole: Collection[int] = (),
+) -> str:
     """Columns lined up below a heading, as plain text.
 
     Parameters
@@ -64,6 +69,8 @@ def table(rows: Sequence[Sequence[str]], right: Collection[int] = (), indent: in
         Columns that are set flush right.
     indent
         Spaces before each line.
+    whole
+        Columns of names, which are never broken into lines.
 
     Notes
     -----
@@ -79,7 +86,7 @@ def table(rows: Sequence[Sequence[str]], right: Collection[int] = (), indent: in
         made.add_column(
             name,
             justify="right" if k in right else "left",
-            no_wrap=k in right,
+            no_wrap=k in right or k in whole,
             overflow="fold",
         )
     for row in rows[1:]:

@@ -17,7 +17,7 @@ from stribeck.report.diagnosis import (
     diagnosis_summary,
     doubts,
     errors_sentence,
-    explainable_text,
+    explainable_after,
     floor_sentence,
     group_rows,
     indistinguishable_sentence,
@@ -29,8 +29,8 @@ from stribeck.report.diagnosis import (
     visible_rows,
 )
 from stribeck.report.finding import finding_figure
-from stribeck.report.fit import PASSIVITY
 from stribeck.report.improvement import (
+    passivity_sentence,
     step_errors,
     step_labels,
     stopped_sentence,
@@ -102,7 +102,7 @@ def improvement_page(improvement: Improvement) -> str:
         stopped=stopped_sentence(improvement),
         left=left_text(improvement.unexplained),
         relative=None if final.relative_residual is None else percent(final.relative_residual),
-        passivity=PASSIVITY[final.passive()],
+        passivity=passivity_sentence(improvement),
         lists=doubts(improvement.last),
     )
 
@@ -113,7 +113,7 @@ def diagnosis_page(diagnosis: Diagnosis) -> str:
     sentences = [
         errors_sentence(diagnosis),
         left_after(diagnosis),
-        explainable_text(diagnosis.explainable, fitted.model.spec, fitted.model.torque_unit),
+        explainable_after(diagnosis),
     ]
     lists = [
         (VISIBLE, visible_rows(diagnosis.smallest_visible)),

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.identify.estimates import poorly_determined
 from stribeck.report.layout import paragraph, table
 from stribeck.report.numbers import MINUS, listed, percent, plain, thousands, unit_text, with_error
 
@@ -15,13 +16,11 @@ if TYPE_CHECKING:
     from stribeck.identify.information import Information
     from stribeck.identify.matrix import ParameterMatrix
 
-#: A standard error above this share of the value makes a parameter poorly determined.
-POOR = 0.5
 #: Pairs of parameters with a correlation of at least this size are named.
 STRONG = 0.95
 
 
-def _flags(e: Estimate) -> str:
+def _flags(e: Estimate, poor: Collection[str]) -> str:
     if e.held:
         return "fixed"
     flags = []
@@ -32,21 +31,22 @@ def _flags(e: Estimate) -> str:
             flags.append("at its upper bound")
         else:
             flags.append("zero: not needed here" if e.value == 0.0 else "at its lower bound")
-    elif e.stderr is not None and e.value != 0.0 and e.identifiable:
-        if e.stderr > POOR * abs(e.value):
-            flags.append("poorly determined")
+    elif e.name in poor:
+        flags.append("poorly determined")
     return "; ".join(flags)
 
 
 def parameter_rows(estimates: Iterable[Estimate]) -> list[list[str]]:
     """One row a parameter: name, symbol, value, error, unit, relative error, flags."""
     rows = []
+    estimates = list(estimates)
+    poor = poorly_determined(estimates)
     for e in estimates:
         value, error = with_error(e.value, e.stderr)
         known = e.stderr is not None and e.value != 0.0
         relative = percent((e.stderr or 0.0) / abs(e.value)) if known else ""
         error = f"± {error}" if error else ""
-        rows.append([e.name, e.symbol, value, error, unit_text(e.unit), relative, _flags(e)])
+        rows.append([e.name, e.symbol, value, error, unit_text(e.unit), relative, _flags(e, poor)])
     return rows
 
 
@@ -55,7 +55,7 @@ def parameters_text(estimates: Mapping[str, Estimate], intervals: bool = False) 
     heading = ["parameter", "symbol", "value", "error", "unit", "relative", ""]
     rows = [heading, *parameter_rows(estimates.values())]
     if not intervals:
-        return table(rows, right=(2, 5))
+        return table(rows, right=(2, 5), whole=(0, 1, 3, 4))
     column = ["95 % interval", *(_interval(e) for e in estimates.values())]
     return table(
         [
@@ -63,6 +63,7 @@ def parameters_text(estimates: Mapping[str, Estimate], intervals: bool = False) 
             for (name, _, value, error, unit, _, flags), interval in zip(rows, column, strict=True)
         ],
         right=(1,),
+        whole=(0,),
     )
 
 
@@ -85,7 +86,7 @@ def _unit(of_runs: Mapping[str, Estimate]) -> str:
 
 def _with_error(e: Estimate) -> str:
     value, error = with_error(e.value, e.stderr)
-    flags = _flags(e)
+    flags = _flags(e, poorly_determined([e]))
     shown = f"{value} ± {error}".removesuffix(" ± ").replace("-", MINUS, 1)
     return shown + (f" ({flags})" if flags else "")
 
@@ -134,6 +135,16 @@ def not_identifiable_text(
         what = "these combinations are" if len(combinations) > 1 else "this combination is"
         lines.append(paragraph(f"Only {what} determined: {found}.", 2, 2))
     return "\n".join(lines)
+
+
+def poorly_determined_text(names: Sequence[str], combinations: Sequence[Combination]) -> str:
+    """Which parameters are not determined, and which combinations of them are."""
+    if not names:
+        return ""
+    said = f"Not determined, or only poorly: {listed(list(names))}."
+    if combinations:
+        said += f" Better known: {'; '.join(_combination(c) for c in combinations)}."
+    return paragraph(said, 2, 2)
 
 
 def _combination(c: Combination) -> str:

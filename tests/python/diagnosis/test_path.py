@@ -65,12 +65,28 @@ def test_an_effect_without_which_nothing_can_be_fitted_stays(
     detour: ImprovementPath, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[str] = []
-    assert loop._shortened(detour, 0.01, 0, told.append) is not None
+    findings = [step.finding for step in detour.steps]
+    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append) is not None
     assert told == ["direction is superfluous: refitting the later effects without it"]
 
     def refuse(*_: object) -> ImprovementStep:
         raise FitError("the dry friction is negative")
 
-    monkeypatch.setattr(loop, "_refitted", refuse)
-    assert loop._shortened(detour, 0.01, 0, told.append) is None
+    monkeypatch.setattr(loop, "refitted", refuse)
+    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append) is None
     assert told[-1] == "direction stays: the dry friction is negative"
+
+
+def test_the_end_of_a_path_is_pruned(detour: ImprovementPath) -> None:
+    """The recording has a dependence on load alone; the effects needed least go first."""
+    path, gone = detour, []
+    for _ in range(3):
+        findings = [step.finding for step in path.steps]
+        shorter = loop._shortened(path, findings, 0.01, 0, lambda sentence: None)
+        if shorter is None:
+            break
+        gone.append(shorter.superfluous[-1])
+        path = shorter
+    assert path.current.model.spec == "coulomb+load"
+    assert sorted(row.effect for row in gone) == ["direction", "offset"]
+    assert [row.because for row in gone if row.effect == "offset"] == [""]

@@ -93,7 +93,7 @@ def test_flags_of_parameters(improvement: sb.Improvement) -> None:
     e = improvement.final.estimates["coulomb_friction"]
     top = replace(e, value=e.upper, at_bound=True, stderr=None, ci95=None)
     blind = replace(e, identifiable=False, stderr=None, ci95=None)
-    vague = replace(e, stderr=e.value)
+    vague = replace(e, name="vague", stderr=e.value)
     flags = [row[-1] for row in parameters.parameter_rows([e, top, blind, vague])]
     assert flags == ["", "at its upper bound", "not identifiable", "poorly determined"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -13,13 +13,10 @@ from stribeck.base.arguments import door
 from stribeck.base.errors import FitError
 from stribeck.base.pool import on_threads
 from stribeck.base.shown import Plotted
-from stribeck.diagnosis.all_samples import (
-    FROM_NEARBY,
-    on_all_samples,
-    with_errors_of,
-    with_excerpt_note,
-)
+from stribeck.diagnosis.all_samples import on_all_samples, with_errors_of, with_excerpt_note
 from stribeck.diagnosis.diagnose import LEAST_FALL
+from stribeck.diagnosis.loop.determined import known_combinations, undetermined
+from stribeck.diagnosis.loop.passive import MadePassive, cost_of_passivity
 from stribeck.diagnosis.loop.path import (
     MOST_STEPS,
     ImprovementPath,
@@ -34,7 +31,8 @@ from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_effects
-from stribeck.identify.estimates import Estimate
+from stribeck.identify.confounded import Combination
+from stribeck.identify.effort import FROM_NEARBY
 from stribeck.identify.scaling import model_for
 from stribeck.identify.transients import transient_rows
 from stribeck.models.catalog import check_effects
@@ -50,7 +48,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Improvement(Plotted):
-    """The steps from a base model to one whose residual is noise."""
+    """The steps from a base model to one whose residual is noise.
+
+    Attributes
+    ----------
+    made_passive
+        What it costs to make the final model passive, where it is not.
+    """
 
     base: Fit
     steps: tuple[ImprovementStep, ...]
@@ -60,6 +64,12 @@ class Improvement(Plotted):
     untestable: tuple[Untestable, ...]
     unexplained: Unexplained
     last: Diagnosis
+    made_passive: MadePassive | None = None
+
+    @property
+    def combinations(self) -> tuple[Combination, ...]:
+        """What is known of the parameters of the final model that are not determined."""
+        return known_combinations(self.final)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON of `stribeck improve`."""
@@ -76,7 +86,8 @@ class Improvement(Plotted):
                 "parameters": {n: e.to_dict() for n, e in self.final.estimates.items()},
                 "passive": self.final.passive(),
                 "undetermined": undetermined(self.final.estimates),
-                "determined_combinations": [row.to_dict() for row in self.final.combinations],
+                "determined_combinations": [c.to_dict() for c in self.combinations],
+                "passive_cost": None if self.made_passive is None else self.made_passive.to_dict(),
             },
             "rmse_held_out_base": self.base.rmse_held_out,
             "relative_residual_base": self.base.relative_residual,
@@ -161,6 +172,13 @@ def improve(
     )
     if few is not recording:
         path = _on_all_samples(path, recording, progress)
+    return _improvement(path, progress)
+
+
+def _improvement(path: ImprovementPath, progress: Callable[[str], None]) -> Improvement:
+    """The result of a path that has ended."""
+    if path.current.passive() is False:
+        progress("finding what a passive model costs")
     found = path.last
     return Improvement(
         base=path.start,
@@ -171,12 +189,8 @@ def improve(
         untestable=found.untestable,
         unexplained=found.unexplained,
         last=found,
+        made_passive=cost_of_passivity(path.current),
     )
-
-
-def undetermined(estimates: Mapping[str, Estimate]) -> list[str]:
-    """Names of the parameters that a recording does not determine."""
-    return [name for name, e in estimates.items() if not (e.identifiable or e.held)]
 
 
 def _with_final_values(path: ImprovementPath) -> tuple[ImprovementStep, ...]:

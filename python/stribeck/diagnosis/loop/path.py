@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
+from stribeck.diagnosis.loop.superfluous import brought_by, superfluous, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
-from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
-from stribeck.diagnosis.trials.screening import STARTS
-from stribeck.diagnosis.trials.trial import SIGNIFICANCE, add_effect
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import QUICK
-from stribeck.identify.figures import rms
+from stribeck.identify.effort import FROM_NEARBY
+from stribeck.models.model import Model
 
 MOST_STEPS = 8
 
@@ -51,11 +49,24 @@ class ImprovementStep:
 
 @dataclass(frozen=True)
 class Superfluous:
-    """An effect that a later one has made superfluous, and the model it had been added to."""
+    """An effect that was dropped, and the model it had been added to.
+
+    Attributes
+    ----------
+    because
+        The effect that made it superfluous; empty where it was the last that was added.
+    """
 
     effect: str
     before: Fit
     because: str
+
+    @property
+    def reason(self) -> str:
+        """Why it was dropped."""
+        if self.because:
+            return f"superfluous once {self.because} is in the model"
+        return "its removal raises the held-out error by no more than one standard error"
 
 
 @dataclass(frozen=True)
@@ -91,16 +102,33 @@ class ImprovementPath:
 
     def without(self, effect: str, seed: int) -> ImprovementPath:
         """The path without one effect; the steps after it are fitted again, in order."""
-        place = next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
+        place = self._place(effect)
         dropped = self.steps[place]
-        steps = list(self.steps[:place])
-        current = dropped.before
-        for step in self.steps[place + 1 :]:
-            again = _refitted(step, current, self.last.noise_floor, seed)
-            steps.append(again)
-            current = again.after
-        later = Superfluous(effect, dropped.before, self.steps[-1].finding.effect)
-        return replace(self, steps=tuple(steps), superfluous=(*self.superfluous, later))
+        later = self.steps[place + 1 :]
+        whole = without_effects(self.current.model, brought_by(dropped.finding))
+        steps = self._refitted(dropped.before, [step.finding for step in later], whole, seed)
+        because = self.steps[-1].finding.effect
+        gone = Superfluous(effect, dropped.before, "" if because == effect else because)
+        return replace(
+            self, steps=(*self.steps[:place], *steps), superfluous=(*self.superfluous, gone)
+        )
+
+    def _place(self, effect: str) -> int:
+        return next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
+
+    def _refitted(
+        self, before: Fit, findings: Sequence[Finding], whole: Model, seed: int
+    ) -> list[ImprovementStep]:
+        """Steps from `before` to the model `whole`, whose values are the starts."""
+        models = [whole]
+        for finding in reversed(findings[1:]):
+            models.append(without_effects(models[-1], brought_by(finding)))
+        steps: list[ImprovementStep] = []
+        for finding, model in zip(findings, reversed(models[: len(findings)]), strict=True):
+            made = refitted(finding, before, model, self.last.noise_floor, seed)
+            steps.append(made)
+            before = made.after
+        return steps
 
 
 def improvement_paths(
@@ -118,10 +146,10 @@ def improvement_paths(
     The loop ends where nothing passes the test, or after `most_steps`. The last diagnosis of the
     last path is that of its current model. Parameters as in `improve`.
     """
-    steps: tuple[ImprovementStep, ...] = ()
-    gone: tuple[Superfluous, ...] = ()
+    path: ImprovementPath | None = None
     while True:
-        current = steps[-1].after if steps else start
+        current = start if path is None else path.current
+        gone = () if path is None else path.superfluous
         progress(f"searching for effects that {current.model.spec} lacks")
         found = diagnose(
             current,
@@ -132,41 +160,31 @@ def improvement_paths(
             sample_rows=start.recording.rows,
             brief=True,
         )
-        path = ImprovementPath(start, found, steps, gone)
-        if not found.findings or len(steps) >= most_steps:
+        path = ImprovementPath(start, found, () if path is None else path.steps, gone)
+        ends = not found.findings or len(path.steps) >= most_steps
+        if not ends:
+            progress(f"adding {found.findings[0].effect}")
+            path = path.with_best()
+            yield path
+        findings = [step.finding for step in path.steps]
+        shorter = _shortened(path, findings if ends else findings[:-1], least_fall, seed, progress)
+        if shorter is None and ends:
             yield path
             return
-        progress(f"adding {found.findings[0].effect}")
-        path = path.with_best()
-        yield path
-        shorter = _shortened(path, least_fall, seed, progress)
         if shorter is not None:
             path = shorter
             yield path
-        steps, gone = path.steps, path.superfluous
-
-
-def _refitted(step: ImprovementStep, before: Fit, floor: NoiseFloor, seed: int) -> ImprovementStep:
-    """The same effect added to another model."""
-    effect = step.finding.effect
-    after = add_effect(before, step.after.model.written(effect), starts=STARTS, seed=seed)
-    finding = replace(
-        step.finding,
-        rmse_held_out_before=float(before.rmse_held_out or np.nan),
-        rmse_held_out_after=float(after.rmse_held_out or np.nan),
-        share_of_unexplained=share_of_unexplained(before, after, floor),
-        where=where(effect, before, after),
-        fit=after,
-        before=before,
-    )
-    return ImprovementStep(finding, before, after)
 
 
 def _shortened(
-    path: ImprovementPath, least_fall: float, seed: int, progress: Callable[[str], None]
+    path: ImprovementPath,
+    findings: Sequence[Finding],
+    least_fall: float,
+    seed: int,
+    progress: Callable[[str], None],
 ) -> ImprovementPath | None:
-    """The path without an effect that is superfluous; None where none is, or it must stay."""
-    idle = _superfluous(path.steps, least_fall, seed)
+    """The path without one of some findings, if one is superfluous; None where it must stay."""
+    idle = superfluous(findings, path.current, least_fall, seed)
     if idle is None:
         return None
     progress(f"{idle} is superfluous: refitting the later effects without it")
@@ -178,27 +196,25 @@ def _shortened(
         return None
 
 
-def _superfluous(steps: tuple[ImprovementStep, ...], least_fall: float, seed: int) -> str | None:
-    """An earlier effect without which the error is not significantly larger, if there is one."""
-    if len(steps) < 2:
-        return None
-    current = steps[-1].after
-    for step in steps[:-1]:
-        effect = step.finding.effect
-        try:
-            without = fit(
-                current.model.without_effect(effect),
-                current.recording,
-                starts=1,
-                seed=seed,
-                transient=current.transient,
-                effort=QUICK,
-            )
-        except FitError:
-            continue
-        rows = current.rows
-        level = rms(current.weighted(current.residual[rows]))
-        rise = rms(current.weighted(without.residual[rows])) / level - 1.0
-        if rise < least_fall / 2 or evidence(without, current).p_value > SIGNIFICANCE:
-            return effect
-    return None
+def refitted(
+    finding: Finding, before: Fit, model: Model, floor: NoiseFloor, seed: int
+) -> ImprovementStep:
+    """The same effect added to another model: `model` has it, and values near the solution."""
+    after = fit(
+        model,
+        before.recording,
+        starts=1,
+        seed=seed,
+        transient=before.transient,
+        effort=FROM_NEARBY,
+    )
+    made = replace(
+        finding,
+        rmse_held_out_before=float(before.rmse_held_out or np.nan),
+        rmse_held_out_after=float(after.rmse_held_out or np.nan),
+        share_of_unexplained=share_of_unexplained(before, after, floor),
+        where=where(finding.effect, before, after),
+        fit=after,
+        before=before,
+    )
+    return ImprovementStep(made, before, after)

@@ -28,6 +28,8 @@ from stribeck.fitting.result import Fit
 
 #: An effect that brings this share of the fall of the best, and adds nothing to it, is a tie.
 ALIKE = 0.9
+#: A tie with a smaller weight changes no confidence that is shown.
+NEGLIGIBLE = 0.005
 #: An effect that explains less than this share of the squared error above the noise floor is not
 #: reported, however significant: much larger causes remain.
 MATERIAL = 0.05
@@ -69,16 +71,19 @@ def ranked(
         return _none_but_demoted(before, sift, tried, floor)
     ordered[0] = first
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
-    total = sum(weights[t.effect] for t in tied)
+    claimed = sum(weights[t.effect] for t in tied)
+    doubtful = _doubtful_ties(best, sift, tried, least, seed)
+    total = claimed + sum(doubtful.values())
     alike = [t.effect for t in tied]
+    named = alike + [row.trial.effect for row in sift.demoted if row.trial.effect in doubtful]
     made = []
     for t in ordered:
         chance = min(1.0, t.evidence.p_value * tried)
         is_tied = t.effect in alike
         share = weights[t.effect] / (total if is_tied else total + weights[t.effect])
-        others = tuple(o for o in alike if o != t.effect) if is_tied else ()
+        others = tuple(o for o in named if o != t.effect) if is_tied else ()
         made.append(_finding(before, t, float((1.0 - chance) * share), others, floor))
-    besides = _none_but_demoted(before, sift, tried, floor, best, total)
+    besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))
 
 
@@ -106,7 +111,8 @@ def _none_but_demoted(
         chance = min(1.0, trial.evidence.p_value * tried)
         confidence = min(DEMOTED, (1.0 - chance) * weight / (total + weight))
         made.append(replace(_finding(before, trial, confidence, (), floor), demoted=reason))
-    return Ranked((), tuple(made), sift.not_claimed)
+    refused = tuple(NotClaimed(row.trial.effect, row.reason) for row in sift.refused)
+    return Ranked((), tuple(made), refused)
 
 
 def _tied(
@@ -135,6 +141,22 @@ def _tied(
         t.effect: _may_replace(t, best, statistic[t.effect], tried, least, seed) for t in tied
     }
     return sorted(tied, key=lambda t: (not replaces[t.effect], t.parameters, t.rank))
+
+
+def _doubtful_ties(
+    best: Trial, sift: Sifted, tried: int, least: float, seed: int
+) -> dict[str, float]:
+    """Weights of the effects that may not be claimed, and predict as well as the best that may.
+
+    They are alternatives all the same: another cause, that the catalog does not hold, may have the
+    same torque.
+    """
+    found = {}
+    for row in (*sift.demoted, *sift.refused):
+        weight = tie_weight(tie_statistic(best, row.trial))
+        if weight > NEGLIGIBLE and not adds_to(best, row.trial, tried, least, seed):
+            found[row.trial.effect] = weight
+    return found
 
 
 def _finding(

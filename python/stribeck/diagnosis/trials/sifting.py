@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from stribeck.diagnosis.plausibility.claim import Claim
-from stribeck.diagnosis.plausibility.rules import NotClaimed, impossible, weak
+from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.trials.trial import Trial
 from stribeck.fitting.result import Fit
 
 
 @dataclass(frozen=True)
-class Demoted:
-    """A trial whose evidence is too narrow, and why."""
+class Doubted:
+    """A trial whose evidence is too narrow or whose values cannot be right, and why."""
 
     trial: Trial
     reason: str
@@ -28,39 +28,39 @@ class Sifted:
     stand
         Those that may be claimed, in the order in which they came.
     demoted
-        Those that too few events carry.
-    not_claimed
-        Effects whose values cannot be right.
+        Those whose evidence is too narrow.
+    refused
+        Those whose values cannot be right.
     """
 
     stand: tuple[Trial, ...] = ()
-    demoted: tuple[Demoted, ...] = ()
-    not_claimed: tuple[NotClaimed, ...] = ()
+    demoted: tuple[Doubted, ...] = ()
+    refused: tuple[Doubted, ...] = ()
 
     @classmethod
     def of(cls, before: Fit, trials: Sequence[Trial], least: float) -> Sifted:
         """Judge each of `trials`; `least` is the fall that a finding must bring."""
         stand: list[Trial] = []
-        demoted: list[Demoted] = []
-        refused: list[NotClaimed] = []
+        demoted: list[Doubted] = []
+        refused: list[Doubted] = []
         for trial in trials:
             claim = Claim(trial.effect, before, trial.fit, least)
             if (reason := impossible(claim)) is not None:
-                refused.append(NotClaimed(trial.effect, reason))
+                refused.append(Doubted(trial, reason))
             elif (reason := weak(claim)) is not None:
-                demoted.append(Demoted(trial, reason))
+                demoted.append(Doubted(trial, reason))
             else:
                 stand.append(trial)
         return cls(tuple(stand), tuple(demoted), tuple(refused))
 
     def with_stand(self, trials: Sequence[Trial]) -> Sifted:
         """The same with other trials that stand."""
-        return Sifted(tuple(trials), self.demoted, self.not_claimed)
+        return Sifted(tuple(trials), self.demoted, self.refused)
 
     def instead(self, trial: Trial, judged: Sifted) -> Sifted:
         """The same without one trial that stands, and with what was `judged` of it again."""
         return Sifted(
             tuple(t for t in self.stand if t.effect != trial.effect),
             (*self.demoted, *judged.demoted),
-            (*self.not_claimed, *judged.not_claimed),
+            (*self.refused, *judged.refused),
         )

@@ -14,7 +14,7 @@ from stribeck.diagnosis.visibility.model_space import MOST_ROWS
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import QUICK
+from stribeck.identify.effort import FROM_NEARBY, QUICK, THOROUGH
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import catalog
 from stribeck.models.formula_law import effect_name
@@ -169,13 +169,18 @@ def _try_if_promising(before: Fit, effect: str, least: float, seed: int) -> Tria
 
 
 def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
-    """The same trial fitted thoroughly, from its values."""
+    """The same trial fitted thoroughly, from its values.
+
+    With a state, whose every evaluation simulates the whole recording, no other minimum is sought:
+    the screening has searched from several starts.
+    """
     after = fit(
         trial.fit.model,
         trial.fit.recording,
         starts=1,
         seed=seed,
         transient=trial.fit.transient,
+        effort=THOROUGH if trial.fit.model.memoryless else FROM_NEARBY,
     )
     return Trial(trial.effect, after, evidence(before, after))
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.base.shown import Shown
-from stribeck.diagnosis.loop.improve import Improvement, undetermined
+from stribeck.diagnosis.loop.determined import undetermined
+from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.scale.streaming.result import StreamedFit

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from stribeck.diagnosis.plausibility.claim import Claim, term_torques
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
 from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
 from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, weak
+from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.too_large import too_large
 from stribeck.diagnosis.plausibility.unresolved import unresolved
 from stribeck.identify.problem import Problem
@@ -186,3 +188,28 @@ def test_the_fewest() -> None:
     assert fewest(np.zeros(4)) == 0
     assert fewest(np.ones(10)) == 9
     assert fewest(np.array([0.0, 100.0, 1.0])) == 1
+
+
+def test_single_samples_of_each_move_show_no_shape(tmp_path: Path) -> None:
+    """A peak of three samples after each reversal is no Stribeck curve; a wide one is."""
+
+    def claim(name: str, shape: Callable[[Array], Array]) -> Claim:
+        v = motion(20000, 1000.0)[2]
+        recording = record(tmp_path, joint(shape(v) * np.sign(v), rows=20000, rate=1000.0), name)
+        before = sb.fit("coulomb", recording, starts=1)
+        return Claim("stribeck", before, sb.add(before, "stribeck", starts=4), 0.01)
+
+    reason = few_samples(claim("peak", lambda v: 8.0 * (np.abs(v) < 0.003)))
+    assert reason is not None and "samples a move carry" in reason
+    assert few_samples(claim("curve", lambda v: 1.5 * np.exp(-np.abs(v) / 0.15))) is None
+
+
+def test_a_shape_that_is_needed_at_its_bound(tmp_path: Path) -> None:
+    """Friction with the eighth power of the load; one with its size is not at a bound."""
+    frame = joint()
+    load, v = frame["load_torque"].to_numpy(), frame["velocity"].to_numpy()
+    share = np.abs(load) / np.abs(load).max()
+    steep = made(tmp_path, 4.0 * share**8 * np.sign(v), "load", "steep")
+    reason = shape_at_bound(steep)
+    assert reason is not None and reason.startswith("load_exponent is at its bound 2.5")
+    assert shape_at_bound(made(tmp_path, 2.0 * share * np.sign(v), "load", "plain")) is None

@@ -1,0 +1,68 @@
+"""Effects of a model that its recording does not need."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from stribeck.base.errors import StribeckError
+from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.evidence import difference, evidence
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
+from stribeck.identify.effort import QUICK
+from stribeck.identify.figures import rms
+from stribeck.models.model import Model
+
+
+def brought_by(finding: Finding) -> tuple[str, ...]:
+    """The effect of a finding, and the simpler one that came with it."""
+    before, after = finding.before.model, finding.fit.model
+    present = {*before.effects, *before.own_effects}
+    return tuple(e for e in (*after.effects, *after.own_effects) if e not in present)
+
+
+def without_effects(model: Model, effects: Sequence[str]) -> Model:
+    """The model without several of its effects, with the values of the others."""
+    for effect in effects:
+        model = model.without_effect(effect)
+    return model
+
+
+def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
+    """The model refitted without what a finding brought; None where that cannot be fitted."""
+    try:
+        return fit(
+            without_effects(current.model, brought_by(finding)),
+            current.recording,
+            starts=1,
+            seed=seed,
+            transient=current.transient,
+            effort=QUICK,
+        )
+    except StribeckError:
+        return None
+
+
+def superfluous(findings: Sequence[Finding], current: Fit, least: float, seed: int) -> str | None:
+    """The effect of a finding without which the model predicts as well, if there is one.
+
+    Without it the error rises by less than half of `least`, by no more than noise explains, or the
+    held-out error by no more than one standard error. Of several the one that is needed least.
+    """
+    rises: dict[str, float] = {}
+    for finding in findings:
+        without = fit_without(current, finding, seed)
+        if without is None:
+            continue
+        rows = current.rows
+        level = rms(current.weighted(current.residual[rows]))
+        rise = rms(current.weighted(without.residual[rows])) / level - 1.0
+        statistic = difference(without, current).statistic
+        if (
+            rise < least / 2
+            or statistic <= SIMPLEST
+            or evidence(without, current).p_value > SIGNIFICANCE
+        ):
+            rises[finding.effect] = statistic
+    return min(rises, key=lambda effect: rises[effect]) if rises else None

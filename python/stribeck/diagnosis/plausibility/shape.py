@@ -1,0 +1,88 @@
+"""Rules: a recording resolves the shape of an effect, and the shape is not at its limit."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.base.errors import StribeckError
+from stribeck.diagnosis.plausibility.carried import Carried, move_of
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.effect.base import number
+from stribeck.fitting.fit import fit
+from stribeck.identify.effort import QUICK
+from stribeck.identify.scaling import bounds
+from stribeck.models.catalog import effect_row
+
+#: Samples in each move, for each parameter of an effect, that must carry it, unless they are so
+#: large a share of the move.
+FEWEST, LARGE = 3, 0.01
+#: Share of its gain that an effect must keep with the usual value of a shape parameter that ends at
+#: a bound.
+KEPT = 0.5
+
+
+def few_samples(claim: Claim) -> str | None:
+    """Why too few samples of each move carry the effect; None where enough do.
+
+    Few samples show that the torque jumps there, and not how it changes.
+    """
+    if claim.before.recording.averaged:
+        return None
+    carried = Carried.of(claim)
+    if carried.events == 0:
+        return None
+    move = move_of(claim)
+    each = carried.share * move.size / carried.events
+    length = move.size / max(np.unique(move).size, 1)
+    parameters = len(claim.after.model.names) - len(claim.before.model.names)
+    if each >= min(FEWEST * parameters, LARGE * length):
+        return None
+    return (
+        f"only {number(each)} samples a move carry 90 % of what it gains, of {number(length)}: "
+        f"too few to show how the torque changes there"
+    )
+
+
+def shape_at_bound(claim: Claim) -> str | None:
+    """Which shape parameter of the effect must be at its bound; None where none must.
+
+    The size of an effect is another matter: there the effect is not claimed at all.
+    """
+    row = effect_row(claim.effect)
+    if row is None:
+        return None
+    model, estimates = claim.after.model, claim.after.estimates
+    usual = dict(zip(model.names, bounds(model, claim.after.recording)[2], strict=True))
+    for parameter in row["parameters"][1:]:
+        name = parameter["name"]
+        found = estimates.get(name)
+        if found is None or not found.at_bound or found.value == 0.0:
+            continue
+        if _kept(claim, name, float(usual[name])) < KEPT:
+            return (
+                f"{name} is at its bound {number(found.value)}, and with its usual value "
+                f"{number(float(usual[name]))} most of what the effect gains is lost"
+            )
+    return None
+
+
+def _kept(claim: Claim, name: str, value: float) -> float:
+    """Share of the gain that is left where a parameter is held at a value."""
+    before, after = claim.before, claim.after
+    try:
+        plain = fit(
+            after.model,
+            after.recording,
+            starts=1,
+            transient=after.transient,
+            effort=QUICK,
+            fix={name: value},
+        )
+    except StribeckError:
+        return 0.0
+    squares = [
+        float(np.sum(before.weighted(fitted.held_out_residual[claim.rows]) ** 2))
+        for fitted in (before, after, plain)
+    ]
+    gain = squares[0] - squares[1]
+    return (squares[0] - squares[2]) / gain if gain > 0.0 else 1.0
