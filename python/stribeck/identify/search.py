@@ -125,7 +125,8 @@ def _between_bounds(
         return tried
     best = int(np.argmin([search.square for search in tried]))
     leaders = leaders_of(tried, space)
-    if np.mean(leaders == leaders[best]) >= AGREED:
+    # A single start agrees with none.
+    if len(tried) > 1 and np.mean(leaders == leaders[best]) >= AGREED:
         return tried
     if share_alone(leaders) > UNSURE:
         at = starts_between_bounds(first, space, start, moved, 2 * starts, seed)[starts:]
