@@ -103,6 +103,7 @@ def _diagnosed(
     sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
     best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)
+    names = tuple(t.fit.model.written(t.effect) for t in passed)
     order = ranked(fitted, sift, tried, least_fall, floor, seed)
     found = order.findings
     if brief and found:
@@ -115,6 +116,7 @@ def _diagnosed(
             NOT_ASKED,
             demoted=order.demoted,
             not_claimed=order.not_claimed,
+            passed=names,
         )
     # Without repeated states a regressor learns nothing that holds on other blocks.
     after = found[0].fit if found else fitted
@@ -143,6 +145,7 @@ def _diagnosed(
         explainable=explained,
         demoted=order.demoted,
         not_claimed=order.not_claimed,
+        passed=names,
     )
 
 

@@ -85,6 +85,8 @@ class Diagnosis(Plotted):
         Effects that pass it, but that the recording does not show well enough to be claimed.
     not_claimed
         Effects that pass it with values that cannot be right.
+    passed
+        All effects that pass the test of evidence alone, ids or formulas, the best first.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
@@ -104,6 +106,7 @@ class Diagnosis(Plotted):
     explainable: Explainable | None = None
     demoted: tuple[Finding, ...] = ()
     not_claimed: tuple[NotClaimed, ...] = ()
+    passed: tuple[str, ...] = ()
 
     @property
     def has_doubts(self) -> bool:

@@ -1,14 +1,15 @@
-"""The greedy loop: the best effect is added at each step, and superfluous ones are dropped."""
+"""The loop: the best effect is added at each step; superfluous ones are dropped or exchanged."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
+from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
 from stribeck.diagnosis.loop.superfluous import brought_by, superfluous, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
@@ -17,6 +18,7 @@ from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import FROM_NEARBY
+from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
 
 MOST_STEPS = 8
@@ -24,11 +26,18 @@ MOST_STEPS = 8
 
 @dataclass(frozen=True)
 class ImprovementStep:
-    """One accepted finding, and the model with it."""
+    """One accepted finding, and the model with it.
+
+    Attributes
+    ----------
+    rivals
+        Other effects that passed the test of evidence beside it, ids or formulas, the best first.
+    """
 
     finding: Finding
     before: Fit
     after: Fit
+    rivals: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, object]:
         """The JSON of one step."""
@@ -96,9 +105,9 @@ class ImprovementPath:
     def with_best(self) -> ImprovementPath:
         """The path with the best finding of the last diagnosis added."""
         finding = self.last.findings[0]
-        return replace(
-            self, steps=(*self.steps, ImprovementStep(finding, self.current, finding.fit))
-        )
+        rivals = tuple(e for e in self.last.passed if effect_name(e) != finding.effect)
+        step = ImprovementStep(finding, self.current, finding.fit, rivals)
+        return replace(self, steps=(*self.steps, step))
 
     def without(self, effect: str, seed: int) -> ImprovementPath:
         """The path without one effect; the steps after it are fitted again, in order."""
@@ -106,7 +115,7 @@ class ImprovementPath:
         dropped = self.steps[place]
         later = self.steps[place + 1 :]
         whole = without_effects(self.current.model, brought_by(dropped.finding))
-        steps = self._refitted(dropped.before, [step.finding for step in later], whole, seed)
+        steps = self._refitted(dropped.before, later, whole, seed)
         because = self.steps[-1].finding.effect
         gone = Superfluous(effect, dropped.before, "" if because == effect else because)
         return replace(
@@ -116,16 +125,56 @@ class ImprovementPath:
     def _place(self, effect: str) -> int:
         return next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
 
+    def exchanged(self, exchange: Exchange, seed: int) -> ImprovementPath:
+        """The path with another effect in place of one; the steps after it are fitted again."""
+        place = self._place(exchange.finding.effect)
+        dropped, by = self.steps[place], exchange.by
+        finding = replace(
+            dropped.finding,
+            effect=by.effect,
+            indistinguishable_from=(),
+            before=exchange.without,
+            fit=by.fit,
+        )
+        confidence, names = tied(finding, ties_of(exchange))
+        finding = replace(finding, confidence=confidence, indistinguishable_from=names)
+        step = replace(dropped, finding=finding)
+        later = [step, *self.steps[place + 1 :]]
+        steps = self._refitted(dropped.before, later, by.fit.model, seed)
+        gone = Superfluous(dropped.finding.effect, dropped.before, by.effect)
+        return replace(
+            self, steps=(*self.steps[:place], *steps), superfluous=(*self.superfluous, gone)
+        )
+
+    def with_ties(self, ties: Mapping[str, Mapping[str, float]]) -> ImprovementPath:
+        """The path whose findings also name effects that predict as well in their place."""
+        steps = []
+        for step in self.steps:
+            confidence, names = tied(step.finding, ties.get(step.finding.effect, {}))
+            finding = replace(step.finding, confidence=confidence, indistinguishable_from=names)
+            steps.append(replace(step, finding=finding))
+        return replace(self, steps=tuple(steps))
+
+    def exchanges(self, rejected: Collection[str], seed: int) -> Exchanges:
+        """What the exchange of each effect for its rivals, and for those of later ones, shows."""
+        pools = [
+            tuple(dict.fromkeys(e for step in self.steps[k:] for e in step.rivals))
+            for k in range(len(self.steps))
+        ]
+        refused = {*rejected, *(gone.effect for gone in self.superfluous)}
+        findings = [step.finding for step in self.steps]
+        return exchanges(findings, pools, self.current, refused, seed)
+
     def _refitted(
-        self, before: Fit, findings: Sequence[Finding], whole: Model, seed: int
+        self, before: Fit, later: Sequence[ImprovementStep], whole: Model, seed: int
     ) -> list[ImprovementStep]:
         """Steps from `before` to the model `whole`, whose values are the starts."""
         models = [whole]
-        for finding in reversed(findings[1:]):
-            models.append(without_effects(models[-1], brought_by(finding)))
+        for step in reversed(later[1:]):
+            models.append(without_effects(models[-1], brought_by(step.finding)))
         steps: list[ImprovementStep] = []
-        for finding, model in zip(findings, reversed(models[: len(findings)]), strict=True):
-            made = refitted(finding, before, model, self.last.noise_floor, seed)
+        for step, model in zip(later, reversed(models[: len(later)]), strict=True):
+            made = refitted(step, before, model, self.last.noise_floor, seed)
             steps.append(made)
             before = made.after
         return steps
@@ -169,8 +218,10 @@ def improvement_paths(
         findings = [step.finding for step in path.steps]
         shorter = _shortened(path, findings if ends else findings[:-1], least_fall, seed, progress)
         if shorter is None and ends:
-            yield path
-            return
+            shorter, path = _exchanged(path, rejected, seed, progress)
+            if shorter is None:
+                yield path
+                return
         if shorter is not None:
             path = shorter
             yield path
@@ -196,8 +247,29 @@ def _shortened(
         return None
 
 
+def _exchanged(
+    path: ImprovementPath,
+    rejected: Collection[str],
+    seed: int,
+    progress: Callable[[str], None],
+) -> tuple[ImprovementPath | None, ImprovementPath]:
+    """The path with one effect exchanged, or None; and the path with its ties."""
+    if len(path.steps) < 2:
+        return None, path
+    found = path.exchanges(rejected, seed)
+    path = path.with_ties(found.ties)
+    if found.best is None:
+        return None, path
+    progress(f"{found.best.by.effect} takes the place of {found.best.finding.effect}")
+    try:
+        return path.exchanged(found.best, seed), path
+    except FitError as error:
+        progress(f"{found.best.finding.effect} stays: {error}")
+        return None, path
+
+
 def refitted(
-    finding: Finding, before: Fit, model: Model, floor: NoiseFloor, seed: int
+    step: ImprovementStep, before: Fit, model: Model, floor: NoiseFloor, seed: int
 ) -> ImprovementStep:
     """The same effect added to another model: `model` has it, and values near the solution."""
     after = fit(
@@ -209,12 +281,12 @@ def refitted(
         effort=FROM_NEARBY,
     )
     made = replace(
-        finding,
+        step.finding,
         rmse_held_out_before=float(before.rmse_held_out or np.nan),
         rmse_held_out_after=float(after.rmse_held_out or np.nan),
         share_of_unexplained=share_of_unexplained(before, after, floor),
-        where=where(finding.effect, before, after),
+        where=where(step.finding.effect, before, after),
         fit=after,
         before=before,
     )
-    return ImprovementStep(made, before, after)
+    return replace(step, finding=made, before=before, after=after)

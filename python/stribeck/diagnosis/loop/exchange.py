@@ -1,0 +1,149 @@
+"""Exchange of one effect of a model for another: greedy steps go wrong where causes share a shape.
+
+A step takes the effect that predicts best alone. Once others are in the model, another may take its
+place. Whole models are compared: by held-out error, and within one standard error by the number of
+parameters and by the kind of the cause.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import impossible, weak
+from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.evidence import difference, held_out_square
+from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.trial import (
+    SIGNIFICANCE,
+    SIMPLEST,
+    TIE,
+    Trial,
+    tie_weight,
+    try_effect,
+)
+from stribeck.effect.describe import is_friction
+from stribeck.fitting.result import Fit
+from stribeck.models.formula_law import effect_name
+
+#: Rivals of each effect that are tried.
+MOST = 3
+#: Share of what an effect explains that its screening on few samples must promise of a rival.
+PROMISE = 0.8
+
+
+@dataclass(frozen=True)
+class Exchange:
+    """An effect that may take the place of another.
+
+    Attributes
+    ----------
+    finding
+        The finding whose effect is replaced.
+    without
+        The model without it.
+    by
+        The other effect added to that.
+    apart
+        Standard errors by which the held-out errors of both models differ.
+    """
+
+    finding: Finding
+    without: Fit
+    by: Trial
+    apart: float
+
+
+@dataclass(frozen=True)
+class Exchanges:
+    """What the exchange of single effects shows.
+
+    Attributes
+    ----------
+    best
+        The exchange with the smallest held-out error of those to be made.
+    ties
+        For each effect the others that predict as well in its place with no more parameters, and
+        their weights.
+    """
+
+    best: Exchange | None
+    ties: Mapping[str, Mapping[str, float]]
+
+
+def exchanges(
+    findings: Sequence[Finding],
+    rivals: Sequence[Sequence[str]],
+    current: Fit,
+    refused: Collection[str],
+    seed: int,
+) -> Exchanges:
+    """Try to exchange the effect of each finding for each of its rivals, ids or formulas."""
+    made: list[Exchange] = []
+    ties: dict[str, dict[str, float]] = {}
+    for finding, others in zip(findings, rivals, strict=True):
+        possible = [e for e in others if not _is_in(e, current) and effect_name(e) not in refused]
+        if not possible or (without := fit_without(current, finding, seed)) is None:
+            continue
+        for effect in possible[:MOST]:
+            by = _in_place(current, without, effect, seed)
+            if by is None:
+                continue
+            worse = difference(current, by.fit).statistic
+            better = difference(by.fit, current).statistic
+            if _is_preferred(finding, by, current, worse, better):
+                made.append(Exchange(finding, without, by, worse))
+            elif better <= SIMPLEST and by.parameters <= len(current.model.names):
+                ties.setdefault(finding.effect, {})[by.effect] = tie_weight(better)
+    best = min(made, key=lambda one: held_out_square(one.by.fit, current), default=None)
+    return Exchanges(best, ties)
+
+
+def _is_in(effect: str, current: Fit) -> bool:
+    name, model = effect_name(effect), current.model
+    return model.has(name) or name in (*model.own_effects, *model.rigid_body)
+
+
+def _in_place(current: Fit, without: Fit, effect: str, seed: int) -> Trial | None:
+    """The trial of another effect in place of one; None where it cannot take its place."""
+    whole = held_out_square(without, current)
+    needed = 1.0 - (held_out_square(current, current) / whole) ** 0.5 if whole > 0.0 else 0.0
+    found = screened(without, effect, seed=seed)
+    if found is None or found.fall < PROMISE * needed:
+        return None
+    trial = try_effect(without, found)
+    if trial is None or trial.is_implausible or trial.evidence.p_value > SIGNIFICANCE:
+        return None
+    claim = Claim(trial.effect, without, trial.fit)
+    return None if impossible(claim) or weak(claim) else trial
+
+
+def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, better: float) -> bool:
+    """Whether the model with the other effect is the better one.
+
+    It is where it predicts better by a standard error. Where both predict alike, it is if it has
+    fewer parameters, or as many and is a rigid-body or measurement cause in place of friction.
+    """
+    if worse > SIMPLEST:
+        return True
+    less_friction = is_friction(finding.effect) and not is_friction(by.effect)
+    more_friction = is_friction(by.effect) and not is_friction(finding.effect)
+    if better > SIMPLEST or more_friction:
+        return False
+    fewer = len(current.model.names) - by.parameters
+    return fewer > 0 or (fewer == 0 and less_friction)
+
+
+def tied(finding: Finding, others: Mapping[str, float]) -> tuple[float, tuple[str, ...]]:
+    """Confidence and names of the ties of a finding once `others` predict as well."""
+    new = {name: w for name, w in others.items() if name not in finding.indistinguishable_from}
+    names = (*finding.indistinguishable_from, *new)
+    return finding.confidence / (1.0 + sum(new.values())), names
+
+
+def ties_of(exchange: Exchange) -> dict[str, float]:
+    """The effect that is replaced as a tie of the other, where both predict alike."""
+    apart = exchange.apart
+    return {exchange.finding.effect: tie_weight(apart)} if apart <= TIE else {}

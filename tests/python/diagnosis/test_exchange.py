@@ -1,0 +1,70 @@
+"""One effect exchanged for another: whole models are compared, not the steps to them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.diagnose import diagnose
+from stribeck.diagnosis.loop.exchange import tied
+from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from synthetic import Array, joint, motion, record
+
+
+def detour(folder: Path, extra: Array, *effects: str, rivals: tuple[str, ...]) -> ImprovementPath:
+    """A path that took `effects`, on a recording that holds `extra` torque."""
+    current = start = sb.fit("coulomb", record(folder, joint(extra)), starts=1)
+    said = diagnose(start, brief=True)
+    steps: list[ImprovementStep] = []
+    for effect in effects:
+        after = sb.add(current, effect, starts=2)
+        finding = replace(
+            said.findings[0],
+            effect=effect,
+            before=current,
+            fit=after,
+            confidence=1.0,
+            indistinguishable_from=(),
+        )
+        steps.append(ImprovementStep(finding, current, after, rivals))
+        current = after
+    return ImprovementPath(start, said, tuple(steps))
+
+
+def test_inertia_takes_the_place_of_effects_that_imitate_it(tmp_path: Path) -> None:
+    """A wrong inertia, of which a spring and a position dependence explain most."""
+    path = detour(tmp_path, 0.2 * motion()[3], "spring", "position", rivals=("inertia", "offset"))
+    assert path.current.rmse_held_out is not None
+    found = path.exchanges((), seed=0)
+    assert found.best is not None and found.best.by.effect == "inertia"
+    better = path.exchanged(found.best, seed=0)
+    assert "inertia" in better.current.model.effects
+    assert better.current.rmse_held_out == pytest.approx(0.03, rel=0.05)
+    assert found.best.finding.effect in {gone.effect for gone in better.superfluous}
+    assert better.steps[-1].after is better.current
+    inertia = next(step for step in better.steps if step.finding.effect == "inertia")
+    assert inertia.finding.confidence == 1.0 and not inertia.finding.indistinguishable_from
+    assert path.exchanges(("inertia",), seed=0).best is None
+
+
+def test_a_true_effect_is_not_exchanged(tmp_path: Path) -> None:
+    """A Stribeck curve with an offset; neither viscous friction nor gravity replaces them."""
+    v = motion()[2]
+    extra = 1.5 * np.exp(-np.abs(v) / 0.15) * np.sign(v) + 0.5
+    path = detour(
+        tmp_path, extra, "stribeck", "offset", rivals=("nonlinear_viscous", "gravity", "direction")
+    )
+    found = path.exchanges((), seed=0)
+    assert found.best is None and not found.ties
+
+
+def test_confidence_is_shared_with_what_predicts_as_well(tmp_path: Path) -> None:
+    path = detour(tmp_path, np.full(3000, 0.5), "offset", rivals=())
+    (step,) = path.with_ties({"offset": {"gravity": 1.0, "spring": 0.5}}).steps
+    assert step.finding.confidence == pytest.approx(0.4)
+    assert step.finding.indistinguishable_from == ("gravity", "spring")
+    # Said once, a tie counts once.
+    assert tied(step.finding, {"gravity": 1.0}) == (step.finding.confidence, ("gravity", "spring"))
