@@ -42,6 +42,7 @@ from .projects.project import Project, project
 from .recording.load import read
 from .recording.recording import Recording
 from .recording.several.concat import concat
+from .report.plots.draw import plot
 from .scale.fleet.fleet import fleet
 from .scale.fleet.result import Fleet
 from .scale.streaming.result import StreamedFit
@@ -102,6 +103,7 @@ __all__ = [
     "measure_transmission",
     "model",
     "plan",
+    "plot",
     "project",
     "published",
     "published_sets",

@@ -1,5 +1,5 @@
-//! The Stribeck law M0 and its extension by load, M1 (Bittencourt et al. 2010); the exponent is a
-//! constant.
+//! The Stribeck law M0 and its extension by load, M1 (Bittencourt et al. 2010). The exponent is
+//! fixed unless asked for: a held parameter of M0, a constant of M1.
 
 use super::FrictionLaw;
 use crate::constants::Constants;
@@ -18,6 +18,8 @@ parameters! {
         viscous_friction: "Fv" ["T s/X"] 0.0 .. 10.0, start 0.1, Damping, Rate;
         /// Speed at which the Stribeck curve has fallen to 1/e.
         stribeck_velocity: "vs" ["X/s"] 0.002 .. 10.0, start 0.1, Speed, Nonlinear;
+        /// Exponent of the Stribeck curve; fixed in a fit unless it is given bounds.
+        stribeck_exponent: "alpha" ["1"] 0.5 .. 4.0, start 1.3, None, Held;
     }
 }
 
@@ -29,18 +31,18 @@ impl<S: Real> FrictionLaw<S> for M0<S> {
         formula: "(Fc + Fs exp(-|v/vs|^alpha)) sgn v + Fv v",
         parameters: Self::TABLE,
         channels: &[],
-        constants: &["stribeck_exponent"],
+        constants: &[],
         pole: None,
         captures: &["coulomb", "viscous", "stribeck"],
     };
 
     #[inline]
-    fn split(&self, sample: &Sample<S::Plain>, constants: &Constants<S::Plain>) -> Split<S> {
-        let exponent = S::from_plain(constants.stribeck_exponent);
+    fn split(&self, sample: &Sample<S::Plain>, _: &Constants<S::Plain>) -> Split<S> {
+        let (velocity, exponent) = (self.stribeck_velocity, self.stribeck_exponent);
         Split {
             coulomb: self.coulomb_friction,
             height: self.stribeck_height,
-            shape: stribeck_curve(sample.velocity, self.stribeck_velocity, exponent),
+            shape: stribeck_curve(sample.velocity, velocity, exponent),
             rate: self.viscous_friction.scale(sample.velocity),
             ..Split::zero()
         }

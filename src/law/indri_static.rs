@@ -11,11 +11,14 @@ parameters! {
     /// Two exponentials of speed and a quadratic, with separate coefficients for each direction.
     IndriStatic {
         /// Dry friction between the two exponentials, while moving forward.
-        coulomb_friction_forward: "c0_plus" ["T"] -10.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction_forward: "c0_plus" ["T"]
+            -100.0 .. 100.0, start 0.5 drawn -10.0 .. 10.0, Torque, Dry;
         /// Dry friction that decays with speed.
-        stribeck_height_forward: "c1_plus" ["T"] -10.0 .. 10.0, start 0.2, Torque, Dry;
+        stribeck_height_forward: "c1_plus" ["T"]
+            -100.0 .. 100.0, start 0.2 drawn -10.0 .. 10.0, Torque, Dry;
         /// Dry friction that builds up with speed.
-        coulomb_rise_forward: "c2_plus" ["T"] -10.0 .. 10.0, start 0.0, Torque, Dry;
+        coulomb_rise_forward: "c2_plus" ["T"]
+            -100.0 .. 100.0, start 0.0 drawn -10.0 .. 10.0, Torque, Dry;
         /// Torque per speed.
         viscous_friction_forward: "c3_plus" ["T s/X"]
             -10.0 .. 10.0, start 0.1 drawn 0.0 .. 10.0, Damping, Rate;
@@ -27,11 +30,14 @@ parameters! {
         /// Speed at which the second exponential has fallen to 1/e.
         rise_velocity_forward: "w2_plus" ["X/s"] 0.002 .. 10.0, start 0.2, Speed, Nonlinear;
         /// Dry friction between the two exponentials, while moving backward.
-        coulomb_friction_backward: "c0_minus" ["T"] -10.0 .. 10.0, start 0.5, Torque, Dry;
+        coulomb_friction_backward: "c0_minus" ["T"]
+            -100.0 .. 100.0, start 0.5 drawn -10.0 .. 10.0, Torque, Dry;
         /// Dry friction that decays with speed.
-        stribeck_height_backward: "c1_minus" ["T"] -10.0 .. 10.0, start 0.2, Torque, Dry;
+        stribeck_height_backward: "c1_minus" ["T"]
+            -100.0 .. 100.0, start 0.2 drawn -10.0 .. 10.0, Torque, Dry;
         /// Dry friction that builds up with speed.
-        coulomb_rise_backward: "c2_minus" ["T"] -10.0 .. 10.0, start 0.0, Torque, Dry;
+        coulomb_rise_backward: "c2_minus" ["T"]
+            -100.0 .. 100.0, start 0.0 drawn -10.0 .. 10.0, Torque, Dry;
         /// Torque per speed.
         viscous_friction_backward: "c3_minus" ["T s/X"]
             -10.0 .. 10.0, start 0.1 drawn 0.0 .. 10.0, Damping, Rate;

@@ -20,6 +20,7 @@ COMMANDS = {
     "published": ("published", "List the parameter sets printed in the literature."),
     "fit": ("fit", "Identify the parameters of a model on DATA."),
     "compare": ("loop", "Compare MODELS with DATA, and show where each fails."),
+    "plot": ("plot", "Draw one figure of MODELS on DATA, as journals print it."),
     "diagnose": ("loop", "Find which physical effect MODEL lacks on DATA."),
     "add": ("loop", "Add EFFECT to MODEL and refit; error before and after."),
     "improve": ("loop", "Diagnose and add effects until the residual is noise."),

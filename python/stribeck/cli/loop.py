@@ -10,7 +10,6 @@ from stribeck.base.errors import SpecError
 from stribeck.cli.common import (
     echo_result,
     figures_option,
-    is_model_file,
     json_option,
     least_fall_option,
     output_option,
@@ -23,10 +22,10 @@ from stribeck.cli.common import (
     say,
     seed_option,
     starts_option,
-    stored_model,
 )
 from stribeck.cli.data import arguments_of_both, data_argument, split
 from stribeck.cli.evaluation import evaluate_option, judged
+from stribeck.cli.fitted import fits_of
 from stribeck.cli.formulas import (
     Written,
     candidate_option,
@@ -46,12 +45,9 @@ from stribeck.diagnosis.loop.add import add as add_to
 from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.loop.improve import improve as improve_from
 from stribeck.fitting.evaluate import evaluated_on
-from stribeck.fitting.fit import fit as fit_model
 from stribeck.identify.choices import parameters_of_effects
-from stribeck.identify.scaling import model_for
 from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import effect_name
-from stribeck.models.model import Model
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
@@ -78,23 +74,10 @@ def compare(
 ) -> None:
     """Compare MODELS (specs, model files or formulas) with DATA, and show where each fails."""
     data, models = split(arguments)
-    own = written.by_formula()
-    if not (models or own):
+    if not (models or written.laws):
         raise SpecError("no model is given: name laws or model files, or write laws by --law")
     recording = read_recording(data, reading)
-    specs: list[str | Model] = [argument for argument in models if not is_model_file(argument)]
-    made = [model_for(model, recording) for model in [*specs, *own]]
-    to_fit = iter(written.choices.applied_to_each(made))
-    fits = []
-    for argument in models:
-        say(f"note: {argument} ...")
-        if is_model_file(argument):
-            fits.append(stored_model(argument, recording))
-        else:
-            fits.append(fit_model(next(to_fit), recording, starts=starts, seed=seed))
-    for model in to_fit:
-        say(f"note: {model.own[0].text} ...")
-        fits.append(fit_model(model, recording, starts=starts, seed=seed))
+    fits = fits_of(models, written, recording, starts=starts, seed=seed)
     comparison = compare_fits(fits, recording)
     if picture is not None:
         from stribeck.base.files import save_figure

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import click
@@ -105,6 +106,12 @@ def joint_of(sizes: Values) -> Joint | None:
     if None in screw:
         raise SpecError("a ball screw needs both --rotor-inertia and --pitch")
     return Joint.ball_screw(mass, *screw, gravity=sizes["gravity"])
+
+
+def at_the_joint(sizes: Values) -> float:
+    """Force or torque at the joint per torque of the motor: ``2 pi/p`` of a ball screw, else 1."""
+    pitch = sizes["pitch"]
+    return 1.0 if pitch is None else math.tau / float(pitch)
 
 
 def trajectory_of(sizes: Values, joint: Joint, seed: int) -> Trajectory:

@@ -18,6 +18,7 @@ from stribeck.cli.common import (
     seed_option,
 )
 from stribeck.cli.motion import (
+    at_the_joint,
     joint_of,
     joint_options,
     model_of,
@@ -68,13 +69,22 @@ SECONDS = 10.0
     show_default=True,
     help="Bandwidth of the closed loop if no gains are given, Hz.",
 )
-@click.option("--limit", type=float, default=math.inf, help="Largest motor torque, N m or N.")
+@click.option(
+    "--limit",
+    type=float,
+    default=math.inf,
+    help="Largest motor torque, N m or N; with --pitch in N m before the screw.",
+)
 @click.option(
     "--feedforward",
     is_flag=True,
     help="Add the torque of inertia and gravity of the desired motion.",
 )
-@click.option("--torque", type=float, help="Open loop: constant motor torque, N m or N.")
+@click.option(
+    "--torque",
+    type=float,
+    help="Open loop: constant motor torque, N m or N; with --pitch in N m before the screw.",
+)
 @click.option("--spring", type=float, help="Open loop: stiffness of a spring that pulls the joint.")
 @click.option("--pull-speed", type=float, help="Speed of the far end of the spring.")
 @click.option("--seconds", type=float, help="Duration, s. [default: there and back, or 10]")
@@ -164,7 +174,7 @@ def _drive(sizes: Values, joint: Joint, seed: int) -> Drive:
     if torque is not None and spring is not None:
         raise SpecError("--torque and --spring exclude each other: give one of them")
     if torque is not None:
-        return Torque(torque)
+        return Torque(torque * at_the_joint(sizes))
     if spring is not None:
         if speed is None:
             raise SpecError("--spring needs --pull-speed, the speed of its far end")
@@ -183,5 +193,5 @@ def _controller(sizes: Values, joint: Joint) -> Controller:
         proportional=joint.total_inertia * frequency**2 if kp is None else kp,
         derivative=2.0 * joint.total_inertia * frequency if kd is None else kd,
         integral=sizes["ki"],
-        limit=sizes["limit"],
+        limit=sizes["limit"] * at_the_joint(sizes),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure
 from stribeck.cli.common import (
     echo_result,
@@ -51,6 +52,12 @@ def validate(
     recording = read_recording(data, reading)
     fitted = model_fit(model, recording, starts=starts, seed=seed)
     inertia = reading.inertia
+    if inertia is None and "inertia" not in (*fitted.model.effects, *fitted.model.rigid_body):
+        raise SpecError(
+            f"{fitted.model.spec} has no inertia to move, because {recording.path} gives the load "
+            f"torque: give that of the joint with --inertia (kg m2; of a prismatic joint its mass, "
+            f"kg)"
+        )
     joint = None if inertia is None else Joint(inertia, kind=recording.joint_kind)
     validation = drive(fitted, recording, joint)
     if picture is not None:

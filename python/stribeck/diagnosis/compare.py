@@ -14,7 +14,7 @@ from stribeck.base.errors import FitError
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.regimes import regime_rows
-from stribeck.fitting.energy import electrical_energy
+from stribeck.fitting.energy import electrical_energy, joules
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import relative_residual, rms
@@ -55,7 +55,18 @@ class Regime:
 
 @dataclass(frozen=True)
 class Assessment:
-    """One model's error figures on a recording."""
+    """One model's error figures on a recording, in the unit of torque, over the scored samples.
+
+    Attributes
+    ----------
+    mean, std
+        Of measured minus modelled torque.
+    mean_absolute, largest_absolute
+        Mean and maximum of its size.
+    energy, energy_all_rows
+        Electrical energy over the scored samples, and over all samples with those at rest, where
+        the model holds what a joint at rest needs: the load.
+    """
 
     model: str
     rmse: float
@@ -65,7 +76,10 @@ class Assessment:
     std: float
     r2: float
     rmse_low_speed: float
+    mean_absolute: float
+    largest_absolute: float
     energy: dict[str, float] | None
+    energy_all_rows: dict[str, float] | None
     regimes: tuple[Regime, ...]
     information: Information | None
     fit: Fit
@@ -82,7 +96,10 @@ class Assessment:
             "std": self.std,
             "r2": self.r2,
             "rmse_low_speed": self.rmse_low_speed,
+            "mean_absolute_error": self.mean_absolute,
+            "largest_absolute_error": self.largest_absolute,
             "energy": self.energy,
+            "energy_all_rows": self.energy_all_rows,
             "regimes": [regime.to_dict() for regime in self.regimes],
         }
 
@@ -204,14 +221,11 @@ def assess(fit: Fit, criteria: Information | None) -> Assessment:
         std=float(at.std()),
         r2=1.0 - float(np.sum(at**2)) / spread if spread > 0 else float("nan"),
         rmse_low_speed=low.rmse,
-        energy=_energy(fit),
+        mean_absolute=float(np.abs(at).mean()),
+        largest_absolute=float(np.abs(at).max()),
+        energy=joules(electrical_energy(r, fit.prediction)),
+        energy_all_rows=joules(electrical_energy(r, fit.prediction, np.ones_like(moving))),
         regimes=tuple(regimes),
         information=criteria,
         fit=fit,
     )
-
-
-def _energy(fit: Fit) -> dict[str, float] | None:
-    """Electrical energy over the scored samples, measured and modelled; None where not known."""
-    energy = electrical_energy(fit.recording, fit.prediction)
-    return None if energy is None else energy.to_dict()

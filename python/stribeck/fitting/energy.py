@@ -68,6 +68,11 @@ class Energy:
         }
 
 
+def joules(energy: Energy | None) -> dict[str, float] | None:
+    """The JSON of an energy; None where it is not known."""
+    return None if energy is None else energy.to_dict()
+
+
 def electrical_power(torque: Array, velocity: Array, motor: Motor) -> Array:
     """Electrical power of the motor, W, array [n] (eqs 7 and 8).
 
@@ -99,15 +104,18 @@ def motor_of(recording: Recording) -> Motor | None:
     return Motor(known["km"], known["kb"], known["kt"], ratio)
 
 
-def electrical_energy(recording: Recording, prediction: Array) -> Energy | None:
-    """Energy of the measured and of the predicted motor torque over the scored samples (eqs 9, 10).
-
-    Samples at rest are excluded from both sums: there, friction is whatever holds the joint.
+def electrical_energy(
+    recording: Recording, prediction: Array, rows: NDArray[np.bool_] | None = None
+) -> Energy | None:
+    """Energy of the measured and of the predicted motor torque over `rows` (eqs 9, 10).
 
     Parameters
     ----------
     prediction : array [n]
         Predicted motor torque: load torque plus friction.
+    rows : bool array [n], optional
+        Samples of both sums; the default is the scored ones. They leave out samples at rest, where
+        friction is whatever holds the joint; the review sums over all.
 
     Returns
     -------
@@ -120,7 +128,7 @@ def electrical_energy(recording: Recording, prediction: Array) -> Energy | None:
         return None
     if "friction_torque" in recording.columns:
         return None
-    rows = recording.moving
+    rows = recording.moving if rows is None else rows
     step, velocity = recording.dt[rows], recording.velocity[rows]
 
     def energy(torque: Array) -> float:

@@ -98,14 +98,20 @@ def _check_constants(
     for name in constants:
         if name not in read:
             known = f"it reads {', '.join(read)}" if read else "it reads none"
+            if name in Model(law=law, effects=tuple(effects)).names:
+                known = f"{name} is a parameter of it"
             raise SpecError(f"{spec} does not read the constant {name!r}; {known}")
 
 
 def _with_values(made: Model, values: Mapping[str, float]) -> Model:
-    """The model with values by name or symbol; parameters that are not given have none."""
+    """The model with values by name or symbol.
+
+    Parameters that are not given have none; those that the law holds have their usual one.
+    """
     if not values:
         return made
     placed = dict.fromkeys(made.names, np.nan)
+    usual = {p.name: p.start for p in made.parameters if p.role == "held"}
     symbols = {p.symbol: p.name for p in made.parameters}
     for given, value in values.items():
         name = given if given in placed else symbols.get(given)
@@ -117,4 +123,6 @@ def _with_values(made: Model, values: Mapping[str, float]) -> Model:
         if np.isfinite(placed[name]):
             raise SpecError(f"parameter {name} of {made.spec} is given twice: omit {given}")
         placed[name] = check_finite(given, value)
-    return made.with_values(list(placed.values()))
+    return made.with_values(
+        [usual.get(name, x) if np.isnan(x) else x for name, x in placed.items()]
+    )

@@ -47,15 +47,24 @@ def effect_row(effect: str) -> EffectRow | None:
 
 
 def constants_of(law: str, effects: Iterable[str]) -> list[str]:
-    """Names of the constants that a law of the catalog and its effects read.
+    """Names of the constants that a law and its effects read.
 
     Examples
     --------
     >>> constants_of("hao_b", ["load"])
     ['base_temperature', 'reference_load']
     """
-    rows = [catalog()["laws"][law.partition(":")[0]], *(effect_row(effect) for effect in effects)]
+    rows = [law_row(law), *(effect_row(effect) for effect in effects)]
     return [name for row in rows if row is not None for name in row["constants"]]
+
+
+def constants_read(
+    constants: Mapping[str, float], law: str, effects: Iterable[str]
+) -> dict[str, float]:
+    """The constants without those of the catalog that neither the law nor its effects read."""
+    read = constants_of(law, effects)
+    known = {row["name"] for row in _core.catalog()["constants"]}
+    return {name: x for name, x in constants.items() if name in read or name not in known}
 
 
 def simpler_effect(effect: str) -> str | None:

@@ -13,7 +13,7 @@ import numpy as np
 from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, StribeckError, nearest
 from stribeck.base.toml import TomlText, read_text
-from stribeck.models.catalog import law_ids
+from stribeck.models.catalog import constants_read, law_ids
 from stribeck.models.fitted import FittedOn
 from stribeck.models.formula_law import Declaration, FormulaTerms, check_terms
 from stribeck.models.model import Model
@@ -147,7 +147,26 @@ class _Reader:
         except SpecError as error:
             wrong_law = law not in (*law_ids(), *tables["formulas"])
             raise self.stop(str(error), "law" if wrong_law else "effects") from None
-        return self._with_parameters(made, tables["parameters"], tables["fitted_on"])
+        made, moved = self._with_read_constants(made)
+        return self._with_parameters(made, {**moved, **tables["parameters"]}, tables["fitted_on"])
+
+    def _with_read_constants(self, made: Model) -> tuple[Model, dict[str, object]]:
+        """The model with the constants that it reads, and rows of those that are parameters now.
+
+        Earlier versions stored the exponent of m0 as a constant.
+        """
+        kept = constants_read(made.constants, made.law, made.effects)
+        moved: dict[str, object] = {
+            name: {"value": x} for name, x in made.constants.items() if name in made.names
+        }
+        for name in made.constants:
+            if name not in kept and name not in moved:
+                raise self.stop(
+                    f"{made.spec} does not read the constant {name!r}: remove it",
+                    "constants]",
+                    name,
+                )
+        return replace(made, constants={n: x for n, x in kept.items() if n not in moved}), moved
 
     def _model(
         self, law: str, data: Mapping[str, object], tables: Mapping[str, Mapping[str, object]]

@@ -13,6 +13,7 @@ from tomlkit.items import Table
 
 from stribeck.base.errors import ModelFileError
 from stribeck.base.files import write_whole
+from stribeck.models.catalog import constants_read
 
 if TYPE_CHECKING:
     from stribeck.models.fitted import FittedOn, PerRun
@@ -90,8 +91,10 @@ def add_model(
         document.add("drive", tomlkit.item(model.drive))
     if model.own:
         document.add("formulas", _table({terms.name: terms.text for terms in model.own}))
-    if model.constants:
-        document.add("constants", _table({k: float(v) for k, v in model.constants.items()}))
+    # An effect that was taken out may have left its constants behind.
+    constants = constants_read(model.constants, model.law, model.effects)
+    if constants:
+        document.add("constants", _table({k: float(v) for k, v in constants.items()}))
     document.add("parameters", _parameters(model, stderr, per_run))
     if fitted_on:
         document.add("fitted_on", _table(fitted_on))

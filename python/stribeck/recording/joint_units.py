@@ -43,14 +43,11 @@ def settle_units(data: Channels) -> tuple[str, str, str]:
     _check_motion(data, motion)
     kind = _kind(data, motion, effort)
     pitch = data.prepared.settings.mechanics.screw_pitch
-    per_rad: float | None = None
-    if data.prepared.settings.joint_kind == "prismatic" and turns and pitch is not None:
-        per_rad = pitch / (2.0 * np.pi)
+    per_rad = pitch / (2.0 * np.pi) if kind == "prismatic" and pitch is not None else None
+    if turns and per_rad is not None:
         for channel in (*motion, *(c for c in REFERENCE if data.units.get(c) in _ANGULAR)):
             data.values[channel] = data.values[channel] * per_rad
-        data.notes.append(
-            f"motion and torque of the screw converted with its pitch of {pitch:g} m per turn"
-        )
+        data.notes.append(f"motion of the screw converted with its pitch of {pitch:g} m per turn")
     unit = data.units.get(effort, "") or natural_unit(kind)
     if effort == "current":
         _current_to_torque(data, natural_unit(kind))
@@ -60,9 +57,13 @@ def settle_units(data: Channels) -> tuple[str, str, str]:
         _motor_torque(data)
     if per_rad is not None and unit == "N m":
         for channel in ("torque", "load_torque", "friction_torque"):
-            if channel in data.values:
+            if channel in data.values and data.units.get(channel) != "N":
                 data.values[channel] = data.values[channel] / per_rad
         unit = "N"
+        data.notes.append(
+            f"force = torque of the screw * 2 pi / its pitch of {pitch:g} m per turn (times "
+            f"{1.0 / per_rad:.6g})"
+        )
     _check_torque(data, kind, effort, unit, screw=per_rad is not None)
     return kind, unit, "m" if kind == "prismatic" else "rad"
 
@@ -88,7 +89,7 @@ def _check_motion(data: Channels, motion: dict[str, str]) -> None:
         raise RecordingError(
             f"{data.path}: {turns[0]} is in {motion[turns[0]]} but the joint is given as "
             f"prismatic: give the column's unit with {option('unit', 'COLUMN=UNIT')}, or "
-            "screw_pitch (m per turn) in the sidecar"
+            f"{option('screw_pitch')} (m per turn)"
         )
 
 
@@ -141,8 +142,8 @@ def _check_torque(data: Channels, kind: str, effort: str, unit: str, *, screw: b
     """Refuse a unit of torque that contradicts the joint kind or the load torque."""
     if kind == "prismatic" and unit == "N m":
         raise RecordingError(
-            f"{data.path}: the joint is prismatic but {effort} is in N m: give screw_pitch (m per "
-            f"turn) in the sidecar, with positions in rad, or {option('unit', 'COLUMN=N')}"
+            f"{data.path}: the joint is prismatic but {effort} is in N m: give "
+            f"{option('screw_pitch')} (m per turn), or {option('unit', 'COLUMN=N')}"
         )
     if kind == "revolute" and unit == "N":
         raise RecordingError(

@@ -99,6 +99,7 @@ class ReadArguments(TypedDict, total=False):
     joint_kind: str | None
     gear_ratio: float | None
     torque_constant: float | None
+    screw_pitch: float | None
     inertia: float | None
     drive: str | None
     hold_out: str | None
@@ -157,6 +158,14 @@ class ReadOptions:
     )
     torque_constant: float | None = field(
         default=None, metadata=_number("Torque per current.", "N m/A", "above zero")
+    )
+    screw_pitch: float | None = field(
+        default=None,
+        metadata=_number(
+            "Travel of a ball screw per turn: a torque in N m is the motor's, and becomes a force.",
+            "m",
+            "above zero",
+        ),
     )
     inertia: float | None = field(
         default=None, metadata=_number("Known inertia or mass.", "kg m2 or kg", "not negative")

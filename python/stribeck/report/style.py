@@ -38,13 +38,16 @@ FEWEST_FOR_MEDIAN = 150
 
 
 def new_figure(
-    width: float, height: float, layout: Literal["constrained"] | None = "constrained"
+    width: float,
+    height: float,
+    layout: Literal["constrained"] | None = "constrained",
+    dpi: float = DPI,
 ) -> Figure:
     """An empty figure, inches."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(width, height), dpi=DPI, layout=layout)
+    figure = Figure(figsize=(width, height), dpi=dpi, layout=layout)
     FigureCanvasAgg(figure)
     return figure
 

@@ -386,7 +386,7 @@ def indri_static(p: Any, x: Any) -> list[Dual]:
 @law
 def m0(p: Any, x: Any) -> list[Dual]:
     s = sign(x.v)
-    return [s * p.Fc, s * p.Fs * stribeck(x.v, p.vs, x.stribeck_exponent), p.Fv * x.v]
+    return [s * p.Fc, s * p.Fs * stribeck(x.v, p.vs, p.alpha), p.Fv * x.v]
 
 
 @law

@@ -111,7 +111,7 @@ class Drive:
 
 
 _LARGE = Drive(
-    motor=Motor(km=0.11, kb=0.12, kt=0.12, gear_ratio=101.0),
+    motor=Motor(km=0.11, kb=0.12, kt=0.12, gear_ratio=100.0),
     friction=TrueFriction(
         coulomb=9.0,
         stribeck_rise=0.3,
@@ -131,7 +131,7 @@ _LARGE = Drive(
     warm_up=1500.0,
 )
 _SMALL = Drive(
-    motor=Motor(km=0.05, kb=0.1, kt=0.1, gear_ratio=101.0),
+    motor=Motor(km=0.05, kb=0.1, kt=0.1, gear_ratio=100.0),
     friction=TrueFriction(
         coulomb=1.9,
         stribeck_rise=0.35,

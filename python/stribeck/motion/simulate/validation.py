@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -310,4 +311,6 @@ def _even_step(recording: Recording, rows: NDArray[np.intp]) -> float:
 
 
 def _relative(values: Array, true: Array) -> float:
-    return linear.length(values - true) / linear.length(true - true.mean())
+    """The error as a share of what varies in `true`; NaN where nothing does."""
+    varies = linear.length(true - true.mean())
+    return linear.length(values - true) / varies if varies > 0.0 else math.nan

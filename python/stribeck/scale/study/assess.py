@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.fitting.energy import Energy, electrical_energy
+from stribeck.fitting.energy import Energy, electrical_energy, joules
 from stribeck.fitting.evaluate import evaluate
 from stribeck.identify.scaling import model_for
 from stribeck.recording.recording import Recording
@@ -91,8 +91,9 @@ class Entry:
         Torque error over all scored samples, and over those at low speed.
     agreeing
         Number of starts that ended within a thousandth of the best error.
-    energy
-        None if the motor is unknown.
+    energy, energy_all_rows
+        Over the scored samples, and over all with those at rest, as the review sums. None if the
+        motor is unknown.
     """
 
     best: Trial
@@ -101,6 +102,7 @@ class Entry:
     whole: Spread
     low_speed: Spread
     energy: Energy | None
+    energy_all_rows: Energy | None
     cloud: Cloud
 
     def to_dict(self) -> dict[str, object]:
@@ -109,7 +111,8 @@ class Entry:
             **self.whole.to_dict(),
             "rmse_held_out": self.best.rmse_held_out,
             "low_speed": self.low_speed.to_dict(),
-            "energy": None if self.energy is None else self.energy.to_dict(),
+            "energy": joules(self.energy),
+            "energy_all_rows": joules(self.energy_all_rows),
             "best_start": self.best.job.start,
             "starts": self.trials,
             "starts_agreeing": self.agreeing,
@@ -202,6 +205,7 @@ def assess(trials: Sequence[Trial], recording: Recording, low_speed: float) -> E
         whole=Spread.of(result.residual[moving]),
         low_speed=Spread.of(result.residual[slow]),
         energy=electrical_energy(recording, result.prediction),
+        energy_all_rows=electrical_energy(recording, result.prediction, np.ones_like(moving)),
         cloud=Cloud(
             recording.velocity[rows],
             (recording.torque - known)[rows],

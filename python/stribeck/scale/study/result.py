@@ -11,7 +11,7 @@ import numpy as np
 import polars as pl
 
 from stribeck.base.shown import Plotted, draw
-from stribeck.fitting.energy import Energy, total_energy
+from stribeck.fitting.energy import Energy, joules, total_energy
 from stribeck.scale.study.assess import Entry, JointData
 from stribeck.scale.study.plan import GROUPS, LawGroup, Skipped, StudyPlan
 from stribeck.scale.study.trial import Trial
@@ -27,6 +27,7 @@ class Row:
     law: str
     entries: Mapping[str | None, Entry]
     energy: Energy | None
+    energy_all_rows: Energy | None
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,8 @@ class Study(Plotted):
                                 {"joint": joint, **entry.to_dict()}
                                 for joint, entry in row.entries.items()
                             ],
-                            "energy": None if row.energy is None else row.energy.to_dict(),
+                            "energy": joules(row.energy),
+                            "energy_all_rows": joules(row.energy_all_rows),
                         }
                         for row in table.rows
                     ],
@@ -168,7 +170,12 @@ def make_tables(
     for group in GROUPS:
         laws = {law: of for law, of in entries.items() if of and groups[law] == group}
         rows = [
-            Row(law, laws[law], total_energy(entry.energy for entry in laws[law].values()))
+            Row(
+                law,
+                laws[law],
+                total_energy(entry.energy for entry in laws[law].values()),
+                total_energy(entry.energy_all_rows for entry in laws[law].values()),
+            )
             for law in _ranked(laws)
         ]
         if rows:

@@ -58,7 +58,7 @@ def test_test_2_repeats_and_warms_up() -> None:
     assert runs[2]["time"][0] == pytest.approx(1200.0)
     cold, hot = runs[0]["temperature"].mean(), runs[2]["temperature"].mean()
     assert hot > cold + 5.0
-    effort = [float((r["current"] * 101.0 * 0.12 - r["load_torque"]).abs().mean()) for r in runs]
+    effort = [float((r["current"] * 100.0 * 0.12 - r["load_torque"]).abs().mean()) for r in runs]
     assert effort[2] < 0.97 * effort[0]
 
 
@@ -71,7 +71,7 @@ def test_the_sidecar_says_what_each_joint_is(tmp_path: Path) -> None:
     large, small = sb.read(path, joint="base"), sb.read(path, joint="wrist_3")
     assert (large.motor["km"], small.motor["km"]) == (0.11, 0.05)
     frame = made.joint_frame("wrist_3")
-    expected = frame["current"].to_numpy() * 0.1 * 101.0
+    expected = frame["current"].to_numpy() * 0.1 * 100.0
     np.testing.assert_allclose(small.torque, expected, rtol=1e-12)
     assert made.rows == 6 * small.rows
     assert 5.0 * small.velocity_noise < 0.02
@@ -122,7 +122,7 @@ def test_the_command_writes_recording_sidecar_and_truth(tmp_path: Path) -> None:
     answer = json.loads(done.stdout)
     assert answer["rows"] == pl.read_parquet(path).height
     assert json.loads(Path(answer["truth_path"]).read_text())["joints"].keys() == set(JOINTS)
-    assert sb.read(path, joint="elbow").motor["gear_ratio"] == 101.0
+    assert sb.read(path, joint="elbow").motor["gear_ratio"] == 100.0
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,1 @@
+"""Single figures of models on a recording, in the column widths of journals."""
