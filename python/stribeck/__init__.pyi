@@ -15,6 +15,7 @@ from .diagnosis.result import Diagnosis, Finding
 from .exporters.export import Export, export
 from .fitting.evaluate import evaluate
 from .fitting.fit import fit
+from .fitting.methods.arm_load import planar_arm_load
 from .fitting.protocols.found import Protocol, found_protocols
 from .fitting.result import Fit
 from .fitting.transmission.measure import Transmission, measure_transmission
@@ -103,6 +104,7 @@ __all__ = [
     "measure_transmission",
     "model",
     "plan",
+    "planar_arm_load",
     "plot",
     "project",
     "published",

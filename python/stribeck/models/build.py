@@ -12,6 +12,7 @@ from stribeck.base.errors import SpecError, nearest
 from stribeck.models.catalog import constants_of
 from stribeck.models.formula_law import check_terms, law_terms
 from stribeck.models.model import Model
+from stribeck.models.signs import check_signs
 from stribeck.models.spec import parse_spec
 
 
@@ -46,7 +47,7 @@ def model(spec: str, /, *, constants: Mapping[str, float] | None = None, **value
     law, effects = parse_spec(spec)
     given = dict(constants or {})
     _check_constants(spec, law, effects, given)
-    return _with_values(Model(law=law, effects=effects, constants=given), values)
+    return with_values(Model(law=law, effects=effects, constants=given), values)
 
 
 @door()
@@ -88,7 +89,7 @@ def law(formula: str, /, *effects: str, parameters: Iterable[str] = (), **values
     made = Model(law=terms.name, own=(terms,))
     for effect in effects:
         made = made.with_effect(effect, {})
-    return _with_values(made, values)
+    return with_values(made, values)
 
 
 def _check_constants(
@@ -103,7 +104,7 @@ def _check_constants(
             raise SpecError(f"{spec} does not read the constant {name!r}; {known}")
 
 
-def _with_values(made: Model, values: Mapping[str, float]) -> Model:
+def with_values(made: Model, values: Mapping[str, float]) -> Model:
     """The model with values by name or symbol.
 
     Parameters that are not given have none; those that the law holds have their usual one.
@@ -123,6 +124,6 @@ def _with_values(made: Model, values: Mapping[str, float]) -> Model:
         if np.isfinite(placed[name]):
             raise SpecError(f"parameter {name} of {made.spec} is given twice: omit {given}")
         placed[name] = check_finite(given, value)
-    return made.with_values(
-        [usual.get(name, x) if np.isnan(x) else x for name, x in placed.items()]
-    )
+    known = [usual.get(name, x) if np.isnan(x) else x for name, x in placed.items()]
+    check_signs(made.law, made.parameters, known)
+    return made.with_values(known)

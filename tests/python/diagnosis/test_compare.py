@@ -192,3 +192,16 @@ def test_energy_needs_the_motor(tmp_path: Path) -> None:
     assert {"measured_J", "model_J", "error_percent"} <= set(energy)
     assert energy["measured_J"] == expected.measured > 0.0
     assert energy["model_J"] == expected.modelled
+    everything = sb.compare([fitted], recording).models[0].energy_all_rows
+    rest = electrical_energy(recording, fitted.prediction, ~recording.moving)
+    assert everything is not None and rest is not None
+    assert everything["measured_J"] == pytest.approx(expected.measured + rest.measured)
+
+
+def test_mean_and_largest_absolute_errors(tmp_path: Path) -> None:
+    recording = record(tmp_path, joint())
+    fitted = sb.fit("coulomb", recording)
+    row = sb.compare([fitted], recording).models[0].to_dict()
+    size = np.abs(fitted.residual[recording.moving])
+    assert row["mean_absolute_error"] == pytest.approx(size.mean())
+    assert row["largest_absolute_error"] == size.max()

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import stribeck as sb
 from as_user import answer, stribeck
+from stribeck.models.build import with_values
 from stribeck.models.published.sets import every_set
 
 SPEEDS = np.concatenate([-np.geomspace(3.0, 1e-3, 12), [0.0], np.geomspace(1e-3, 3.0, 12)])
@@ -27,7 +30,8 @@ def torque(model: sb.Model, temperature: float, load: float) -> np.ndarray:
 @pytest.mark.parametrize("id", COMPLETE)
 def test_numbers_typed_in_as_printed_give_the_torque_of_the_set(id: str) -> None:
     one = every_set()[id]
-    typed = sb.model(one.model.law, constants=one.model.constants, **one.printed)
+    bare = sb.model(one.model.spec, constants=one.model.constants)
+    typed = with_values(replace(bare, rigid_body=one.model.rigid_body), one.printed)
     for temperature, load in ((30.0, 0.0), (38.0, -0.5), (24.0, 20.0)):
         np.testing.assert_array_equal(
             torque(sb.published(id), temperature, load), torque(typed, temperature, load)
@@ -37,7 +41,7 @@ def test_numbers_typed_in_as_printed_give_the_torque_of_the_set(id: str) -> None
 def test_every_set_names_its_source_and_how_it_was_turned() -> None:
     for one in every_set().values():
         assert one.paper and one.where and one.machine and one.rule, one.id
-        assert one.id.endswith(f"/{one.model.law}")
+        assert one.id.endswith(f"/{one.model.spec}")
     frame = sb.published_sets()
     assert frame["id"].to_list() == list(every_set())
 
@@ -74,3 +78,54 @@ def test_a_set_stands_for_a_model_file(tmp_path) -> None:
     assert checked["passive"] is True
     answer("export", named, "--to", "json", str(tmp_path / "made"), "--box", "velocity=-3:3")
     assert list((tmp_path / "made").iterdir())
+
+
+PRINTED_SIGNS = {"s20_minus": -38.0, "s2T_minus": 0.35}
+
+
+def test_a_sign_that_the_law_restores_is_refused_with_the_rule() -> None:
+    """Tadese et al., eq 13: sigma_2,n(T) < 0 carries the sign of backward motion."""
+    with pytest.raises(
+        sb.SpecError, match=r"sigma_2,n\(T\) < 0.* s20_minus = 38, s2T_minus = -0.35"
+    ):
+        sb.model("tadese_full", **PRINTED_SIGNS)
+    with pytest.raises(sb.SpecError, match=r"F_c,n < 0.* Fc_minus = 8.2"):
+        sb.model("tadese_full", Fc_minus=-8.2)
+    turned = {name: -value for name, value in PRINTED_SIGNS.items()}
+    assert sb.model("tadese_full", **turned).value("viscous_level_backward") == 38.0
+
+
+def test_a_model_file_with_such_a_sign_is_refused(tmp_path) -> None:
+    path = tmp_path / "indy.toml"
+    names = [p.name for p in sb.model("tadese_full").parameters]
+    sb.model("tadese_full", **dict.fromkeys(names, 1.0)).save(path)
+    text = path.read_text().replace(
+        "[parameters.viscous_level_backward]\nvalue = 1.0",
+        "[parameters.viscous_level_backward]\nvalue = -1.0",
+    )
+    path.write_text(text)
+    with pytest.raises(sb.ModelFileError, match="turn the signs"):
+        sb.load(path)
+
+
+def test_a_file_of_m0_from_before_its_exponent_was_a_parameter_is_read(tmp_path) -> None:
+    path = tmp_path / "m0.toml"
+    sb.published("bittencourt/figure_3/m0").save(path)
+    text = path.read_text()
+    begin = text.index("[parameters.stribeck_exponent]")
+    end = text.find("[", begin + 1)
+    old = text[:begin] + (text[end:] if end > 0 else "")
+    path.write_text(
+        old.replace("[parameters.", "[constants]\nstribeck_exponent = 1.91\n\n[parameters.", 1)
+    )
+    assert sb.load(path).value("stribeck_exponent") == 1.91
+
+
+def test_a_constant_that_the_law_does_not_read_is_refused(tmp_path) -> None:
+    path = tmp_path / "joint.toml"
+    sb.model("hao_b", constants={"base_temperature": 20.0}, a1=1, a2=1, a3=0, a4=0, a5=0).save(path)
+    path.write_text(path.read_text().replace("base_temperature", "reference_temperature"))
+    with pytest.raises(
+        sb.ModelFileError, match="does not read the constant 'reference_temperature'"
+    ):
+        sb.load(path)

@@ -94,6 +94,38 @@ def test_screw(write, frame, tmp_path):
     np.testing.assert_allclose(recording.torque, frame["torque"].to_numpy() / per_rad)
 
 
+def test_a_motor_before_a_screw_gives_a_force(write, frame):
+    """Positions in m, torque in N m: the Gantry's eq 3, by a flag alone."""
+    table = frame.drop("load_torque").rename({"position": "q_m", "torque": "torque_Nm"})
+    recording = read(write(table), screw_pitch=6.41e-3)
+    assert (recording.joint_kind, recording.torque_unit) == ("prismatic", "N")
+    expected = frame["torque"].to_numpy() * 2 * np.pi / 6.41e-3
+    np.testing.assert_allclose(recording.torque, expected)
+    np.testing.assert_allclose(recording.position, frame["position"].to_numpy())
+
+
+def test_a_current_before_a_screw_gives_a_force(write, frame):
+    table = frame.drop("load_torque").rename({"position": "q_m", "torque": "current_A"})
+    recording = read(write(table), screw_pitch=0.01, torque_constant=0.05, gear_ratio=3.0)
+    expected = frame["torque"].to_numpy() * 0.05 * 3.0 * 2 * np.pi / 0.01
+    np.testing.assert_allclose(recording.torque, expected)
+
+
+def test_power_of_the_motor_gives_a_force(write, frame):
+    """The Gantry's section 3: yield times voltage times current is force times speed."""
+    table = frame.drop("load_torque").filter(pl.col("velocity").abs() > 0.05)
+    power = table["torque"] * table["velocity"] / (0.74 * 0.78)
+    table = table.drop("torque").with_columns(voltage_V=pl.lit(220.0), current_A=power / 220.0)
+    recording = read(
+        write(table.rename({"position": "q_m", "velocity": "v_mps"})),
+        derive=["force_N=0.74*0.78*voltage_V*current_A/v_mps"],
+        map=["torque=force_N", "current=none"],
+    )
+    assert recording.torque_unit == "N"
+    kept = frame.filter(pl.col("velocity").abs() > 0.05)
+    np.testing.assert_allclose(recording.torque, kept["torque"].to_numpy())
+
+
 @pytest.fixture
 def two_joints(write, frame):
     """Two joints of a file that differ in their motors, recorded as currents."""

@@ -41,7 +41,7 @@ MOST_ROWS = 500
 #: Most points of a grid; a larger one would take minutes to hours.
 MOST_POINTS = 20_000
 #: Points per nonlinear parameter, by the number of these parameters.
-COUNTS = {1: 120, 2: 40, 3: 10}
+COUNTS = {1: 120, 2: 40, 3: 10, 4: 6}
 #: Number of refined grids about the best point, and their points per parameter.
 ROUNDS, FINER = 8, 5
 
@@ -68,8 +68,8 @@ def grid_fit(
         Preferably steady-state points. At most 500 evenly spaced moving samples are used for the
         sum of absolute errors; RMSE and held-out RMSE are over all moving samples.
     grid : mapping of parameter name (or symbol) to Axis, optional
-        Ranges and counts; default: those of random starts, with 120, 40 or 10 points per parameter
-        for 1, 2 or 3 parameters. The grid is refined about its best point, within the range.
+        Ranges and counts; default: those of random starts, with 120, 40, 10 or 6 points per
+        parameter for 1 to 4 parameters. The grid is refined about its best point, within the range.
 
     Returns
     -------

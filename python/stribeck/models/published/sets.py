@@ -14,8 +14,9 @@ import polars as pl
 from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, nearest
 from stribeck.base.toml import TomlText
-from stribeck.models.build import model
+from stribeck.models.build import with_values
 from stribeck.models.model import Model
+from stribeck.models.spec import parse_spec
 
 #: Before an id where a model file could stand as well.
 PREFIX = "published:"
@@ -43,6 +44,7 @@ class _Row(_Shared):
 
 class _Options(TypedDict, total=False):
     by_size: list[str]
+    rigid_body: list[str]
     constants: Mapping[str, float]
     box: Mapping[str, tuple[float, float]]
 
@@ -137,8 +139,15 @@ def _made(stem: str, source: _Source, row: _Row) -> PublishedSet:
         for symbol, number in row["printed"].items()
     }
     said = cast(_Shared, {**source, **row})
+    law, effects = parse_spec(row["law"])
+    bare = Model(
+        law=law,
+        effects=effects,
+        constants=options.get("constants", {}),
+        rigid_body=tuple(options.get("rigid_body", [])),
+    )
     filled = replace(
-        model(row["law"], constants=options.get("constants"), **values),
+        with_values(bare, values),
         torque_unit=said["torque_unit"],
         position_unit=said["position_unit"],
         box={name: (low, high) for name, (low, high) in options.get("box", {}).items()},

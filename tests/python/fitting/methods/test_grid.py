@@ -82,6 +82,46 @@ def test_m0_with_its_exponent_of_1_3(tmp_path: Path) -> None:
         assert fit.model.value(name) == pytest.approx(value, rel=0.02), name
 
 
+def test_m0_frees_its_exponent_when_asked(tmp_path: Path) -> None:
+    """Section II-A searches the Stribeck velocity and the exponent."""
+    recording = points(tmp_path, noise=5e-4)
+    held = grid_fit("m0", recording)
+    freed = grid_fit("m0", recording, grid={"stribeck_exponent": Axis(0.5, 3.0, 20)})
+    assert held.model.value("stribeck_exponent") == 1.3
+    for name, value in M0.items():
+        estimate = freed.estimates[name]
+        assert estimate.stderr is not None
+        assert abs(estimate.value - value) < 4.0 * estimate.stderr, name
+    bounded = sb.fit("m0", recording, bounds={"stribeck_exponent": (0.5, 3.0)}, starts=3)
+    assert bounded.model.value("stribeck_exponent") == pytest.approx(1.91, abs=0.3)
+
+
+@pytest.mark.slow
+def test_m_star_needs_no_ranges(tmp_path: Path) -> None:
+    """Four nonlinear parameters: the printed set comes back from noisy points."""
+    rng = np.random.default_rng(0)
+    speeds = np.geomspace(1.0, 270.0, 10)
+    v = np.repeat(np.concatenate([speeds, -speeds]), 12)
+    temperature = np.tile(rng.uniform(38.0, 80.0, 12), 20)
+    load = np.tile(rng.uniform(-0.73, 0.44, 12), 20)
+    law = sb.published("bittencourt/tables_1_2/m_star")
+    f = law.torque(v, temperature=temperature, load_torque=load)
+    frame = pl.DataFrame(
+        {
+            "run": np.arange(v.size),
+            "velocity": v,
+            "temperature": temperature,
+            "load_torque": load,
+            "friction_torque": f + 5e-4 * rng.standard_normal(v.size),
+        }
+    )
+    path = tmp_path / "m_star.csv"
+    frame.write_csv(path)
+    fit = grid_fit("m_star", sb.read(path, average="run", joint_kind="revolute"))
+    found = fit.model.torque(v, temperature=temperature, load_torque=load)
+    assert np.sqrt(np.mean((found - f) ** 2)) < 3e-4
+
+
 def test_outliers_move_squared_error_and_not_absolute_error(tmp_path: Path) -> None:
     recording = points(tmp_path, noise=5e-4, outliers=12)
     absolute, squared = grid_fit("bittencourt_a", recording), sb.fit("bittencourt_a", recording)

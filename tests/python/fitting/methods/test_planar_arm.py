@@ -152,3 +152,14 @@ def test_joints_of_other_times_are_refused(
     _, other = both(tmp_path, planar_arm.recording_frame(repetitions=1))
     with pytest.raises(FitError, match="not sampled at the same times"):
         arm_fit(joints[0], other, first_link_length=0.35)
+
+
+def test_load_torque_of_equation_9_is_newtons() -> None:
+    rng = np.random.default_rng(4)
+    q, v, a = rng.uniform(-2.0, 2.0, (3, 200, 2))
+    load = sb.planar_arm_load(planar_arm.NOMINAL, q, v, a, first_link_length=planar_arm.FIRST_LINK)
+    np.testing.assert_allclose(load, planar_arm.rigid_body(q, v, a), rtol=1e-12, atol=1e-12)
+    with pytest.raises(sb.SpecError, match="give four numbers"):
+        sb.planar_arm_load([1.0], q, v, a, first_link_length=0.35)
+    with pytest.raises(sb.SpecError, match=r"give arrays \[n, 2\]"):
+        sb.planar_arm_load(planar_arm.NOMINAL, q[:, 0], v, a, first_link_length=0.35)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -129,3 +130,18 @@ def test_a_temperature_is_asked_for():
     warm = sb.model("coulomb+temperature_dry", a1=0.5, a2=2.0, sd=-0.01, kd=0.0)
     with pytest.raises(SpecError, match="depends on the temperature"):
         sb.simulate(warm, Joint.revolute(0.3), Torque(1.0), seconds=1.0)
+
+
+def test_the_torque_before_a_ball_screw_is_that_of_the_motor():
+    """Equation 3 of the gantry paper: the force is 2 pi/p times the torque of the motor."""
+    screw = ["--mass", "11.25", "--rotor-inertia", "1.2298e-5", "--pitch", "6.41e-3"]
+    force = 12.6 * 2.0 * math.pi / 6.41e-3
+    named = "published:gantry/table_1/gantry_map"
+    by_torque = run(named, *screw, "--torque", "12.6", "--seconds", "0.2", "--json")
+    by_force = run(
+        named, "--mass", "23.06646", "--torque", str(force), "--seconds", "0.2", "--json"
+    )
+    assert by_torque.exception is None
+    turned, pushed = json.loads(by_torque.stdout), json.loads(by_force.stdout)
+    assert pushed["share_at_rest"] == turned["share_at_rest"] < 1.0
+    assert turned["position"]["max"] == pytest.approx(pushed["position"]["max"], rel=1e-3)

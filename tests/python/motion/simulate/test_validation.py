@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import math
+import warnings
 from pathlib import Path
 
 import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from as_user import stribeck
 from click.testing import CliRunner
 from stribeck.base.errors import SpecError
 from stribeck.cli.main import cli
@@ -114,3 +117,24 @@ def test_emps_simulated_against_measured():
     closed = validate_closed_loop(fit, recording, desired, controller)
     assert closed.relative_error < 1e-3
     assert closed.relative_torque_error < 0.05
+
+
+def test_a_model_without_inertia_is_told_which_option_to_give(tmp_path):
+    recorded(tmp_path)
+    still = ["--derive", "load_torque=0*position"]
+    done = stribeck("validate", tmp_path / "logged.csv", "coulomb", *still)
+    assert done.returncode == 2
+    assert "give that of the joint with --inertia" in done.stderr and "--mass" not in done.stderr
+
+
+def test_a_constant_torque_leaves_its_relative_error_open(tmp_path):
+    """Nothing varies, so no error is a share of it; and no warning of NumPy is printed."""
+    t = np.arange(1000) / 200.0
+    frame = {"time": t, "position": 0.5 * t, "velocity": 0.5 + 0.0 * t, "torque": 1.0 + 0.0 * t}
+    recording = sb.Recording.from_columns(**frame, load_torque=0.0 * t)
+    model = sb.model("coulomb", coulomb_friction=0.8, viscous_friction=0.4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = validate(model, recording, JOINT_ALONE, horizons=(0.3,))
+        assert found.to_dict()["position_rmse"] < 1e-3
+    assert math.isnan(found.relative_torque_error)
