@@ -12,7 +12,6 @@ from typing import Protocol
 import click
 
 from stribeck.base.arguments import MOST_SEED, MOST_STARTS
-from stribeck.base.files import write_whole
 from stribeck.cli.flags import with_flags
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.outputs import FOLDER, MODEL, PAGE
@@ -195,9 +194,3 @@ def save_findings(findings: Sequence[Finding], folder: str | None) -> None:
         path = Path(folder) / f"{finding.effect}.png"
         save_figure(finding.plot(), path)
         say(f"wrote {path}")
-
-
-def save_page(page: str, path: str) -> None:
-    """Write a page, all of it or nothing."""
-    write_whole(path, page)
-    say(f"wrote {path}")

@@ -8,9 +8,9 @@ from pathlib import Path
 import click
 
 from stribeck.base.errors import StribeckError
-from stribeck.base.files import write_whole
 from stribeck.cli.common import echo_json, json_option, save_fit, say, seed_option
 from stribeck.cli.outputs import CheckedCommand
+from stribeck.cli.pages import improvement_report
 from stribeck.diagnosis.compare import Comparison, compare
 from stribeck.diagnosis.loop.improve import Improvement, improve
 from stribeck.diagnosis.result import Diagnosis
@@ -87,11 +87,10 @@ def write_report(improvement: Improvement, folder: Path) -> dict[str, str]:
     # matplotlib is slow to import.
     from stribeck.base.files import save_figure
     from stribeck.report.improvement_figure import improvement_figure
-    from stribeck.report.page import improvement_page
 
     page, picture, model = folder / "report.html", folder / "report.png", folder / "model.toml"
     save_figure(improvement_figure(improvement), picture)
-    write_whole(page, improvement_page(improvement))
+    improvement_report(improvement, str(page))
     save_fit(improvement.final, str(model))
     return {"page": str(page), "picture": str(picture), "model": str(model)}
 

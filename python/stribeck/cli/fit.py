@@ -11,6 +11,7 @@ from stribeck.cli.common import (
     output_option,
     read_recording,
     recording_options,
+    report_option,
     save_fit,
     seed_option,
     starts_option,
@@ -25,6 +26,7 @@ from stribeck.cli.formulas import (
 )
 from stribeck.cli.methods import Method, method_options
 from stribeck.cli.outputs import CheckedCommand
+from stribeck.cli.pages import fit_report
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.fitting.evaluate import evaluated_on
@@ -53,6 +55,7 @@ from stribeck.scale.streaming.stream import Stream
     help="Parameters with a value of their own in each run; the others are shared.",
 )
 @output_option
+@report_option
 @method_options
 @evaluate_option
 @starts_option
@@ -68,6 +71,7 @@ def fit(
     passive: bool,
     per_run: tuple[str, ...],
     output: str | None,
+    report: str | None,
     method: Method,
     evaluate: tuple[str, ...],
     starts: int,
@@ -76,10 +80,9 @@ def fit(
     seed: int,
     as_json: bool,
 ) -> None:
-    """Identify a model's parameters on DATA.
+    """Identify a model's parameters on DATA; several files are runs of one joint.
 
-    Several files, a folder or a pattern are runs of one joint, fitted together. With --stream,
-    Parquet files are read in passes: all samples are fitted, few are in memory.
+    With --stream, Parquet files are read in passes: all samples are fitted, few are in memory.
     """
     if streaming.asked:
         streaming.refuse(
@@ -89,6 +92,7 @@ def fit(
             errors=errors.errors != "robust",
             evaluate=bool(evaluate),
             per_run=bool(per_run),
+            report=report is not None,
         )
         opened = streaming.open(data, reading, seed)
         streamed = _in_passes(opened, written, spec, starts=starts, seed=seed)
@@ -118,6 +122,7 @@ def fit(
     fitted = evaluated_on(fitted, others)
     if output is not None:
         save_fit(fitted, output)
+    fit_report(fitted, report)
     echo_result(fitted, as_json)
 
 

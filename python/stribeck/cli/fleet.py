@@ -182,7 +182,7 @@ def _write_pictures(result: Fleet, picture: str | None, report: str | None) -> N
         save_figure(result.plot(), picture)
         say(f"wrote {picture}")
     if report is not None:
-        from stribeck.cli.common import save_page
+        from stribeck.cli.pages import command_line, save_page
         from stribeck.report.fleet_page import fleet_page
 
-        save_page(fleet_page(result), report)
+        save_page(fleet_page(result, command_line()), report)

@@ -18,7 +18,6 @@ from stribeck.cli.common import (
     report_option,
     save_findings,
     save_fit,
-    save_page,
     say,
     seed_option,
     starts_option,
@@ -36,6 +35,7 @@ from stribeck.cli.formulas import (
 )
 from stribeck.cli.options import Values
 from stribeck.cli.outputs import FIGURE, CheckedCommand
+from stribeck.cli.pages import comparison_report, diagnosis_report, improvement_report
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.diagnosis.compare import compare as compare_fits
@@ -59,6 +59,7 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 @click.option(
     "--plot", "picture", type=FIGURE, metavar="FILE", help="Write a figure of the residuals (PNG)."
 )
+@report_option
 @starts_option
 @recording_options
 @seed_option
@@ -67,6 +68,7 @@ def compare(
     arguments: tuple[str, ...],
     written: Written,
     picture: str | None,
+    report: str | None,
     starts: int,
     reading: ReadOptions,
     seed: int,
@@ -84,6 +86,7 @@ def compare(
 
         save_figure(comparison.plot(), picture)
         say(f"wrote {picture}")
+    comparison_report(comparison, report)
     echo_result(comparison, as_json)
 
 
@@ -148,10 +151,7 @@ def diagnose(
             sample_rows=streaming.sample_rows,
         )
     save_findings((*diagnosis.findings, *diagnosis.demoted), figures)
-    if report is not None:
-        from stribeck.report.page import diagnosis_page
-
-        save_page(diagnosis_page(diagnosis), report)
+    diagnosis_report(diagnosis, report)
     if streamed is not None:
         show(streamed, as_json)
     else:
@@ -286,7 +286,4 @@ def _write_pictures(
         save_figure(improvement.plot(), picture)
         say(f"wrote {picture}")
     save_findings([step.finding for step in improvement.steps], figures)
-    if report is not None:
-        from stribeck.report.page import improvement_page
-
-        save_page(improvement_page(improvement), report)
+    improvement_report(improvement, report)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import glob
 import os
+import shlex
 from collections.abc import Callable, Iterator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import click
 
@@ -15,6 +16,8 @@ from stribeck.base.files import FORMATS
 from stribeck.base.replaceable import check_folder, check_replaceable, check_table
 from stribeck.cli import interrupts
 
+#: Where a context keeps the words of its command.
+COMMAND = "stribeck.command"
 Decorated = TypeVar("Decorated", bound=Callable[..., object])
 
 #: Endings of tables.
@@ -97,6 +100,19 @@ _MOST_COUNT = 10**9
 
 class CheckedCommand(click.Command):
     """A command whose outputs never replace an input or each other."""
+
+    def make_context(
+        self,
+        info_name: str | None,
+        args: list[str],
+        parent: click.Context | None = None,
+        **extra: Any,
+    ) -> click.Context:
+        """Keep the words of the command, so that a page can say what made it."""
+        words = list(args)
+        made = super().make_context(info_name, args, parent, **extra)
+        made.meta[COMMAND] = f"{made.command_path} {shlex.join(words)}"
+        return made
 
     def invoke(self, ctx: click.Context) -> object:
         """Check the outputs, then run."""

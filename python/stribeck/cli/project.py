@@ -18,13 +18,13 @@ from stribeck.cli.common import (
     recording_options,
     report_option,
     save_findings,
-    save_page,
     say,
     seed_option,
     starts_option,
 )
 from stribeck.cli.formulas import Written, candidate_option, check_candidates
 from stribeck.cli.outputs import MODEL, CheckedCommand
+from stribeck.cli.pages import diagnosis_report
 from stribeck.projects.project import Project
 from stribeck.recording.options import ReadOptions
 
@@ -113,10 +113,7 @@ def diagnose(
     say(f"wrote {made.path}")
     assert made.diagnosis is not None
     save_findings((*made.diagnosis.findings, *made.diagnosis.demoted), figures)
-    if report is not None:
-        from stribeck.report.page import diagnosis_page
-
-        save_page(diagnosis_page(made.diagnosis), report)
+    diagnosis_report(made.diagnosis, report)
     if as_json:
         echo_json({"node": made.current, **made.diagnosis.to_dict()})
     else:

@@ -12,6 +12,7 @@ from stribeck.cli.common import (
     echo_result,
     json_option,
     recording_options,
+    report_option,
     say,
     seed_option,
     starts_option,
@@ -54,6 +55,7 @@ from stribeck.scale.study.study import study as make_study
     default=None,
     help="Number of processes. [default: one per core]",
 )
+@report_option
 @recording_options
 @seed_option
 @json_option
@@ -65,6 +67,7 @@ def study(
     starts: int,
     low_speed: float | None,
     workers: int | None,
+    report: str | None,
     reading: ReadOptions,
     seed: int,
     as_json: bool,
@@ -91,4 +94,10 @@ def study(
             )
         except (Stopped, KeyboardInterrupt):
             stop_with(bar, "the study", folder)
+    if report is not None:
+        # Bokeh is slow to import.
+        from stribeck.cli.pages import command_line, save_page
+        from stribeck.report.study_page import study_page
+
+        save_page(study_page(result, command_line()), report)
     echo_result(result, as_json)

@@ -18,6 +18,12 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.compare import Assessment, Comparison
     from stribeck.identify.information import Information
 
+#: A regime is marked where its RMSE is this multiple of that of all scored samples.
+MARKED = 1.2
+REGIMES_LEGEND = (
+    f"▲ marks an RMSE of at least {MARKED} times that of all scored samples; the mean error is "
+    "measured minus modelled."
+)
 #: Columns of models in one table, and the longest spec that heads one.
 MOST_COLUMNS, LONGEST = 3, 16
 
@@ -33,7 +39,7 @@ def comparison_text(comparison: Comparison) -> str:
         f"{len(models)} model{'s' if len(models) > 1 else ''} on {file_name(r)}",
         paragraph(scored_sentence(r)),
         _overview(comparison),
-        paragraph(f"Held-out: {_compared(comparison)}. {_criteria(models)}{floor}"),
+        paragraph(f"Held-out: {compared(comparison)}. {_criteria(models)}{floor}"),
         _regimes_text(comparison),
         notes_text(r.notes, *(a.fit.notes for a in models)),
     )
@@ -55,17 +61,9 @@ def noise_floor_sentence(floor: float, unit: str) -> str:
 
 def _overview(comparison: Comparison) -> str:
     """One line a model; long specs are numbered, and listed below."""
-    models, unit = comparison.models, comparison.recording.torque_unit
-    heading = ["model", f"RMSE [{unit}]", "held-out", "rel. residual", "R²", "mean error"]
-    if len(_known(models)) > 1:
-        heading += ["ΔAIC", "ΔBIC"]
-    with_energy = any(a.energy is not None for a in models)
-    if with_energy:
-        heading.append("energy error")
-    figures = [
-        [*_figures(a), *differences, *([_energy_error(a)] if with_energy else [])]
-        for a, differences in zip(models, _differences(models), strict=True)
-    ]
+    models = comparison.models
+    heading, *rows = overview_rows(comparison)
+    figures = [row[1:] for row in rows]
     columns = range(1, len(heading))
     names = [a.model for a in models]
     numbers = [f"[{k}]" for k in range(1, len(models) + 1)]
@@ -74,6 +72,24 @@ def _overview(comparison: Comparison) -> str:
         return table([heading, *_beside(names, figures)], right=columns)
     listed = [f"  {tag} {name}" for tag, name in zip(numbers, names, strict=True)]
     return joined(shown, "\n".join(listed))
+
+
+def overview_rows(comparison: Comparison) -> list[list[str]]:
+    """A heading, and one row a model with its errors over all scored samples."""
+    models, unit = comparison.models, comparison.recording.torque_unit
+    heading = ["model", f"RMSE [{unit}]", "held-out", "rel. residual", "R²", "mean error"]
+    if len(_known(models)) > 1:
+        heading += ["ΔAIC", "ΔBIC"]
+    with_energy = any(a.energy is not None for a in models)
+    if with_energy:
+        heading.append("energy error")
+    return [
+        heading,
+        *(
+            [a.model, *_figures(a), *differences, *([_energy_error(a)] if with_energy else [])]
+            for a, differences in zip(models, _differences(models), strict=True)
+        ),
+    ]
 
 
 def _beside(names: list[str], figures: list[list[str]]) -> list[list[str]]:
@@ -122,7 +138,7 @@ def _energy_error(a: Assessment) -> str:
     return f"{error:+.1f} %" if math.isfinite(error) else ""
 
 
-def _compared(comparison: Comparison) -> str:
+def compared(comparison: Comparison) -> str:
     """What "held-out" means: specs are fitted here, model files are not."""
     stored = [a.fit.starts == 0 for a in comparison.models]
     file = (
@@ -141,10 +157,7 @@ def _regimes_text(comparison: Comparison) -> str:
     if not models or not models[0].regimes:
         return ""
     blocks = [_regimes_block(comparison, first) for first in range(0, len(models), MOST_COLUMNS)]
-    legend = (
-        "Where each model fails: ▲ marks an RMSE of at least 1.2 times that of all scored samples; "
-        "the mean error is measured minus modelled."
-    )
+    legend = f"Where each model fails: {REGIMES_LEGEND}"
     return joined(paragraph(legend), *blocks)
 
 
@@ -158,7 +171,7 @@ def _regimes_block(comparison: Comparison, first: int) -> str:
         cells = []
         for a in part:
             g = a.regimes[index]
-            mark = "▲ " if g.regime != "standstill" and g.rmse > 1.2 * a.rmse else ""
+            mark = "▲ " if g.regime != "standstill" and g.rmse > MARKED * a.rmse else ""
             cells.append(f"{mark}{plain(g.rmse)} ({signed(g.bias, g.rmse)})")
         rows.append([REGIMES[regime.regime], percent(regime.share), *cells])
     text = table(rows, right=range(1, len(heading)))

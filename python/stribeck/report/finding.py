@@ -6,16 +6,13 @@ import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stribeck.diagnosis.residual.regimes import REVERSAL_WINDOW, regime_rows
 from stribeck.models.catalog import catalog
-from stribeck.report.channels import channel, clock, load_of, view_of
+from stribeck.report.finding_view import finding_view, how_to_read
 from stribeck.report.numbers import change_text, plain
 from stribeck.report.style import (
     AFTER,
     BEFORE,
-    binned_quartiles,
     dots,
     headline,
     limits,
@@ -31,15 +28,6 @@ if TYPE_CHECKING:
 
     from stribeck.diagnosis.result import Finding
     from stribeck.fitting.result import Fit
-
-#: What the residual is multiplied by, as its label says.
-ALONG = {None: "", "motion": " · sgn v", "load": " · sgn load"}
-#: Which samples are drawn, where it is not all of them.
-REGIMES = {
-    "low_speed": "slowest quarter of the samples",
-    "high_speed": "fastest quarter of the samples",
-    "sliding": f"samples more than {REVERSAL_WINDOW} s from a reversal",
-}
 
 
 def finding_figure(finding: Finding, *, headed: bool = True) -> Figure:
@@ -96,54 +84,30 @@ def _name_errors(axes: Axes, finding: Finding) -> None:
 
 def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
     """Draw the residuals of two models against the channel in which an effect shows."""
-    view = view_of(effect)
-    made, along = channel(after, view.channel), view.along
-    if made is None:
-        made, along = channel(after, "velocity") or clock(after.recording), None
-    rows = _rows(before, view.regime)
-    sign = _sign(after, along)
-    x = made.values[rows]
+    view = finding_view(effect, before, after)
     zero_line(axes)
     shown = []
-    for fit, colour, label in ((before, BEFORE, "without"), (after, AFTER, "with")):
-        y = (fit.residual * sign)[rows]
-        at, lower, median, upper = binned_quartiles(x, y, log=view.log)
-        if at.size == 0:
-            some = thin(np.arange(x.size))
-            dots(axes, x[some], y[some], colour, label)
-            shown.append(y)
+    for curve, colour, label in (
+        (view.without, BEFORE, "without"),
+        (view.with_it, AFTER, "with"),
+    ):
+        if curve.at.size == 0:
+            some = thin(np.arange(view.x.size))
+            dots(axes, view.x[some], curve.samples[some], colour, label)
+            shown.append(curve.samples)
             continue
-        axes.fill_between(at, lower, upper, color=colour, alpha=0.2, linewidth=0)
-        axes.plot(at, median, "o-", color=colour, linewidth=1.8, markersize=3.5, label=label)
-        shown += [lower, upper]
+        axes.fill_between(curve.at, curve.lower, curve.upper, color=colour, alpha=0.2, linewidth=0)
+        axes.plot(
+            curve.at, curve.median, "o-", color=colour, linewidth=1.8, markersize=3.5, label=label
+        )
+        shown += [curve.lower, curve.upper]
     limits(axes, shown)
-    if view.log and np.all(x[x != 0] > 0):
+    if view.log:
         axes.set_xscale("log")
-    axes.set_xlabel(made.label)
-    axes.set_ylabel(f"residual{ALONG[along]} [{before.model.torque_unit}]")
+    axes.set_xlabel(view.x_label)
+    axes.set_ylabel(view.y_label)
 
 
 def panel_legend(effect: str) -> str:
     """How a panel is to be read, in one or two lines."""
-    view = view_of(effect)
-    notes = ["above 0: the model has too little friction"] if view.along == "motion" else []
-    if view.regime is not None:
-        notes.append(REGIMES[view.regime])
-    return "\n".join(["line: median, band: middle half", *(["; ".join(notes)] if notes else [])])
-
-
-def _sign(fit: Fit, along: str | None) -> NDArray[np.float64]:
-    """What the residual is multiplied by, [n]."""
-    if along is None:
-        return np.ones_like(fit.residual)
-    load = load_of(fit) if along == "load" else None
-    return np.sign(fit.recording.velocity if load is None else load)
-
-
-def _rows(fit: Fit, regime: str | None) -> NDArray[np.intp]:
-    """The samples that were fitted to, or those of them in a regime."""
-    if regime is None:
-        return fit.rows
-    regimes = regime_rows(fit)
-    inside = ~regimes["reversal"] if regime == "sliding" else regimes[regime]
-    return np.flatnonzero(inside & fit.recording.moving & ~fit.transient)
+    return "\n".join(how_to_read(effect))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from stribeck.report.fleet import (
@@ -20,22 +19,25 @@ from stribeck.report.fleet import (
 )
 from stribeck.report.fleet_figure import fleet_figure
 from stribeck.report.page import picture_text, render
+from stribeck.report.page_figures import NO_FIGURES
+from stribeck.report.sections import Section
+from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
     from stribeck.scale.fleet.result import Fleet
 
 
-@dataclass(frozen=True)
-class Section:
-    """A title, what is said, and tables whose first row is the heading."""
-
-    title: str
-    sentences: list[str]
-    tables: list[list[list[str]]]
+PICTURE = "Change of mean friction of every joint, and the share of joints that have each effect"
 
 
-def fleet_page(fleet: Fleet) -> str:
-    """The whole answer as a page; no table is shortened."""
+def fleet_page(fleet: Fleet, command: str = "") -> str:
+    """The whole answer as a page; no table is shortened.
+
+    Parameters
+    ----------
+    command
+        The command that made it.
+    """
     changes, effects = fleet.changes, fleet.effects
     changed = change_rows(changes.changed)
     odd = odd_rows(effects.odd)
@@ -55,9 +57,13 @@ def fleet_page(fleet: Fleet) -> str:
         title = f"Without a result ({counted(len(fleet.failures), 'task')})"
         sections.append(Section(title, failure_sentences(fleet.failures), []))
     return render(
-        "fleet.html",
+        "sections.html",
         name=f"Fleet {fleet.folder.name}",
+        about="changed joints and unusual effects",
         summary=heading(fleet),
-        picture=picture_text(fleet_figure(fleet)),
+        pictures=[(PICTURE, picture_text(fleet_figure(fleet)))],
+        figures=NO_FIGURES,
         sections=sections,
+        command=command,
+        versions=versions(),
     )

@@ -1,9 +1,9 @@
-"""Self-contained pages of an improvement and of a diagnosis: one file, no network."""
+"""Self-contained pages on one recording and its models: one file, no network."""
 
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, TypedDict
 
 import numpy as np
@@ -11,124 +11,108 @@ import numpy as np
 from stribeck.base.files import png_bytes
 from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog
-from stribeck.report.diagnosis import (
-    ALIKE,
-    VISIBLE,
-    diagnosis_summary,
-    doubts,
-    errors_sentence,
-    explainable_after,
-    floor_sentence,
-    group_rows,
-    indistinguishable_sentence,
-    left_after,
-    left_text,
-    less_likely_sentence,
-    likely_effects,
-    untestable_rows,
-    visible_rows,
-)
-from stribeck.report.finding import finding_figure
-from stribeck.report.improvement import (
-    passivity_sentence,
-    step_errors,
-    step_labels,
-    stopped_sentence,
-    summary_sentence,
-)
-from stribeck.report.improvement_figure import improvement_figure
+from stribeck.report.account import Account, Step, of_diagnosis, of_improvement
+from stribeck.report.certificate import certificate_text
+from stribeck.report.comparison import MARKED, REGIMES_LEGEND, compared, overview_rows
+from stribeck.report.diagnosis import less_likely_sentence, untestable_rows
+from stribeck.report.equations import equations, symbols
+from stribeck.report.finding_view import how_to_read
+from stribeck.report.fit import ASSUMED, PASSIVITY
+from stribeck.report.interactive.decimate import MOST_DRAWN
 from stribeck.report.numbers import (
     DASH,
     change_text,
     confidence_words,
+    listed,
     percent,
     plain,
+    signed,
+    thousands,
     unit_text,
 )
-from stribeck.report.parameters import parameter_rows
-from stribeck.report.recording import file_name, held_out_meaning, scored_sentence
+from stribeck.report.page_figures import account_plots, figures_of
+from stribeck.report.parameters import interval_text, parameter_rows
+from stribeck.report.recording import REGIMES, file_name, held_out_meaning, scored_sentence
+from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from stribeck.diagnosis.compare import Comparison
     from stribeck.diagnosis.loop.improve import Improvement
-    from stribeck.diagnosis.result import Diagnosis, Finding
-    from stribeck.diagnosis.testable import Untestable
+    from stribeck.diagnosis.result import Diagnosis
     from stribeck.fitting.result import Fit
     from stribeck.recording.recording import Recording
 
 
-class StepRow(TypedDict):
-    """A line of the table of steps."""
+class StepPart(TypedDict):
+    """What a page says of a step or a finding."""
 
-    label: str
-    rmse: str
-    held_out: str
-    fall: str
-    confidence: str
-    bar: float
-
-
-class FindingPart(TypedDict):
-    """What a page says of a finding."""
-
+    number: int
     effect: str
     title: str
     confidence: str
     physically: str
     where: str
-    picture: str
-    share: str | None
+    share: str
     ties: str
+    read: str
+    before: str
+    after: str
+    change: str
+    model: str
 
 
 def improvement_page(improvement: Improvement) -> str:
-    """A page on one improvement: what was found, what it means, the figure and the numbers."""
-    final, floor = improvement.final, improvement.noise_floor
-    largest = max([e for e in step_errors(improvement) if e is not None], default=1.0)
-    return _page(
-        "improvement.html",
-        final,
-        [step.finding for step in improvement.steps],
-        improvement.untestable,
-        summary=summary_sentence(improvement),
-        likely=len(improvement.steps),
-        less_likely="",
-        picture=picture_text(improvement_figure(improvement)),
-        steps=_steps(improvement, largest),
-        floor=floor_sentence(floor, final.model.torque_unit),
-        floor_at=None if floor.value is None else min(100.0 * floor.value / largest, 100.0),
-        held_out=held_out_meaning(final.recording),
-        stopped=stopped_sentence(improvement),
-        left=left_text(improvement.unexplained),
-        relative=None if final.relative_residual is None else percent(final.relative_residual),
-        passivity=passivity_sentence(improvement),
-        lists=doubts(improvement.last),
-    )
+    """A page on one improvement: what was found, what it means, the figures and the numbers."""
+    return account_page(of_improvement(improvement))
 
 
 def diagnosis_page(diagnosis: Diagnosis) -> str:
     """A page on one diagnosis: each finding with its figure, what remains, what was not seen."""
-    fitted = diagnosis.fit
-    sentences = [
-        errors_sentence(diagnosis),
-        left_after(diagnosis),
-        explainable_after(diagnosis),
-    ]
-    lists = [
-        (VISIBLE, visible_rows(diagnosis.smallest_visible)),
-        (ALIKE, group_rows(diagnosis.groups)),
-    ]
-    return _page(
-        "diagnosis.html",
-        fitted,
-        diagnosis.findings,
-        diagnosis.untestable,
-        summary=diagnosis_summary(diagnosis),
-        likely=len(likely_effects(diagnosis)),
-        less_likely=less_likely_sentence(likely_effects(diagnosis)),
-        left=[sentence for sentence in sentences if sentence],
-        lists=[*doubts(diagnosis), *((heading, rows) for heading, rows in lists if rows)],
+    return account_page(of_diagnosis(diagnosis))
+
+
+def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
+    """A page on a recording and its models, with figures that can be zoomed and selected in.
+
+    Parameters
+    ----------
+    spell
+        Writes the options in its sentences.
+    """
+    final = account.final
+    r, unit = final.recording, final.model.torque_unit
+    found = bool(account.steps) and account.steps[0].verb == "found"
+    return render(
+        "report.html",
+        name=file_name(r),
+        summary=account.summary,
+        figures=figures_of(account_plots(account)),
+        unit=unit,
+        steps=[_step(k, step) for k, step in enumerate(account.steps, 1)],
+        found=found,
+        likely=account.likely,
+        less_likely=less_likely_sentence([s.effect for s in account.steps[: account.likely]]),
+        comparison=None if account.comparison is None else _comparison(account.comparison),
+        shown=[fit.model.spec for fit in account.models],
+        spec=final.model.spec,
+        equations=equations(final.model),
+        symbols=symbols(final.model),
+        parameters=_parameters(final),
+        errors=_errors_sentence(final),
+        held_out=held_out_meaning(r),
+        untestable=[tuple(map(spell, row)) for row in untestable_rows(account.untestable)],
+        left=account.left,
+        lists=account.lists(),
+        passivity=_passivity(account),
+        facts=_facts(r),
+        channels=_channels(r),
+        checks=[(check.ok, spell(check.said), spell(check.do or "")) for check in r.checks],
+        notes=[spell(note) for note in dict.fromkeys([*r.notes, *final.notes])],
+        command=account.command,
+        versions=versions(),
+        drawn_note=_drawn_sentence(account),
     )
 
 
@@ -153,33 +137,10 @@ def picture_text(figure: Figure) -> str:
     return base64.b64encode(png_bytes(figure)).decode("ascii")
 
 
-def _page(
-    template: str,
-    fitted: Fit,
-    findings: Sequence[Finding],
-    untestable: Iterable[Untestable],
-    **said: object,
-) -> str:
-    """A page with what all of them hold: findings, parameters, what cannot be tested, the data."""
-    r = fitted.recording
-    return render(
-        template,
-        name=file_name(r),
-        findings=[_finding(finding) for finding in findings],
-        unit=fitted.model.torque_unit,
-        spec=fitted.model.spec,
-        parameters=parameter_rows(fitted.estimates.values()),
-        untestable=untestable_rows(untestable),
-        facts=_facts(r),
-        notes=list(dict.fromkeys([*r.notes, *fitted.notes])),
-        **said,
-    )
-
-
 def _facts(r: Recording) -> list[tuple[str, str]]:
     """What the recording is, as pairs of a name and a text."""
     time = f"{plain(float(np.sum(r.dt)))} s at {plain(r.rate_hz)} Hz, gaps: {r.gaps}"
-    facts = [
+    return [
         ("file", r.path),
         ("SHA-256", r.sha256),
         ("joint", f"{r.joint or 'not named'}, {r.joint_kind}"),
@@ -187,50 +148,122 @@ def _facts(r: Recording) -> list[tuple[str, str]]:
         ("runs", str(r.runs)),
         ("time", "one steady-state point a run" if r.averaged else time),
     ]
-    for name, column in r.columns.items():
-        if name == "time":
-            continue
-        span = ""
-        if np.isfinite(column.minimum) and np.isfinite(column.maximum):
-            unit = unit_text(column.unit)
-            span = f"{plain(column.minimum)} to {plain(column.maximum)} {unit}"
-        source = "" if column.source == name else f" (from {column.source})"
-        facts.append((name.replace("_", " "), f"{span}{source}".strip()))
-    return facts
 
 
-def _steps(improvement: Improvement, largest: float) -> list[StepRow]:
-    labels, errors = step_labels(improvement), step_errors(improvement)
-    fits = [improvement.base, *(step.after for step in improvement.steps)]
-    sure = ["", *(confidence_words(step.finding.confidence) for step in improvement.steps)]
-    rows: list[StepRow] = []
-    for k, (label, error, fit) in enumerate(zip(labels, errors, fits, strict=True)):
-        before = errors[k - 1] if k else None
-        rows.append(
-            {
-                "label": label,
-                "rmse": plain(fit.rmse),
-                "held_out": DASH if error is None else plain(error),
-                "fall": change_text(before, error) if before and error is not None else "",
-                "confidence": sure[k],
-                "bar": 0.0 if error is None else 100.0 * error / largest,
-            }
+def _channels(r: Recording) -> list[tuple[str, str, str, str, str]]:
+    """Each channel: name, from where, unit, smallest and largest value."""
+    return [
+        (
+            name.replace("_", " "),
+            column.source,
+            unit_text(column.unit),
+            plain(column.minimum) if np.isfinite(column.minimum) else DASH,
+            plain(column.maximum) if np.isfinite(column.maximum) else DASH,
         )
-    return rows
+        for name, column in r.columns.items()
+    ]
 
 
-def _finding(finding: Finding) -> FindingPart:
-    share = finding.share_of_unexplained
+def _comparison(comparison: Comparison) -> dict[str, object]:
+    """Tables of models side by side, and of where each fails."""
+    models = comparison.models
+    heading, *rows = overview_rows(comparison)
+    regimes = [
+        (
+            REGIMES[regime.regime],
+            percent(regime.share),
+            [
+                (
+                    plain(a.regimes[k].rmse),
+                    signed(a.regimes[k].bias, a.regimes[k].rmse),
+                    regime.regime != "standstill" and a.regimes[k].rmse > MARKED * a.rmse,
+                )
+                for a in models
+            ],
+        )
+        for k, regime in enumerate(models[0].regimes)
+    ]
     return {
-        "effect": finding.effect,
-        "title": _title(finding.effect),
-        "confidence": confidence_words(finding.confidence),
-        "physically": physically(finding.effect, finding.fit.model),
-        "where": finding.where[:1].upper() + finding.where[1:] + ".",
-        "picture": picture_text(finding_figure(finding, headed=False)),
-        "share": percent(share) if share is not None else None,
-        "ties": indistinguishable_sentence(finding) if finding.indistinguishable_from else "",
+        "heading": heading,
+        "rows": rows,
+        "names": [a.model for a in models],
+        "regimes": regimes,
+        "legend": REGIMES_LEGEND,
+        "held_out": compared(comparison),
     }
+
+
+def _step(number: int, step: Step) -> StepPart:
+    before, after = _error(step.before), _error(step.after)
+    sure = "" if step.confidence is None else confidence_words(step.confidence)
+    model = step.before.model if step.verb == "drop" else step.after.model
+    ties = f"On this data it cannot be told from {listed(step.ties, 'or')}." if step.ties else ""
+    return {
+        "number": number,
+        "effect": step.effect,
+        "title": f"{_title(step.effect)}{' dropped' if step.verb == 'drop' else ''}",
+        "confidence": sure,
+        "physically": physically(step.effect, model),
+        "where": f"{step.where[:1].upper()}{step.where[1:]}." if step.where else "",
+        "share": "" if step.share is None else percent(step.share),
+        "ties": ties,
+        "read": "; ".join(how_to_read(step.effect)),
+        "before": plain(before),
+        "after": plain(after),
+        "change": change_text(before, after),
+        "model": step.after.model.spec,
+    }
+
+
+def _error(fit: Fit) -> float:
+    return fit.rmse if fit.rmse_held_out is None else fit.rmse_held_out
+
+
+def _errors_sentence(fit: Fit) -> str:
+    """What standard errors mean, where there are some."""
+    if all(e.stderr is None for e in fit.estimates.values()):
+        return ""
+    return (
+        f"\u00b1 is one standard error, {ASSUMED[fit.errors]}. It does not account for effects "
+        "that the model lacks."
+    )
+
+
+def _parameters(fit: Fit) -> list[list[str]]:
+    """The rows of the table of parameters, with the interval after the standard error."""
+    rows = parameter_rows(fit.estimates.values())
+    return [
+        [*row[:4], interval_text(e), *row[4:]]
+        for row, e in zip(rows, fit.estimates.values(), strict=True)
+    ]
+
+
+def _passivity(account: Account) -> list[tuple[str, list[str]]]:
+    """The proof, or the answer alone: sentences, each with the items that are listed below it."""
+    said = account.passivity or PASSIVITY[account.final.passive()]
+    if account.certificate is None:
+        return [(said, [])]
+    made: list[tuple[str, list[str]]] = [(said, [])]
+    for line in certificate_text(account.certificate).splitlines():
+        if line.startswith("    ") and made:
+            made[-1][1].append(line.strip())
+        elif made and not made[-1][1] and made[-1][0][-1:] not in ".:":
+            # A line that the terminal's width has broken.
+            made[-1] = (f"{made[-1][0]} {line.strip()}", [])
+        else:
+            made.append((line.strip(), []))
+    return made
+
+
+def _drawn_sentence(account: Account) -> str:
+    """How many of the samples the figures show."""
+    count = account.final.recording.rows
+    if count <= MOST_DRAWN:
+        return ""
+    return (
+        f"Figures show at most {thousands(MOST_DRAWN)} of the {thousands(count)} samples: the "
+        "first and the extremes of equal stretches. Medians and bands are those of all samples."
+    )
 
 
 def _title(effect: str) -> str:

@@ -56,7 +56,7 @@ def parameters_text(estimates: Mapping[str, Estimate], intervals: bool = False) 
     rows = [heading, *parameter_rows(estimates.values())]
     if not intervals:
         return table(rows, right=(2, 5), whole=(0, 1, 3, 4))
-    column = ["95 % interval", *(_interval(e) for e in estimates.values())]
+    column = ["95 % interval", *(interval_text(e) for e in estimates.values())]
     return table(
         [
             [name, value, error, interval, unit, flags]
@@ -91,7 +91,7 @@ def _with_error(e: Estimate) -> str:
     return shown + (f" ({flags})" if flags else "")
 
 
-def _interval(e: Estimate) -> str:
+def interval_text(e: Estimate) -> str:
     """The interval, each end with two digits of half its distance from the value."""
     if e.ci95 is None:
         return ""

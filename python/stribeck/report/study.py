@@ -19,16 +19,17 @@ PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
 
 def study_text(study: Study) -> str:
     """The whole result."""
-    parts = [_heading(study)]
+    parts = [heading_sentence(study)]
     for each in study.tables:
         parts += ["", each.group.title, "", *_error_tables(study, each)]
         if any(row.energy is not None for row in each.rows):
             parts += ["", *_energy_table(each)]
-    parts += ["", *_notes(study)]
+    parts += ["", *note_lines(study)]
     return "\n".join(parts).rstrip()
 
 
-def _heading(study: Study) -> str:
+def heading_sentence(study: Study) -> str:
+    """What was fitted, in one sentence."""
     plan = study.plan
     fits = f"{thousands(study.frame.height)} fits"
     if study.frame.height < len(plan.jobs):
@@ -70,11 +71,15 @@ def _error_tables(study: Study, each: Table) -> list[str]:
         blocks = -(-len(joints) // ((WIDTH - 20) // 16))
         per_block = -(-len(joints) // blocks)
         for at in range(0, len(joints), per_block):
-            lines += ["", _block(study, each.rows, joints[at : at + per_block], low)]
+            cells = error_rows(study, each.rows, joints[at : at + per_block], low)
+            lines += ["", table(cells, right=range(1, len(cells[0])))]
     return lines
 
 
-def _block(study: Study, rows: Sequence[Row], joints: Sequence[str | None], low: bool) -> str:
+def error_rows(
+    study: Study, rows: Sequence[Row], joints: Sequence[str | None], low: bool
+) -> list[list[str]]:
+    """A heading, and mean and standard deviation of the error of each law, by joint."""
     heading = ["law", *(f"mean {PLUS_MINUS} std" if j is None else j for j in joints)]
     cells = [heading]
     for row in rows:
@@ -87,7 +92,7 @@ def _block(study: Study, rows: Sequence[Row], joints: Sequence[str | None], low:
                 spread = entry.low_speed if low else entry.whole
                 line.append(spread_text(spread, _digits(study, joint)))
         cells.append(line)
-    return table(cells, right=range(1, len(heading)))
+    return cells
 
 
 def _digits(study: Study, joint: str | None) -> int:
@@ -119,7 +124,8 @@ def energy_cells(energy: Energy) -> list[str]:
     ]
 
 
-def _notes(study: Study) -> list[str]:
+def note_lines(study: Study) -> list[str]:
+    """What was skipped, what failed, and where the files are."""
     lines: list[str] = []
     if study.skipped:
         lines += ["Skipped:", *_skipped(study)]

@@ -1,0 +1,134 @@
+"""The equations of a model as MathML."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
+
+from stribeck.models.catalog import catalog
+from stribeck.report.mathml import mathml
+
+if TYPE_CHECKING:
+    from stribeck.models.model import Model
+
+#: What an equation of an effect replaces, by the symbol that its formula begins with.
+PARTS = {"D": "dry friction", "V": "viscous friction", "tf": "friction"}
+#: Symbols that are no parameters.
+SYMBOLS = {
+    "v": "velocity",
+    "q": "position",
+    "a": "acceleration",
+    "T": "temperature",
+    "T0": "reference temperature",
+    "tl": "load torque or force",
+    "tm": "motor torque or force",
+    "te": "external torque or force",
+    "tf": "friction torque or force",
+    "D": "dry friction",
+    "V": "viscous friction",
+    "z": "deflection of the bristle",
+}
+#: Identified rigid-body terms, by their name in a model.
+RIGID_BODY = {"inertia": "J a", "gravity": "gc cos q + gs sin q"}
+
+
+@dataclass(frozen=True)
+class Equation:
+    """The equations of one part of a model.
+
+    Attributes
+    ----------
+    name, title : str
+        Id and title of the law or effect.
+    text : str
+        The formula in the notation of the catalog.
+    statements : list of Markup
+        MathML, one statement each.
+    source : str
+        Where the formula is printed; may be empty.
+    """
+
+    name: str
+    title: str
+    text: str
+    statements: list[Markup]
+    source: str = ""
+
+
+def equations(model: Model) -> list[Equation]:
+    """The law, its effects and the identified rigid body of a model."""
+    rows = [] if model.formula(model.law) is not None else [_of_law(model.law)]
+    rows += [
+        Equation(
+            own.name,
+            "effect by formula" if own.effect else "law by formula",
+            own.text,
+            _set(own.text if own.effect else f"tf = {own.text}", own.effect),
+        )
+        for own in model.own
+    ]
+    rows += [_of_effect(name) for name in model.effects]
+    if model.rigid_body:
+        terms = " + ".join(RIGID_BODY[name] for name in model.rigid_body)
+        rows.append(
+            Equation(
+                "rigid body", "load, identified with the friction", terms, _set(f"tl = {terms}")
+            )
+        )
+    return rows
+
+
+def symbols(model: Model) -> list[tuple[Markup, str]]:
+    """The symbols of these equations that are no parameters, with their meaning."""
+    used = " ".join(row.text for row in equations(model))
+    words = set(re.findall(r"[A-Za-z]\w*", used)) | {"tf"}
+    return [
+        (Markup(mathml(name)[0]), meaning) for name, meaning in SYMBOLS.items() if name in words
+    ]
+
+
+def _of_law(law: str) -> Equation:
+    row = catalog()["laws"][law]
+    formula = str(row["formula"])
+    first = formula.split(";")[0].split(",")[0]
+    said = formula if "=" in first.replace("<=", "") else f"tf = {formula}"
+    return Equation(law, str(row["title"]), said, _set(said), str(row["source"]))
+
+
+def _of_effect(effect: str) -> Equation:
+    row = catalog()["effects"][effect]
+    formula = str(row["formula"])
+    return Equation(effect, str(row["title"]), formula, _set(formula, changes=True))
+
+
+def _set(formula: str, changes: bool = False) -> list[Markup]:
+    """The statements as MathML; with what each replaces, where it changes a part."""
+    made = []
+    for k, statement in enumerate(mathml(formula)):
+        lead = _changed(formula, k) if changes else ""
+        text = statement
+        if lead:
+            symbol = mathml(lead)[0].removeprefix('<math displaystyle="true">')[:-7]
+            text = statement.replace(
+                '<math displaystyle="true">',
+                f'<math displaystyle="true">{symbol}<mo>&#x2192;</mo>',
+                1,
+            )
+        # The converter escapes whatever is not its own markup.
+        made.append(Markup(text))
+    return made
+
+
+def _changed(formula: str, number: int) -> str:
+    """What the statement of this number replaces; nothing for a definition."""
+    statement = [part.strip() for part in formula.replace(";", ",").split(", ")]
+    said = statement[number] if number < len(statement) else ""
+    if number > 0 and said[:2] not in ("D ", "V "):
+        return ""
+    if "=" in said:
+        return ""
+    first = said.split(" ")[0].strip("(")
+    return first if first in PARTS else "tf"

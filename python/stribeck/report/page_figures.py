@@ -1,0 +1,114 @@
+"""The interactive figures of a page, as text that the page holds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
+
+from stribeck.report.interactive.correlation import correlation
+from stribeck.report.interactive.falling_error import falling_error
+from stribeck.report.interactive.finding_residual import finding_residual
+from stribeck.report.interactive.findings import findings
+from stribeck.report.interactive.friction_velocity import friction_velocity
+from stribeck.report.interactive.hysteresis import hysteresis
+from stribeck.report.interactive.intervals import intervals
+from stribeck.report.interactive.residual_channel import residual_channel
+from stribeck.report.interactive.samples import CHANNELS, Samples, samples_of
+from stribeck.report.interactive.time import residual_time, time
+
+if TYPE_CHECKING:
+    from bokeh.plotting import figure
+
+    from stribeck.report.account import Account
+
+#: Correlations of fewer parameters than this are no figure.
+FEWEST_CORRELATED = 2
+
+
+@dataclass(frozen=True)
+class Figures:
+    """Figures as HTML: the library, a place for each, and the script that fills the places."""
+
+    library: Markup
+    places: Mapping[str, Markup]
+    script: Markup
+
+
+#: Of a page whose pictures are none of these.
+NO_FIGURES = Figures(Markup(), {}, Markup())
+
+
+def figures_of(plots: Mapping[str, figure]) -> Figures:
+    """Figures that need neither the network nor a server.
+
+    Parameters
+    ----------
+    plots : mapping of figures
+        By the names under which `places` has them.
+    """
+    from bokeh.embed import components
+    from bokeh.resources import Resources
+
+    resources = Resources(mode="inline", components=["bokeh", "bokeh-gl"])
+    script, places = components(dict(plots))
+    return Figures(
+        Markup(resources.render()),
+        {name: Markup(place) for name, place in places.items()},
+        Markup(script),
+    )
+
+
+def account_plots(account: Account) -> dict[str, figure]:
+    """Every figure of a page, by name."""
+    samples = samples_of(account.models)
+    plots = _of_samples(samples)
+    for k, step in enumerate(account.steps, 1):
+        plots[f"step {k}"] = finding_residual(step.effect, step.before, step.after)
+    plots |= _errors(account)
+    estimates = account.final.estimates.values()
+    if any(e.ci95 is not None and e.value != 0.0 for e in estimates):
+        plots["intervals"] = intervals(estimates)
+    matrix = account.final.correlation
+    if matrix is not None and len(matrix.names) >= FEWEST_CORRELATED:
+        plots["correlation"] = correlation(matrix)
+    return plots
+
+
+def _of_samples(samples: Samples) -> dict[str, figure]:
+    """The figures that share samples; time and its residual share their range too."""
+    over_time = time(samples)
+    plots = {"friction": friction_velocity(samples), "time": over_time}
+    if not samples.fits[0].recording.averaged:
+        plots["residual"] = residual_time(samples, x_range=over_time.x_range)
+    for name in ("position", "reversal"):
+        if name in samples.labels:
+            plots[f"loop {name}"] = hysteresis(samples, name)
+    for name in CHANNELS:
+        if name in samples.labels and name != "time":
+            plots[f"against {name}"] = residual_channel(samples, name)
+    return plots
+
+
+def _errors(account: Account) -> dict[str, figure]:
+    """The error after each step, or with each finding."""
+    steps = account.steps
+    if not steps:
+        return {}
+    if steps[0].verb == "found":
+        assert account.diagnosis is not None
+        return {"findings": findings(account.diagnosis.findings, account.noise_floor)}
+    fits = [steps[0].before, *(step.after for step in steps)]
+    held_out = [fit.rmse_held_out for fit in fits]
+    known = [error for error in held_out if error is not None]
+    return {
+        "errors": falling_error(
+            [fits[0].model.spec, *(step.label for step in steps)],
+            known if len(known) == len(fits) else [fit.rmse for fit in fits],
+            account.final.model.torque_unit,
+            noise_floor=account.noise_floor,
+            held_out=len(known) == len(fits),
+        )
+    }

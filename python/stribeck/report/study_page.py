@@ -1,0 +1,51 @@
+"""A page on a study: the errors of every law on every joint, and what was skipped."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from stribeck.report.interactive.study_errors import study_errors
+from stribeck.report.numbers import plain
+from stribeck.report.page import render
+from stribeck.report.page_figures import figures_of
+from stribeck.report.sections import Section
+from stribeck.report.study import error_rows, heading_sentence, note_lines
+from stribeck.report.versions import versions
+
+if TYPE_CHECKING:
+    from bokeh.plotting import figure
+
+    from stribeck.scale.study.result import Study
+
+
+def study_page(study: Study, command: str = "") -> str:
+    """The whole result as a page; no table is shortened.
+
+    Parameters
+    ----------
+    command
+        The command that made it.
+    """
+    plots: dict[str, figure] = {}
+    for joint, data in study.joints.items():
+        of = "" if joint is None else f", joint {joint}"
+        slow = f"|v| < {plain(data.low_speed, 2)} {data.velocity_unit}"
+        plots[f"All speeds{of}"] = study_errors(study, joint)
+        plots[f"Low speed, {slow}{of}"] = study_errors(study, joint, low_speed=True)
+    sections = []
+    for each in study.tables:
+        tables = [error_rows(study, each.rows, list(study.joints), low) for low in (False, True)]
+        said = ["Mean and standard deviation of the error: all speeds, then low speed."]
+        sections.append(Section(each.group.title, said, tables))
+    sections.append(Section("Notes", note_lines(study), []))
+    return render(
+        "sections.html",
+        name=f"Study {study.folder.name}",
+        about="errors of many laws",
+        summary=heading_sentence(study),
+        figures=figures_of(plots),
+        pictures=[],
+        sections=sections,
+        command=command,
+        versions=versions(),
+    )
