@@ -94,8 +94,7 @@ def fit(
             per_run=bool(per_run),
             report=report is not None,
         )
-        opened = streaming.open(data, reading, seed)
-        streamed = _in_passes(opened, written, spec, starts=starts, seed=seed)
+        streamed = _in_passes(streaming.open(data, reading, seed), written, spec, starts, seed)
         if output is not None:
             save_streamed(streamed, output)
         show(streamed, as_json)
@@ -126,11 +125,17 @@ def fit(
     echo_result(fitted, as_json)
 
 
-def _in_passes(opened: Stream, written: Written, spec: str | None, **options: int) -> StreamedFit:
+def _in_passes(
+    opened: Stream, written: Written, spec: str | None, starts: int, seed: int
+) -> StreamedFit:
     """The fit of data that is read in passes, with its progress on stderr."""
     with RowProgress() as bar:
         return opened.fit(
-            written.model(spec), told=bar.show_pass, **options, **written.choices.arguments()
+            written.model(spec),
+            told=bar.show_pass,
+            starts=starts,
+            seed=seed,
+            **written.choices.arguments(),
         )
 
 

@@ -23,7 +23,7 @@ from stribeck.report.diagnosis import (
     visible_rows,
 )
 from stribeck.report.improvement import passivity_sentence, stopped_sentence, summary_sentence
-from stribeck.report.numbers import change_text, plain
+from stribeck.report.numbers import change_text, percent, plain
 
 if TYPE_CHECKING:
     from stribeck.diagnosis.compare import Comparison
@@ -210,6 +210,7 @@ def of_improvement(improvement: Improvement, comparison: Comparison | None = Non
         floor_sentence(improvement.noise_floor, unit),
         left_text(improvement.unexplained),
         explainable_text(improvement.last.explainable, final.model.spec, unit),
+        _relative_sentence(final),
     )
     return Account(
         summary_sentence(improvement),
@@ -267,6 +268,14 @@ def of_project(project: Project, diagnosis: Diagnosis, comparison: Comparison | 
         steps=steps,
         likely=len(steps),
     )
+
+
+def _relative_sentence(fit: Fit) -> str:
+    """The relative residual of a fit, where there is one."""
+    if fit.relative_residual is None:
+        return ""
+    what = "norm of the held-out error / norm of the torque"
+    return f"Relative residual ({what}): {percent(fit.relative_residual)}."
 
 
 def _error(fit: Fit) -> float:

@@ -63,7 +63,8 @@ class Words(HTMLParser):
 def words(page: str) -> str:
     """The words of a page, without the versions of what it was made with."""
     parser = Words()
-    parser.feed(page)
+    # An equation is one line, not one a symbol.
+    parser.feed(re.sub(r"<math.*?</math>", lambda found: re.sub("<[^>]+>", "", found[0]), page))
     lines = [line for line in parser.lines if not line.startswith("stribeck ") or "," not in line]
     return steady("\n".join(lines))
 
