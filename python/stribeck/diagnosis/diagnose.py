@@ -14,6 +14,7 @@ from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.trials.candidates import candidates_for, passing_trials
+from stribeck.diagnosis.trials.imitations import without_imitations
 from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import Ranked, ranked
 from stribeck.diagnosis.trials.sifting import Sifted
@@ -101,6 +102,7 @@ def _diagnosed(
     passed, tried = passing_trials(fitted, offered.possible, least_fall, seed)
     sift = Sifted.of(fitted, passed, least_fall)
     sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
+    sift = without_imitations(fitted, sift, tried, least_fall)
     best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)
     names = tuple(t.fit.model.written(t.effect) for t in passed)

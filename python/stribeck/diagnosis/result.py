@@ -82,11 +82,17 @@ class Diagnosis(Plotted):
     findings
         Effects that pass the test, best first.
     demoted
-        Effects that pass it, but that the recording does not show well enough to be claimed.
+        Effects that pass it, but that the recording does not show well enough to be claimed, or
+        that causes in the measurement explain as well.
     not_claimed
+<<<<<<< HEAD
         Effects that pass it with values that cannot be right.
     passed
         All effects that pass the test of evidence alone, ids or formulas, the best first.
+=======
+        Effects that pass it with values that cannot be right, or that causes in the measurement
+        explain better.
+>>>>>>> 127e415 (Friction must beat the causes in the measurement that share its shape; a velocity that lags the position is noticed)
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups

@@ -18,6 +18,7 @@ from stribeck.identify.figures import relative_residual
 from stribeck.identify.held_out import Refit
 from stribeck.identify.problem import Problem
 from stribeck.identify.transients import stretches
+from stribeck.identify.uncertain_direction import left_out_notes, uncertain_direction
 from stribeck.identify.uncertainty import Uncertainty, identified
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
@@ -90,10 +91,11 @@ def _notes(
     made: Model, recording: Recording, marked: NDArray[np.bool_], lower: Array, upper: Array
 ) -> tuple[str, ...]:
     """What a reader has to know: transients, the rigid body, fixed parameters."""
-    notes: tuple[str, ...] = ()
-    if marked.any():
-        spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, marked))
-        notes = (
+    notes = left_out_notes(recording, marked)
+    transient = marked & ~uncertain_direction(recording)
+    if transient.any():
+        spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, transient))
+        notes += (
             f"no friction model explains the motion at {spans} (an approach move or an "
             f"abrupt stop?): scored, but excluded from the fit",
         )

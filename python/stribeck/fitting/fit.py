@@ -26,7 +26,7 @@ from stribeck.identify.estimates import Errors
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.scaling import model_for
-from stribeck.identify.transients import transient_rows
+from stribeck.identify.uncertain_direction import rows_left_out
 from stribeck.identify.uncertainty import RESAMPLES, Uncertainty
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
@@ -111,7 +111,7 @@ def _least_squares(
 ) -> tuple[Fit, Solution]:
     """The fit by least squares within bounds, and its solution."""
     starts, seed, effort = searched
-    marked = transient_rows(recording) if transient is None else transient
+    marked = rows_left_out(recording) if transient is None else transient
     rows = rows_to_fit(made, recording, marked)
     made, load = with_own_load(made, recording, rows, starts, seed, effort)
     solution = solve(made, recording, rows, load, starts, seed, effort)

@@ -24,6 +24,7 @@ from stribeck.identify.figures import torque_cutoff
 from stribeck.identify.information import Information, criteria, information
 from stribeck.identify.matrix import ParameterMatrix
 from stribeck.identify.transients import stretches
+from stribeck.identify.uncertain_direction import uncertain_direction
 from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.model import Model
 from stribeck.passivity.check import check
@@ -225,7 +226,12 @@ class Fit(Plotted):
             "rigid_body": list(self.model.rigid_body),
             "drive": self.model.drive,
             "formulas": {terms.name: terms.text for terms in self.model.own},
-            "transients": [list(pair) for pair in stretches(self.recording, self.transient)],
+            "transients": [
+                list(pair)
+                for pair in stretches(
+                    self.recording, self.transient & ~uncertain_direction(self.recording)
+                )
+            ],
             "scored": self.recording.scored(),
             "notes": [*self.recording.notes, *self.notes],
             **self.evaluations_dict(),

@@ -58,10 +58,18 @@ def flexible_columns(recording: Recording) -> list[Array]:
     return columns
 
 
-def transient_rows(recording: Recording) -> NDArray[np.bool_]:
-    """Samples of transients, bool [n]: windows that a flexible model does not fit."""
+def transient_rows(
+    recording: Recording, apart: NDArray[np.bool_] | None = None
+) -> NDArray[np.bool_]:
+    """Samples of transients, bool [n]: windows that a flexible model does not fit.
+
+    Parameters
+    ----------
+    apart : bool array [n]
+        Samples that are not looked at; default: none.
+    """
     none = np.zeros(recording.time.size, dtype=bool)
-    moving = recording.moving
+    moving = recording.moving if apart is None else recording.moving & ~apart
     if recording.averaged or moving.sum() < 20 * WINDOWS:
         return none
     columns = _of_one_size(flexible_columns(recording), moving)

@@ -33,7 +33,7 @@ NO_CLAIM = "What remains is more than noise, but no effect can be claimed on thi
 #: Headings of the lists of a diagnosis.
 VISIBLE = "Not found. Smallest RMS torque that would have been found 19 times in 20"
 DEMOTED = "Lowers the held-out error, but this recording does not show it well enough"
-NOT_CLAIMED = "Not claimed, because the values that fit cannot be right"
+NOT_CLAIMED = "Lowers the held-out error, but cannot be the cause, or need not be"
 ALIKE = "Indistinguishable from each other on this data"
 
 

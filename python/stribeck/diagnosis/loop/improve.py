@@ -34,7 +34,7 @@ from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_ef
 from stribeck.identify.confounded import Combination
 from stribeck.identify.effort import FROM_NEARBY
 from stribeck.identify.scaling import model_for
-from stribeck.identify.transients import transient_rows
+from stribeck.identify.uncertain_direction import rows_left_out
 from stribeck.models.catalog import check_effects
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
@@ -225,7 +225,7 @@ def _on_all_samples(
 ) -> ImprovementPath:
     """The same path with each model identified on all samples of `recording`."""
     progress(f"identifying the models on all {recording.rows} samples")
-    transient = transient_rows(recording)
+    transient = rows_left_out(recording)
     rows = path.start.recording.rows
     *earlier, last = [path.start, *(step.after for step in path.steps)]
     with on_threads() as pool:

@@ -40,7 +40,7 @@ DEMOTED = 0.5
 
 @dataclass(frozen=True)
 class NotClaimed:
-    """An effect that lowers the held-out error with values that cannot be right, and why."""
+    """An effect that lowers the held-out error and cannot be right, or is imitated, and why."""
 
     effect: str
     reason: str

@@ -120,6 +120,15 @@ class Difference:
             return 0.0
         return self.total / self.error if self.error > 0 else np.inf
 
+    @classmethod
+    def of(cls, change: Array) -> Difference:
+        """From the differences of the squared errors of each sample [m]."""
+        batch = batches(change.size, correlation_length(change), fewest=20, most=100)
+        count = int(batch.max()) + 1
+        sums = np.bincount(batch, change, count)
+        error = float(np.sqrt(count) * sums.std(ddof=1)) if count > 2 else np.inf
+        return cls(float(sums.sum()), error)
+
 
 def difference(worse: Fit, better: Fit) -> Difference:
     """Compare two models, nested or not, on held-out samples."""
@@ -128,8 +137,4 @@ def difference(worse: Fit, better: Fit) -> Difference:
         worse.weighted(worse.held_out_residual[rows]) ** 2
         - worse.weighted(better.held_out_residual[rows]) ** 2
     )
-    batch = batches(change.size, correlation_length(change), fewest=20, most=100)
-    count = int(batch.max()) + 1
-    sums = np.bincount(batch, change, count)
-    error = float(np.sqrt(count) * sums.std(ddof=1)) if count > 2 else np.inf
-    return Difference(float(sums.sum()), error)
+    return Difference.of(change)

@@ -40,8 +40,11 @@ class FlexibleRefit:
     def of(cls, before: Fit) -> FlexibleRefit | None:
         """The most flexible form; None where no effect of the fit has one."""
         columns = flexible_columns(before)
-        if columns.shape[1] == 0:
-            return None
+        return cls.beside(before, columns) if columns.shape[1] else None
+
+    @classmethod
+    def beside(cls, before: Fit, columns: Array) -> FlexibleRefit:
+        """A fit with given columns [m, k]."""
         return cls(before, columns, *_linear_refit(before, columns, before))
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:

@@ -13,7 +13,7 @@ from stribeck.fitting.result import Fit
 
 @dataclass(frozen=True)
 class Doubted:
-    """A trial whose evidence is too narrow or whose values cannot be right, and why."""
+    """A trial that may not be claimed, and why."""
 
     trial: Trial
     reason: str
@@ -28,9 +28,9 @@ class Sifted:
     stand
         Those that may be claimed, in the order in which they came.
     demoted
-        Those whose evidence is too narrow.
+        Those whose evidence is too narrow, or that causes in the measurement explain as well.
     refused
-        Those whose values cannot be right.
+        Those whose values cannot be right, or that causes in the measurement explain better.
     """
 
     stand: tuple[Trial, ...] = ()

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.pool import ProcessPool, run_each
-from stribeck.identify.transients import transient_rows
+from stribeck.identify.uncertain_direction import rows_left_out
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.plan import StudyPlan
 
@@ -38,7 +38,7 @@ class Desk:
         """Return which samples of a joint are excluded from fits (`identify.transients`)."""
         recording = self.recording(joint)
         if self._transient is None:
-            self._transient = transient_rows(recording)
+            self._transient = rows_left_out(recording)
         return self._transient
 
 

@@ -1,0 +1,42 @@
+"""A cause in the measurement, as columns beside a model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.fitting.result import Fit
+from stribeck.recording.recording import Recording
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MeasurementCause:
+    """A cause in the measurement.
+
+    Attributes
+    ----------
+    what
+        The cause as a noun phrase, for sentences.
+    columns
+        What it may add to the torque of a fit: arrays [n]; none where it cannot act.
+    """
+
+    what: str
+    columns: Callable[[Fit], list[Array]]
+
+
+def load_of(fit: Fit) -> Array:
+    """Load torque [n], recorded or identified; zero where the model has none."""
+    load = fit.recording.load_torque if fit.load is None else fit.load
+    return np.zeros_like(fit.prediction) if load is None else load
+
+
+def neighbour(recording: Recording, values: Array, rows: int) -> Array:
+    """`values` [n] so many `rows` later; the same value beyond the end of a segment."""
+    at = np.clip(np.arange(values.size) + rows, 0, values.size - 1)
+    return np.where(recording.segment[at] == recording.segment, values[at], values)

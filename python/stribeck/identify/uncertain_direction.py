@@ -1,0 +1,63 @@
+"""Samples whose direction of motion is uncertain, because the recorded velocity is late.
+
+Friction changes its sign where the motion does; a velocity behind a filter does so later. Between
+the two every friction model is wrong by twice the dry friction, and whatever is added to it
+imitates the filter. How late the velocity is follows from the recording alone, by comparison with
+the position.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.identify.transients import transient_rows
+from stribeck.recording.recording import Recording
+from stribeck.recording.velocity_lag import VelocityLag, velocity_lag
+
+#: Lag in samples below which no sample is left out.
+LEAST = 1.0
+
+
+def late_velocity(recording: Recording) -> VelocityLag | None:
+    """The lag of the recorded velocity; None where it is below a sample, or cannot be told."""
+    r = recording
+    if r.averaged or r.position is None or r.rate_hz <= 0 or r.columns["velocity"].derived:
+        return None
+    late = velocity_lag(r.time, r.position, r.velocity, r.segment)
+    return late if late.exceeds(LEAST / r.rate_hz) else None
+
+
+def uncertain_direction(recording: Recording) -> NDArray[np.bool_]:
+    """Scored samples within the lag of the velocity before it changes its sign, bool [n]."""
+    uncertain = np.zeros(recording.time.size, dtype=bool)
+    late = late_velocity(recording)
+    if late is None:
+        return uncertain
+    sign, rows = np.sign(recording.velocity), np.arange(uncertain.size)
+    for ahead in range(1, math.ceil(late.lag * recording.rate_hz) + 1):
+        at = np.minimum(rows + ahead, uncertain.size - 1)
+        uncertain |= (sign[at] != sign) & (recording.segment[at] == recording.segment)
+    return uncertain & recording.moving
+
+
+def rows_left_out(recording: Recording) -> NDArray[np.bool_]:
+    """Scored samples that no friction model can fit: transients and uncertain directions."""
+    uncertain = uncertain_direction(recording)
+    return transient_rows(recording, uncertain) | uncertain
+
+
+def left_out_notes(recording: Recording, marked: NDArray[np.bool_]) -> tuple[str, ...]:
+    """What a reader has to know of a late velocity, with the samples `marked` as left out."""
+    late = late_velocity(recording)
+    if late is None:
+        return ()
+    count = int(np.count_nonzero(marked & uncertain_direction(recording)))
+    return (
+        f"the recorded velocity lags the position by {1e3 * late.lag:.3g} ms "
+        f"({late.lag * recording.rate_hz:.2g} samples), as behind a filter: the direction of "
+        f"{count} samples before reversals is uncertain; they are scored, but excluded from the "
+        f"fit",
+    )
