@@ -85,14 +85,10 @@ class Diagnosis(Plotted):
         Effects that pass it, but that the recording does not show well enough to be claimed, or
         that causes in the measurement explain as well.
     not_claimed
-<<<<<<< HEAD
-        Effects that pass it with values that cannot be right.
-    passed
-        All effects that pass the test of evidence alone, ids or formulas, the best first.
-=======
         Effects that pass it with values that cannot be right, or that causes in the measurement
         explain better.
->>>>>>> 127e415 (Friction must beat the causes in the measurement that share its shape; a velocity that lags the position is noticed)
+    passed
+        All effects that pass the test of evidence alone, ids or formulas, the best first.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
