@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import ast
 import importlib
+from collections.abc import Iterator
 from pathlib import Path
 
 import click
 import stribeck
-from stribeck.cli.commands import COMMANDS
+from stribeck.cli.commands import COMMANDS, Commands
+from stribeck.cli.outputs import CheckedCommand
 
 PACKAGE = Path(stribeck.__file__).parent
 FILES = sorted(PACKAGE.rglob("*.py"))
@@ -42,3 +44,38 @@ def test_every_command_of_the_help_exists() -> None:
     for name, (module, _) in COMMANDS.items():
         command = getattr(importlib.import_module(f"stribeck.cli.{module}"), name)
         assert isinstance(command, click.Command) and command.help
+
+
+def commands_of(group: click.Group, above: str = "") -> Iterator[tuple[str, click.Command]]:
+    """Every command that does something, also those of groups, by the words that call it."""
+    context = click.Context(group)
+    for name in group.list_commands(context):
+        command = group.get_command(context, name)
+        assert command is not None, name
+        words = f"{above} {name}".strip()
+        if isinstance(command, click.Group):
+            yield from commands_of(command, words)
+            # A group that answers without a command of its own would be unguarded.
+            assert not command.invoke_without_command, words
+        else:
+            yield words, command
+
+
+def unguarded(group: click.Group) -> list[str]:
+    """Commands that do not check their outputs and numbers before they start."""
+    return [words for words, made in commands_of(group) if not isinstance(made, CheckedCommand)]
+
+
+def test_every_command_is_guarded() -> None:
+    assert unguarded(Commands("stribeck")) == []
+
+
+def test_a_command_without_guard_is_noticed() -> None:
+    """The test above would say which one."""
+
+    @click.command()
+    def bare() -> None:
+        """Write without looking."""
+
+    inner = click.Group("inner", {"bare": bare})
+    assert unguarded(click.Group("all", {"bare": bare, "inner": inner})) == ["bare", "inner bare"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
 
@@ -142,13 +142,22 @@ def read_recording(path: Given, reading: ReadOptions) -> Recording:
     recording = read_with(path, reading)
     for note in recording.notes:
         say(f"note: {note}")
-    for check in recording.checks:
-        if check.ok:
-            say(f"note: checked: {check.said}")
-        elif recording.trusted:
-            say(f"note: accepted with --trust: {check.said}")
+    for line in _of_checks(recording):
+        say(f"note: {line}")
     recording.require_consistent()
     return recording
+
+
+def _of_checks(recording: Recording) -> Iterator[str]:
+    """What the checks found: those passed in one line, the others in a line each."""
+    passed = [check.said for check in recording.checks if check.ok and not check.is_open]
+    if passed:
+        yield f"checks passed: {'; '.join(passed)}"
+    for check in recording.checks:
+        if check.is_open:
+            yield check.said + (f"; {check.do}" if check.do else "")
+        elif not check.ok and recording.trusted:
+            yield f"accepted with --trust: {check.said}"
 
 
 def is_model_file(argument: str) -> bool:

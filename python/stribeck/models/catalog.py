@@ -76,6 +76,8 @@ def simpler_effect(effect: str) -> str | None:
 def check_effect(effect: str) -> str:
     """Return `effect` if the catalog has it, else raise `SpecError` with the nearest name."""
     if effect not in effect_ids():
+        if law_row(effect) is not None:
+            raise SpecError(f"{effect!r} is a law, and a model has one law; an effect is needed")
         raise SpecError(
             f"effect {effect!r} is unknown{nearest(effect, effect_ids())}; "
             f"`stribeck effects` lists them"

@@ -16,8 +16,8 @@ class Check:
     check
         What was compared: ``velocity``, ``torque``, ``time`` ...
     ok
-        False where the channels contradict each other. True also where nothing can be concluded;
-        `said` then begins with "cannot check".
+        False where the channels contradict each other. True also where nothing can be concluded:
+        see `is_open`.
     said
         The finding in one sentence, without a full stop.
     do
@@ -28,6 +28,11 @@ class Check:
     ok: bool
     said: str
     do: str | None = None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether nothing can be concluded; `said` then begins with "cannot check"."""
+        return self.ok and self.said.startswith("cannot check")
 
     def to_dict(self) -> dict[str, object]:
         """As JSON."""

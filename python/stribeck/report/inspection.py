@@ -16,6 +16,7 @@ from stribeck.report.transmission import transmission_text
 if TYPE_CHECKING:
     from stribeck.diagnosis.inspect import Inspection
     from stribeck.fitting.protocols.found import Protocol
+    from stribeck.recording.check import Check
 
 
 #: How many of the columns that are not read are listed.
@@ -81,17 +82,19 @@ def _files(inspection: Inspection) -> str:
 
 
 def _checked(inspection: Inspection, spell: Callable[[str], str]) -> str:
-    """Where the channels agree, and where they contradict each other."""
-    agreed = [check.said for check in inspection.checks if check.ok]
-    wrong = [
-        f"{check.said}{f': {check.do}' if check.do else ''}"
-        for check in inspection.checks
-        if not check.ok
-    ]
+    """Where the channels contradict each other, where they agree, and what nothing can decide."""
+    wrong = [_with_remedy(check) for check in inspection.checks if not check.ok]
+    passed = [check.said for check in inspection.checks if check.ok and not check.is_open]
+    undecided = [_with_remedy(check) for check in inspection.checks if check.is_open]
     return joined(
         bullets("The channels contradict each other:", map(spell, wrong)),
-        bullets("Checked:", map(spell, agreed)),
+        bullets("Checks passed:", map(spell, passed)),
+        bullets("Checks without a result:", map(spell, undecided)),
     )
+
+
+def _with_remedy(check: Check) -> str:
+    return f"{check.said}: {check.do}" if check.do else check.said
 
 
 def _not_read(inspection: Inspection) -> str:

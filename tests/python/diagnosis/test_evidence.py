@@ -7,8 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from scipy.stats import binom
-from stribeck.diagnosis.trials.evidence import added_torque_test, difference, evidence
+from scipy.stats import binom, f
+from stribeck.diagnosis.trials.evidence import (
+    Difference,
+    added_torque_test,
+    difference,
+    evidence,
+    held_out_square,
+)
 from synthetic import ar1, joint, motion, record
 
 TRIALS = 200
@@ -39,6 +45,23 @@ def test_chance_of_several_parameters() -> None:
         added = x @ np.linalg.lstsq(x, noise, rcond=None)[0]
         found += added_torque_test(added, noise - added, 3) < 0.05
     assert found <= binom.ppf(0.999, TRIALS, 0.05), found
+
+
+def test_the_test_is_that_of_batch_means() -> None:
+    """Slow noise has as few batches as are allowed, 20; the statistic is F distributed."""
+    rng = np.random.default_rng(10)
+    noise, x = ar1(rng, 4000, 0.99, 1.0), ar1(rng, 4000, 0.9, 0.1)
+    for parameters in (1, 3):
+        scores = (x * noise).reshape(20, 200).sum(axis=1)
+        statistic = (x @ x) ** 2 / (20 * scores.var(ddof=1)) / parameters
+        expected = f.sf(statistic, parameters, 20 - parameters)
+        assert added_torque_test(x, noise, parameters) == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_difference_without_error_is_certain() -> None:
+    assert Difference(1.0, 0.0).statistic == np.inf
+    assert Difference(0.0, 1.0).statistic == Difference(-1.0, 1.0).statistic == 0.0
+    assert Difference(3.0, 2.0).statistic == 1.5
 
 
 def test_a_cause_is_called_a_cause() -> None:
@@ -80,4 +103,8 @@ def test_difference_is_a_mean_and_its_error(tmp_path: Path) -> None:
     rows = worse.rows
     total = np.sum(worse.held_out_residual[rows] ** 2 - better.held_out_residual[rows] ** 2)
     assert found.total == pytest.approx(total) and found.statistic > 5.0
+    assert found.statistic == pytest.approx(found.total / found.error)
+    for fit in (worse, better):
+        square = np.sum(fit.held_out_residual[rows] ** 2)
+        assert held_out_square(fit, worse) == pytest.approx(square)
     assert difference(better, worse).statistic == 0.0

@@ -7,9 +7,11 @@ import pytest
 from stribeck.identify.covariance import (
     batches,
     correlation_length,
+    covariance_of,
     independent,
     sandwich,
     seen,
+    variances,
 )
 from synthetic import ar1
 
@@ -25,6 +27,20 @@ def test_correlation_length_of_known_noise(rho: float) -> None:
 def test_correlation_length_of_nothing_is_one() -> None:
     assert correlation_length(np.zeros(100)) == 1.0
     assert correlation_length(np.ones(3)) == 1.0
+
+
+@pytest.mark.parametrize("kind", ["white", "slow", "ramp"])
+def test_correlation_length_is_the_windowed_sum(kind: str) -> None:
+    """Sokal's window: lags up to five times the sum, or up to a quarter of the samples."""
+    rng = np.random.default_rng(1)
+    noise = {"white": rng.standard_normal(400), "slow": ar1(rng, 4000, 0.8, 1.0),
+             "ramp": np.linspace(-3.0, 5.0, 400)}[kind]  # fmt: skip
+    x = noise - noise.mean()
+    expected, lag = 1.0, 0
+    while lag < x.size // 4 and (lag == 0 or lag < 5.0 * max(expected, 1.0)):
+        lag += 1
+        expected += 2.0 * (x[lag:] @ x[:-lag]) / (x @ x)
+    assert correlation_length(noise) == pytest.approx(max(expected, 1.0), rel=1e-9)
 
 
 def test_batches_are_contiguous_and_longer_than_the_memory() -> None:
@@ -49,6 +65,34 @@ def test_sandwich_of_white_noise_is_the_textbook_formula() -> None:
     assert held[1, 1] == 0.0 and held[0, 0] > 0.0
 
 
+@pytest.mark.parametrize("count", [2, 7])
+def test_sandwich_is_its_formula(count: int) -> None:
+    """``H^-1 S H^-1`` with S from the sums of scores, `count` / (`count` - 1) of their spread."""
+    rng = np.random.default_rng(5)
+    j, r = rng.standard_normal((70, 2)), rng.standard_normal(70)
+    batch = np.repeat(np.arange(count), 70 // count).astype(np.uint32)
+    scores = np.array([j[batch == b].T @ r[batch == b] for b in range(count)])
+    bread = np.linalg.inv(j.T @ j)
+    expected = bread @ (count * np.cov(scores.T, ddof=1)) @ bread
+    free = np.ones(2, dtype=bool)
+    np.testing.assert_allclose(sandwich(j, r, batch, free), expected, rtol=1e-10)
+    covariance, freedom = covariance_of(j, r, batch, free, 1e-4)
+    np.testing.assert_allclose(covariance, expected, rtol=1e-10)
+    assert freedom == count - 1
+    # Without batches errors count as independent.
+    covariance, freedom = covariance_of(j, r, None, free, 1e-4)
+    np.testing.assert_allclose(covariance, r @ r / 68 * bread, rtol=1e-10)
+    assert freedom == 68
+
+
+def test_one_batch_or_too_few_samples_say_nothing() -> None:
+    rng = np.random.default_rng(6)
+    j, r, free = rng.standard_normal((9, 2)), rng.standard_normal(9), np.ones(2, dtype=bool)
+    np.testing.assert_array_equal(sandwich(j, r, np.zeros(9, dtype=np.uint32), free), 0.0)
+    for rows in (1, 2):
+        np.testing.assert_array_equal(independent(j[:rows], r[:rows], free), np.zeros((2, 2)))
+
+
 def test_independent_errors_are_the_textbook_formula() -> None:
     """A straight line through five points; Draper and Smith, section 1.4."""
     x = np.array([1.0, 2.0, 3.0, 4.0, 5.0])
@@ -56,6 +100,7 @@ def test_independent_errors_are_the_textbook_formula() -> None:
     r = np.array([0.1, -0.2, 0.1, 0.1, -0.1])
     variance = r @ r / 3
     covariance = independent(j, r, np.ones(2, dtype=bool))
+    assert covariance.shape == (2, 2)
     assert covariance[1, 1] == pytest.approx(variance / 10.0, rel=1e-12)
     assert covariance[0, 0] == pytest.approx(variance * (0.2 + 9.0 / 10.0), rel=1e-12)
     held = independent(j, r, np.array([False, True]))
@@ -73,3 +118,18 @@ def test_collinear_and_absent_columns_are_not_seen() -> None:
     # The size of a column does not matter.
     scaled = seen(np.column_stack([a, 1e-9 * b]), np.ones(2, dtype=bool))
     assert scaled.all()
+
+
+def test_variance_of_a_parameter_and_of_independent_errors() -> None:
+    """The second is the first over the parameter's diagonal element of ``(J'J)^-1``."""
+    rng = np.random.default_rng(7)
+    j, r = rng.standard_normal((60, 3)), rng.standard_normal(60)
+    batch = np.repeat(np.arange(6), 10).astype(np.uint32)
+    # The parameter is taken as free, whether it was or not.
+    for held in (np.array([True, False, False]), np.array([True, False, True])):
+        variance, independently = variances(j, r, batch, held, 2, 1e-4)
+        among = np.array([True, False, True])
+        expected = sandwich(j, r, batch, among)[2, 2]
+        bread = np.linalg.inv(j[:, among].T @ j[:, among])[1, 1]
+        assert variance == pytest.approx(expected, rel=1e-10)
+        assert independently == pytest.approx(expected / bread, rel=1e-10)

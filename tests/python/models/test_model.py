@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from numpy.typing import NDArray
+from stribeck.base.errors import SpecError
 from stribeck.models.catalog import constants_of
 
 Array = NDArray[np.float64]
@@ -305,3 +306,31 @@ def test_split_adds_up_to_the_torque() -> None:
 def test_catalogs_are_frames() -> None:
     assert {"coulomb", "lugre", "bittencourt_a", "gantry_map"} <= set(sb.laws()["id"])
     assert {"load", "stribeck", "delay"} <= set(sb.effects()["id"])
+
+
+@pytest.mark.parametrize(
+    ("spec", "said"),
+    [
+        ("coulomb+coulomb", "'coulomb' is the law of this model already: leave the second one out"),
+        ("gms:4+gms:3", "'gms:3' is the law of this model already"),
+        ("coulomb+lugre", "'lugre' is a law, and a model has one law; an effect is needed"),
+        ("coulomb+viscous", "law 'coulomb' includes viscous friction (parameter viscous_friction)"),
+        ("stribeck", "'stribeck' is an effect, which is added to a law: write coulomb+stribeck"),
+        ("stribeck+lugre+load", "is an effect, which is added to a law: write lugre+stribeck+load"),
+        ("viscous", "is unknown; law 'coulomb' includes viscous friction"),
+        ("coulmb", "law 'coulmb' is unknown; did you mean 'coulomb'?"),
+        ("coulomb+lod", "effect 'lod' is unknown; did you mean 'load'?"),
+    ],
+)
+def test_a_spec_of_the_wrong_words_says_what_to_write(spec: str, said: str) -> None:
+    with pytest.raises(SpecError) as refused:
+        sb.model(spec)
+    assert said in str(refused.value)
+
+
+def test_the_spec_that_a_refusal_proposes_is_one() -> None:
+    """An effect alone, with a law after it, with another effect: the proposal can be used."""
+    for spec in ("stribeck", "load+lugre", "stribeck+load"):
+        with pytest.raises(SpecError, match="write ") as refused:
+            sb.model(spec)
+        assert sb.model(str(refused.value).partition("write ")[2]).law in ("coulomb", "lugre")
