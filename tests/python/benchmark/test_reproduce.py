@@ -16,6 +16,9 @@ from stribeck.benchmark.reproduce.text import reproduction_text
 
 #: Rows whose tolerance allows no doubt about what is compared: place and quantity.
 KNOWN = {
+    "gantry": ("table 1", "static friction"),
+    "ur5e_review": ("table 4", "coulomb, standard deviation"),
+    "indri": ("eq 14", "inertia_1"),
     "bittencourt": ("section II-B", "decay constant κ"),
     "tadese": ("table 2, joint 2", "sigma_1"),
 }

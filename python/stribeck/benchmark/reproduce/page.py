@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import base64
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
-from stribeck.base.files import save_figure, write_whole
+from stribeck.base.files import png_bytes, write_bytes_whole, write_whole
 from stribeck.benchmark.reproduce.result import Reproduction
 from stribeck.benchmark.reproduce.text import HEADING, cells, reasons, verdict
-from stribeck.report.page import picture_text, render
+from stribeck.report.page import render
 
 
-def reproduction_page(made: Reproduction) -> str:
-    """One HTML file without references: numbers, reasons, figures."""
+def reproduction_page(made: Reproduction, drawn: Sequence[bytes]) -> str:
+    """One HTML file without references: numbers, reasons, and the figures as PNG."""
     return render(
         "reproduction.html",
         made=made,
@@ -20,7 +22,10 @@ def reproduction_page(made: Reproduction) -> str:
         rows=[(cells(row), row.within, row.why) for row in made.rows],
         verdict=verdict(made),
         reasons=reasons(made.rows),
-        pictures=[(p.where, p.caption, picture_text(p.figure)) for p in made.pictures],
+        pictures=[
+            (p.where, p.caption, base64.b64encode(png).decode("ascii"))
+            for p, png in zip(made.pictures, drawn, strict=True)
+        ],
     )
 
 
@@ -34,12 +39,11 @@ def write_reproduction(made: Reproduction, folder: str | Path) -> list[str]:
     """
     target = Path(folder)
     target.mkdir(parents=True, exist_ok=True)
-    figures = []
-    for picture in made.pictures:
-        path = str(target / f"{made.paper}_{picture.name}.png")
-        save_figure(picture.figure, path)
-        figures.append(path)
+    drawn = [png_bytes(picture.figure) for picture in made.pictures]
+    figures = [str(target / f"{made.paper}_{picture.name}.png") for picture in made.pictures]
+    for path, png in zip(figures, drawn, strict=True):
+        write_bytes_whole(path, png)
     write_whole(target / "rows.csv", made.to_frame().write_csv())
     write_whole(target / "rows.json", json.dumps(made.to_dict(figures), indent=2) + "\n")
-    write_whole(target / f"{made.paper}.html", reproduction_page(made))
+    write_whole(target / f"{made.paper}.html", reproduction_page(made, drawn))
     return figures

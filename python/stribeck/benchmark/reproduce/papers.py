@@ -9,7 +9,7 @@ from stribeck.base.errors import SpecError, nearest
 from stribeck.benchmark.reproduce.result import Reproduction
 
 #: Name on the command line: module in this folder. Each has ``reproduce(seed, quick)``.
-PAPERS = ("tadese", "bittencourt")
+PAPERS = ("gantry", "ur5e_review", "tadese", "indri", "bittencourt")
 
 
 def reproduce(paper: str, *, seed: int = 0, quick: bool = False) -> Reproduction:
