@@ -15,6 +15,7 @@ from stribeck.diagnosis.residual.explainable import Explainable
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.testable import Untestable
+from stribeck.diagnosis.trend import Trend, trend
 from stribeck.diagnosis.visibility.result import Group, SmallestVisible
 from stribeck.fitting.result import Fit
 
@@ -115,6 +116,11 @@ class Diagnosis(Plotted):
         """Whether effects lower the held-out error that are demoted or not claimed."""
         return bool(self.demoted or self.not_claimed)
 
+    @cached_property
+    def trend(self) -> Trend | None:
+        """What changes along the recording, where no temperature was recorded to tell why."""
+        return trend(self.fit)
+
     def to_dict(self) -> dict[str, object]:
         """The JSON of `stribeck diagnose`."""
         made: dict[str, object] = {
@@ -129,6 +135,7 @@ class Diagnosis(Plotted):
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
             "explainable": self.explainable.to_dict() if self.explainable else None,
+            "trend": self.trend.to_dict() if self.trend else None,
             "smallest_visible": [row.to_dict() for row in self.smallest_visible],
             "indistinguishable_groups": [list(group.effects) for group in self.groups],
             "indistinguishable": [group.to_dict() for group in self.groups],

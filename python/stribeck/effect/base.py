@@ -149,6 +149,10 @@ def _no_columns(_: Identified) -> list[Array]:
     return []
 
 
+def _no_names(_: Recording) -> tuple[str, ...]:
+    return ()
+
+
 def _one_form(_: Recording) -> int:
     return 1
 
@@ -195,6 +199,8 @@ class Effect:
     unresolved
         Why the identified values lie beyond what the recording resolves, as a clause: a time
         constant longer than a move, a distance between two samples; None where they do not.
+    alike
+        Other effects that no motion tells from it on a recording, because a sensor is missing.
     part_of
         Another effect that contains this one on any motion.
     design_note
@@ -222,6 +228,7 @@ class Effect:
     size_range: tuple[float, float] | None = None
     forms: Callable[[Recording], int] = _one_form
     unresolved: Callable[[Identified], str | None] = _nothing
+    alike: Callable[[Recording], tuple[str, ...]] = _no_names
     part_of: str | None = None
     design_note: str = ""
     in_motion: InMotion = "acts"

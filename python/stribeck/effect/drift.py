@@ -33,12 +33,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
             "record the same motion again and again",
         )
     temperature = facts.scored(r.temperature)
-    if temperature is None:
-        return Obstacle(
-            "no temperature was recorded, and it may change friction as slowly as time",
-            "record the joint's temperature",
-        )
-    if spread(temperature) < SMALL_SPAN:
+    if temperature is None or spread(temperature) < SMALL_SPAN:
         return None
     correlation = float(scipy.stats.spearmanr(r.elapsed[r.moving], temperature).statistic)
     if abs(correlation) <= CORRELATED:
@@ -64,10 +59,18 @@ def _where(before: Identified, after: Identified) -> str:
     top = max(abs(x) for x in m.box["velocity"])
     first, last = m.split(top, time=np.array([0.0, end]))["dry"]
     way = "falls" if last < first else "rises"
-    return (
+    said = (
         f"dry friction {way} from {number(float(first))} to {number(float(last))} {m.torque_unit} "
-        f"over the {number(end)} s of the recording, more than temperature explains"
+        f"over the {number(end)} s of the recording, "
     )
+    if after.recording.temperature is None:
+        return f"{said}by wear or by temperature: record the temperature to tell"
+    return f"{said}more than temperature explains"
+
+
+def _alike(recording: Recording) -> tuple[str, ...]:
+    """Without a thermometer, temperature changes dry friction as slowly as time."""
+    return () if recording.temperature is not None else ("temperature_dry",)
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:
@@ -89,6 +92,7 @@ EFFECT = Effect(
     constants=_constants,
     generated_constants=_generated_constants,
     flexible_shape=_flexible_shape,
+    alike=_alike,
     design_note=(
         "wear and run-in take hours: run the motion again and again over a shift, and record the "
         "temperature; the figures are for a change within one run"

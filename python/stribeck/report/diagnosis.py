@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.residual.unexplained import Unexplained
     from stribeck.diagnosis.result import Diagnosis, Finding
     from stribeck.diagnosis.testable import Untestable
+    from stribeck.diagnosis.trend import Trend
     from stribeck.diagnosis.visibility.result import Group, SmallestVisible
 
 VERDICTS = {
@@ -57,6 +58,7 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         else "",
         paragraph(left_after(diagnosis), 0),
         paragraph(explainable_after(diagnosis), 0),
+        paragraph(trend_text(diagnosis.trend), 0),
         paragraph(following, 0),
         bullets(f"{VISIBLE}:", visible_rows(diagnosis.smallest_visible)),
         bullets(f"{ALIKE}:", group_rows(diagnosis.groups)),
@@ -235,6 +237,28 @@ def left_text(left: Unexplained) -> str:
     return (
         f"Unexplained structure remains: {percent(left.share)} of the squared held-out error is "
         f"more than noise{where}."
+    )
+
+
+def trend_text(found: Trend | None) -> str:
+    """What changes along the recording, and what would tell why."""
+    if found is None:
+        return ""
+    shown = [
+        f"{name} {'rises' if change.share > 0.0 else 'falls'} by {percent(abs(change.share))} "
+        f"(± {percent(change.stderr)})"
+        for name, change in found.changes.items()
+        if change.clear
+    ]
+    said = f"Over the {plain(found.seconds)} s of the recording {listed(shown)}"
+    if found.cause == "gain":
+        return (
+            f"{said}: all by the same share, so it is the gain of the motor torque (magnets weaken "
+            f"with heat) rather than friction."
+        )
+    return (
+        f"{said}. No temperature was recorded: this may be temperature, wear or run-in. Record the "
+        f"temperature to tell."
     )
 
 

@@ -14,6 +14,7 @@ from stribeck.report.diagnosis import (
     hedged,
     left_text,
     nothing_found,
+    trend_text,
     untestable_text,
 )
 from stribeck.report.fit import PASSIVITY, errors_text
@@ -62,6 +63,7 @@ def improvement_text(improvement: Improvement) -> str:
         paragraph(f"{stopped} {left_text(improvement.unexplained)}", 0),
         paragraph("" if is_structure else _above_the_floor(final, floor), 0),
         paragraph(explainable_text(improvement.last.explainable, final.model.spec, unit), 0),
+        paragraph(trend_text(improvement.last.trend), 0),
         f"Final model: {final.model.spec}",
         parameters_text(final.estimates),
         open_text(final.estimates),

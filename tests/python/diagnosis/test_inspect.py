@@ -48,7 +48,7 @@ def test_contract_keys(tmp_path: Path) -> None:
 def test_testable_and_untestable_are_all_effects(tmp_path: Path) -> None:
     answer = inspect(write(tmp_path, joint(rows=1500).drop("temperature"))).to_dict()
     cannot = {row["effect"] for row in answer["untestable"]}
-    assert cannot == {"temperature_viscous", "temperature_dry", "drift"}
+    assert cannot == {"temperature_viscous", "temperature_dry"}
     assert set(answer["testable"]) | cannot == set(effect_ids())
     assert not set(answer["testable"]) & cannot
     for row in answer["untestable"]:

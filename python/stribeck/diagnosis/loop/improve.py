@@ -97,6 +97,7 @@ class Improvement(Plotted):
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
             "explainable": self.last.explainable.to_dict() if self.last.explainable else None,
+            "trend": self.last.trend.to_dict() if self.last.trend else None,
             "smallest_visible": [row.to_dict() for row in self.last.smallest_visible],
             "indistinguishable": [group.to_dict() for group in self.last.groups],
             "scored": self.final.recording.scored(),

@@ -24,6 +24,7 @@ from stribeck.diagnosis.trials.trial import (
     tie_weight,
 )
 from stribeck.effect.describe import is_friction, where
+from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 
 #: An effect that brings this share of the fall of the best, and adds nothing to it, is a tie.
@@ -162,14 +163,16 @@ def _doubtful_ties(
 def _finding(
     before: Fit, trial: Trial, confidence: float, others: tuple[str, ...], floor: NoiseFloor
 ) -> Finding:
+    known = find(trial.effect)
+    alike = () if known is None else known.alike(before.recording)
     return Finding(
         effect=trial.effect,
-        confidence=confidence,
+        confidence=confidence / (1 + len(alike)),
         rmse_held_out_before=float(before.rmse_held_out or np.nan),
         rmse_held_out_after=float(trial.fit.rmse_held_out or np.nan),
         share_of_unexplained=share_of_unexplained(before, trial.fit, floor),
         where=where(trial.effect, before, trial.fit),
-        indistinguishable_from=others,
+        indistinguishable_from=(*others, *alike),
         fit=trial.fit,
         before=before,
     )

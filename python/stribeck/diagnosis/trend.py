@@ -1,0 +1,169 @@
+"""Friction that changes steadily along a recording, without a thermometer that could say why.
+
+The parts of a fitted model may each change in proportion to time: dry friction, friction that grows
+with speed, and the load torque of inertia and gravity. Lubricant that warms changes friction alone.
+Magnets that warm, or an amplifier, change the motor torque of every part by the same share.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from stribeck.base import linear
+from stribeck.base.errors import StribeckError
+from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
+from stribeck.identify.covariance import batches, correlation_length, covariance_of
+from stribeck.identify.estimates import APART
+from stribeck.identify.figures import rms
+from stribeck.identify.problem import Problem
+
+Array = NDArray[np.float64]
+
+#: Names of the parts.
+DRY, VISCOUS, LOAD = "dry friction", "viscous friction", "load"
+#: Significance level of a trend, over all parts together.
+SIGNIFICANCE = 0.001
+#: Least share by which the RMSE must fall.
+LEAST_FALL = 0.01
+#: Standard errors within which shares of change are the same.
+SAME = 2.0
+#: A part with a smaller share of the torque says nothing about a change of its own.
+LEAST_PART = 0.02
+
+
+@dataclass(frozen=True)
+class Change:
+    """Change of one part from the start of a recording to its end, as a share of its mean."""
+
+    share: float
+    stderr: float
+    clear: bool
+
+    def to_dict(self) -> dict[str, object]:
+        """As JSON."""
+        return {"share": self.share, "stderr": self.stderr, "clear": self.clear}
+
+
+@dataclass(frozen=True)
+class Trend:
+    """Parts of a model that change steadily along a recording.
+
+    Attributes
+    ----------
+    seconds
+        Duration of the recording.
+    changes
+        By part, ``"dry friction"``, ``"viscous friction"`` and ``"load"``; `clear` where the change
+        is significant.
+    fall
+        Relative fall of the RMSE with these changes.
+    cause : {"gain", "friction"}
+        ``"gain"`` where the load changes, and friction by the same share.
+    """
+
+    seconds: float
+    changes: Mapping[str, Change]
+    fall: float
+    cause: str
+
+    def to_dict(self) -> dict[str, object]:
+        """As JSON."""
+        return {
+            "seconds": self.seconds,
+            "changes": {name: change.to_dict() for name, change in self.changes.items()},
+            "fall": self.fall,
+            "cause": self.cause,
+            "indistinguishable_from": [] if self.cause == "gain" else ["temperature", "drift"],
+        }
+
+
+def trend(fitted: Fit) -> Trend | None:
+    """The trend that `fitted` leaves; None where there is none, or a temperature was recorded.
+
+    The model is linearised, and each part multiplied by time is added to it.
+    """
+    r = fitted.recording
+    if r.temperature is not None or r.averaged or "drift" in fitted.model.effects:
+        return None
+    try:
+        parts = _parts(fitted)
+        problem = Problem(r, fitted.model, fitted.rows, fitted.load)
+        _, jacobian = problem.linearise(fitted.model.values)
+    except StribeckError:
+        return None
+    seconds = float(r.elapsed[-1] - r.elapsed[0])
+    if DRY not in parts or not seconds > 0.0:
+        return None
+    share = (r.elapsed[fitted.rows] - r.elapsed[0]) / seconds - 0.5
+    # A known load has no parameter of its own; its scale may be wrong throughout.
+    known = [parts[LOAD]] if r.load_torque is not None and LOAD in parts else []
+    columns = np.column_stack([jacobian, *known, *(part * share for part in parts.values())])
+    return _found(fitted, columns, list(parts), seconds)
+
+
+def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Trend | None:
+    """The trend in the last columns [m, p + k] of a linearised fit."""
+    residual = fitted.weighted(fitted.residual[fitted.rows])
+    columns = np.column_stack([fitted.weighted(column) for column in columns.T])
+    size = np.sqrt((columns**2).mean(axis=0))
+    scaled = columns[:, size > 0.0] / size[size > 0.0]
+    values = linear.least_norm(scaled, residual, 1e-8)
+    left = residual - scaled @ values
+    fall = 1.0 - rms(left) / rms(residual) if rms(residual) > 0.0 else 0.0
+    batch = batches(left.size, correlation_length(left), fewest=20)
+    free = np.ones(scaled.shape[1], dtype=bool)
+    covariance, freedom = covariance_of(scaled, left, batch, free, APART)
+    count = len(names)
+    shares = values[-count:] / size[-count:]
+    errors = np.sqrt(np.diag(covariance)[-count:]) / size[-count:]
+    least = float(scipy.special.stdtrit(freedom, 1.0 - SIGNIFICANCE / 2.0 / count))
+    clear = (errors > 0.0) & (np.abs(shares) > least * errors)
+    if fall < LEAST_FALL or not clear.any():
+        return None
+    changes = {
+        name: Change(float(share), float(error), bool(shown))
+        for name, share, error, shown in zip(names, shares, errors, clear, strict=True)
+    }
+    return Trend(seconds, changes, fall, _cause(changes))
+
+
+def _parts(fitted: Fit) -> dict[str, Array]:
+    """Torque of each part on the samples fitted to, arrays [m]; without those that are small."""
+    r, rows = fitted.recording, fitted.rows
+    load = r.load_torque
+    if load is None:
+        load = fitted.load if fitted.load is not None else own_load(fitted.model, r)
+    columns = {
+        "position": r.position,
+        "acceleration": r.acceleration,
+        "load_torque": load,
+        "external_torque": r.external_torque,
+    }
+    given = {name: column[rows] for name, column in columns.items() if column is not None}
+    friction = fitted.model.split(r.velocity[rows], **given)
+    made = {
+        DRY: np.sign(r.velocity[rows]) * friction["dry"],
+        VISCOUS: friction["rate"],
+    }
+    if load is not None and (r.load_torque is None or r.torque_holds_load):
+        made[LOAD] = load[rows]
+    whole = rms(r.torque[rows])
+    return {name: part for name, part in made.items() if rms(part) > LEAST_PART * whole}
+
+
+def _cause(changes: Mapping[str, Change]) -> str:
+    """Whether all parts change by the same share, the load among them."""
+    load = changes.get(LOAD)
+    if load is None or not load.clear:
+        return "friction"
+    same = all(
+        abs(change.share - load.share) <= SAME * float(np.hypot(change.stderr, load.stderr))
+        for change in changes.values()
+    )
+    return "gain" if same else "friction"

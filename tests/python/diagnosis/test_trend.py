@@ -1,0 +1,71 @@
+"""What changes along a recording without a thermometer, and what cannot be told of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.trend import DRY, LOAD, VISCOUS, trend
+from stribeck.report.diagnosis import trend_text
+from synthetic import COULOMB, joint, motion, record
+from synthetic import VISCOUS as COEFFICIENT
+from synthetic import Array as Torque
+
+ROWS, RATE = 8000, 20.0
+T, _, V, _ = motion(ROWS, RATE)
+LATER = T / T[-1]
+
+
+def drifting(folder: Path, extra: Torque) -> sb.Recording:
+    """400 s of a joint without a thermometer, with `extra` torque."""
+    return record(folder, joint(extra, rows=ROWS, rate=RATE).drop("temperature"))
+
+
+@pytest.mark.parametrize(
+    ("part", "extra"),
+    [(VISCOUS, -0.15 * COEFFICIENT * V * LATER), (DRY, -0.1 * COULOMB * np.sign(V) * LATER)],
+)
+def test_the_part_that_changes(tmp_path: Path, part: str, extra: Torque) -> None:
+    """The share is that of the mean: 0.15 of the start is 0.162 of the middle."""
+    found = trend(sb.fit("coulomb", drifting(tmp_path, extra), starts=1))
+    assert found is not None and found.cause == "friction"
+    assert [name for name, change in found.changes.items() if change.clear] == [part]
+    share = -0.15 / 0.925 if part == VISCOUS else -0.1 / 0.95
+    assert found.changes[part].share == pytest.approx(share, rel=0.03)
+    said = trend_text(found)
+    assert part in said and "Record the temperature to tell" in said
+
+
+def test_load_and_friction_that_shrink_alike_are_the_gain(tmp_path: Path) -> None:
+    load = joint(rows=ROWS, rate=RATE)["load_torque"].to_numpy()
+    extra = -0.05 * LATER * (load + COULOMB * np.sign(V) + COEFFICIENT * V)
+    fitted = sb.fit("coulomb", drifting(tmp_path, extra), starts=1)
+    found = trend(fitted)
+    assert found is not None and found.cause == "gain"
+    assert found.changes[LOAD].share == pytest.approx(-0.05, rel=0.05)
+    assert "rather than friction" in trend_text(found)
+    assert "drift" not in {row.effect for row in sb.diagnose(fitted).findings}
+
+
+def test_drift_without_a_thermometer_is_tied_with_temperature(tmp_path: Path) -> None:
+    recording = drifting(tmp_path, -0.1 * COULOMB * np.sign(V) * LATER)
+    said = sb.diagnose(sb.fit("coulomb", recording, starts=1))
+    assert said.findings[0].effect == "drift"
+    assert said.findings[0].confidence == pytest.approx(0.5, abs=0.01)
+    assert said.findings[0].indistinguishable_from == ("temperature_dry",)
+    assert "record the temperature to tell" in said.findings[0].where
+
+
+def test_a_drift_of_viscous_friction_is_not_called_one_of_dry_friction(tmp_path: Path) -> None:
+    recording = drifting(tmp_path, -0.15 * COEFFICIENT * V * LATER)
+    said = sb.diagnose(sb.fit("coulomb", recording, starts=1))
+    assert "drift" not in {row.effect for row in said.findings}
+    assert said.to_dict()["trend"]["changes"][VISCOUS]["clear"]
+
+
+def test_nothing_changes_or_a_thermometer_says_why(tmp_path: Path) -> None:
+    assert trend(sb.fit("coulomb", drifting(tmp_path, np.zeros(ROWS)), starts=1)) is None
+    warm = joint(-0.15 * COEFFICIENT * V * LATER, rows=ROWS, rate=RATE)
+    assert trend(sb.fit("coulomb", record(tmp_path, warm, "warm"), starts=1)) is None
