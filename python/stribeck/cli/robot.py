@@ -9,18 +9,23 @@ from stribeck.cli.common import (
     echo_json,
     echo_result,
     json_option,
+    least_fall_option,
     recording_options,
     say,
     seed_option,
     starts_option,
 )
-from stribeck.cli.options import Command, Values, gathered
+from stribeck.cli.data import split
+from stribeck.cli.options import Command, Values, added, gathered
 from stribeck.cli.outputs import CheckedCommand
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.compare import compare_robots
 from stribeck.robot.describe import read_robot
+from stribeck.robot.diagnosis import RobotDiagnosis
 from stribeck.robot.fit import ORDINARY, fit_robot
+from stribeck.robot.improve import MOST_STEPS, improve_robot
 from stribeck.robot.motion import RobotMotion, read_motion
 
 runs_argument = click.argument("runs", nargs=-1, required=True, metavar="RUNS...")
@@ -167,5 +172,132 @@ def fit(
         evaluate=others,
         starts=starts,
         seed=seed,
+    )
+    echo_result(found, as_json)
+
+
+@robot.command(cls=CheckedCommand)
+@click.argument("arguments", nargs=-1, required=True, metavar="RUNS... SPEC...")
+@robot_options
+@payload_option
+@evaluate_option
+@cutoff_option
+@starts_option
+@recording_options
+@seed_option
+@json_option
+def compare(
+    arguments: tuple[str, ...],
+    described: Robot,
+    payload: tuple[str, ...],
+    evaluate: tuple[str, ...],
+    cutoff: float | None,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Compare laws, each on all joints, with RUNS."""
+    runs, specs = split(arguments)
+    if not specs:
+        raise SpecError("no model is given: name laws, such as coulomb+offset or coulomb+load")
+    motion = read_runs(described, runs, reading, cutoff)
+    others = [read_runs(described, (path,), reading, motion.cutoff) for path in evaluate]
+    found = compare_robots(
+        motion, specs, payload=payload, evaluate=others, starts=starts, seed=seed
+    )
+    echo_result(found, as_json)
+
+
+def loop_options(command: Command) -> Command:
+    """Add the options that `diagnose` and `improve` share."""
+    return added(
+        (
+            runs_argument,
+            robot_options,
+            click.option("--base", default=ORDINARY, show_default=True, help="LAW[+effect...]."),
+            joint_model_option,
+            payload_option,
+            cutoff_option,
+            least_fall_option,
+            starts_option,
+            recording_options,
+            seed_option,
+            json_option,
+        ),
+        command,
+    )
+
+
+@robot.command(cls=CheckedCommand)
+@loop_options
+def diagnose(
+    runs: tuple[str, ...],
+    described: Robot,
+    base: str,
+    joint_model: tuple[str, ...],
+    payload: tuple[str, ...],
+    cutoff: float | None,
+    least_fall: float,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Find which effect each joint lacks, and causes in the rigid bodies, on RUNS."""
+    motion = read_runs(described, runs, reading, cutoff)
+    found = improve_robot(
+        motion,
+        base,
+        of_joints=by_joint(joint_model),
+        payload=payload,
+        starts=starts,
+        seed=seed,
+        least_fall=least_fall,
+        most_steps=0,
+        progress=lambda sentence: say(f"note: {sentence}"),
+    )
+    echo_result(RobotDiagnosis.of(found), as_json)
+
+
+@robot.command(cls=CheckedCommand)
+@loop_options
+@evaluate_option
+@click.option(
+    "--max-steps",
+    type=click.IntRange(min=0),
+    default=MOST_STEPS,
+    show_default=True,
+    help="Largest number of effects to add to one joint.",
+)
+def improve(
+    runs: tuple[str, ...],
+    described: Robot,
+    base: str,
+    joint_model: tuple[str, ...],
+    payload: tuple[str, ...],
+    evaluate: tuple[str, ...],
+    cutoff: float | None,
+    least_fall: float,
+    max_steps: int,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Add to each joint the effects that it lacks, all joints identified together on RUNS."""
+    motion = read_runs(described, runs, reading, cutoff)
+    others = [read_runs(described, (path,), reading, motion.cutoff) for path in evaluate]
+    found = improve_robot(
+        motion,
+        base,
+        of_joints=by_joint(joint_model),
+        payload=payload,
+        evaluate=others,
+        starts=starts,
+        seed=seed,
+        least_fall=least_fall,
+        most_steps=max_steps,
+        progress=lambda sentence: say(f"note: {sentence}"),
     )
     echo_result(found, as_json)

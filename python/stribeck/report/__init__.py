@@ -22,6 +22,12 @@ RENDERERS: dict[str, dict[str, str]] = {
         "text": "robot:robot_fit_text",
         "notebook": "notebook:frame",
     },
+    "stribeck.robot.compare:RobotComparison": {
+        "text": "robot:robot_comparison_text",
+        "notebook": "notebook:frame",
+    },
+    "stribeck.robot.diagnosis:RobotDiagnosis": {"text": "robot:robot_diagnosis_text"},
+    "stribeck.robot.improve:RobotImprovement": {"text": "robot:robot_improvement_text"},
     "stribeck.fitting.methods.arm:ArmFit": {
         "text": "methods:arm_text",
         "notebook": "notebook:frame",

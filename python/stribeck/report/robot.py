@@ -11,6 +11,10 @@ from stribeck.report.numbers import DASH, percent, plain, unit_text, with_error
 
 if TYPE_CHECKING:
     from stribeck.robot.arm import Robot
+    from stribeck.robot.causes import Found
+    from stribeck.robot.compare import RobotComparison
+    from stribeck.robot.diagnosis import RobotDiagnosis
+    from stribeck.robot.improve import RobotImprovement
     from stribeck.robot.result import Evaluated, JointFit, Payload, RobotFit
 
 #: Base parameters that a terminal shows; the JSON has all.
@@ -126,3 +130,91 @@ def evaluated_text(joints: Sequence[JointFit], row: Evaluated) -> str:
     ):
         rows.append([joint.joint, percent(mine), percent(other), f"{ratio:.2f}"])
     return f"{Path(row.path).name}, not fitted:\n{table(rows, right=[1, 2, 3])}"
+
+
+def robot_comparison_text(compared: RobotComparison) -> str:
+    """Relative errors, one column a model."""
+    rows = [["joint", *compared.specs]]
+    for k, joint in enumerate(compared.fits[0].joints):
+        errors = [percent(found.joints[k].relative_residual_held_out) for found in compared.fits]
+        rows.append([joint.joint, *errors])
+    columns = range(1, len(compared.specs) + 1)
+    legend = (
+        "Held-out residual over torque, both filtered; held out by "
+        f"{compared.fits[0].solved.balance.held_out}."
+    )
+    evaluated = [
+        f"{Path(row.path).name}, not fitted, {spec}: "
+        + ", ".join(percent(error) for error in row.relative_residual)
+        for spec, found in zip(compared.specs, compared.fits, strict=True)
+        for row in found.evaluated
+    ]
+    return joined(table(rows, right=columns), paragraph(legend), "\n".join(evaluated))
+
+
+def robot_diagnosis_text(found: RobotDiagnosis) -> str:
+    """What each joint lacks, and causes in the rigid bodies."""
+    rows = [["joint", "model", "lacks", "RMSE held out", "", "confidence"]]
+    for name, joint in found.joints.items():
+        first = joint.findings[0] if joint.findings else None
+        if first is None:
+            said = "nothing that passes" if joint.verdict == "none" else "nothing; unexplained"
+            rows.append([name, joint.fit.model.spec, said, "", "", ""])
+            continue
+        before, after = plain(first.rmse_held_out_before), plain(first.rmse_held_out_after)
+        unit = joint.fit.model.torque_unit
+        others = "".join(f" or {other}" for other in first.indistinguishable_from)
+        lacks = f"{first.effect}{others}"
+        spec, sure = joint.fit.model.spec, percent(first.confidence)
+        rows.append([name, spec, lacks, f"{before} → {after}", unit, sure])
+    return joined(
+        table(rows, right=[3]),
+        causes_text(found.rigid_body),
+        "" if found.fit.payload is None else _payload_text(found.fit.payload),
+    )
+
+
+def causes_text(found: Sequence[Found]) -> str:
+    """Causes in the rigid bodies, best first."""
+    if not found:
+        return paragraph(
+            "Rigid bodies: no payload, spring, coupled rotor or tilt of the base lowers the "
+            "held-out error significantly.",
+            0,
+        )
+    rows = [["in the rigid bodies", "error of all joints", "most on joint", "confidence"]]
+    for one in found:
+        joint, fall = one.joints[0]
+        error = f"{one.before:.3f} → {one.after:.3f}"
+        rows.append(
+            [one.cause.text, error, f"{joint} ({percent(fall)} less)", percent(one.confidence)]
+        )
+    return table(rows)
+
+
+def robot_improvement_text(found: RobotImprovement) -> str:
+    """The effects added to each joint, and the robot with them."""
+    rows = [["joint", "added", "RMSE held out", "", "relative"]]
+    for name, steps in found.steps.items():
+        for step in steps:
+            before, after = step.before, step.after
+            rmse = f"{plain(before.rmse_held_out)} → {plain(after.rmse_held_out)}"
+            relative = (
+                f"{percent(before.relative_residual_held_out)} → "
+                f"{percent(after.relative_residual_held_out)}"
+            )
+            unit = after.model.torque_unit
+            rows.append([name, step.finding.effect, rmse, unit, relative])
+    added = table(rows, right=[2, 4]) if len(rows) > 1 else "No effect is added."
+    where = [
+        paragraph(f"joint {name}, {step.finding.effect}: {step.finding.where}.", 2, 2)
+        for name, steps in found.steps.items()
+        for step in steps
+    ]
+    return joined(
+        f"Improving {found.base.solved.balance.base.robot.name}",
+        added,
+        "\n".join(where),
+        causes_text(found.rigid_body),
+        robot_fit_text(found.final),
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal, TypedDict
 
@@ -137,6 +137,16 @@ class Robot(Shown):
     def core(self) -> _core.RigidBodies:
         """The rigid bodies, in the compiled core."""
         return _core.RigidBodies([joint.row() for joint in self.joints], list(self.gravity))
+
+    def with_bodies(
+        self, parameters: Array, gravity: tuple[float, float, float] | None = None
+    ) -> Robot:
+        """The robot with inertial parameters and rotor inertias [N, 11], and another gravity."""
+        joints = tuple(
+            replace(joint, inertial=np.asarray(row[:10]), rotor=float(row[10]))
+            for joint, row in zip(self.joints, parameters, strict=True)
+        )
+        return replace(self, joints=joints, gravity=self.gravity if gravity is None else gravity)
 
     def regressor(self, position: Array, velocity: Array, acceleration: Array) -> Array:
         """Derivatives of the torques by the inertial parameters, array [n, N, 11 N].

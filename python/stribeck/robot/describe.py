@@ -51,13 +51,13 @@ def _rows(text: TomlText, content: Mapping[str, object]) -> list[Mapping[str, ob
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise text.stop("[[joint]] is a list of tables", "joint")
     for row in rows:
-        text.check_keys(row, _ROW)
+        text.check_keys(row, _ROW, "[[joint]]")
         for key in _NUMBERS:
             value = row.get(key, 0.0)
             if not isinstance(value, int | float) or not math.isfinite(value):
-                raise text.stop(f"{key} is a number, not {value!r}", key)
+                raise text.stop(f"{key} is a number, not {value!r}", "[[joint]]", key)
         if row.get("drive_gain", 1.0) == 0.0:
-            raise text.stop("drive_gain is not 0", "drive_gain")
+            raise text.stop("drive_gain is not 0", "[[joint]]", "drive_gain")
     return rows
 
 

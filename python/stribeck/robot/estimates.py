@@ -55,33 +55,70 @@ def base_estimates(solved: Solved) -> Errors:
     return Errors(rows, covariance, seen(jacobian, ~held, APART), at_bound, quantile)
 
 
+@dataclass(frozen=True)
+class Scores:
+    """Errors of every joint: RMS of the residual over scored samples.
+
+    Attributes
+    ----------
+    raw, raw_held_out : arrays [N]
+        Of the torque as recorded.
+    filtered, filtered_held_out : arrays [N]
+        After the low-pass.
+    cells : array [N, cells]
+        Held-out sums of squares after the low-pass.
+    """
+
+    raw: Array
+    raw_held_out: Array
+    filtered: Array
+    filtered_held_out: Array
+    cells: Array
+
+    @classmethod
+    def of(cls, solved: Solved, *, raw: bool = True) -> Scores:
+        """Errors on the samples fitted to, and without the group of each sample.
+
+        Without `raw`, those of the torque as recorded are not computed: they are the filtered ones.
+        """
+        balance = solved.balance
+        rows = np.maximum(balance.motion.scored.sum(axis=0), 1)
+        steps = solved.held_out_steps()
+        figures = []
+        as_recorded = balance.factors(solved.values, filtered=False) if raw else solved.factors
+        for factors in (as_recorded, solved.factors):
+            fitted = np.array([joint.square(solved.every) for joint in factors])
+            left = np.zeros((len(factors), balance.group_of_cell.size))
+            for j, (joint, place) in enumerate(zip(factors, solved.places(), strict=True)):
+                for group, step in steps.items():
+                    cells = balance.group_of_cell == group
+                    left[j, cells] = joint.squares_after(step[place], cells)
+            figures.append((fitted, left))
+        (recorded, recorded_left), (filtered, filtered_left) = figures
+        return cls(
+            np.sqrt(recorded / rows),
+            np.sqrt(recorded_left.sum(axis=1) / rows),
+            np.sqrt(filtered / rows),
+            np.sqrt(filtered_left.sum(axis=1) / rows),
+            filtered_left,
+        )
+
+
 def joint_fits(solved: Solved, errors: Errors) -> tuple[JointFit, ...]:
     """The friction of each joint, with its errors on the samples fitted to and held out."""
-    balance, motion = solved.balance, solved.balance.motion
-    raw = balance.factors(solved.values, filtered=False)
-    steps = solved.held_out_steps()
-    rows = np.maximum(motion.scored.sum(axis=0), 1)
+    balance, scores = solved.balance, Scores.of(solved)
     made = []
-    for joint, (model, place) in enumerate(zip(balance.models, solved.places(), strict=True)):
-        figures = []
-        for factors in (raw[joint], solved.factors[joint]):
-            fitted = factors.square(solved.every)
-            left = sum(
-                factors.square_after(step[place], balance.group_of_cell == group)
-                for group, step in steps.items()
-            )
-            figures.append([float(np.sqrt(square / rows[joint])) for square in (fitted, left)])
+    for joint, model in enumerate(balance.models):
         size = balance.torque_size(joint)
-        (rmse, held_out), (filtered, filtered_held_out) = figures
         made.append(
             JointFit(
-                motion.robot.names[joint],
+                balance.motion.robot.names[joint],
                 model.with_values(solved.values.friction[joint]),
                 _of_joint(solved, errors, joint),
-                rmse,
-                held_out,
-                filtered / size,
-                filtered_held_out / size,
+                float(scores.raw[joint]),
+                float(scores.raw_held_out[joint]),
+                float(scores.filtered[joint]) / size,
+                float(scores.filtered_held_out[joint]) / size,
             )
         )
     return tuple(made)
@@ -108,16 +145,19 @@ def _of_joint(solved: Solved, errors: Errors, joint: int) -> dict[str, Estimate]
 
 def payload_of(solved: Solved, errors: Errors) -> Payload | None:
     """The payload, where runs carry one; its columns follow the base parameters."""
-    runs = solved.balance.payload
-    if not runs:
-        return None
     first = solved.balance.base.count
+    for cause in solved.balance.causes:
+        if cause.id == "payload":
+            break
+        first += cause.columns.shape[2]
+    else:
+        return None
     mass, *moment = solved.values.base[first : first + 4]
     error = float(np.sqrt(errors.covariance[first, first]))
     reach = errors.quantile * error
     centre = tuple(float(m / mass) for m in moment) if mass > 0 else None
     return Payload(
-        runs,
+        cause.runs,
         float(mass),
         error,
         (float(mass - reach), float(mass + reach)),

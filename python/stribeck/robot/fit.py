@@ -12,6 +12,8 @@ from stribeck.fitting.fit import fit
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.models.model import Model
 from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.columns import Cause, RigidColumns
+from stribeck.robot.columns import payload as payload_in
 from stribeck.robot.consistent import consistent_bodies
 from stribeck.robot.estimates import base_estimates, joint_fits, payload_of
 from stribeck.robot.motion import RobotMotion
@@ -55,32 +57,29 @@ def fit_robot(
         A joint or run that does not exist; a joint that does not move.
     """
     began = time.perf_counter()
-    specs = _specs(motion, spec, of_joints or {})
-    _check(motion, payload)
-    base = BaseParameters.of(motion.robot)
-    ordinary = solve_ordinary(motion, base, payload)
+    specs = specs_of(motion, spec, of_joints or {})
+    check_runs(motion, payload)
+    rigid = RigidColumns(motion, BaseParameters.of(motion.robot))
+    causes = (payload_in(motion, tuple(payload)),) if payload else ()
+    ordinary = solve_ordinary(rigid, causes)
     solved = ordinary
     if any(chosen != ORDINARY for chosen in specs):
         solved = solve_laws(motion, specs, ordinary, starts=starts, seed=seed)
     return result_of(solved, ordinary, evaluate, time.perf_counter() - began)
 
 
-def solve_ordinary(motion: RobotMotion, base: BaseParameters, payload: Sequence[str]) -> Solved:
+def solve_ordinary(rigid: RigidColumns, causes: tuple[Cause, ...]) -> Solved:
     """The ordinary model of every joint, from zero."""
-    models = tuple(
-        model_for(ORDINARY, motion.with_load(j, np.zeros(motion.rows)))
-        for j in range(len(motion.joints))
-    )
-    balance = Balance(motion, base, models, tuple(payload))
-    start = Values(
-        np.zeros(balance.columns.shape[2]), tuple(_start(balance, j) for j in range(len(models)))
-    )
-    return solve(balance, start)
-
-
-def _start(balance: Balance, joint: int) -> np.ndarray:
-    lower, upper, _ = bounds(balance.models[joint], balance.motion.joints[joint])
-    return np.clip(0.0, lower, upper)
+    motion = rigid.motion
+    nothing = np.zeros(motion.rows)
+    models, friction = [], []
+    for joint in range(len(motion.joints)):
+        recording = motion.with_load(joint, nothing)
+        models.append(model_for(ORDINARY, recording))
+        lower, upper, _ = bounds(models[-1], recording)
+        friction.append(np.clip(0.0, lower, upper))
+    balance = Balance(rigid, tuple(models), causes)
+    return solve(balance, Values(np.zeros(balance.columns.shape[2]), tuple(friction)))
 
 
 def solve_laws(
@@ -97,7 +96,7 @@ def solve_laws(
         alone = fit(spec, motion.with_load(joint, load[:, joint]), starts=starts, seed=seed)
         models.append(alone.model)
         friction.append(np.asarray(alone.model.values, dtype=np.float64))
-    balance = Balance(motion, near.balance.base, tuple(models), near.balance.payload)
+    balance = Balance(near.balance.rigid, tuple(models), near.balance.causes)
     return solve(balance, Values(near.values.base, tuple(friction)), near.weights)
 
 
@@ -133,7 +132,7 @@ def scored_on(solved: Solved, ordinary: Solved, motion: RobotMotion) -> Evaluate
 def _errors(solved: Solved, motion: RobotMotion) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """RMSE of every joint as recorded, and relative error after the low-pass."""
     base = solved.balance.base
-    balance = Balance(motion, base, solved.balance.models)
+    balance = Balance(RigidColumns(motion, base), solved.balance.models)
     values = Values(solved.values.base[: base.count], solved.values.friction)
     rows = np.maximum(motion.scored.sum(axis=0), 1)
     every = np.ones(balance.group_of_cell.size, dtype=bool)
@@ -148,7 +147,7 @@ def _errors(solved: Solved, motion: RobotMotion) -> tuple[tuple[float, ...], tup
     return tuple(sizes(filtered=False)), relative
 
 
-def _specs(motion: RobotMotion, spec: str, of_joints: Mapping[str, str]) -> list[str]:
+def specs_of(motion: RobotMotion, spec: str, of_joints: Mapping[str, str]) -> list[str]:
     names = motion.robot.names
     for name in of_joints:
         if name not in names:
@@ -157,7 +156,7 @@ def _specs(motion: RobotMotion, spec: str, of_joints: Mapping[str, str]) -> list
     return [of_joints.get(name, spec) for name in names]
 
 
-def _check(motion: RobotMotion, payload: Sequence[str]) -> None:
+def check_runs(motion: RobotMotion, payload: Sequence[str]) -> None:
     for name, moving in zip(motion.robot.names, motion.scored.T, strict=True):
         if not moving.any():
             raise FitError(

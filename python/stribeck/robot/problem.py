@@ -20,6 +20,7 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds
 from stribeck.models.model import Model
 from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.columns import Cause, RigidColumns
 from stribeck.robot.motion import RobotMotion
 
 Array = NDArray[np.float64]
@@ -61,14 +62,20 @@ class Factors:
 
     whole: Array
 
+    def after(self, step: Array) -> Factors:
+        """The factors after a step [b + p_j], where the torque is linear in the parameters."""
+        moved = self.whole.copy()
+        moved[:, :, -1] -= self.whole[:, :, :-1] @ step
+        return Factors(moved)
+
     def square(self, cells: NDArray[np.bool_]) -> float:
         """Sum of squares of r over some cells."""
         return float(np.sum(self.whole[cells, :, -1] ** 2))
 
-    def square_after(self, step: Array, cells: NDArray[np.bool_]) -> float:
-        """The same after a step [b + p_j]."""
+    def squares_after(self, step: Array, cells: NDArray[np.bool_]) -> Array:
+        """Sums of squares of some cells after a step [b + p_j], one a cell."""
         left = self.whole[cells, :, -1] - self.whole[cells, :, :-1] @ step
-        return float(np.sum(left**2))
+        return np.asarray(np.sum(left**2, axis=1))
 
 
 @dataclass(frozen=True)
@@ -79,31 +86,37 @@ class Balance:
     ----------
     models
         Friction of each joint.
-    payload
-        Runs in which the last link carries a payload of unknown inertia.
+    causes
+        What loads the joints beside the rigid bodies, such as a payload.
+    by_block
+        Whether blocks are held out although there are several runs.
     """
 
-    motion: RobotMotion
-    base: BaseParameters
+    rigid: RigidColumns
     models: tuple[Model, ...]
-    payload: tuple[str, ...] = ()
+    causes: tuple[Cause, ...] = ()
+    by_block: bool = False
+
+    @property
+    def motion(self) -> RobotMotion:
+        """The motion."""
+        return self.rigid.motion
+
+    @property
+    def base(self) -> BaseParameters:
+        """The base parameters."""
+        return self.rigid.base
 
     @cached_property
     def columns(self) -> Array:
-        """Regressor of base parameters, and of the payload where there is one, array [n, N, b]."""
-        chosen = self.motion.regressor[:, :, self.base.chosen]
-        if not self.payload:
-            return chosen
-        first = self.motion.joints[0]
-        among = [k for k, name in enumerate(first.run_names) if name in self.payload]
-        carried = np.isin(first.run, among)
-        last = self.motion.regressor[:, :, -11:-1] * carried[:, None, None]
-        return np.concatenate([chosen, last], axis=2)
+        """Columns of base parameters and of the causes, array [n, N, b]."""
+        return np.concatenate([self.rigid.values, *(c.columns for c in self.causes)], axis=2)
 
     @cached_property
     def filtered_columns(self) -> tuple[Array, ...]:
         """`columns` of each joint after the low-pass, at its scored samples."""
-        return tuple(self._passed(self.columns[:, j], j) for j in range(len(self.models)))
+        parts = [self.rigid.filtered, *(c.filtered for c in self.causes)]
+        return tuple(np.concatenate(of_joint, axis=1) for of_joint in zip(*parts, strict=True))
 
     def _passed(self, values: Array, joint: int) -> Array:
         return self.motion.filtered(values, joint)[self.motion.scored[:, joint]]
@@ -122,7 +135,8 @@ class Balance:
     def held_out(self) -> str:
         """``"runs"`` or ``"blocks"``."""
         several = len(self.motion.joints[0].run_names) > 1
-        return "runs" if several and not self.payload else "blocks"
+        carried = any(cause.runs for cause in self.causes)
+        return "runs" if several and not (carried or self.by_block) else "blocks"
 
     @cached_property
     def cell(self) -> NDArray[np.uint32]:
@@ -153,12 +167,20 @@ class Balance:
         load = self.load(values.base)[:, joint]
         return self.problem(joint, load).residual(values.friction[joint])
 
+    def is_linear(self, joint: int) -> bool:
+        """Whether the torque of a joint is linear in all parameters."""
+        model = self.models[joint]
+        reads_load = "load_torque" in model.core.needs
+        return model.memoryless and not reads_load and all(p.linear for p in model.parameters)
+
     def factors(self, values: Values, *, filtered: bool = True) -> list[Factors]:
         """The balance of every joint, linearised at `values`."""
-        load = self.load(values.base)
-        return [self._of_joint(values, j, load[:, j], filtered) for j in range(len(self.models))]
+        joints = range(len(self.models))
+        return [self.factors_of(values, joint, filtered=filtered) for joint in joints]
 
-    def _of_joint(self, values: Values, joint: int, load: Array, filtered: bool) -> Factors:
+    def factors_of(self, values: Values, joint: int, *, filtered: bool = True) -> Factors:
+        """The balance of one joint, linearised at `values`."""
+        load = np.asarray(self.columns[:, joint] @ values.base)
         friction = values.friction[joint]
         residual, by_friction = self.problem(joint, load).linearise(friction)
         slope = self._by_load(joint, load, friction)

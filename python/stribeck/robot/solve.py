@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,26 @@ from stribeck.robot.problem import Balance, Factors, Values, places
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-MOST_STEPS = 30
-HALVINGS = 8
-#: The search ends where a step lowers the weighted sum of squares by less than this share.
-TOLERANCE = 1e-9
+
+@dataclass(frozen=True)
+class Effort:
+    """When a search ends.
+
+    Attributes
+    ----------
+    steps, halvings
+        Most Gauss-Newton steps, and most halvings of one of them.
+    tolerance
+        The search ends where a step lowers the weighted sum of squares by less than this share.
+    """
+
+    steps: int
+    halvings: int
+    tolerance: float
+
+
+#: For a result, and for one of many candidates.
+THOROUGH, QUICK = Effort(30, 8, 1e-9), Effort(6, 3, 1e-5)
 
 
 @dataclass(frozen=True)
@@ -68,7 +84,9 @@ class Solved:
         return _stacked(self, self.every)
 
 
-def solve(balance: Balance, start: Values, weights: Array | None = None) -> Solved:
+def solve(
+    balance: Balance, start: Values, weights: Array | None = None, effort: Effort = THOROUGH
+) -> Solved:
     """Find the values by Gauss-Newton steps within bounds; weights follow the residuals.
 
     Parameters
@@ -82,30 +100,37 @@ def solve(balance: Balance, start: Values, weights: Array | None = None) -> Solv
         weights = 1.0 / np.array([balance.torque_size(j) for j in range(len(count))])
     low, high = balance.bounds()
     made = Solved(balance, start, weights, balance.factors(start), False)
-    for _ in range(MOST_STEPS):
+    for _ in range(effort.steps):
         at = made.values.whole()
         joined = _joined(made, made.every)
         step = joined.solve(low - at, high - at)
         share = max(joined.fall(step), 0.0) / joined.square
-        made = _stepped(made, step, joined.square)
+        made = _stepped(made, step, joined.square, effort.halvings)
         before = made.weights
         left = np.array([f.square(made.every) for f in made.factors])
         if not np.all(np.isfinite(left)):
             raise FitError(f"{motion.path}: the torques of the robot are not finite")
         weights = 1.0 / np.sqrt(np.maximum(left / count, 1e-30))
         made = Solved(balance, made.values, weights, made.factors, made.converged)
-        if share < TOLERANCE and np.allclose(before, weights, rtol=1e-6):
+        settled = np.allclose(before, weights, rtol=np.sqrt(effort.tolerance))
+        if share < effort.tolerance and settled:
             return Solved(balance, made.values, weights, made.factors, True)
     return made
 
 
-def _stepped(made: Solved, step: Array, square: float) -> Solved:
+def _stepped(made: Solved, step: Array, square: float, halvings: int) -> Solved:
     """The values after a step, halved until the weighted sum of squares does not rise."""
     share = 1.0
-    for _ in range(HALVINGS):
+    for _ in range(halvings):
         values = made.values.moved(step, share)
-        moved = Solved(made.balance, values, made.weights, made.balance.factors(values), False)
-        if _weighted_square(moved.factors, made.weights, made.every) <= square * (1.0 + 1e-9):
+        factors = [
+            part.after(share * step[place])
+            if made.balance.is_linear(joint)
+            else made.balance.factors_of(values, joint)
+            for joint, (part, place) in enumerate(zip(made.factors, made.places(), strict=True))
+        ]
+        moved = replace(made, values=values, factors=factors)
+        if _weighted_square(factors, made.weights, made.every) <= square * (1.0 + 1e-9):
             return moved
         share *= 0.5
     return made

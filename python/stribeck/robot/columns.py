@@ -1,0 +1,112 @@
+"""Columns of the torque balance that belong to the rigid bodies, and to causes beside them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.motion import RobotMotion
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Cause:
+    """Something beside the rigid bodies of the robot that loads its joints.
+
+    Attributes
+    ----------
+    id
+        ``"payload"``, ``"spring"``, ``"tilt"`` or ``"coupling"``.
+    text
+        What it is, without full stop.
+    runs
+        Of a payload: the runs that carry it.
+    columns : array [n, N, k]
+        Torques of the joints per unit of each of its parameters.
+    """
+
+    id: str
+    text: str
+    motion: RobotMotion
+    columns: Array
+    runs: tuple[str, ...] = ()
+
+    @cached_property
+    def filtered(self) -> tuple[Array, ...]:
+        """The columns of each joint after the low-pass, at its scored samples."""
+        return _filtered(self.motion, self.columns)
+
+
+@dataclass(frozen=True, eq=False)
+class RigidColumns:
+    """The regressor of the base parameters on a motion."""
+
+    motion: RobotMotion
+    base: BaseParameters
+
+    @cached_property
+    def values(self) -> Array:
+        """Array [n, N, b]."""
+        return np.ascontiguousarray(self.motion.regressor[:, :, self.base.chosen])
+
+    @cached_property
+    def filtered(self) -> tuple[Array, ...]:
+        """Of each joint after the low-pass, at its scored samples."""
+        return _filtered(self.motion, self.values)
+
+
+def _filtered(motion: RobotMotion, columns: Array) -> tuple[Array, ...]:
+    return tuple(
+        motion.filtered(columns[:, j], j)[motion.scored[:, j]] for j in range(columns.shape[1])
+    )
+
+
+def payload(motion: RobotMotion, runs: tuple[str, ...]) -> Cause:
+    """A payload on the last link in some runs: its ten inertial parameters."""
+    first = motion.joints[0]
+    among = [k for k, name in enumerate(first.run_names) if name in runs]
+    carried = np.isin(first.run, among)
+    columns = motion.regressor[:, :, -11:-1] * carried[:, None, None]
+    others = [name for name in first.run_names if name not in runs]
+    text = f"a payload in {', '.join(runs)}"
+    if len(first.run_names) == 2:
+        text += f", or one fewer than in {others[0]}"
+    return Cause("payload", text, motion, columns, runs)
+
+
+def spring(motion: RobotMotion, joint: int) -> Cause:
+    """A spring between a joint and its carrier, such as a balancer or a stiff cable."""
+    columns = np.zeros((*motion.position.shape, 1))
+    columns[:, joint, 0] = motion.position[:, joint]
+    name = motion.robot.names[joint]
+    return Cause("spring", f"a spring, balancer or stiff cable at joint {name}", motion, columns)
+
+
+def coupling(motion: RobotMotion, first: int, second: int) -> Cause:
+    """A rotor that two joints turn through their gears, as in wrists."""
+    columns = np.zeros((*motion.position.shape, 1))
+    columns[:, first, 0] = motion.acceleration[:, second]
+    columns[:, second, 0] = motion.acceleration[:, first]
+    names = motion.robot.names
+    text = f"a rotor that joints {names[first]} and {names[second]} turn together"
+    return Cause("coupling", text, motion, columns)
+
+
+def tilt(motion: RobotMotion, parameters: Array) -> Cause:
+    """A base that is not level: gravity along x and y of the base.
+
+    Parameters
+    ----------
+    parameters : array [N, 11]
+        Inertial parameters of the links.
+    """
+    parts = [
+        motion.robot.with_bodies(parameters, gravity).core.gravity_torque(motion.position)
+        for gravity in ((9.81, 0.0, 0.0), (0.0, 9.81, 0.0))
+    ]
+    return Cause("tilt", "a base that is not level", motion, np.stack(parts, axis=2))

@@ -1,0 +1,75 @@
+"""Several models of all joints on one motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import polars as pl
+
+from stribeck.base.shown import Shown
+from stribeck.robot.fit import ORDINARY, fit_robot
+from stribeck.robot.motion import RobotMotion
+from stribeck.robot.result import RobotFit
+
+
+@dataclass(frozen=True, repr=False)
+class RobotComparison(Shown):
+    """The errors of several models of all joints, in the order given."""
+
+    fits: tuple[RobotFit, ...]
+    specs: tuple[str, ...]
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck robot compare`."""
+        rows = [
+            {
+                "model": spec,
+                "joints": [
+                    {
+                        "joint": joint.joint,
+                        "rmse": joint.rmse,
+                        "rmse_held_out": joint.rmse_held_out,
+                        "relative_residual": joint.relative_residual_held_out,
+                    }
+                    for joint in found.joints
+                ],
+                "consistent": found.consistent,
+                "evaluated": [row.to_dict() for row in found.evaluated],
+            }
+            for spec, found in zip(self.specs, self.fits, strict=True)
+        ]
+        return {"models": rows, "cutoff_hz": self.fits[0].solved.balance.motion.cutoff}
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row per model and joint."""
+        pairs = zip(self.specs, self.fits, strict=True)
+        return pl.concat(
+            found.to_frame().with_columns(pl.lit(spec).alias("model")) for spec, found in pairs
+        )
+
+
+def compare_robots(
+    motion: RobotMotion,
+    specs: Sequence[str] = (ORDINARY,),
+    *,
+    of_joints: Mapping[str, str] | None = None,
+    payload: Sequence[str] = (),
+    evaluate: Sequence[RobotMotion] = (),
+    starts: int = 20,
+    seed: int = 0,
+) -> RobotComparison:
+    """Identify the robot with each of `specs` on all joints; arguments as of `fit_robot`."""
+    fits = [
+        fit_robot(
+            motion,
+            spec,
+            of_joints=of_joints,
+            payload=payload,
+            evaluate=evaluate,
+            starts=starts,
+            seed=seed,
+        )
+        for spec in specs
+    ]
+    return RobotComparison(tuple(fits), tuple(specs))

@@ -1,0 +1,42 @@
+"""What every joint of a robot lacks, before anything is added."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from stribeck.base.shown import Shown
+from stribeck.diagnosis.result import Diagnosis
+from stribeck.robot.causes import Found
+from stribeck.robot.improve import RobotImprovement
+from stribeck.robot.result import RobotFit
+
+
+@dataclass(frozen=True, repr=False)
+class RobotDiagnosis(Shown):
+    """The effects that each joint lacks under the load of the identified rigid bodies.
+
+    Attributes
+    ----------
+    joints
+        The diagnosis of each joint, by name.
+    rigid_body
+        Causes in the rigid bodies.
+    """
+
+    fit: RobotFit
+    joints: Mapping[str, Diagnosis]
+    rigid_body: tuple[Found, ...]
+
+    @classmethod
+    def of(cls, found: RobotImprovement) -> RobotDiagnosis:
+        """The diagnoses of a search that added nothing."""
+        return cls(found.final, found.last, found.rigid_body)
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck robot diagnose`."""
+        return {
+            "joints": [{"joint": name, **one.to_dict()} for name, one in self.joints.items()],
+            "rigid_body": [found.to_dict() for found in self.rigid_body],
+            "payload": None if self.fit.payload is None else self.fit.payload.to_dict(),
+        }

@@ -1,0 +1,244 @@
+"""Find what every joint lacks, under the load of rigid bodies identified with it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from stribeck.base.errors import FitError
+from stribeck.base.shown import Shown
+from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
+from stribeck.diagnosis.result import Diagnosis, Finding
+from stribeck.fitting.fit import fit
+from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.causes import Found, chance, rigid_causes
+from stribeck.robot.columns import RigidColumns
+from stribeck.robot.columns import payload as payload_in
+from stribeck.robot.consistent import consistent_bodies
+from stribeck.robot.estimates import Scores, base_estimates, joint_fits
+from stribeck.robot.fit import ORDINARY, check_runs, result_of, solve_laws, solve_ordinary, specs_of
+from stribeck.robot.motion import RobotMotion
+from stribeck.robot.problem import Values
+from stribeck.robot.result import JointFit, RobotFit
+from stribeck.robot.solve import QUICK, Solved, solve
+
+#: Effects that identified rigid bodies hold or imitate: a load torque of another size or shape.
+ABSORBED = ("gain", "gravity", "inertia", "quadrant", "spring")
+#: Effects added to one joint at most.
+MOST_STEPS = 4
+#: Findings of a joint that are tried with the whole robot, best first.
+MOST_TRIED = 3
+#: Largest probability that noise lowers the held-out error of the joint so much.
+SIGNIFICANCE = 0.01
+
+
+@dataclass(frozen=True)
+class RobotStep:
+    """An effect added to the friction of one joint, all joints identified again."""
+
+    finding: Finding
+    before: JointFit
+    after: JointFit
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of one step."""
+        return {
+            **self.finding.to_dict(),
+            "rmse_before": self.before.rmse,
+            "rmse_after": self.after.rmse,
+            "rmse_held_out_before": self.before.rmse_held_out,
+            "rmse_held_out_after": self.after.rmse_held_out,
+            "relative_residual_before": self.before.relative_residual_held_out,
+            "relative_residual_after": self.after.relative_residual_held_out,
+            "parameters": {name: e.to_dict() for name, e in self.after.estimates.items()},
+        }
+
+
+@dataclass(frozen=True, repr=False)
+class RobotImprovement(Shown):
+    """What every joint of a robot lacked, and the robot with it.
+
+    Attributes
+    ----------
+    steps
+        By name of the joint, in the order of adding.
+    last
+        The last diagnosis of each joint, by name.
+    rigid_body
+        Causes in the rigid bodies; a payload is identified with the robot, others are named.
+    """
+
+    base: RobotFit
+    final: RobotFit
+    steps: Mapping[str, tuple[RobotStep, ...]]
+    last: Mapping[str, Diagnosis]
+    rigid_body: tuple[Found, ...]
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck robot improve`."""
+        final = self.final.to_dict()
+        rows = [
+            {
+                "joint": joint.joint,
+                "steps": [step.to_dict() for step in self.steps.get(joint.joint, ())],
+                "final": joint.to_dict(),
+                "verdict": self.last[joint.joint].verdict,
+                "untestable": [row.to_dict() for row in self.last[joint.joint].untestable],
+            }
+            for joint in self.final.joints
+        ]
+        kept = ("robot", "base_parameters", "consistent", "payload", "ordinary", "evaluated")
+        return {
+            "joints": rows,
+            "rigid_body": [found.to_dict() for found in self.rigid_body],
+            **{key: final[key] for key in (*kept, "cutoff_hz", "held_out", "seconds")},
+        }
+
+
+def improve_robot(
+    motion: RobotMotion,
+    spec: str = ORDINARY,
+    *,
+    of_joints: Mapping[str, str] | None = None,
+    payload: Sequence[str] = (),
+    evaluate: Sequence[RobotMotion] = (),
+    starts: int = 20,
+    seed: int = 0,
+    least_fall: float = LEAST_FALL,
+    most_steps: int = MOST_STEPS,
+    progress: Callable[[str], None] = lambda sentence: None,
+) -> RobotImprovement:
+    """Add to each joint the effects that it lacks.
+
+    An effect is sought in each joint by `stribeck.diagnose`, under the load torque of the rigid
+    bodies just identified. It is added if, with all joints identified again, the held-out error of
+    its joint falls by at least `least_fall`, significantly, and that of all joints together falls.
+    A payload in some runs is sought first.
+
+    Parameters
+    ----------
+    most_steps
+        Effects added to one joint at most; 0: only a diagnosis.
+    progress
+        Called with one sentence at each step.
+    """
+    began = time.perf_counter()
+    specs = specs_of(motion, spec, of_joints or {})
+    check_runs(motion, payload)
+    rigid = RigidColumns(motion, BaseParameters.of(motion.robot))
+    causes = (payload_in(motion, tuple(payload)),) if payload else ()
+    progress("identifying the rigid bodies")
+    ordinary = solve_ordinary(rigid, causes)
+    start = ordinary
+    if any(chosen != ORDINARY for chosen in specs):
+        start = solve_laws(motion, specs, ordinary, starts=starts, seed=seed)
+    progress("looking for causes in the rigid bodies")
+    found, start = _with_payload(start, least_fall)
+    if found and found[0].cause.runs:
+        ordinary = solve_ordinary(rigid, start.balance.causes)
+    search = _Search(start, seed, least_fall, most_steps, progress)
+    search.run()
+    seconds = time.perf_counter() - began
+    return RobotImprovement(
+        base=result_of(start, ordinary, (), seconds),
+        final=result_of(search.solved, ordinary, evaluate, seconds),
+        steps={name: tuple(steps) for name, steps in search.steps.items()},
+        last=search.last,
+        rigid_body=tuple(found),
+    )
+
+
+def _with_payload(solved: Solved, least_fall: float) -> tuple[list[Found], Solved]:
+    """Causes in the rigid bodies; the solution with a payload, where that is the best of them."""
+    bodies = consistent_bodies(solved, base_estimates(solved))
+    found = rigid_causes(solved, bodies.parameters, least_fall)
+    if not found or not found[0].cause.runs:
+        return found, solved
+    carried = found[0].solved
+    others = rigid_causes(carried, bodies.parameters, least_fall)
+    return [found[0], *others], carried
+
+
+class _Search:
+    """The search for effects, joint by joint."""
+
+    def __init__(
+        self,
+        start: Solved,
+        seed: int,
+        least_fall: float,
+        most_steps: int,
+        progress: Callable[[str], None],
+    ) -> None:
+        self.solved = start
+        self.scores = Scores.of(start, raw=False)
+        self.seed, self.least_fall, self.most_steps = seed, least_fall, most_steps
+        self.progress = progress
+        self.names = start.balance.motion.robot.names
+        self.steps: dict[str, list[RobotStep]] = {name: [] for name in self.names}
+        self.last: dict[str, Diagnosis] = {}
+
+    def run(self) -> None:
+        """Add effects to one joint after the other."""
+        for joint, name in enumerate(self.names):
+            more = True
+            while more:
+                self.progress(f"joint {name}: {self.solved.balance.models[joint].spec}")
+                self.last[name] = self._diagnosed(joint)
+                more = len(self.steps[name]) < self.most_steps and self._added(joint)
+
+    def _diagnosed(self, joint: int) -> Diagnosis:
+        balance = self.solved.balance
+        load = balance.load(self.solved.values.base)[:, joint]
+        recording = balance.motion.with_load(joint, load)
+        model = balance.models[joint].with_values(self.solved.values.friction[joint])
+        alone = fit(model, recording, starts=1, seed=self.seed)
+        return diagnose(
+            alone, least_fall=self.least_fall, seed=self.seed, brief=True, rejected=ABSORBED
+        )
+
+    def _added(self, joint: int) -> bool:
+        """Add the best finding that holds with the whole robot, if there is one."""
+        name = self.names[joint]
+        for finding in self.last[name].findings[:MOST_TRIED]:
+            try:
+                trial = self._with(joint, finding)
+            except FitError:
+                # Its law is not defined where the rigid bodies move the load to.
+                continue
+            scores = Scores.of(trial, raw=False)
+            if self._holds(joint, trial, scores):
+                trial = solve(trial.balance, trial.values, trial.weights)
+                scores = Scores.of(trial, raw=False)
+                before = joint_fits(self.solved, base_estimates(self.solved))[joint]
+                after = joint_fits(trial, base_estimates(trial))[joint]
+                self.steps[name].append(RobotStep(finding, before, after))
+                self.solved, self.scores = trial, scores
+                self.progress(f"joint {name}: added {finding.effect}")
+                return True
+        return False
+
+    def _with(self, joint: int, finding: Finding) -> Solved:
+        balance, values = self.solved.balance, self.solved.values
+        model = finding.fit.model
+        models = (*balance.models[:joint], model, *balance.models[joint + 1 :])
+        own = np.asarray(model.values, dtype=np.float64)
+        friction = (*values.friction[:joint], own, *values.friction[joint + 1 :])
+        start = Values(values.base, friction)
+        return solve(replace(balance, models=models), start, self.solved.weights, QUICK)
+
+    def _holds(self, joint: int, trial: Solved, scores: Scores) -> bool:
+        """Whether the held-out errors of the joint, and of all together, fall."""
+        before = self.scores
+        falls = (
+            scores.filtered_held_out[joint]
+            <= (1.0 - self.least_fall) * (before.filtered_held_out[joint])
+        )
+        weights = self.solved.weights[:, None] ** 2
+        whole = np.sum(weights * scores.cells) <= np.sum(weights * before.cells)
+        return bool(
+            falls and whole and chance(before.cells[joint], scores.cells[joint]) < SIGNIFICANCE
+        )

@@ -1,0 +1,117 @@
+"""Simulated recordings of a robot: a motion of all joints, and the torques that it takes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from stribeck.base.errors import SpecError, listed, nearest
+from stribeck.models.model import Model
+from stribeck.robot.arm import Robot
+
+Array = NDArray[np.float64]
+
+#: Columns of a simulated recording where the robot states none.
+COLUMNS = (
+    ("time", "time"),
+    ("position", "position_{joint}"),
+    ("velocity", "velocity_{joint}"),
+    ("torque", "torque_{joint}"),
+)
+
+
+def simulate_robot(
+    robot: Robot,
+    friction: Mapping[str, Model],
+    *,
+    seconds: float = 30.0,
+    rate: float = 200.0,
+    speed: float = 1.0,
+    harmonics: int = 5,
+    noise: float = 0.0,
+    velocity_noise: float = 0.0,
+    seed: int = 0,
+) -> pl.DataFrame:
+    """Torques of a robot that follows a random Fourier motion exactly.
+
+    Parameters
+    ----------
+    friction : mapping of Model
+        Friction of each joint, with values; its load is the torque of the rigid bodies.
+    seconds, rate
+        Duration, s, and samples per second, Hz.
+    speed, harmonics
+        RMS speed of a joint, rad/s or m/s, and number of harmonics of ten seconds.
+    noise, velocity_noise
+        Standard deviation of the torque's noise as a share of the joint's RMS torque, and of the
+        velocity's noise, rad/s or m/s.
+
+    Returns
+    -------
+    polars.DataFrame
+        Columns `COLUMNS`, or those of the robot, for each joint.
+    """
+    for name in friction:
+        if name not in robot.names:
+            hint = nearest(name, robot.names) or f"; the joints are {listed(robot.names)}"
+            raise SpecError(f"{robot.name} has no joint '{name}'{hint}")
+    if not robot.has_inertia:
+        raise SpecError(f"{robot.name}: the inertial parameters of its links are not known")
+    random = np.random.default_rng(seed)
+    time = np.arange(int(seconds * rate)) / rate
+    q, v, a = _motion(time, len(robot.joints), speed, harmonics, random)
+    load = robot.torque(q, v, a)
+    named = dict(robot.columns) or dict(COLUMNS)
+    effort = "torque" if "torque" in named else "current"
+    made = {named["time"]: time}
+    for k, joint in enumerate(robot.joints):
+        torque = load[:, k]
+        if joint.name in friction:
+            torque = torque + _friction(friction[joint.name], time, q, v, a, load, k)
+        size = float(np.sqrt(np.mean(torque**2)))
+        torque = torque + noise * size * random.normal(size=time.size)
+        gain = joint.drive_gain if effort == "current" and joint.drive_gain else 1.0
+        measured = v[:, k] + velocity_noise * random.normal(size=time.size)
+        for channel, values in (
+            ("position", q[:, k]),
+            ("velocity", measured),
+            (effort, torque / gain),
+        ):
+            if channel in named:
+                made[named[channel].format(joint=joint.name, number=k + 1)] = values
+    return pl.DataFrame(made)
+
+
+def _motion(
+    time: Array, joints: int, speed: float, harmonics: int, random: np.random.Generator
+) -> tuple[Array, Array, Array]:
+    """Position, velocity and acceleration [n, N] of a Fourier series with a period of 10 s."""
+    base = 2.0 * np.pi / 10.0
+    q, v, a = np.zeros((3, time.size, joints))
+    for joint in range(joints):
+        sine, cosine = random.normal(size=(2, harmonics))
+        scale = speed / np.sqrt(0.5 * np.sum(sine**2 + cosine**2))
+        for k, (s, c) in enumerate(zip(scale * sine, scale * cosine, strict=True), start=1):
+            w = base * k
+            q[:, joint] += (s * np.sin(w * time) - c * np.cos(w * time)) / w
+            v[:, joint] += s * np.cos(w * time) + c * np.sin(w * time)
+            a[:, joint] += w * (c * np.cos(w * time) - s * np.sin(w * time))
+    return q, v, a
+
+
+def _friction(
+    model: Model, time: Array, q: Array, v: Array, a: Array, load: Array, joint: int
+) -> Array:
+    dt = np.full(time.size, time[1] - time[0])
+    dt[0] = 0.0
+    shifted = model.torque(
+        v[:, joint],
+        position=q[:, joint],
+        acceleration=a[:, joint],
+        load_torque=load[:, joint],
+        dt=dt,
+    )
+    return np.asarray(shifted)

@@ -1,0 +1,173 @@
+"""Identification of simulated arms: parameters, payload, effects; bad input."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import arms
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.base.errors import FitError, ModelFileError, SpecError
+from stribeck.recording.options import ReadOptions
+from stribeck.robot.arm import Robot
+from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.consistent import inertial_of, pseudo_inertia
+from stribeck.robot.describe import read_robot
+from stribeck.robot.fit import fit_robot
+from stribeck.robot.improve import improve_robot
+from stribeck.robot.motion import RobotMotion, read_motion
+from stribeck.robot.simulate import COLUMNS, simulate_robot
+from stribeck.robot.tables import from_tables
+from stribeck.robot.urdf import read_urdf
+
+MAP = {"map": [f"{channel}={column}" for channel, column in COLUMNS]}
+
+
+@pytest.fixture(scope="module")
+def arm(tmp_path_factory: pytest.TempPathFactory) -> Robot:
+    path = tmp_path_factory.mktemp("urdf") / "scara.urdf"
+    path.write_text(arms.urdf("scara"))
+    return read_urdf(path)
+
+
+def friction_of(arm: Robot, loaded: str | None = None) -> dict[str, sb.Model]:
+    made = {}
+    for k, joint in enumerate(arm.joints):
+        values = {"coulomb_friction": 3.0 + k, "viscous_friction": 2.0 + 0.5 * k}
+        made[joint.name] = sb.model("coulomb", **values)
+        if joint.name == loaded:
+            constants = {"reference_load": 10.0}
+            law = sb.model("coulomb", **values).with_effect("load", constants)
+            own = {"load_coulomb": 0.15, "load_exponent": 1.0}
+            made[joint.name] = law.with_values([{**values, **own}.get(n, 0.0) for n in law.names])
+    return made
+
+
+def motion_of(
+    robot: Robot,
+    friction: dict[str, sb.Model],
+    folder: Path,
+    seeds: tuple[int, ...],
+    **options: float,
+) -> RobotMotion:
+    files = []
+    for seed in seeds:
+        path = folder / f"run_{seed}.parquet"
+        simulate_robot(robot, friction, seed=seed, **options).write_parquet(path)
+        files.append(str(path))
+    return read_motion(robot, files, ReadOptions(map=MAP["map"]), 10.0)
+
+
+def test_parameters_lie_in_their_intervals(arm: Robot, tmp_path: Path) -> None:
+    friction = friction_of(arm)
+    options = {"seconds": 20.0, "rate": 100.0, "noise": 0.01}
+    motion = motion_of(arm, friction, tmp_path, (1, 2), **options)
+    found = fit_robot(motion)
+    true = np.array([[*joint.inertial, joint.rotor] for joint in arm.joints]).ravel()
+    base = BaseParameters.of(arm)
+    expected = base.mapping @ true
+    errors = np.array([row.stderr for row in found.base_parameters])
+    values = np.array([row.value for row in found.base_parameters])
+    assert np.mean(np.abs(values - expected) < 3.0 * errors) > 0.9
+    for joint in found.joints:
+        assert joint.relative_residual_held_out < 0.01
+        dry = joint.estimates["coulomb_friction"]
+        value = friction[joint.joint].value("coulomb_friction")
+        assert abs(dry.value - value) < max(4.0 * dry.stderr, 0.01 * value)
+    assert found.consistent
+    for row in found.bodies.parameters:
+        assert np.linalg.eigvalsh(pseudo_inertia(row[:10])).min() > 0.0
+
+
+def test_payload_mass_lies_in_its_interval(arm: Robot, tmp_path: Path) -> None:
+    options = {"seconds": 15.0, "rate": 100.0, "noise": 0.01}
+    first = motion_of(arm, friction_of(arm), tmp_path, (1,), **options)
+    last = arm.joints[-1]
+    parameters = np.array([[*joint.inertial, joint.rotor] for joint in arm.joints])
+    parameters[-1, :10] += np.array([1.5, 0.0, 0.0, 0.15, 0.02, 0.0, 0.02, 0.0, 0.0, 0.01])
+    loaded = arm.with_bodies(parameters)
+    assert last.inertial is not None
+    (tmp_path / "loaded").mkdir()
+    motion_of(loaded, friction_of(arm), tmp_path / "loaded", (2,), **options)
+    files = [str(tmp_path / "run_1.parquet"), str(tmp_path / "loaded" / "run_2.parquet")]
+    reading = ReadOptions(map=MAP["map"])
+    found = fit_robot(read_motion(arm, files, reading, first.cutoff), payload=["run_2"])
+    assert found.payload is not None
+    low, high = found.payload.mass_ci95
+    assert low - 0.01 < 1.5 < high + 0.01
+    assert high - low < 0.1
+
+
+@pytest.mark.slow
+def test_load_is_found_on_its_joint_alone(arm: Robot, tmp_path: Path) -> None:
+    loaded = arm.names[0]
+    options = {"seconds": 20.0, "rate": 100.0, "noise": 0.01}
+    found = improve_robot(motion_of(arm, friction_of(arm, loaded), tmp_path, (1, 2), **options))
+    added = {name: [step.finding.effect for step in steps] for name, steps in found.steps.items()}
+    assert added == {name: ["load"] if name == loaded else [] for name in arm.names}
+    assert found.rigid_body == ()
+
+
+def test_tables_place_the_joints() -> None:
+    # An arm of two links, 0.4 m and 0.3 m, in the plane x, z, with 1 kg at its tip.
+    quarter = float(np.pi / 2)
+    tip = np.array([1.0, 0.3, 0.0, 0.0, 0.0, 0.0, 0.09, 0.0, 0.0, 0.09, 0.0])
+    bodies = np.stack([np.zeros(11), tip])
+    position, still = np.array([[0.2, 0.5]]), np.zeros((1, 2))
+    for convention, rows in (
+        ("standard", [{"a": 0.4}, {"a": 0.3}]),
+        ("modified", [{}, {"a": 0.4}]),
+    ):
+        flat = from_tables("flat", rows, convention=convention, gravity=(0.0, -9.81, 0.0))
+        torque = flat.with_bodies(bodies).torque(position, still, still)
+        second = 9.81 * 0.3 * np.cos(0.7)
+        assert np.allclose(torque, [[second + 9.81 * 0.4 * np.cos(0.2), second]])
+    upright = from_tables("upright", [{"alpha": quarter}, {"a": 0.3}])
+    torque = upright.with_bodies(bodies).torque(position, still, still)
+    assert np.allclose(torque, [[0.0, 9.80665 * 0.3 * np.cos(0.5)]])
+
+
+def test_log_cholesky_factors_give_bodies() -> None:
+    for seed in range(5):
+        values = np.random.default_rng(seed).normal(size=10)
+        assert np.linalg.eigvalsh(pseudo_inertia(inertial_of(values))).min() > 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("kind = 'model'", 'kind = "robot" is needed'),
+        ("kind = 'robot'", "either urdf = FILE or convention"),
+        ("kind = 'robot'\nconvention = 'dh'\n[[joint]]", "standard or modified"),
+        ("kind = 'robot'\nconvention = 'standard'", "there is no joint"),
+        ("kind = 'robot'\nconvention = 'standard'\n[[joint]]\nb = 1", "line 4: key 'b' is unknown"),
+        ("kind = 'robot'\nconvention = 'standard'\n[[joint]]\na = nan", "a is a number"),
+        ("kind = 'robot'\nurdf = 'nothing.urdf'", "cannot read the URDF"),
+    ],
+)
+def test_robot_files_that_cannot_be_used(text: str, said: str, tmp_path: Path) -> None:
+    path = tmp_path / "robot.toml"
+    path.write_text(text)
+    with pytest.raises(ModelFileError, match=said):
+        read_robot(path)
+
+
+def test_bad_urdf(tmp_path: Path) -> None:
+    path = tmp_path / "robot.urdf"
+    path.write_text("<robot name='x'><link name='a'/></robot>")
+    with pytest.raises(ModelFileError, match="no joint moves"):
+        read_robot(path)
+    path.write_text("<robot")
+    with pytest.raises(ModelFileError, match="not a URDF that can be read"):
+        read_robot(path)
+
+
+def test_names_that_do_not_exist(arm: Robot, tmp_path: Path) -> None:
+    motion = motion_of(arm, {}, tmp_path, (1,), seconds=5.0, noise=0.01)
+    with pytest.raises(FitError, match="has no joint 'joint_9'"):
+        fit_robot(motion, of_joints={"joint_9": "coulomb"})
+    with pytest.raises(FitError, match="has no run 'x'"):
+        fit_robot(motion, payload=["x"])
+    with pytest.raises(SpecError, match="has no joint"):
+        simulate_robot(arm, {"elbow": sb.model("coulomb")})
