@@ -240,10 +240,10 @@ def _parameters(fit: Fit) -> list[list[str]]:
 
 def _passivity(account: Account) -> list[tuple[str, list[str]]]:
     """The proof, or the answer alone: sentences, each with the items that are listed below it."""
-    said = account.passivity or PASSIVITY[account.final.passive()]
+    answer = PASSIVITY[account.final.passive()]
     if account.certificate is None:
-        return [(said, [])]
-    made: list[tuple[str, list[str]]] = [(said, [])]
+        return [(account.passivity or answer, [])]
+    made: list[tuple[str, list[str]]] = []
     for line in certificate_text(account.certificate).splitlines():
         if line.startswith("    ") and made:
             made[-1][1].append(line.strip())
@@ -252,7 +252,8 @@ def _passivity(account: Account) -> list[tuple[str, list[str]]]:
             made[-1] = (f"{made[-1][0]} {line.strip()}", [])
         else:
             made.append((line.strip(), []))
-    return made
+    cost = account.passivity.removeprefix(answer).strip()
+    return [*made, (cost, [])] if cost else made
 
 
 def _drawn_sentence(account: Account) -> str:

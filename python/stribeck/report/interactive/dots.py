@@ -46,6 +46,12 @@ def sample_dots(
     return dots
 
 
+def legend_dot(plot: figure, colour: str) -> GlyphRenderer:
+    """A dot for the legend alone, large and opaque where those of the samples are not."""
+    dot: GlyphRenderer = plot.scatter([float("nan")], [float("nan")], size=8, color=colour)
+    return dot
+
+
 def sample_rows(samples: Samples, *models: int) -> list[tuple[str, str]]:
     """What is said of the sample under the pointer."""
     unit, what = samples.unit, torque_name(samples.unit)

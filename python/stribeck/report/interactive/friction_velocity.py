@@ -13,10 +13,9 @@ from stribeck.report.interactive.base import (
     hover,
     legend_above,
     new_plot,
-    shown_range,
     zero_line,
 )
-from stribeck.report.interactive.dots import sample_dots, sample_rows
+from stribeck.report.interactive.dots import legend_dot, sample_dots, sample_rows
 from stribeck.report.interactive.samples import Samples, friction_label
 from stribeck.report.style import binned_quartiles
 
@@ -41,7 +40,9 @@ def friction_velocity(samples: Samples) -> figure:
     plot = new_plot(f"velocity [{samples.velocity_unit}]", friction_label(samples))
     zero_line(plot)
     dots = sample_dots(plot, samples, "velocity", "friction", MEASURED)
-    items: list[tuple[str, list[GlyphRenderer]]] = [("measured", [dots])]
+    items: list[tuple[str, list[GlyphRenderer]]] = [
+        ("measured", [dots, legend_dot(plot, MEASURED)])
+    ]
     for k, name in enumerate(samples.names):
         values, shown = samples.columns[f"friction_{k}"], []
         for way in (velocity > 0, velocity < 0):
@@ -57,7 +58,7 @@ def friction_velocity(samples: Samples) -> figure:
         shown = shown or [sample_dots(plot, samples, "velocity", f"friction_{k}", colour_of(k))]
         items.append((name, shown))
     hover(plot, [dots], sample_rows(samples, *range(len(samples.fits))))
-    limits = shown_range([samples.columns["friction"]])
+    limits = samples.limits("friction")
     if limits is not None:
         plot.y_range = Range1d(*limits)
     legend_above(plot, items)

@@ -12,10 +12,9 @@ from stribeck.report.interactive.base import (
     hover,
     legend_above,
     new_plot,
-    shown_range,
     zero_line,
 )
-from stribeck.report.interactive.dots import sample_dots, sample_rows
+from stribeck.report.interactive.dots import legend_dot, sample_dots, sample_rows
 from stribeck.report.interactive.samples import Samples, friction_label
 
 if TYPE_CHECKING:
@@ -45,9 +44,10 @@ def hysteresis(samples: Samples, channel: str = "position") -> figure:
     columns = [("measured", "friction", MEASURED)]
     columns += [(n, f"friction_{k}", colour_of(k)) for k, n in enumerate(samples.names)]
     for name, column, colour in columns:
-        items.append((name, [sample_dots(plot, samples, channel, column, colour)]))
-    hover(plot, items[0][1], sample_rows(samples, *range(len(samples.fits))))
-    limits = shown_range([samples.columns["friction"]])
+        dots = sample_dots(plot, samples, channel, column, colour)
+        items.append((name, [dots, legend_dot(plot, colour)]))
+    hover(plot, items[0][1][:1], sample_rows(samples, *range(len(samples.fits))))
+    limits = samples.limits("friction")
     if limits is not None:
         plot.y_range = Range1d(*limits)
     legend_above(plot, items)

@@ -12,7 +12,6 @@ from stribeck.report.interactive.base import (
     hover,
     legend_above,
     new_plot,
-    shown_range,
     zero_line,
 )
 from stribeck.report.interactive.dots import sample_dots, sample_rows
@@ -70,8 +69,11 @@ def residual_channel(samples: Samples, channel: str) -> figure:
         items.append((name, shown))
     last = len(samples.fits) - 1
     hover(plot, [items[last][1][0]], sample_rows(samples, *range(len(samples.fits))))
-    limits = shown_range([samples.columns[f"residual_{k}"] for k in range(len(samples.fits))])
+    limits = samples.limits(*(f"residual_{k}" for k in range(len(samples.fits))))
     if limits is not None:
         plot.y_range = Range1d(*limits)
+    across = samples.limits(channel)
+    if across is not None:
+        plot.x_range = Range1d(*across)
     legend_above(plot, items)
     return plot

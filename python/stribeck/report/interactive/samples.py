@@ -11,7 +11,7 @@ from bokeh.models import ColumnDataSource
 from numpy.typing import NDArray
 
 from stribeck.report.channels import Channel, channel, clock, load_of, torque_name
-from stribeck.report.interactive.base import model_name
+from stribeck.report.interactive.base import model_name, shown_range
 from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
 
 if TYPE_CHECKING:
@@ -76,6 +76,14 @@ class Samples:
     def velocity_unit(self) -> str:
         """Unit of velocity."""
         return f"{self.fits[0].recording.position_unit}/s"
+
+    def limits(self, *columns: str) -> tuple[float, float] | None:
+        """The range in which nearly all samples lie that were fitted to; None without samples.
+
+        An abrupt stop that was excluded from the fit is outside of it: it would flatten the rest.
+        """
+        rows = self.fits[-1].rows
+        return shown_range([self.columns[name][rows] for name in columns])
 
     def within(self, start: float, end: float) -> tuple[int, int]:
         """First sample in a window of time, and the one after its last."""

@@ -13,7 +13,6 @@ from stribeck.report.interactive.base import (
     hover,
     legend_above,
     new_plot,
-    shown_range,
     zero_line,
 )
 from stribeck.report.interactive.dots import sample_dots, sample_rows
@@ -59,8 +58,7 @@ def residual_time(samples: Samples, *, x_range: object = None) -> figure:
     items = []
     for k, name in enumerate(samples.names):
         items.append((name, _drawn(plot, samples, f"residual_{k}", colour_of(k), 1.2)))
-    columns = [samples.columns[f"residual_{k}"] for k in range(len(samples.fits))]
-    limits = shown_range(columns)
+    limits = samples.limits(*(f"residual_{k}" for k in range(len(samples.fits))))
     if limits is not None:
         plot.y_range = Range1d(*limits)
     hover(plot, items[-1][1][-1:], sample_rows(samples, *range(len(samples.fits))))

@@ -1,9 +1,20 @@
-// Figures take their colours from the page, which changes them when it is printed or gets dark.
+// Figures take their colours from the page, which changes them when it gets dark or is printed.
+// Legends are drawn before they are part of the page, so they are told the colour.
 function repaint() {
-  for (const root of Object.values(Bokeh.index)) {
-    if (root.repaint_all) root.repaint_all();
-    else if (root.invalidate_render) root.invalidate_render();
+  const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
+  for (const drawn of Bokeh.documents) {
+    for (const model of drawn.all_models) {
+      if (model.type === "Legend") model.label_text_color = ink;
+    }
+  }
+  for (const view of Object.values(Bokeh.index)) {
+    if (view.repaint) view.repaint();
   }
 }
+function whenDrawn() {
+  if (Bokeh.documents.length === 0) requestAnimationFrame(whenDrawn);
+  else repaint();
+}
+addEventListener("load", whenDrawn);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
 matchMedia("print").addEventListener("change", repaint);
