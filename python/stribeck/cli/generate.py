@@ -42,7 +42,7 @@ OF_A_ROBOT = ("test", "repeats", "every")
     metavar="EFFECT",
     help="Hide this effect; may be repeated (`stribeck effects` lists them).",
 )
-@click.option("--law", default="coulomb", show_default=True, help="Friction law.")
+@click.option("--law", default="coulomb", show_default=True, help="Friction law, or published:ID.")
 @click.option("--seconds", default=120.0, show_default=True, help="Duration, s.")
 @click.option(
     "--rate",

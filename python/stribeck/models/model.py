@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from stribeck import _core
 from stribeck.base.arguments import door
 from stribeck.base.checks import check_choice
-from stribeck.base.errors import ModelFileError, SpecError
+from stribeck.base.errors import ModelFileError, SpecError, listed
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
 from stribeck.models.channels import columns, constant, finite, split_columns
 from stribeck.models.compiled import compiled
@@ -377,7 +377,7 @@ class Model:
             pairs = zip(self.names, self.values, strict=True)
             unknown = [name for name, value in pairs if not np.isfinite(value)]
             raise SpecError(
-                f"{self.spec} has no value for {', '.join(unknown)}: fit the model or give values"
+                f"{self.spec} has no value for {listed(unknown)}: fit the model or give values"
             )
         return self._friction_values
 

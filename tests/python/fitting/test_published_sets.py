@@ -101,3 +101,25 @@ def test_the_fit_is_as_good_as_the_printed_set(law: str, tmp_path: Path) -> None
             return float(np.sqrt(np.mean(residual[at] ** 2)))
 
         assert rms(fitted.residual) <= 1.0001 * rms(true), speed
+
+
+#: exp(-a5 T) is zero long before the printed 309.89 per kelvin.
+WITHOUT_INFLUENCE = {"nevmerzhitskiy": {"a5"}}
+
+
+@pytest.mark.parametrize("law", [law for law in SETS if law != "tadese_full"])
+def test_default_bounds_admit_the_printed_set(law: str, tmp_path: Path) -> None:
+    speed = SPEEDS.get(law, (2.5,))[0]
+    recording = recorded(tmp_path, speed, None, "empty")
+    model = true_model(law, SETS[law], recording)
+    rows = np.flatnonzero(recording.moving)
+    torque = Problem(recording, model, rows).predict(model.values)
+    recording = recorded(tmp_path, speed, torque, "made")
+    model = true_model(law, SETS[law], recording)
+    lower, upper, _ = bounds(model, recording)
+    for p, low, high in zip(model.parameters, lower, upper, strict=True):
+        value = SETS[law].get(p.symbol, p.start)
+        if p.role != "held" and p.symbol not in WITHOUT_INFLUENCE.get(law, ()):
+            # A parameter that acts by its size alone has no bound below zero.
+            size = abs(value) if low >= 0.0 else value
+            assert low <= size <= high, (p.symbol, low, high)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -21,10 +21,12 @@ from stribeck.base.errors import SpecError
 from stribeck.effect.base import GeneratedRecording
 from stribeck.effect.registry import of_catalog
 from stribeck.models.model import Model
+from stribeck.models.published.sets import PREFIX, published
 from stribeck.models.spec import parse_spec
 from stribeck.motion.generate.motion import JOINTS, GeneratedJoint, Motion, plan_motion
 from stribeck.motion.generate.payload import Payloads
 from stribeck.motion.generate.plausible import plausible_values
+from stribeck.motion.generate.published_joint import joint_of
 
 Array = NDArray[np.float64]
 #: What is hidden in a recording, as JSON.
@@ -65,6 +67,8 @@ def generate(
 
     Parameters
     ----------
+    law : str
+        An id of the catalog, whose values are drawn, or ``"published:ID"``, which has its own.
     effects : sequence of str
         Ids of the catalog: the effects added to `law`.
     seconds, rate : float
@@ -97,9 +101,12 @@ def generate(
     if joint_kind not in JOINTS:
         raise SpecError(f"joint kind {joint_kind!r} is unknown: revolute or prismatic")
     _check_sizes(seconds, rate, noise, warming)
-    law, hidden = parse_spec("+".join([law, *effects]))
+    printed = published(law) if law.startswith(PREFIX) else None
+    joint = JOINTS[joint_kind] if printed is None else joint_of(printed)
+    spec = law if printed is None else printed.spec
+    law, hidden = parse_spec("+".join([spec, *effects]))
     rng = np.random.default_rng([seed, 20])
-    made = _Hidden.drawn(law, hidden, JOINTS[joint_kind], seconds, rate, warming, rng)
+    made = _Hidden.drawn(law, hidden, joint, seconds, rate, warming, rng, printed)
     truth = made.truth(noise)
     return made.frame(noise, rng), {**truth, "seed": seed}
 
@@ -128,6 +135,7 @@ class _Hidden:
         rate: float,
         warming: float,
         rng: np.random.Generator,
+        printed: Model | None,
     ) -> _Hidden:
         constants = {
             "largest_velocity": joint.speed,
@@ -141,6 +149,9 @@ class _Hidden:
         torque_unit, position_unit = joint.units
         model = Model(law, inner, constants, torque_unit=torque_unit, position_unit=position_unit)
         values = plausible_values(model, joint, rng)
+        if printed is not None:
+            model = replace(model, constants={**model.constants, **printed.constants})
+            values |= dict(zip(printed.names, printed.values.tolist(), strict=True))
         model = model.with_values([values[name] for name in model.names])
         motion = plan_motion(rng, joint, seconds + 1.0)
         # Four payloads and three speeds: every speed is combined with every payload in turn.

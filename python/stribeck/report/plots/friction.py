@@ -56,17 +56,19 @@ def friction_velocity(page: Page) -> Figure:
     measured = r.torque - load
     zero_line(axes)
     dots(axes, r.velocity[some], measured[some], _GREY)
+    dotted = []
     for k, fit in enumerate(page.fits):
         curve = _curve(fit)
         if curve is not None:
             axes.plot(*curve, **page.line(k))  # type: ignore[arg-type]
             continue
+        dotted.append(k)
         some = thin(moving, MOST_POINTS // len(page.fits))
         dots(axes, r.velocity[some], (fit.prediction - load)[some], page.colour(k))
     centred(axes, measured[moving])
     axes.set_xlabel(_velocity_label(r))
     axes.set_ylabel(_friction_label(first))
-    return page.finished([axes])
+    return page.finished([axes], dotted=dotted)
 
 
 def _curve(fit: Fit) -> tuple[Array, Array] | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -32,7 +32,7 @@ _DPI = 300
 #: Line styles, so that models differ without colour too.
 _STYLES = ("-", "--", "-.", ":")
 #: Longest name in the legend.
-_LONGEST = 34
+_LONGEST = 44
 
 
 def width_in_mm(width: str | float) -> float:
@@ -118,7 +118,12 @@ class Page:
         }
 
     def finished(
-        self, axes: Sequence[Axes], *, measured: str | None = "measured", as_line: bool = False
+        self,
+        axes: Sequence[Axes],
+        *,
+        measured: str | None = "measured",
+        as_line: bool = False,
+        dotted: Collection[int] = (),
     ) -> Figure:
         """The figure with labels in the page's type, and its legend.
 
@@ -128,13 +133,15 @@ class Page:
             What the legend calls the measured samples; None: there are none.
         as_line
             Whether they are a line, not dots.
+        dotted
+            The models that are drawn as dots, not lines.
         """
         figure: Figure = axes[0].figure  # type: ignore[assignment]
         for panel in figure.axes:
             panel.xaxis.label.set_fontsize(LABEL)
             panel.yaxis.label.set_fontsize(LABEL)
         handles = [] if measured is None else [_measured(measured, as_line)]
-        handles += [self._handle(k, fit) for k, fit in enumerate(self.fits)]
+        handles += [self._handle(k, fit, k in dotted) for k, fit in enumerate(self.fits)]
         figure.legend(
             handles=handles,
             loc="outside upper left",
@@ -147,10 +154,12 @@ class Page:
         )
         return figure
 
-    def _handle(self, index: int, fit: Fit) -> Line2D:
+    def _handle(self, index: int, fit: Fit, dotted: bool) -> Line2D:
         from matplotlib.lines import Line2D
 
         drawn = self.line(index)
+        if dotted:
+            drawn |= {"linestyle": "none", "marker": ".", "markersize": 4}
         return Line2D([], [], label=short(fit.model.spec), **drawn)  # type: ignore[arg-type]
 
 

@@ -100,3 +100,20 @@ def test_other_laws_can_lie_beneath(law: str) -> None:
 def test_what_makes_no_recording_is_refused(wrong: dict, word: str) -> None:
     with pytest.raises(SpecError, match=word):
         generate(**wrong)
+
+
+def test_a_published_set_is_hidden_as_printed() -> None:
+    """Its own values, at its own speeds, and loads that do not drown it."""
+    named = "bittencourt/tables_1_2/m_star"
+    frame, truth = generate(law=f"published:{named}", seconds=20.0, rate=100.0)
+    printed = sb.published(named)
+    for name, value in zip(printed.names, printed.values, strict=True):
+        assert truth["parameters"][name]["value"] == value
+    assert 140.0 < frame["velocity"].abs().max() < 290.0
+    friction = frame["torque"] - frame["load_torque"]
+    assert frame["load_torque"].abs().max() < 20.0 * friction.abs().median()
+    assert (
+        generate(law="published:gantry/table_1/gantry_map", seconds=20.0)[1]["torque_unit"] == "N"
+    )
+    with pytest.raises(SpecError, match="has no value"):
+        generate(law="published:tadese/table_2/joint_1/tadese_full")
