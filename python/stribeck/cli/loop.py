@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import click
 
 from stribeck.base.errors import SpecError
+from stribeck.cli import interrupts
 from stribeck.cli.common import (
     echo_result,
     figures_option,
@@ -254,6 +256,7 @@ def improve(
         starts=starts, seed=seed, least_fall=least_fall, most_steps=max_steps, rejected=reject
     )
     options |= {**written.choices.arguments(), "candidates": candidates, "progress": say}
+    options["keep_when_stopped"] = True
     streamed: StreamedImprovement | None = None
     if streaming.asked:
         streaming.refuse(evaluate=bool(evaluate))
@@ -275,6 +278,8 @@ def improve(
         show(streamed, as_json)
     else:
         echo_result(improvement, as_json)
+    if improvement.stopped == "interrupted":
+        sys.exit(interrupts.STOPPED)
 
 
 def _write_pictures(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
 from stribeck.base.arguments import door
@@ -47,6 +47,7 @@ def diagnose(
     seed: int = 0,
     sample_rows: int = SAMPLE_ROWS,
     brief: bool = False,
+    progress: Callable[[str], None] = lambda sentence: None,
     **choices: Unpack[ChoiceArguments],
 ) -> Diagnosis:
     """Find the effects that are missing from `fitted`.
@@ -70,6 +71,8 @@ def diagnose(
     brief : bool
         Where there are findings, return only those, without the smallest visible effects and the
         explainable share.
+    progress : callable
+        Called with a sentence after each candidate.
     **choices
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the model, which is then
         fitted again, or of the effects that are tried.
@@ -83,9 +86,9 @@ def diagnose(
     )
     few = excerpt(fitted.recording, sample_rows, seed)
     if few is fitted.recording:
-        return _diagnosed(fitted, least_fall, rejected, candidates, seed, brief)
+        return _diagnosed(fitted, least_fall, rejected, candidates, seed, brief, progress)
     start = fit(fitted.model, few, starts=1, effort=FROM_NEARBY)
-    found = _diagnosed(start, least_fall, rejected, candidates, seed, brief)
+    found = _diagnosed(start, least_fall, rejected, candidates, seed, brief, progress)
     return with_errors_on_all_samples(found, fitted)
 
 
@@ -96,10 +99,11 @@ def _diagnosed(
     candidates: Collection[str],
     seed: int,
     brief: bool,
+    progress: Callable[[str], None],
 ) -> Diagnosis:
     """A diagnosis on all samples of the fit's recording."""
     offered = candidates_for(fitted, rejected, candidates)
-    passed, tried = passing_trials(fitted, offered.possible, least_fall, seed)
+    passed, tried = passing_trials(fitted, offered.possible, least_fall, seed, progress)
     sift = Sifted.of(fitted, passed, least_fall)
     sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
     sift = without_imitations(fitted, sift, tried, least_fall)

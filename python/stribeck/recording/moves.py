@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.recording.arrays import Floats, Ints
+from stribeck.recording.arrays import Floats, Ints, ints
 from stribeck.recording.recording import Recording
 
 #: A dip of the speed below this share of the peaks on both sides ends a move.
@@ -31,6 +31,13 @@ def moves(recording: Recording) -> Ints:
     >>> int(moves(r).max()) + 1
     6
     """
+    if "moves" not in recording.kept:
+        recording.kept["moves"] = ints(_counted(recording))
+    return recording.kept["moves"]
+
+
+def _counted(recording: Recording) -> Ints:
+    """The move of each sample, counted."""
     move = np.full(recording.time.size, -1, dtype=np.intp)
     at = np.flatnonzero(recording.moving)
     if at.size == 0:

@@ -320,6 +320,11 @@ class Recording(Plotted):
         return {}
 
     @cached_property
+    def kept(self) -> dict[str, Ints]:
+        """Arrays [n] computed from this recording at some cost and kept, by name."""
+        return {}
+
+    @cached_property
     def _denoised(self) -> dict[str, Floats]:
         return {}
 

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 STOPPED = {
     "noise_floor": "The residual is noise.",
     "nothing_passes": "Stopped: no further effect lowers the held-out error significantly.",
+    "interrupted": "Stopped by Ctrl-C after these steps; more effects may be missing.",
     "max_steps": "Stopped at the maximum number of steps; more effects may be missing.",
 }
 

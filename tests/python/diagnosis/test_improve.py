@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
 
@@ -147,3 +148,30 @@ def test_what_cannot_be_added_is_refused(recording: sb.Recording) -> None:
         sb.add(fit, "load")
     with pytest.raises(sb.SpecError, match="did you mean 'gravity'"):
         sb.add(fit, "gravty")
+
+
+def test_ctrl_c_keeps_the_steps_that_were_made(recording: sb.Recording) -> None:
+    """It comes while the model of the first step is diagnosed, or before there is a step."""
+    told: list[str] = []
+
+    def stopped_at(search: int) -> Callable[[str], None]:
+        def tell(sentence: str) -> None:
+            told.append(sentence)
+            if (
+                sentence.startswith("searching")
+                and len([said for said in told if said.startswith("searching")]) == search
+            ):
+                raise KeyboardInterrupt
+
+        return tell
+
+    found = sb.improve("coulomb", recording, progress=stopped_at(2), keep_when_stopped=True)
+    assert found.stopped == "interrupted" and len(found.steps) == 1
+    assert found.final is found.steps[0].after
+    assert "Stopped by Ctrl-C" in repr(found)
+    fitted = [said for said in told if said.startswith("  fitted ")]
+    assert fitted and fitted[0].startswith("  fitted 1 of ")
+    for search, keep in ((1, True), (2, False)):
+        told.clear()
+        with pytest.raises(KeyboardInterrupt):
+            sb.improve("coulomb", recording, progress=stopped_at(search), keep_when_stopped=keep)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -136,6 +136,7 @@ def improve(
     candidates: Collection[str] = (),
     sample_rows: int = SAMPLE_ROWS,
     progress: Callable[[str], None] = lambda sentence: None,
+    keep_when_stopped: bool = False,
     **choices: Unpack[ChoiceArguments],
 ) -> Improvement:
     """Diagnose and add until nothing passes the test.
@@ -151,6 +152,9 @@ def improve(
         stretches; the model of each step is then identified on all samples.
     progress : callable
         Called with one sentence at each step.
+    keep_when_stopped : bool
+        Whether Ctrl-C after the first step returns the steps that were made, with
+        ``stopped="interrupted"``.
     **choices
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the base model or of effects
         that may be added. They stay in force throughout.
@@ -162,7 +166,7 @@ def improve(
     later = parameters_of_effects(candidates=candidates)
     start = Choices.of(choices).applied(model_for(base, few), later)
     first = fit(start, few, starts=starts, seed=seed)
-    *_, path = improvement_paths(
+    ways = improvement_paths(
         first,
         seed=seed,
         least_fall=least_fall,
@@ -171,14 +175,32 @@ def improve(
         candidates=candidates,
         progress=progress,
     )
+    path, interrupted = _last_of(ways, keep=keep_when_stopped)
+    if interrupted:
+        progress("stopped: the steps so far are kept")
     if few is not recording:
         path = _on_all_samples(path, recording, progress)
-    return _improvement(path, progress)
+    return _improvement(path, progress, interrupted=interrupted)
 
 
-def _improvement(path: ImprovementPath, progress: Callable[[str], None]) -> Improvement:
+def _last_of(ways: Iterable[ImprovementPath], *, keep: bool) -> tuple[ImprovementPath, bool]:
+    """The last path, and whether Ctrl-C ended the search there."""
+    known: list[ImprovementPath] = []
+    try:
+        for path in ways:
+            known = [path]
+    except KeyboardInterrupt:
+        if not known or not keep:
+            raise
+        return known[-1], True
+    return known[-1], False
+
+
+def _improvement(
+    path: ImprovementPath, progress: Callable[[str], None], *, interrupted: bool
+) -> Improvement:
     """The result of a path that has ended."""
-    if path.current.passive() is False:
+    if not interrupted and path.current.passive() is False:
         progress("finding what a passive model costs")
     found = path.last
     return Improvement(
@@ -186,11 +208,11 @@ def _improvement(path: ImprovementPath, progress: Callable[[str], None]) -> Impr
         steps=_with_final_values(path),
         final=path.current,
         noise_floor=found.noise_floor,
-        stopped=_stopped(path),
+        stopped="interrupted" if interrupted else _stopped(path),
         untestable=found.untestable,
         unexplained=found.unexplained,
         last=found,
-        made_passive=cost_of_passivity(path.current),
+        made_passive=None if interrupted else cost_of_passivity(path.current),
     )
 
 

@@ -208,6 +208,7 @@ def improvement_paths(
             seed=seed,
             sample_rows=start.recording.rows,
             brief=True,
+            progress=progress,
         )
         path = ImprovementPath(start, found, () if path is None else path.steps, gone)
         ends = not found.findings or len(path.steps) >= most_steps

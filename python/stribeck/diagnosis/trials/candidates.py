@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from functools import partial
 
@@ -61,7 +61,11 @@ def candidates_for(fitted: Fit, rejected: Collection[str], more: Collection[str]
 
 
 def passing_trials(
-    fitted: Fit, possible: Collection[str], least: float, seed: int
+    fitted: Fit,
+    possible: Collection[str],
+    least: float,
+    seed: int,
+    progress: Callable[[str], None] = lambda sentence: None,
 ) -> tuple[list[Trial], int]:
     """Trials that pass, the best first, and the number of effects that were screened.
 
@@ -73,7 +77,12 @@ def passing_trials(
     with on_threads() as pool:
         screenings = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
         promising = [s for s in screenings if is_promising(s, least)]
-        trials = [t for t in pool.map(partial(try_effect, fitted), promising) if t]
+        progress(f"  {len(promising)} of {len(screenings)} effects are promising")
+        trials: list[Trial] = []
+        each = zip(promising, pool.map(partial(try_effect, fitted), promising), strict=True)
+        for count, (screening, trial) in enumerate(each, 1):
+            progress(f"  fitted {count} of {len(promising)}: {effect_name(screening.effect)}")
+            trials += [trial] if trial else []
     tried = max(len(screenings), 1)
     good = [t for t in trials if passes(t, tried, least)]
     pairs: list[_Pair] = []
