@@ -77,6 +77,22 @@ def evaluate(
     )
 
 
+def refuse_other_joint(model: Model, recording: Recording) -> None:
+    """Refuse a stored model of a revolute joint for a prismatic one, and the other way round.
+
+    Raises
+    ------
+    FitError
+        Their positions have different units.
+    """
+    if model.position_unit != recording.position_unit:
+        raise FitError(
+            f"{model.spec} is in {model.torque_unit} and {model.position_unit}, and "
+            f"{recording.path} in {recording.torque_unit} and {recording.position_unit}: it is a "
+            f"model of another kind of joint"
+        )
+
+
 def evaluated_on(fitted: Fit, recordings: Iterable[Recording]) -> Fit:
     """The fit with its errors on recordings that it was not fitted to.
 

@@ -109,9 +109,13 @@ def _refuse_slack_bristle(problem: Problem) -> None:
     worst = int(np.argmin(dry))
     if dry[worst] <= 0:
         velocity = recording.velocity[moving][worst]
+        smoothed = (
+            "; a smoothed sign is a factor atan(k*v) or tanh(k*v), without abs: the bristle takes "
+            "its place"
+        )
         raise FitError(
             f"{problem.model.spec} has a bristle, but its dry friction is {dry[worst]:.3g} "
             f"{problem.model.torque_unit} at t = {recording.time[moving][worst]:.4g} s (velocity "
             f"{velocity:.3g} {recording.position_unit}/s): remove the bristle, or the effect "
-            f"that makes dry friction negative"
+            f"that makes dry friction negative{smoothed if problem.model.own else ''}"
         )

@@ -7,6 +7,7 @@ import pytest
 import stribeck as sb
 from mpmath import mpf
 from stribeck.models.catalog import catalog
+from stribeck.models.published.sets import every_set
 
 from laws import published
 from laws.points import Point
@@ -159,3 +160,37 @@ def test_load_and_temperature_parts_of_the_full_model_are_independent() -> None:
         for T in (38.0, 80.0):
             added = torque(at("m_star", p, v, T, -0.7)) - torque(at("m_star", p, v, T))
             assert added == pytest.approx(by_load, rel=1e-12)
+
+
+#: Largest speeds of the sets that are not of a robot's joint, rad/s or m/s.
+FASTEST = {"m0": 280.0, "m_star": 280.0, "gantry_map": 0.2}
+
+
+@pytest.mark.parametrize(
+    "id",
+    [
+        one.id
+        for one in every_set().values()
+        if one.model.spec in STATIC and not one.missing and "/table_7/" not in one.id
+    ],
+)
+def test_every_static_set_as_printed_against_the_reference(id: str) -> None:
+    """The numbers as printed, in the paper's formula at 50 digits and in the law."""
+    one = every_set()[id]
+    law = one.model.law
+    top = FASTEST.get(law, 3.0)
+    for share in (1e-6, 1e-3, 0.03, 0.4, 1.0):
+        for way, temperature, load, motor in ((1, 40.0, -0.3, 0.9), (-1, 30.0, 0.4, -0.5)):
+            v = way * share * top
+            inputs = {"v": v, "T": temperature, "tl": load, "tm": motor, "te": -load}
+            inputs |= {"a": 0.0, "q": 0.0}
+            assert_exact(Point(law, published.printed(id), inputs, dict(one.model.constants)))
+
+
+def test_lugre_of_1995_slides_along_its_stribeck_curve() -> None:
+    """g + sigma_2 v of the paper's eqs 4 to 6, after a long slide at one speed."""
+    lugre = sb.published("canudas_de_wit_1995/table_1/lugre")
+    for v in (-0.01, -0.001, 0.0005, 0.002, 0.1):
+        settled = lugre.torque(np.full(50, v), dt=1.0)[-1]
+        curve = 1.0 + 0.5 * np.exp(-((v / 0.001) ** 2))
+        assert settled == pytest.approx(np.sign(v) * curve + 0.4 * v, rel=1e-12)

@@ -278,3 +278,14 @@ def test_an_effect_by_formula_joins_any_law(recording: sb.Recording) -> None:
     ):
         with pytest.raises(sb.SpecError, match=sentence):
             sb.add(wider, text, recording)
+
+
+def test_a_bristle_takes_the_place_of_a_smoothed_sign(tmp_path: Path) -> None:
+    """Tadese et al., eq 16: g = Fc (2/pi) atan(k v)."""
+    recording = record(tmp_path, joint())
+    smoothed = sb.law("2/pi*Fc*atan(k*v) + s2*v", "presliding")
+    fitted = sb.fit(smoothed, recording, starts=2)
+    steady = fitted.model.with_values([8.0, 50.0, 2.0, *fitted.model.values[3:]])
+    assert steady.split([-1.0, 1e-9, 1.0])["dry"] == pytest.approx(8.0)
+    with pytest.raises(sb.FitError, match=r"a smoothed sign is a factor atan\(k\*v\)"):
+        sb.fit(sb.law("Fc*atan(k*abs(v))*sgn(v) + s2*v", "presliding"), recording, starts=2)

@@ -10,6 +10,7 @@ import stribeck as sb
 from as_user import answer, stribeck
 from stribeck.models.build import with_values
 from stribeck.models.published.sets import every_set
+from synthetic import joint
 
 SPEEDS = np.concatenate([-np.geomspace(3.0, 1e-3, 12), [0.0], np.geomspace(1e-3, 3.0, 12)])
 COMPLETE = [one.id for one in every_set().values() if not one.missing]
@@ -129,3 +130,10 @@ def test_a_constant_that_the_law_does_not_read_is_refused(tmp_path) -> None:
         sb.ModelFileError, match="does not read the constant 'reference_temperature'"
     ):
         sb.load(path)
+
+
+def test_a_set_of_another_kind_of_joint_is_refused(tmp_path) -> None:
+    path = tmp_path / "turns.parquet"
+    joint().write_parquet(path)
+    done = stribeck("compare", path, "published:gantry/table_1/gantry_map")
+    assert done.returncode == 2 and "a model of another kind of joint" in done.stderr

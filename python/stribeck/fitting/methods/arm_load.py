@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck.base.arguments import door
+from stribeck.base.checks import check_number
 from stribeck.base.errors import SpecError
 from stribeck.fitting.methods.arm import INERTIAL, rigid_body_columns
 
@@ -50,13 +51,17 @@ def planar_arm_load(
     >>> planar_arm_load(nominal, [[0.0, 0.0]], [[0.0, 0.0]], [[1.0, 0.0]], first_link_length=0.35)
     array([[4.643 , 0.6145]])
     """
-    terms = np.asarray(inertia, dtype=np.float64)
-    q, v, a = (np.asarray(part, dtype=np.float64) for part in (position, velocity, acceleration))
+    check_number("first_link_length", first_link_length, 0.0)
+    try:
+        terms = np.asarray(inertia, dtype=np.float64)
+        q, v, a = (np.asarray(x, dtype=np.float64) for x in (position, velocity, acceleration))
+    except (TypeError, ValueError):
+        raise SpecError("inertia, position, velocity and acceleration must be numbers") from None
     if terms.shape != (len(INERTIAL),):
         raise SpecError(f"the inertia has the shape {list(terms.shape)}: give four numbers")
     if q.ndim != 2 or q.shape[1] != 2 or not q.shape == v.shape == a.shape:
         shapes = ", ".join(str(list(part.shape)) for part in (q, v, a))
         raise SpecError(f"position, velocity and acceleration are {shapes}: give arrays [n, 2]")
-    if not all(np.isfinite(part).all() for part in (terms, first_link_length, q, v, a)):
+    if not all(np.isfinite(part).all() for part in (terms, q, v, a)):
         raise SpecError("a number is not finite: give finite angles, speeds and inertia")
     return np.asarray(rigid_body_columns(q, v, a, first_link_length) @ terms)

@@ -7,15 +7,16 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from stribeck.base.arguments import door
-from stribeck.base.checks import check_choice
+from stribeck.base.checks import check_choice, shown
 from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure
 from stribeck.diagnosis.compare import compare
-from stribeck.fitting.evaluate import evaluate
+from stribeck.fitting.evaluate import evaluate, refuse_other_joint
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
+from stribeck.models.published.sets import PREFIX, published
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
 from stribeck.report.plots import friction, residual
@@ -53,7 +54,8 @@ def plot(
     recording : Recording or sequence of them
         Several are runs of one joint.
     models
-        Fits, models with values, model files, or specs, which are fitted; one or a list.
+        Fits, models with values, model files, ``"published:ID"``, or specs, which are fitted; one
+        or a list.
     what : str
         ``"friction-velocity"``, ``"time"``, ``"residual-velocity"``, ``"residual-position"``,
         ``"residual-temperature"``, ``"hysteresis"``, ``"warm-up"`` or ``"spectrum"``.
@@ -89,12 +91,17 @@ def _fits(
     models: Fit | Model | ModelFile | str | Sequence[Fit | Model | ModelFile | str],
 ) -> tuple[Fit, ...]:
     """Each model on the recording; a spec is fitted."""
-    given = [models] if isinstance(models, Fit | Model | ModelFile | str) else list(models)
-    if not given:
-        raise SpecError("there is no model to draw: give a fit, a model or a spec")
+    given = models if isinstance(models, Sequence) and not isinstance(models, str) else [models]
+    if not given or not all(isinstance(one, Fit | Model | ModelFile | str) for one in given):
+        raise SpecError(
+            f"`models` is {shown(models)}: give a fit, a model, a spec, or a list of them"
+        )
     made: list[Fit] = []
     for one in given:
-        if isinstance(one, str):
+        if isinstance(one, str) and one.startswith(PREFIX):
+            refuse_other_joint(published(one), recording)
+            made.append(evaluate(published(one), recording))
+        elif isinstance(one, str):
             made.append(fit(one, recording))
         elif isinstance(one, ModelFile):
             made.append(evaluate(one.model, recording, fitted_on=one.hashes))
