@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from stribeck.base.arguments import door
@@ -109,21 +110,21 @@ def _diagnosed(
     sift = without_imitations(fitted, sift, tried, least_fall)
     best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)
-    names = tuple(t.fit.model.written(t.effect) for t in passed)
     order = ranked(fitted, sift, tried, least_fall, floor, seed)
     found = order.findings
+    made = Diagnosis(
+        fitted,
+        floor,
+        "missing",
+        found,
+        offered.untestable,
+        NOT_ASKED,
+        demoted=order.demoted,
+        not_claimed=order.not_claimed,
+        passed=tuple(t.fit.model.written(t.effect) for t in passed),
+    )
     if brief and found:
-        return Diagnosis(
-            fitted,
-            floor,
-            "missing",
-            found,
-            offered.untestable,
-            NOT_ASKED,
-            demoted=order.demoted,
-            not_claimed=order.not_claimed,
-            passed=names,
-        )
+        return made
     # Without repeated states a regressor learns nothing that holds on other blocks.
     after = found[0].fit if found else fitted
     explained = None if floor.value is None else explainable(fitted, after)
@@ -139,19 +140,14 @@ def _diagnosed(
         significance=SIGNIFICANCE,
         least_fall=least_fall,
     )
-    return Diagnosis(
-        fit=fitted,
-        noise_floor=floor,
+    return replace(
+        made,
         verdict=verdict,
-        findings=found,
         untestable=(*offered.untestable, *shown.hidden),
         unexplained=structure,
         smallest_visible=shown.smallest,
         groups=shown.groups,
         explainable=explained,
-        demoted=order.demoted,
-        not_claimed=order.not_claimed,
-        passed=names,
     )
 
 
