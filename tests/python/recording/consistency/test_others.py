@@ -1,0 +1,27 @@
+"""A joint read from a file in which other joints move."""
+
+from __future__ import annotations
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+
+
+@pytest.mark.parametrize(("swing", "moves"), [(1.0, True), (0.01, False)])
+def test_other_joints_that_move_are_told(swing: float, moves: bool) -> None:
+    t = np.arange(1000) / 100.0
+    table = pl.DataFrame(
+        {
+            "t": t,
+            "q_1": np.sin(t),
+            "dq_1": np.cos(t),
+            "tau_1": np.sign(np.cos(t)),
+            "q_2": swing * np.sin(2.0 * t),
+            "dq_2": 2.0 * swing * np.cos(2.0 * t),
+            "tau_2": np.sign(np.cos(2.0 * t)),
+        }
+    )
+    names = ["time=t", "position=q_1", "velocity=dq_1", "torque=tau_1"]
+    found = [c for c in sb.read(table, map=names).checks if c.check == "others"]
+    assert [c.said.split(" as well")[0] for c in found] == (["joint 2 moves"] if moves else [])
