@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import RecordingError, SpecError
+from stribeck.base.files import write_table
 from stribeck.cli.common import (
     echo_json,
     echo_result,
@@ -17,7 +20,8 @@ from stribeck.cli.common import (
 )
 from stribeck.cli.data import split
 from stribeck.cli.options import Command, Values, added, gathered
-from stribeck.cli.outputs import CheckedCommand
+from stribeck.cli.outputs import MODEL, TABLE, CheckedCommand
+from stribeck.motion.generate.files import file_bytes
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
@@ -27,7 +31,17 @@ from stribeck.robot.diagnosis import RobotDiagnosis
 from stribeck.robot.fit import ORDINARY, fit_robot
 from stribeck.robot.improve import MOST_STEPS, improve_robot
 from stribeck.robot.motion import RobotMotion, read_motion
+from stribeck.robot.result import RobotFit
+from stribeck.robot.simulate import simulate_robot
+from stribeck.robot.stored import read_friction, write_robot
 
+output_option = click.option(
+    "-o",
+    "--output",
+    type=MODEL,
+    default=None,
+    help="Write the identified robot to this file (TOML).",
+)
 runs_argument = click.argument("runs", nargs=-1, required=True, metavar="RUNS...")
 cutoff_option = click.option(
     "--cutoff",
@@ -147,6 +161,7 @@ def by_joint(given: tuple[str, ...]) -> dict[str, str]:
 @starts_option
 @recording_options
 @seed_option
+@output_option
 @json_option
 def fit(
     runs: tuple[str, ...],
@@ -159,6 +174,7 @@ def fit(
     starts: int,
     reading: ReadOptions,
     seed: int,
+    output: str | None,
     as_json: bool,
 ) -> None:
     """Identify base parameters of the rigid bodies and the friction of every joint."""
@@ -173,7 +189,14 @@ def fit(
         starts=starts,
         seed=seed,
     )
+    _save(found, output)
     echo_result(found, as_json)
+
+
+def _save(found: RobotFit, output: str | None) -> None:
+    if output is not None:
+        write_robot(found, output)
+        say(f"wrote {output}")
 
 
 @robot.command(cls=CheckedCommand)
@@ -262,6 +285,7 @@ def diagnose(
 
 @robot.command(cls=CheckedCommand)
 @loop_options
+@output_option
 @evaluate_option
 @click.option(
     "--max-steps",
@@ -277,6 +301,7 @@ def improve(
     joint_model: tuple[str, ...],
     payload: tuple[str, ...],
     evaluate: tuple[str, ...],
+    output: str | None,
     cutoff: float | None,
     least_fall: float,
     max_steps: int,
@@ -300,4 +325,39 @@ def improve(
         most_steps=max_steps,
         progress=lambda sentence: say(f"note: {sentence}"),
     )
+    _save(found.final, output)
     echo_result(found, as_json)
+
+
+@robot.command(cls=CheckedCommand)
+@click.argument("described", metavar="ROBOT")
+@click.option("--seconds", type=float, default=30.0, show_default=True, help="Duration [s].")
+@click.option("--rate", type=float, default=200.0, show_default=True, help="Samples per second.")
+@click.option("--speed", type=float, default=1.0, show_default=True, help="RMS speed of a joint.")
+@click.option(
+    "--noise", type=float, default=0.01, show_default=True, help="Noise as a share of the torque."
+)
+@click.option("-o", "--output", type=TABLE, required=True, help="Recording to write.")
+@seed_option
+def simulate(
+    described: str,
+    seconds: float,
+    rate: float,
+    speed: float,
+    noise: float,
+    output: str,
+    seed: int,
+) -> None:
+    """Make a recording of ROBOT, as written by `stribeck robot fit -o`, on a Fourier motion."""
+    made = simulate_robot(
+        read_robot(described),
+        read_friction(described),
+        seconds=seconds,
+        rate=rate,
+        speed=speed,
+        noise=noise,
+        seed=seed,
+    )
+    content = file_bytes(made, Path(output).suffix.lower())
+    write_table(output, content, 'kind = "recording"\n', RecordingError)
+    say(f"wrote {output}")

@@ -1,4 +1,4 @@
-"""Robot files: `kind = "robot"`, with a Denavit-Hartenberg table or the name of a URDF."""
+"""Robot files: `kind = "robot"`, with a Denavit-Hartenberg table, frames, or the name of a URDF."""
 
 from __future__ import annotations
 
@@ -9,13 +9,14 @@ from pathlib import Path
 
 from stribeck.base.errors import ModelFileError
 from stribeck.base.toml import TomlText, read_text
-from stribeck.robot.arm import GRAVITY, Movement, Robot
+from stribeck.robot.arm import GRAVITY, Movement, Robot, RobotJoint
+from stribeck.robot.frames import KEYS, joint_of
 from stribeck.robot.tables import Convention, from_tables
 from stribeck.robot.urdf import read_urdf
 
 #: Version of the file's layout.
 SCHEMA = 1
-_KEYS = ("kind", "schema", "name", "urdf", "convention", "gravity", "joint", "columns")
+_KEYS = ("kind", "schema", "name", "urdf", "convention", "gravity", "joint", "columns", "fitted_on")
 _ROW = ("name", "kind", "a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
 _NUMBERS = ("a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
 #: Channels of a joint that `[columns]` may name.
@@ -42,16 +43,43 @@ def read_robot(path: str | Path) -> Robot:
         raise text.stop(f"schema {content['schema']!r} is not {SCHEMA}", "schema")
     if ("urdf" in content) == ("convention" in content):
         raise text.stop("either urdf = FILE or convention with a table of joints is needed")
-    made = _with_urdf(text, content) if "urdf" in content else _with_table(text, content)
+    if "urdf" in content:
+        made = _with_urdf(text, content)
+    elif content["convention"] == "frames":
+        made = _with_frames(text, content)
+    else:
+        made = _with_table(text, content)
     return replace(made, columns=_columns(text, content), source=str(where))
 
 
-def _rows(text: TomlText, content: Mapping[str, object]) -> list[Mapping[str, object]]:
+def _tables(
+    text: TomlText, content: Mapping[str, object], keys: tuple[str, ...]
+) -> list[Mapping[str, object]]:
+    """The rows `[[joint]]`, which have known keys and different names."""
     rows = content.get("joint", [])
     if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
         raise text.stop("[[joint]] is a list of tables", "joint")
     for row in rows:
-        text.check_keys(row, _ROW, "[[joint]]")
+        text.check_keys(row, keys, "[[joint]]")
+    names = [str(row.get("name", k + 1)) for k, row in enumerate(rows)]
+    if len(set(names)) < len(names):
+        raise text.stop("two joints have the same name", "[[joint]]", "name")
+    return rows
+
+
+def _with_frames(text: TomlText, content: Mapping[str, object]) -> Robot:
+    joints: list[RobotJoint] = []
+    for row in _tables(text, content, KEYS):
+        joints.append(joint_of(text, row, [joint.name for joint in joints]))
+    if not joints:
+        raise text.stop("there is no joint: write a [[joint]] for each", "convention")
+    name = str(content.get("name", text.path.stem))
+    return Robot(name, tuple(joints), _gravity(text, content))
+
+
+def _rows(text: TomlText, content: Mapping[str, object]) -> list[Mapping[str, object]]:
+    rows = _tables(text, content, _ROW)
+    for row in rows:
         for key in _NUMBERS:
             value = row.get(key, 0.0)
             if not isinstance(value, int | float) or not math.isfinite(value):
@@ -73,7 +101,9 @@ def _gain(row: Mapping[str, object]) -> float | None:
 def _with_table(text: TomlText, content: Mapping[str, object]) -> Robot:
     convention = content["convention"]
     if convention not in ("standard", "modified"):
-        raise text.stop(f"convention is standard or modified, not {convention!r}", "convention")
+        raise text.stop(
+            f"convention is standard, modified or frames, not {convention!r}", "convention"
+        )
     chosen: Convention = "standard" if convention == "standard" else "modified"
     rows = _rows(text, content)
     if not rows:
@@ -85,8 +115,6 @@ def _with_table(text: TomlText, content: Mapping[str, object]) -> Robot:
             raise text.stop(f"a joint is revolute or prismatic, not {kind!r}", "[[joint]]", "kind")
         movements.append("revolute" if kind == "revolute" else "prismatic")
     names = [str(row.get("name", k + 1)) for k, row in enumerate(rows)]
-    if len(set(names)) < len(names):
-        raise text.stop("two joints have the same name", "[[joint]]", "name")
     table = [
         {
             "a": _number(row, "a"),

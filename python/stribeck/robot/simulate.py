@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from stribeck.base.checks import check_number, check_share
 from stribeck.base.errors import SpecError, listed, nearest
 from stribeck.models.model import Model
 from stribeck.robot.arm import Robot
@@ -58,6 +59,10 @@ def simulate_robot(
         if name not in robot.names:
             hint = nearest(name, robot.names) or f"; the joints are {listed(robot.names)}"
             raise SpecError(f"{robot.name} has no joint '{name}'{hint}")
+    check_number("seconds", seconds, 1.0, 3600.0, " s")
+    check_number("rate", rate, 10.0, 10_000.0, " Hz")
+    check_number("speed", speed, 1e-6, 1e3)
+    check_share("noise", noise)
     if not robot.has_inertia:
         raise SpecError(f"{robot.name}: the inertial parameters of its links are not known")
     random = np.random.default_rng(seed)

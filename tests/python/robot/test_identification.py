@@ -18,6 +18,7 @@ from stribeck.robot.fit import fit_robot
 from stribeck.robot.improve import improve_robot
 from stribeck.robot.motion import RobotMotion, read_motion
 from stribeck.robot.simulate import COLUMNS, simulate_robot
+from stribeck.robot.stored import read_friction, write_robot
 from stribeck.robot.tables import from_tables
 from stribeck.robot.urdf import read_urdf
 
@@ -128,6 +129,24 @@ def test_tables_place_the_joints() -> None:
     assert np.allclose(torque, [[0.0, 9.80665 * 0.3 * np.cos(0.5)]])
 
 
+def test_a_robot_reads_back(arm: Robot, tmp_path: Path) -> None:
+    options = {"seconds": 10.0, "rate": 100.0, "noise": 0.01}
+    motion = motion_of(arm, friction_of(arm), tmp_path, (1,), **options)
+    found = fit_robot(motion)
+    path = tmp_path / "fitted.toml"
+    write_robot(found, path)
+    again, friction = read_robot(path), read_friction(path)
+    assert again.names == arm.names
+    expected = arm.with_bodies(found.bodies.parameters)
+    arrays = (motion.position, motion.velocity, motion.acceleration)
+    assert np.array_equal(again.torque(*arrays), expected.torque(*arrays))
+    for joint in found.joints:
+        assert np.array_equal(friction[joint.joint].values, joint.model.values)
+    with pytest.raises(ModelFileError, match="two joints have the same name"):
+        path.write_text(path.read_text().replace('"joint_1"', '"joint_0"'))
+        read_robot(path)
+
+
 def test_log_cholesky_factors_give_bodies() -> None:
     for seed in range(5):
         values = np.random.default_rng(seed).normal(size=10)
@@ -139,7 +158,7 @@ def test_log_cholesky_factors_give_bodies() -> None:
     [
         ("kind = 'model'", 'kind = "robot" is needed'),
         ("kind = 'robot'", "either urdf = FILE or convention"),
-        ("kind = 'robot'\nconvention = 'dh'\n[[joint]]", "standard or modified"),
+        ("kind = 'robot'\nconvention = 'dh'\n[[joint]]", "standard, modified or frames"),
         ("kind = 'robot'\nconvention = 'standard'", "there is no joint"),
         ("kind = 'robot'\nconvention = 'standard'\n[[joint]]\nb = 1", "line 4: key 'b' is unknown"),
         ("kind = 'robot'\nconvention = 'standard'\n[[joint]]\na = nan", "a is a number"),
