@@ -15,6 +15,7 @@
     python3 develop.py processors    compare an identification on emulated processors
     python3 develop.py instructions  count the instructions of each kernel (--write: keep the table)
     python3 develop.py peers         measure times against other packages (--bam FOLDER: also BAM)
+    python3 develop.py papers        repeat the papers, and write docs/papers.md with its pictures
     python3 develop.py scaling       measure how times grow, and how close they are to the limit
 
 Needs git, CPython >= 3.10 and stable Rust. Every task builds what has changed first. This file uses
@@ -188,6 +189,10 @@ def peers() -> None:
     run(PYTHON, folder / "ratios.py", *sys.argv[2:])
 
 
+def papers() -> None:
+    run(PYTHON, "tests/studies/papers.py", *sys.argv[2:])
+
+
 def scaling() -> None:
     in_one_thread()
     run(PYTHON, "benches/kernels/limits.py")
@@ -217,6 +222,7 @@ TASKS = {
     "processors": processors,
     "instructions": instructions,
     "peers": peers,
+    "papers": papers,
     "scaling": scaling,
 }
 

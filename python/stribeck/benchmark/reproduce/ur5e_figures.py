@@ -118,7 +118,7 @@ def _torques(number: int, test: int, seed: int) -> Picture:
     said = (
         "Joint torque and friction over time, Test 1."
         if test == 1
-        else "Friction in the first and the last of 90 cycles: it falls as the joints warm up, as in "
+        else "Friction in the first and the last of 90 cycles: it falls as joints warm up, as in "
         "the review."
     )
     return Picture(f"figure_{number}", f"figure {number}", said, figure)

@@ -106,3 +106,30 @@ TABLE_6 = Table(
 #: The line of table 6 whose data are those of table 5.
 TADESE = Errors(0.04, 3.27, 17337.0, 114.92, 0.66)
 TABLES = (TABLE_4, TABLE_5, TABLE_6)
+#: Errors of joint 2: mean and standard deviation, N m.
+JOINT_2 = {
+    "bittencourt_a": (-0.86, 3.08),
+    "clochiatti": (-0.26, 2.63),
+    "coulomb": (-1.12, 3.70),
+    "dong": (-0.78, 2.96),
+    "gaz_a": (0.00, 2.94),
+    "gaz_b": (-0.36, 3.44),
+    "grotjahn_a": (-0.78, 3.00),
+    "grotjahn_b": (-0.79, 2.96),
+    "hao_a": (-0.89, 3.24),
+    "indri_a": (-0.78, 2.95),
+    "makkar": (-0.76, 2.95),
+    "shao": (-0.79, 2.96),
+    "wolf": (-0.77, 2.99),
+    "zhou": (-0.77, 2.99),
+    "bittencourt_b": (-0.85, 3.07),
+    "hao_b": (-0.85, 2.71),
+    "iskandar": (-0.91, 2.51),
+    "li": (0.00, 2.50),
+    "madsen": (-0.86, 2.67),
+    "nevmerzhitskiy": (-0.92, 2.71),
+    "simoni": (-0.85, 2.71),
+    "dahl": (-0.36, 5.19),
+    "indri_b": (-0.73, 2.34),
+    "lugre": (-0.74, 2.26),
+}
