@@ -19,7 +19,7 @@ from stribeck.cli.main import cli
 #: Rows whose tolerance allows no doubt about what is compared: place and quantity.
 KNOWN = {
     "gantry": ("table 1", "static friction"),
-    "ur5e_review": ("table 4", "coulomb, standard deviation"),
+    "ur5e_review": ("table 4", "coulomb, std"),
     "indri": ("eq 14", "inertia_1"),
     "bittencourt": ("section II-B", "decay constant κ"),
     "tadese": ("table 2, joint 2", "sigma_1"),

@@ -10,6 +10,8 @@ from stribeck.report.numbers import plain
 
 #: Digits of a number that a paper prints with at most five.
 DIGITS = 4
+#: Share of the tolerance below which a number is 0.
+ROUNDING = 1e-9
 _LIMITS = {"value": "", "at most": "≤ ", "at least": "≥ "}
 HEADING = ("", "where", "quantity", "unit", "paper", "ours", "difference", "tolerance")
 
@@ -23,10 +25,15 @@ def cells(row: Row) -> tuple[str, ...]:
         row.quantity,
         row.unit,
         f"{_LIMITS[row.meaning]}{plain(row.paper, DIGITS)}",
-        plain(row.ours, DIGITS),
-        plain(row.difference, 2),
+        _number(row.ours, row.tolerance, DIGITS),
+        _number(row.difference, row.tolerance, 2),
         plain(row.tolerance, 2),
     )
+
+
+def _number(value: float, tolerance: float, digits: int) -> str:
+    """A number; rounding errors of the computer are shown as 0."""
+    return "0" if abs(value) < ROUNDING * tolerance else plain(value, digits)
 
 
 def verdict(made: Reproduction) -> str:

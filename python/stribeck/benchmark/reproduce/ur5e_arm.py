@@ -109,8 +109,8 @@ def _rows(table: Table, law: str, line: Errors, found: Sequence[OnArm]) -> Itera
     mean, std = JOINT_2[law]
     for quantity, unit, paper, ours in (
         ("energy error", "%", line.percent, [one.percent for one in found]),
-        ("joint 2, mean error", "N m", mean, [float(one.error.mean()) for one in found]),
-        ("joint 2, standard deviation", "N m", std, [float(one.error.std()) for one in found]),
+        ("joint 2, mean", "N m", mean, [float(one.error.mean()) for one in found]),
+        ("joint 2, std", "N m", std, [float(one.error.std()) for one in found]),
     ):
         allowed = 3.0 * float(np.std(ours, ddof=1)) + 0.005
         where = f"table {table.number}, arm"

@@ -156,8 +156,8 @@ def _line_rows(where: str, law: str, line: Errors, found: Sequence[Fitted]) -> l
     )
     rows = []
     for name, paper, ours in (
-        ("mean error", line.mean, np.array([f.error.mean() for f in found])),
-        ("standard deviation", line.std, np.array([f.error.std() for f in found])),
+        ("mean", line.mean, np.array([f.error.mean() for f in found])),
+        ("std", line.std, np.array([f.error.std() for f in found])),
     ):
         allowed = 3.0 * float(ours.std(ddof=1)) + 0.005
         rows.append(Row(where, f"{law}, {name}", "N m", paper, float(ours.mean()), allowed, why))
@@ -171,7 +171,7 @@ def _energy_rows(table: Table) -> Iterable[Row]:
     for law, line in table.lines.items():
         yield Row(
             f"table {table.number}",
-            f"{law}, energy error from the printed energies",
+            f"{law}, energy error",
             "J",
             line.energy_error,
             measured - line.energy,
@@ -180,7 +180,7 @@ def _energy_rows(table: Table) -> Iterable[Row]:
         )
         yield Row(
             f"table {table.number}",
-            f"{law}, its percentage",
+            f"{law}, in per cent",
             "%",
             line.percent,
             100.0 * line.energy_error / measured,
@@ -211,7 +211,7 @@ def _parameter_rows(law: str, table: Table, noise: float, seed: int) -> Iterable
     expected = noise * np.sqrt(len(names) / recording.rows)
     yield Row(
         "table 7",
-        f"{law}, refitted minus printed torque, RMS",
+        f"{law}, refit minus print, RMS",
         "N m",
         0.0,
         rms(made.prediction - true),
