@@ -11,26 +11,27 @@ RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.recording.recording:Recording": {
         "text": "recording:recording_text",
         "figure": "recording_figure:recording_figure",
+        "notebook": "notebook:picture_view",
     },
     "stribeck.fitting.result:Fit": {
         "text": "fit:fit_text",
         "figure": "fit:fit_figure",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:fit_view",
     },
     "stribeck.robot.arm:Robot": {"text": "robot:robot_text"},
     "stribeck.robot.result:RobotFit": {
         "text": "robot:robot_fit_text",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:frame_view",
     },
     "stribeck.robot.compare:RobotComparison": {
         "text": "robot:robot_comparison_text",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:frame_view",
     },
     "stribeck.robot.diagnosis:RobotDiagnosis": {"text": "robot:robot_diagnosis_text"},
     "stribeck.robot.improve:RobotImprovement": {"text": "robot:robot_improvement_text"},
     "stribeck.fitting.methods.arm:ArmFit": {
         "text": "methods:arm_text",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:frame_view",
     },
     "stribeck.fitting.protocols.points:BristleStiffness": {
         "text": "methods:stiffness_text",
@@ -40,48 +41,58 @@ RENDERERS: dict[str, dict[str, str]] = {
     },
     "stribeck.fitting.methods.steady:SteadyPoints": {
         "text": "methods:points_text",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:frame_view",
     },
     "stribeck.passivity.certificate:Certificate": {"text": "certificate:certificate_text"},
     "stribeck.diagnosis.compare:Comparison": {
         "text": "comparison:comparison_text",
         "figure": "comparison:comparison_figure",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:comparison_view",
     },
     "stribeck.diagnosis.result:Finding": {
         "text": "diagnosis:finding_text",
         "figure": "finding:finding_figure",
+        "notebook": "notebook:finding_view",
     },
     "stribeck.diagnosis.result:Diagnosis": {
         "text": "diagnosis:diagnosis_text",
         "figure": "diagnosis:diagnosis_figure",
+        "notebook": "notebook:diagnosis_view",
     },
-    "stribeck.diagnosis.loop.add:Addition": {"text": "improvement:addition_text"},
+    "stribeck.diagnosis.loop.add:Addition": {
+        "text": "improvement:addition_text",
+        "notebook": "notebook:addition_view",
+    },
     "stribeck.diagnosis.loop.improve:Improvement": {
         "text": "improvement:improvement_text",
         "figure": "improvement_figure:improvement_figure",
+        "notebook": "notebook:improvement_view",
     },
     "stribeck.motion.simulate.result:Simulation": {
         "text": "simulation:simulation_text",
         "figure": "simulation:simulation_figure",
+        "notebook": "notebook:picture_view",
     },
     "stribeck.motion.simulate.validation:Validation": {
         "text": "simulation:validation_text",
         "figure": "simulation:validation_figure",
+        "notebook": "notebook:picture_view",
     },
     "stribeck.motion.compensate.tracking:Tracking": {
         "text": "compensation:tracking_text",
         "figure": "compensation:tracking_figure",
+        "notebook": "notebook:picture_view",
     },
     "stribeck.motion.compensate.factor:Factor": {"text": "compensation:factor_text"},
     "stribeck.motion.compensate.teaching:Teaching": {"text": "compensation:teaching_text"},
     "stribeck.motion.design.result:Plan": {
         "text": "design:plan_text",
         "figure": "design:plan_figure",
+        "notebook": "notebook:picture_view",
     },
     "stribeck.scale.streaming.result:StreamedFit": {
         "text": "streaming:streamed_fit_text",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:frame_view",
     },
     "stribeck.scale.streaming.diagnosis:StreamedDiagnosis": {
         "text": "streaming:streamed_diagnosis_text"
@@ -93,11 +104,12 @@ RENDERERS: dict[str, dict[str, str]] = {
         "text": "study:study_text",
         "figure": "study_figure:error_figure",
         "friction_figure": "study_figure:friction_figure",
-        "notebook": "notebook:frame",
+        "notebook": "notebook:frame_view",
     },
     "stribeck.scale.fleet.result:Fleet": {
         "text": "fleet:fleet_text",
         "figure": "fleet_figure:fleet_figure",
+        "notebook": "notebook:picture_view",
     },
     "stribeck.projects.project:Project": {
         "text": "project:project_text",
@@ -106,6 +118,7 @@ RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.projects.sides:Sides": {
         "text": "project:sides_text",
         "figure": "project:sides_figure",
+        "notebook": "notebook:sides_view",
     },
 }
 

@@ -99,7 +99,7 @@ def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
         spec=final.model.spec,
         equations=equations(final.model),
         symbols=symbols(final.model),
-        parameters=_parameters(final),
+        parameters=parameter_table(final),
         errors=_errors_sentence(final),
         held_out=held_out_meaning(r),
         untestable=[tuple(map(spell, row)) for row in untestable_rows(account.untestable)],
@@ -229,7 +229,7 @@ def _errors_sentence(fit: Fit) -> str:
     )
 
 
-def _parameters(fit: Fit) -> list[list[str]]:
+def parameter_table(fit: Fit) -> list[list[str]]:
     """The rows of the table of parameters, with the interval after the standard error."""
     rows = parameter_rows(fit.estimates.values())
     return [

@@ -62,7 +62,17 @@ def test_text_loads_no_plotting_library() -> None:
     assert said.stdout == "[]\n"
 
 
-def test_notebook_shows_tables_and_text(improvement: sb.Improvement) -> None:
-    assert "<table" in improvement.final._repr_html_()
-    shown = improvement._repr_html_()
-    assert shown.startswith("<pre>") and improvement.final.model.spec in shown
+def test_notebook_shows_tables_figures_and_text(
+    improvement: sb.Improvement, diagnosis: sb.Diagnosis
+) -> None:
+    first = diagnosis.findings[0]
+    compared = sb.compare([improvement.base, improvement.final], improvement.final.recording)
+    views = [r._repr_html_() for r in (improvement.final, improvement, diagnosis, compared, first)]
+    for shown in views:
+        assert 'data-root-id="' in shown and "<pre>" in shown
+        assert "made <&> odd" not in shown
+    # A notebook is one page: the library is shown once.
+    scripts = [part for shown in views for part in shown.split("<script")]
+    assert sum(len(part) > 1_000_000 for part in scripts) <= 1
+    assert all("<table" in shown for shown in views[:-1])
+    assert "data:image/png" in improvement.final.recording._repr_html_()
