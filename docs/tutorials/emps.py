@@ -27,8 +27,7 @@ data = Path(os.environ.get("STRIBECK_DATA", "../shared/data")) / "emps"
 cart = sb.read(
     data / "emps.parquet",
     joint_kind="prismatic",
-    derive={"torque": "u_V * 35.15"},
-    map={"position": "q_m"},
+    map={"time": "t_s", "position": "q_m", "torque": "force_N"},
 )
 cart
 
@@ -51,8 +50,7 @@ improvement
 pulses = sb.read(
     data / "emps_pulses.parquet",
     joint_kind="prismatic",
-    derive={"torque": "u_V * 35.15"},
-    map={"position": "q_m"},
+    map={"time": "t_s", "position": "q_m", "torque": "force_N"},
 )
 before = sb.evaluate(fit.model, pulses).rmse
 after = sb.evaluate(sb.fit("coulomb+direction+offset", cart).model, pulses).rmse
