@@ -16,6 +16,7 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.data import arguments_of_both, split
 from stribeck.cli.outputs import FIGURE, CheckedCommand
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.validation import validate as drive
@@ -23,8 +24,7 @@ from stribeck.recording.options import ReadOptions
 
 
 @click.command(cls=CheckedCommand)
-@click.argument("data")
-@click.argument("model")
+@arguments_of_both
 @click.option(
     "--plot",
     "picture",
@@ -37,8 +37,7 @@ from stribeck.recording.options import ReadOptions
 @seed_option
 @json_option
 def validate(
-    data: str,
-    model: str,
+    arguments: tuple[str, ...],
     picture: str | None,
     starts: int,
     reading: ReadOptions,
@@ -49,8 +48,14 @@ def validate(
 
     A spec is fitted to DATA first. Without --inertia, the identified rigid body is used.
     """
+    data, models = split(arguments)
+    if len(models) != 1:
+        raise SpecError(
+            f"one model is needed beside the data, not {len(models)}: write `stribeck validate "
+            f"DATA MODEL`"
+        )
     recording = read_recording(data, reading)
-    fitted = model_fit(model, recording, starts=starts, seed=seed)
+    fitted = model_fit(models[0], recording, starts=starts, seed=seed)
     inertia = reading.inertia
     if inertia is None and "inertia" not in (*fitted.model.effects, *fitted.model.rigid_body):
         raise SpecError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from stribeck.report.channels import torque_name
-from stribeck.report.numbers import listed
+from stribeck.report.numbers import listed, percent
 from stribeck.report.style import (
     AFTER,
     BEFORE,
@@ -65,13 +65,11 @@ def validation_text(validation: Validation) -> str:
     lines = [
         f"{summary['model']}, {how}, over {summary['rows']} samples:",
         f"  position error {summary['position_rmse']:.3g} {position} RMS "
-        f"({100.0 * summary['position_relative_error']:.2g} % of the standard deviation of the "
+        f"({percent(summary['position_relative_error'])} of the standard deviation of the "
         f"position), {summary['position_largest_error']:.3g} at most",
     ]
     if validation.closed_loop:
-        lines.append(
-            f"  torque error {100.0 * summary['torque_relative_error']:.2g} % of the torque"
-        )
+        lines.append(f"  torque error {percent(summary['torque_relative_error'])} of the torque")
     for growth in validation.growth:
         lines.append(
             f"  after {growth.seconds:>5g} s: error {growth.error:.3g} {position} for a "
