@@ -88,6 +88,8 @@ class Folder(Output):
 
 MODEL = Output("model file")
 PAGE = Output("HTML")
+URDF = Output("URDF", (".urdf",))
+ROBOT = Output("robot file", (".toml",))
 FIGURE = Output("figure", tuple(f".{ending}" for ending in FORMATS))
 TABLE = Output("table", TABLES)
 POINTS = Output("table", (".csv",))

@@ -20,7 +20,7 @@ from stribeck.cli.common import (
 )
 from stribeck.cli.data import split
 from stribeck.cli.options import Command, Values, added, gathered
-from stribeck.cli.outputs import MODEL, TABLE, CheckedCommand
+from stribeck.cli.outputs import ROBOT, TABLE, URDF, CheckedCommand
 from stribeck.motion.generate.files import file_bytes
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
@@ -34,11 +34,12 @@ from stribeck.robot.motion import RobotMotion, read_motion
 from stribeck.robot.result import RobotFit
 from stribeck.robot.simulate import simulate_robot
 from stribeck.robot.stored import read_friction, write_robot
+from stribeck.robot.updated_urdf import write_urdf
 
 output_option = click.option(
     "-o",
     "--output",
-    type=MODEL,
+    type=ROBOT,
     default=None,
     help="Write the identified robot to this file (TOML).",
 )
@@ -360,4 +361,14 @@ def simulate(
     )
     content = file_bytes(made, Path(output).suffix.lower())
     write_table(output, content, 'kind = "recording"\n', RecordingError)
+    say(f"wrote {output}")
+
+
+@robot.command(cls=CheckedCommand)
+@click.argument("described", metavar="ROBOT")
+@click.option("--urdf", "source", required=True, metavar="FILE", help="URDF of the robot.")
+@click.option("-o", "--output", type=URDF, required=True, help="URDF to write.")
+def export(described: str, source: str, output: str) -> None:
+    """Write a URDF with the inertia, damping and friction of ROBOT, a file of `robot fit -o`."""
+    write_urdf(output, source, read_robot(described), read_friction(described))
     say(f"wrote {output}")

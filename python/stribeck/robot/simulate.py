@@ -55,16 +55,7 @@ def simulate_robot(
     polars.DataFrame
         Columns `COLUMNS`, or those of the robot, for each joint.
     """
-    for name in friction:
-        if name not in robot.names:
-            hint = nearest(name, robot.names) or f"; the joints are {listed(robot.names)}"
-            raise SpecError(f"{robot.name} has no joint '{name}'{hint}")
-    check_number("seconds", seconds, 1.0, 3600.0, " s")
-    check_number("rate", rate, 10.0, 10_000.0, " Hz")
-    check_number("speed", speed, 1e-6, 1e3)
-    check_share("noise", noise)
-    if not robot.has_inertia:
-        raise SpecError(f"{robot.name}: the inertial parameters of its links are not known")
+    _check(robot, friction, seconds, rate, speed, noise)
     random = np.random.default_rng(seed)
     time = np.arange(int(seconds * rate)) / rate
     q, v, a = _motion(time, len(robot.joints), speed, harmonics, random)
@@ -88,6 +79,26 @@ def simulate_robot(
             if channel in named:
                 made[named[channel].format(joint=joint.name, number=k + 1)] = values
     return pl.DataFrame(made)
+
+
+def _check(
+    robot: Robot,
+    friction: Mapping[str, Model],
+    seconds: float,
+    rate: float,
+    speed: float,
+    noise: float,
+) -> None:
+    for name in friction:
+        if name not in robot.names:
+            hint = nearest(name, robot.names) or f"; the joints are {listed(robot.names)}"
+            raise SpecError(f"{robot.name} has no joint '{name}'{hint}")
+    check_number("seconds", seconds, 1.0, 3600.0, " s")
+    check_number("rate", rate, 10.0, 10_000.0, " Hz")
+    check_number("speed", speed, 1e-6, 1e3)
+    check_share("noise", noise)
+    if not robot.has_inertia:
+        raise SpecError(f"{robot.name}: the inertial parameters of its links are not known")
 
 
 def _motion(

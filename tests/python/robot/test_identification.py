@@ -20,6 +20,7 @@ from stribeck.robot.motion import RobotMotion, read_motion
 from stribeck.robot.simulate import COLUMNS, simulate_robot
 from stribeck.robot.stored import read_friction, write_robot
 from stribeck.robot.tables import from_tables
+from stribeck.robot.updated_urdf import write_urdf
 from stribeck.robot.urdf import read_urdf
 
 MAP = {"map": [f"{channel}={column}" for channel, column in COLUMNS]}
@@ -145,6 +146,23 @@ def test_a_robot_reads_back(arm: Robot, tmp_path: Path) -> None:
     with pytest.raises(ModelFileError, match="two joints have the same name"):
         path.write_text(path.read_text().replace('"joint_1"', '"joint_0"'))
         read_robot(path)
+
+
+def test_an_updated_urdf_has_the_same_torques(arm: Robot, tmp_path: Path) -> None:
+    random = np.random.default_rng(1)
+    bodies = [[*inertial_of(0.3 * random.normal(size=10)), 0.0] for _ in arm.joints]
+    robot = arm.with_bodies(np.array(bodies))
+    path = tmp_path / "updated.urdf"
+    write_urdf(path, arm.source, robot, friction_of(arm))
+    again = read_urdf(path)
+    position, velocity, acceleration = arms.states("scara", 20)
+    expected = robot.torque(position, velocity, acceleration)
+    found = again.torque(position, velocity, acceleration)
+    assert np.max(np.abs(found - expected)) < 1e-10 * np.max(np.abs(expected))
+    assert '<dynamics damping="2.0" friction="3.0"' in path.read_text()
+    other = from_tables("other", [{"a": 0.4}])
+    with pytest.raises(ModelFileError, match="has no joint 1"):
+        write_urdf(path, arm.source, other, {})
 
 
 def test_log_cholesky_factors_give_bodies() -> None:
