@@ -44,8 +44,8 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
         Names for the columns of a table without a header (``"t,q,dq,tau"``); largest table [GB].
     joint, joint_kind
         Joint of a file that holds several; ``"revolute"`` or ``"prismatic"``.
-    gear_ratio, torque_constant
-        Joint-side torque = current [A] * torque_constant [N m/A] * gear_ratio.
+    gear_ratio, torque_constant, screw_pitch
+        Torque = current [A] * torque_constant [N m/A] * gear_ratio; force = torque * 2 pi/pitch [m].
     inertia
         Known inertia [kg m2] or mass [kg]: load torque = inertia * acceleration (+ gravity).
     km, kb, kt

@@ -87,10 +87,20 @@ def _strangers(kit: Kit) -> Iterator[tuple[str, Call]]:
             yield f"project {shown}", lambda x=x: sb.project(x)
         yield f"model {shown}", lambda x=x: sb.model(x)
         yield f"law {shown}", lambda x=x: sb.law(x)
+        yield f"published {shown}", lambda x=x: sb.published(x)
+        yield f"plot data {shown}", lambda x=x: sb.plot(x, fit)
+        yield f"plot models {shown}", lambda x=x: sb.plot(rec, [x])
+        yield f"plot what {shown}", lambda x=x: sb.plot(rec, fit, x)
+        yield f"arm inertia {shown}", lambda x=x: _arm(x)
         if x is not None and x != {}:
             yield f"box {shown}", lambda x=x: sb.check(model, box=x)
             yield f"side {shown}", lambda x=x: sb.check(model, box={"velocity": x})
             yield f"channel {shown}", lambda x=x: sb.check(model, box={x: (-1.0, 1.0)})
+
+
+def _arm(inertia: object) -> object:
+    rest = [[0.0, 0.0]]
+    return sb.planar_arm_load(inertia, rest, rest, rest, first_link_length=0.3)
 
 
 def _options(kit: Kit) -> Iterator[tuple[str, Call]]:

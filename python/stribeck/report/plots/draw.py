@@ -92,10 +92,10 @@ def _fits(
 ) -> tuple[Fit, ...]:
     """Each model on the recording; a spec is fitted."""
     given = models if isinstance(models, Sequence) and not isinstance(models, str) else [models]
-    if not given or not all(isinstance(one, Fit | Model | ModelFile | str) for one in given):
-        raise SpecError(
-            f"`models` is {shown(models)}: give a fit, a model, a spec, or a list of them"
-        )
+    strange = [one for one in given if not isinstance(one, Fit | Model | ModelFile | str)]
+    if strange or not given:
+        among = f"{shown(strange[0])} is among `models`" if strange else "`models` is empty"
+        raise SpecError(f"{among}: give a fit, a model, a spec, or a list of them")
     made: list[Fit] = []
     for one in given:
         if isinstance(one, str) and one.startswith(PREFIX):
