@@ -53,6 +53,4 @@ def test_causes_are_columns_on_the_samples_fitted_to(plain: sb.Recording) -> Non
 def test_steady_speeds_have_no_time(tmp_path: Path) -> None:
     frame = joint().with_columns(run=pl.Series(np.repeat(np.arange(30), 100)))
     points = record(tmp_path, frame, average="run")
-    assert list(measurement_columns(sb.fit("coulomb", points))) == [
-        "a load torque on a wrong scale"
-    ]
+    assert list(measurement_columns(sb.fit("coulomb", points))) == ["a torque on a wrong scale"]

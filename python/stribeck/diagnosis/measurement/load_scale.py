@@ -1,14 +1,23 @@
-"""Scale of the load torque: a mass, a lever or a torque constant that is a few percent wrong."""
+"""Scale of the torques: a mass that is wrong, or a torque constant that changes with the current.
+
+Both channels may be on a wrong scale: the load torque by a constant factor, the motor torque by one
+that changes with its size, as iron saturates and magnets weaken.
+"""
 
 from __future__ import annotations
 
+import numpy as np
+
 from stribeck.diagnosis.measurement.cause import Array, MeasurementCause
+from stribeck.effect.columns import odd_powers
 from stribeck.fitting.result import Fit
 
 
 def _columns(fit: Fit) -> list[Array]:
     load = fit.recording.load_torque
-    return [] if load is None else [load]
+    if load is None:
+        return []
+    return [load, *odd_powers(fit.prediction, float(np.abs(fit.prediction).max()))]
 
 
-LOAD_SCALE = MeasurementCause("a load torque on a wrong scale", _columns)
+LOAD_SCALE = MeasurementCause("a torque on a wrong scale", _columns)

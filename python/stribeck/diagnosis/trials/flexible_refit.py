@@ -49,6 +49,11 @@ class FlexibleRefit:
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
         """Whether a trial among `tried`, which must bring the fall `least`, no longer passes."""
+        fall, p_value = self.beside_columns(trial)
+        return fall < least / 2 or p_value * tried > SIGNIFICANCE
+
+    def beside_columns(self, trial: Trial) -> tuple[float, float]:
+        """What a trial adds to the columns: relative fall of the held-out RMSE, and p-value."""
         along, residual_along = _linear_refit(trial.fit, self.columns, self.before)
         level = float(np.mean(self.held_out**2))
         fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
@@ -57,7 +62,7 @@ class FlexibleRefit:
             residual_along,
             len(trial.fit.model.names) - len(self.before.model.names),
         )
-        return fall < least / 2 or p_value * tried > SIGNIFICANCE
+        return fall, p_value
 
 
 def held_out_with_columns(fitted: Fit, extra: Array, before: Fit) -> Array:

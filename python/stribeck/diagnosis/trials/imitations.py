@@ -2,8 +2,8 @@
 
 A filter, a lag, an amplifier that warms up or a wrong scale of the load leaves errors that friction
 can imitate. A friction effect stands if it explains something beside the columns of all these
-causes, or explains more than they do. Otherwise it is not claimed where they explain
-more, and demoted where both do equally well.
+causes, or predicts better than they do. Otherwise it is not claimed where they predict better, and
+demoted where both do equally well.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from stribeck.diagnosis.measurement.table import measurement_columns
 from stribeck.diagnosis.trials.evidence import Difference
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
-from stribeck.diagnosis.trials.trial import TIE, Trial
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
 
@@ -28,10 +28,13 @@ def without_imitations(before: Fit, sift: Sifted, tried: int, least: float) -> S
     alone = {what: FlexibleRefit.beside(before, made) for what, made in columns.items()}
     together = FlexibleRefit.beside(before, np.column_stack(list(columns.values())))
     for trial in suspects:
-        if not together.explains(trial, tried, least):
-            continue
         better = _advantage(before, together, trial)
         if better < -TIE:
+            continue
+        fall, p_value = together.beside_columns(trial)
+        # An effect that predicts better than all the causes need not add much to them.
+        needed = least / 2 if better > 0 else 0.0
+        if fall >= needed and p_value * tried <= SIGNIFICANCE:
             continue
         cause = _largest(alone)
         if better > TIE:
