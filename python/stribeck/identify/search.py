@@ -21,6 +21,7 @@ from stribeck.identify.separable import (
 )
 from stribeck.identify.space import SearchSpace
 from stribeck.identify.starts import starts_between_bounds, starts_without_bounds
+from stribeck.identify.subplex import beyond_ridges
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -132,6 +133,9 @@ def _between_bounds(
         at = starts_between_bounds(first, space, start, moved, 2 * starts, seed)[starts:]
         others = _searched(first, at, space, effort)
         tried[best] = _better(tried[best], others)
+    if not problem.model.effects:
+        own = [tried[k] for k in np.unique(leaders).tolist() if k != best]
+        tried[best] = beyond_ridges(first, space, tried[best], own, effort)
     tried[best] = hopped(first, space, tried[best], moved, seed, effort)
     return tried
 
