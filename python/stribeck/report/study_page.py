@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from stribeck.report.interactive.study_errors import study_errors
-from stribeck.report.numbers import plain
+from stribeck.report.numbers import MINUS, plain
 from stribeck.report.page import render
 from stribeck.report.page_figures import figures_of
 from stribeck.report.sections import Section
@@ -15,7 +15,15 @@ from stribeck.report.versions import versions
 if TYPE_CHECKING:
     from bokeh.plotting import figure
 
-    from stribeck.scale.study.result import Study
+    from stribeck.scale.study.result import Study, Table
+
+
+def _errors(study: Study, table: Table, speeds: str, low: bool) -> list[list[str]]:
+    """The errors of a table by joint; the heading names the speeds and the units."""
+    heading, *rows = error_rows(study, table.rows, list(study.joints), low)
+    units = [data.torque_unit for data in study.joints.values()]
+    named = [f"{name} [{unit}]" for name, unit in zip(heading[1:], units, strict=True)]
+    return [[f"law, {speeds}", *named], *rows]
 
 
 def study_page(study: Study, command: str = "") -> str:
@@ -34,8 +42,9 @@ def study_page(study: Study, command: str = "") -> str:
         plots[f"Low speed, {slow}{of}"] = study_errors(study, joint, low_speed=True)
     sections = []
     for each in study.tables:
-        tables = [error_rows(study, each.rows, list(study.joints), low) for low in (False, True)]
-        said = ["Mean and standard deviation of the error: all speeds, then low speed."]
+        speeds = (("all speeds", False), ("low speed", True))
+        tables = [_errors(study, each, name, low) for name, low in speeds]
+        said = [f"Mean and standard deviation of the error, measured {MINUS} modelled."]
         sections.append(Section(each.group.title, said, tables))
     sections.append(Section("Notes", note_lines(study), []))
     return render(
