@@ -95,6 +95,10 @@ class Model:
             check_names(self.names, self.spec)
         object.__setattr__(self, "values", constant(self.values, len(self.names)))
 
+    def __getstate__(self) -> dict[str, object]:
+        """Without the compiled model, which is compiled again when needed."""
+        return {k: v for k, v in vars(self).items() if k not in ("core", "predictor")}
+
     @cached_property
     def core(self) -> _core.Model:
         """The compiled model."""

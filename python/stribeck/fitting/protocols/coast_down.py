@@ -69,23 +69,24 @@ def coast_downs(recording: Recording) -> tuple[CoastDown, ...]:
     if recording.averaged or "friction_torque" in recording.columns:
         return ()
     moving = np.abs(recording.velocity_smooth) > still_speed(recording)
-    free = _without_torque(recording) & moving
+    least = _zero_torque(recording)
+    free = _without_torque(recording, least) & moving
     found = []
     for part in segment_slices(recording.segment):
         edges = np.flatnonzero(np.diff(free[part])) + 1 + part.start
         for start, stop in zip([part.start, *edges], [*edges, part.stop], strict=True):
-            released = free[start] and _is_released(recording, part.start, int(start))
+            released = free[start] and _is_released(recording, least, part.start, int(start))
             one = _coast_down(recording, int(start), int(stop)) if released else None
             if one is not None:
                 found.append(one)
     return tuple(found)
 
 
-def _without_torque(recording: Recording) -> NDArray[np.bool_]:
+def _without_torque(recording: Recording, least: float) -> NDArray[np.bool_]:
     """Where the drive gives no torque, [n]: switched off, or zero but for noise."""
     if recording.enabled is not None:
         return ~recording.enabled
-    torque, least = recording.torque, _zero_torque(recording)
+    torque = recording.torque
     # A torque that is everywhere this small is no drive that was released.
     if float(np.quantile(np.abs(torque), 0.99)) < 3.0 * least:
         return np.zeros(torque.size, dtype=bool)
@@ -98,7 +99,7 @@ def _zero_torque(recording: Recording) -> float:
     return max(_NOISE * torque_noise(recording), _SHARE * largest)
 
 
-def _is_released(recording: Recording, first: int, start: int) -> bool:
+def _is_released(recording: Recording, least: float, first: int, start: int) -> bool:
     """Whether a torque ends at once at `start`; a controller's passes through zero gradually.
 
     A recording, or a segment from sample `first` on, may begin without torque.
@@ -107,7 +108,7 @@ def _is_released(recording: Recording, first: int, start: int) -> bool:
         return True
     before = max(start - max(3, int(_RELEASE * recording.rate_hz)), first)
     strongest = float(np.abs(recording.torque[before:start]).max())
-    return strongest > 3.0 * _zero_torque(recording)
+    return strongest > 3.0 * least
 
 
 def _coast_down(recording: Recording, start: int, stop: int) -> CoastDown | None:
