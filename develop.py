@@ -108,7 +108,26 @@ def test() -> None:
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow", *sys.argv[2:])
 
 
+def browser() -> None:
+    """Install Debian's Chromium for the tests of the workbench; without it they are skipped."""
+    present = any(map(shutil.which, ("chromium", "chromium-browser")))
+    if present or shutil.which("apt-get") is None or not hasattr(os, "geteuid") or os.geteuid():
+        return
+    os.environ["DEBIAN_FRONTEND"] = "noninteractive"
+    run("apt-get", "update", "-qq")
+    run(
+        "apt-get",
+        "install",
+        "-y",
+        "-qq",
+        "--no-install-recommends",
+        "chromium",
+        "fonts-dejavu-core",
+    )
+
+
 def slow() -> None:
+    browser()
     run("cargo", "test", "--quiet", "--locked", "--release", "--test", "soak", "--", "--ignored")
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "slow", *sys.argv[2:])
 

@@ -25,6 +25,7 @@ COMMANDS = {
     "add": ("loop", "Add EFFECT to MODEL and refit; error before and after."),
     "improve": ("loop", "Diagnose and add effects until the residual is noise."),
     "report": ("report", "Write one page on DATA or a PROJECT: models, errors, findings."),
+    "app": ("app", "Open the workbench: the loop as pages in a browser."),
     "project": ("project", "Run the loop step by step; a file keeps every branch."),
     "plan": ("plan", "Plan a motion that shows what DATA cannot show."),
     "check": ("check", "Prove that MODEL is passive, or show where it is not."),

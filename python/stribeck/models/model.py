@@ -43,11 +43,9 @@ class Model:
     law, effects
         Ids of the catalog. `effects` are kept in catalog order.
     constants
-        Fixed numbers that belong to the model and are not fitted: reference temperature,
-        the stroke of a position dependence ...
+        Numbers that are not fitted: reference temperature, the stroke of a position dependence ...
     rigid_body
-        Rigid-body terms (``"inertia"``, ``"gravity"``) that were identified together with the
-        friction; their parameters are part of `values`.
+        Terms (``"inertia"``, ``"gravity"``) identified with the friction, with values in `values`.
     values
         Values of the parameters, array [p]; NaN where one is not known yet.
     torque_unit, position_unit
@@ -63,8 +61,7 @@ class Model:
     own
         Terms by formula. The first is the law if it has the name of `law`; the others are effects.
     limits
-        Bounds that a user gave, by parameter. They replace those of the catalog; equal ones hold a
-        parameter.
+        Bounds that a user gave, by parameter, not the catalog's; equal ones hold a parameter.
     stated
         What else a user stated about parameters.
 
@@ -95,8 +92,7 @@ class Model:
             check_names(self.names, self.spec)
         object.__setattr__(self, "values", constant(self.values, len(self.names)))
 
-    def __getstate__(self) -> dict[str, object]:
-        """Without the compiled model, which is compiled again when needed."""
+    def __getstate__(self) -> dict[str, object]:  # what is compiled is compiled again
         return {k: v for k, v in vars(self).items() if k not in ("core", "predictor")}
 
     @cached_property
@@ -364,7 +360,7 @@ class Model:
         **channels : arrays [n]
             ``position``, ``acceleration``, ``temperature``, ``load_torque``, ``motor_torque``,
             ``external_torque``, ``time``, ``load_torque_curvature``. Default: the middle of the
-            operating box; for the time the middle of the recording, for the last one 0.
+            operating box; for the time that of the recording, for the last one 0.
         """
         found = split_columns(self.core, velocity, channels, self.box)
         return dict(self.core.split(self.known_values(), **found))

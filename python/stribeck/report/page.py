@@ -94,7 +94,7 @@ def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
         found=found,
         likely=account.likely,
         less_likely=less_likely_sentence([s.effect for s in account.steps[: account.likely]]),
-        comparison=None if account.comparison is None else _comparison(account.comparison),
+        comparison=None if account.comparison is None else comparison_tables(account.comparison),
         shown=[fit.model.spec for fit in account.models],
         spec=final.model.spec,
         equations=equations(final.model),
@@ -164,7 +164,7 @@ def _channels(r: Recording) -> list[tuple[str, str, str, str, str]]:
     ]
 
 
-def _comparison(comparison: Comparison) -> dict[str, object]:
+def comparison_tables(comparison: Comparison) -> dict[str, object]:
     """Tables of models side by side, and of where each fails."""
     models = comparison.models
     heading, *rows = overview_rows(comparison)

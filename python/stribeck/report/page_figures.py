@@ -64,7 +64,7 @@ def figures_of(plots: Mapping[str, figure]) -> Figures:
 def account_plots(account: Account) -> dict[str, figure]:
     """Every figure of a page, by name."""
     samples = samples_of(account.models)
-    plots = _of_samples(samples)
+    plots = sample_plots(samples)
     for k, step in enumerate(account.steps, 1):
         plots[f"step {k}"] = finding_residual(step.effect, step.before, step.after)
     plots |= _errors(account)
@@ -77,7 +77,7 @@ def account_plots(account: Account) -> dict[str, figure]:
     return plots
 
 
-def _of_samples(samples: Samples) -> dict[str, figure]:
+def sample_plots(samples: Samples) -> dict[str, figure]:
     """The figures that share samples; time and its residual share their range too."""
     over_time = time(samples)
     plots = {"friction": friction_velocity(samples), "time": over_time}

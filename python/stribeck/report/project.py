@@ -67,7 +67,7 @@ def _error(node: Node) -> float:
     return kept.rmse if kept.rmse_held_out is None else kept.rmse_held_out
 
 
-def _branches(tree: Tree, number: int, before: str = "") -> list[tuple[Node, str]]:
+def branches(tree: Tree, number: int, before: str = "") -> list[tuple[Node, str]]:
     """The nodes in the order in which they are drawn, with the lines before their labels.
 
     A single child stands directly below its parent, as a step of the same branch; several children
@@ -80,7 +80,7 @@ def _branches(tree: Tree, number: int, before: str = "") -> list[tuple[Node, str
         last = k == len(children) - 1
         lead = before if len(children) == 1 else f"{before}{'└ ' if last else '├ '}"
         below = before if len(children) == 1 else f"{before}{'  ' if last else '│ '}"
-        drawn += [(child, lead), *_branches(tree, child.number, below)[1:]]
+        drawn += [(child, lead), *branches(tree, child.number, below)[1:]]
     return [(node, before), *drawn]
 
 
@@ -88,7 +88,7 @@ def tree_text(project: Project) -> str:
     """A line a node: number, change, bar of the error, its fall, and the branch's name."""
     tree, unit = project.tree, project.node.kept.model.torque_unit
     floor = tree.noise_floor
-    drawn = _branches(tree, tree.root.number)
+    drawn = branches(tree, tree.root.number)
     largest = max([*(_error(node) for node in tree), floor or 0.0])
     labels = [f"{lead}{node.label}" for node, lead in drawn]
     wide = max(map(len, labels))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -84,6 +84,10 @@ class Samples:
         """
         rows = self.fits[-1].rows
         return shown_range([self.columns[name][rows] for name in columns])
+
+    def redrawn(self) -> Samples:
+        """The same with a source of its own: figures of two documents cannot share one."""
+        return replace(self, source=ColumnDataSource(self.data(0, self.rows)))
 
     def within(self, start: float, end: float) -> tuple[int, int]:
         """First sample in a window of time, and the one after its last."""

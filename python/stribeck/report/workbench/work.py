@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Callable
 from multiprocessing.connection import Connection, wait
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol, cast
 
 from stribeck.base.errors import StribeckError, one_line
 from stribeck.base.foreign import sentence_of
@@ -17,7 +17,7 @@ from stribeck.base.pool import worker_count
 from stribeck.report.workbench.exchange import Exchange
 
 if TYPE_CHECKING:
-    from multiprocessing.context import BaseContext
+    from multiprocessing.context import ForkServerContext, SpawnContext
 
 #: What a process tells: a sentence, a result so far, the last result, or why there is none.
 Kind = Literal["said", "known", "done", "failed"]
@@ -76,7 +76,6 @@ class Work:
         here, there = context.Pipe()
         self._exchange = Exchange(here, "a")
         self._process = context.Process(target=_run, args=(there,), daemon=True)
-        # A fit has its own threads: none is started here beside the one that listens.
         threading.Thread(
             target=self._listen, args=(there, (do, arguments)), daemon=True, name=title
         ).start()
@@ -101,7 +100,7 @@ class Work:
             self._exchange.send(call)
             kind: Kind = "said"
             while kind in ("said", "known"):
-                kind, content = self._exchange.receive()  # type: ignore[misc]
+                kind, content = cast("tuple[Kind, object]", self._exchange.receive())
                 self._tell(kind, content)
         except (EOFError, OSError):
             self._tell("failed", ENDED)
@@ -115,7 +114,7 @@ class Work:
         self._told(self, kind, content)
 
 
-def _context() -> BaseContext:
+def _context() -> ForkServerContext | SpawnContext:
     """Processes that start from a clean one, in which the package is imported already."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
@@ -132,7 +131,7 @@ def _run(connection: Connection) -> None:
     os.environ.setdefault("OMP_NUM_THREADS", str(worker_count()))
     threading.Thread(target=_end_with_parent, daemon=True).start()
     exchange = Exchange(connection, "b")
-    do, arguments = exchange.receive()  # type: ignore[misc]
+    do, arguments = cast("tuple[Callable[..., object], tuple[object, ...]]", exchange.receive())
 
     def tell(kind: Literal["said", "known"], what: object) -> None:
         exchange.send((kind, what))

@@ -1,0 +1,184 @@
+"""Long actions; each runs in a process of its own and tells how far it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from stribeck.base.errors import RecordingError, SpecError
+from stribeck.diagnosis.compare import Comparison, compare
+from stribeck.diagnosis.inspect import inspect
+from stribeck.exporters.export import Export, export
+from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
+from stribeck.motion.design.plan import plan
+from stribeck.motion.design.result import Plan
+from stribeck.passivity.certificate import Certificate
+from stribeck.passivity.check import check
+from stribeck.projects.project import Project
+from stribeck.projects.sides import Sides
+from stribeck.recording.load import read_with
+from stribeck.recording.options import ReadOptions
+from stribeck.recording.recording import Recording
+from stribeck.recording.scan import FileColumn
+from stribeck.report.account import of_project
+from stribeck.report.page import account_page
+from stribeck.report.workbench.work import Telling
+
+
+@dataclass(frozen=True)
+class Looked:
+    """What a file holds.
+
+    Attributes
+    ----------
+    said
+        The JSON of `stribeck inspect`.
+    """
+
+    said: Mapping[str, object]
+    columns: tuple[FileColumn, ...]
+
+
+@dataclass(frozen=True)
+class Changed:
+    """A project after an action, with the errors of its current model where they were computed."""
+
+    project: Project
+    comparison: Comparison | None = None
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a planned motion must keep, in rad or m and s, and what it is for."""
+
+    position: tuple[float, float]
+    speed: float
+    acceleration: float
+    duration: float
+    show: tuple[str, ...]
+    separate: tuple[str, ...]
+
+
+def look(tell: Telling, path: str, options: ReadOptions) -> Looked:
+    """Read a file, and say what it holds and can show."""
+    tell("said", "Reading the file")
+    recording: Recording | None = None
+    try:
+        recording = read_with(path, options)
+    except RecordingError:
+        # The inspection below says why.
+        recording = None
+    if recording is not None:
+        tell("known", recording)
+    tell("said", "Checking the channels against each other, and what they can show")
+    found = inspect(path, **options.given())
+    return Looked(found.to_dict(), found.table.columns)
+
+
+def begin(tell: Telling, path: str, data: str, base: str, options: ReadOptions) -> Changed:
+    """Make a project with its base model fitted."""
+    tell("said", f"Fitting {base}")
+    return _compared(tell, Project.new(path, data, base, **options.given()))
+
+
+def reopen(tell: Telling, path: str) -> Changed:
+    """Open a project file."""
+    tell("said", "Reading the project and its data")
+    return _compared(tell, Project.open(path))
+
+
+def where(tell: Telling, project: Project) -> Changed:
+    """The errors of the current model, by regime."""
+    return _compared(tell, project)
+
+
+def diagnose(tell: Telling, project: Project) -> Changed:
+    """Find what the current model lacks."""
+    tell("said", "Trying every effect that the data can show")
+    return Changed(project.diagnose())
+
+
+def add(tell: Telling, project: Project, effect: str) -> Changed:
+    """Add an effect to the current model."""
+    tell("said", f"Adding {effect} and fitting again")
+    return _compared(tell, project.add(effect))
+
+
+def drop(tell: Telling, project: Project, effect: str) -> Changed:
+    """Drop an effect of the current model."""
+    tell("said", f"Dropping {effect} and fitting again")
+    return _compared(tell, project.drop(effect))
+
+
+def improve(tell: Telling, project: Project) -> Changed:
+    """Diagnose and add until what is left is noise; every step is told."""
+    made = project.improve(
+        progress=lambda sentence: tell("said", sentence),
+        each=lambda found: tell("known", Changed(found)),
+    )
+    return _compared(tell, made)
+
+
+def compare_laws(tell: Telling, recording: Recording, laws: Sequence[str]) -> Comparison:
+    """Fit several laws and compare them."""
+    fits: list[Fit] = []
+    for law in laws:
+        tell("said", f"Fitting {law}")
+        fits.append(fit(law, recording))
+        tell("known", compare(fits, recording))
+    return compare(fits, recording)
+
+
+def compare_nodes(tell: Telling, project: Project, one: str, other: str) -> Sides:
+    """Compare two models of a project."""
+    return project.compare(one, other)
+
+
+def prove(tell: Telling, project: Project, box: Mapping[str, tuple[float, float]]) -> Certificate:
+    """Prove that the current model is passive, or find a motion that generates energy."""
+    tell("said", "Looking for a proof or a counterexample")
+    return check(project.fit, dict(box))
+
+
+def plan_motion(tell: Telling, project: Project, limits: Limits) -> Plan:
+    """Plan a motion that shows or separates effects."""
+    tell("said", "Searching for a motion")
+    return plan(
+        project.fit,
+        position=limits.position,
+        speed=limits.speed,
+        acceleration=limits.acceleration,
+        duration=limits.duration,
+        show=limits.show,
+        separate=limits.separate,
+    )
+
+
+def export_model(
+    tell: Telling, project: Project, language: str, precision: str, folder: str
+) -> Export:
+    """Write the current model as a program."""
+    return export(project.fit, language, folder, precision=precision, name="friction")
+
+
+def page_of(tell: Telling, project: Project, command: str) -> str:
+    """The report of the branch that ends at the current model."""
+    if project.diagnosis is None:
+        tell("said", "Looking for what is still missing")
+        project = project.diagnose()
+        tell("known", Changed(project))
+    tell("said", "Writing the page")
+    fits = [project.fit_of(node) for node in project.tree.path(project.current)]
+    diagnosis = project.diagnosis
+    if diagnosis is None:
+        raise SpecError("the model has no diagnosis: press Find what is missing first")
+    account = of_project(project, diagnosis, compare(fits, project.recording))
+    return account_page(account.made_by(command, check(project.fit)))
+
+
+def _compared(tell: Telling, project: Project) -> Changed:
+    fitted = project.fit
+    tell("known", Changed(project))
+    tell("said", "Looking where the model fails")
+    return Changed(project, compare([fitted], project.recording))

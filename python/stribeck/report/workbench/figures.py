@@ -1,0 +1,136 @@
+"""The figures of each page of the workbench, and the samples that a zoom asks for."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from stribeck.report.interactive.channels_time import RecordingSamples, channels_time
+from stribeck.report.interactive.falling_error import falling_error
+from stribeck.report.interactive.finding_residual import finding_residual
+from stribeck.report.interactive.findings import findings
+from stribeck.report.interactive.intervals import intervals
+from stribeck.report.interactive.samples import Samples, samples_of
+from stribeck.report.page_figures import sample_plots
+from stribeck.report.workbench.controller import Workbench
+
+if TYPE_CHECKING:
+    from bokeh.plotting import figure
+
+    from stribeck.fitting.result import Fit
+    from stribeck.recording.recording import Recording
+    from stribeck.report.workbench.state import Joint
+
+#: Names by which the script of the pages finds the samples and the range of time.
+SAMPLES, WINDOW = "samples", "window"
+
+
+class Drawn:
+    """The figures of one page, made once for each state of what they show."""
+
+    def __init__(self, bench: Workbench) -> None:
+        self._bench = bench
+        self._kept: dict[str, tuple[Sequence[object], Samples | RecordingSamples]] = {}
+
+    def plots(self, page: str) -> dict[str, figure]:
+        """The figures of a page, by the names of their places."""
+        joint = self._bench.state.current
+        if joint is None:
+            return {}
+        if page == "data" and joint.recording is not None:
+            return self._windowed(channels_time(self._channels(joint.recording)))
+        if page == "where" and joint.project is not None and joint.comparison is not None:
+            made = sample_plots(self._samples(page, [joint.project.fit]))
+            rows = joint.project.fit.estimates.values()
+            if any(e.ci95 is not None and e.value != 0.0 for e in rows):
+                made["intervals"] = intervals(rows)
+            return self._windowed(made)
+        if page == "compare" and joint.sides is not None:
+            fits = [a.fit for a in joint.sides.comparison.models]
+            return self._windowed(sample_plots(self._samples(page, fits)))
+        if page == "missing":
+            return _found(joint)
+        return _errors(joint) if page == "add" else {}
+
+    def window(self, page: str, start: float, end: float) -> dict[str, dict[str, str]]:
+        """The samples that are drawn between two times, as the script of the pages takes them."""
+        joint = self._bench.state.current
+        if joint is None or page not in self._kept:
+            return {}
+        samples = self._kept[page][1]
+        return {
+            name: {
+                "type": values.dtype.name,
+                "content": base64.b64encode(values.tobytes()).decode("ascii"),
+            }
+            for name, values in samples.data(*samples.within(start, end)).items()
+        }
+
+    def _samples(self, page: str, fits: list[Fit]) -> Samples:
+        known = self._kept.get(page)
+        if known is not None and isinstance(known[1], Samples) and _same(known[0], fits):
+            # The samples of a figure belong to one document: each page gets its own.
+            return known[1].redrawn()
+        made = samples_of(fits)
+        self._kept[page] = (fits, made)
+        return made
+
+    def _channels(self, recording: Recording) -> RecordingSamples:
+        made = RecordingSamples.of(recording)
+        self._kept["data"] = ([recording], made)
+        return made
+
+    def _windowed(self, plots: dict[str, figure]) -> dict[str, figure]:
+        """Name what the script of the pages changes when the time axis is zoomed."""
+        first = plots.get("time")
+        if first is not None:
+            first.x_range.name = WINDOW
+            first.renderers[0].data_source.name = SAMPLES
+        return plots
+
+
+def as_json(plots: dict[str, figure]) -> dict[str, object]:
+    """Figures as BokehJS embeds them: in one document, so that they share their samples."""
+    from bokeh.embed.util import OutputDocumentFor, standalone_docs_json_and_render_items
+
+    models = list(plots.values())
+    if not models:
+        return {}
+    with OutputDocumentFor(models):
+        docs, (item,) = standalone_docs_json_and_render_items(models)
+        places = {name: plot.id for name, plot in plots.items()}
+    return {"docs": docs, "item": item.to_json(), "places": places}
+
+
+def _found(joint: Joint) -> dict[str, figure]:
+    diagnosis = None if joint.project is None else joint.project.diagnosis
+    if diagnosis is None or not diagnosis.findings:
+        return {}
+    made = {"findings": findings(diagnosis.findings, diagnosis.noise_floor.value)}
+    for number, finding in enumerate(diagnosis.findings, 1):
+        made[f"finding {number}"] = finding_residual(finding.effect, finding.before, finding.fit)
+    return made
+
+
+def _errors(joint: Joint) -> dict[str, figure]:
+    """The error along the branch of the current model."""
+    if joint.project is None:
+        return {}
+    path = joint.project.tree.path(joint.project.current)
+    held_out = [node.kept.rmse_held_out for node in path]
+    known = [error for error in held_out if error is not None]
+    every = len(known) == len(path)
+    return {
+        "errors": falling_error(
+            [node.label for node in path],
+            known if every else [node.kept.rmse for node in path],
+            joint.project.node.kept.model.torque_unit,
+            noise_floor=joint.project.tree.noise_floor,
+            held_out=every,
+        )
+    }
+
+
+def _same(some: Sequence[object], others: Sequence[object]) -> bool:
+    return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))

@@ -1,0 +1,74 @@
+// What the pages cannot do without a script: figures, progress, dropped files.
+"use strict";
+const page = document.body.dataset;
+
+// Progress: ask while work goes on, and show the page again when something changed.
+function clock(seconds, left) {
+  const least = `${seconds.toFixed(0)} s`;
+  return left === null ? `(${least})` : `(${least}, about ${Math.ceil(left)} s left)`;
+}
+async function progress() {
+  try {
+    const answer = await (await fetch(page.progress)).json();
+    if (answer.version !== Number(page.version) || !answer.busy) { location.reload(); return; }
+    document.getElementById("said").textContent = answer.said;
+    document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
+  } catch { document.getElementById("said").textContent = "The workbench has ended."; return; }
+  setTimeout(progress, 250);
+}
+if (page.busy === "1") progress();
+
+// Files that are dropped anywhere on the form are sent with it.
+for (const form of document.querySelectorAll(".drop")) {
+  form.addEventListener("dragover", (event) => { event.preventDefault(); form.classList.add("over"); });
+  form.addEventListener("dragleave", () => form.classList.remove("over"));
+  form.addEventListener("drop", (event) => {
+    event.preventDefault();
+    form.querySelector("input[type=file]").files = event.dataTransfer.files;
+    form.requestSubmit();
+  });
+}
+
+// Figures: one document, so that a selection in one marks the others.
+const TYPES = { float32: Float32Array, float64: Float64Array, int32: Int32Array };
+function decoded(column) {
+  const bytes = Uint8Array.from(atob(column.content), (c) => c.charCodeAt(0));
+  return new TYPES[column.type](bytes.buffer);
+}
+function followZoom(bokeh) {
+  const range = bokeh.get_model_by_name("window");
+  const source = bokeh.get_model_by_name("samples");
+  if (!range || !source) return;
+  let waiting = 0, asked = 0;
+  async function answer() {
+    const number = ++asked, began = performance.now();
+    const reply = await fetch(`${page.window}&start=${range.start}&end=${range.end}`);
+    const columns = await reply.json();
+    if (number !== asked) return;
+    source.selected.indices = [];
+    source.data = Object.fromEntries(Object.entries(columns).map(([name, c]) => [name, decoded(c)]));
+    page.zoomed = String(Math.round(performance.now() - began));
+  }
+  for (const side of [range.properties.start, range.properties.end]) {
+    side.change.connect(() => { clearTimeout(waiting); waiting = setTimeout(answer, 40); });
+  }
+}
+async function draw() {
+  const places = [...document.querySelectorAll("[data-figure]")];
+  if (!places.length) return;
+  const made = await (await fetch(page.figures)).json();
+  const roots = {};
+  for (const place of places) {
+    const id = made.places && made.places[place.dataset.figure];
+    if (!id) { place.hidden = true; continue; }
+    const plot = place.querySelector(".plot");
+    plot.id = made.item.roots[id];
+    roots[id] = plot.id;
+  }
+  if (!Object.keys(roots).length) return;
+  const known = Bokeh.documents.length;
+  await Bokeh.embed.embed_items(made.docs, [{ ...made.item, roots, root_ids: Object.keys(roots) }]);
+  if (Bokeh.documents.length > known) followZoom(Bokeh.documents[known]);
+  page.drawn = "1";
+}
+window.addEventListener("load", draw);

@@ -1,0 +1,143 @@
+"""The workbench without a browser: actions change the state, and every page shows it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import stribeck as sb
+from stribeck.base.errors import StribeckError
+from stribeck.report.workbench.controller import Workbench
+from stribeck.report.workbench.figures import Drawn, as_json
+from stribeck.report.workbench.forms import act, options_of, with_option
+from stribeck.report.workbench.views import PAGES, page
+from synthetic import joint
+
+WAIT = 60.0
+
+
+def link(path: str, **query: str) -> str:
+    return f"/{path}?token=t"
+
+
+@pytest.fixture
+def bench(tmp_path: Path) -> Iterator[Workbench]:
+    path = tmp_path / "joint.csv"
+    joint(rows=1500).write_csv(path)
+    made = Workbench(tmp_path / "kept", [str(path)])
+    assert made.wait(WAIT)
+    yield made
+    made.cancel()
+
+
+def do(bench: Workbench, action: str, **fields: str) -> None:
+    act(bench, action, {name: [said] for name, said in fields.items()})
+    assert bench.wait(WAIT)
+    message = bench.state.message
+    assert message is None or message.kind == "done", message
+
+
+def shown(bench: Workbench) -> str:
+    return "".join(page(bench, name, link) for name in PAGES)
+
+
+def test_the_loop(bench: Workbench) -> None:
+    assert "Fit this law" in shown(bench)
+    do(bench, "start", law="coulomb")
+    do(bench, "add", effect="offset")
+    do(bench, "reject", effect="load", why="<b>known</b>")
+    do(bench, "name", name="with offset")
+    do(bench, "back", node="0")
+    do(bench, "add", effect="inertia")
+    do(bench, "compare", one="with offset", other="2")
+    do(bench, "prove", box="velocity=-1:1")
+    do(bench, "back", node="with offset")
+    do(bench, "accept", effect="load")
+    do(bench, "reject", effect="load", why="<b>known</b>")
+    text = shown(bench)
+    assert "&lt;b&gt;known" in text and "<b>known" not in text
+    assert "coulomb+offset" in text
+    drawn = Drawn(bench)
+    for name in ("data", "where", "compare", "add"):
+        assert as_json(drawn.plots(name))["places"], name
+    window = drawn.window("where", 1.0, 2.0)
+    assert set(window["time"]) == {"type", "content"}
+    kept = sb.project(bench.project.path)
+    assert [node.label for node in kept.tree] == ["coulomb", "+ offset", "+ inertia"]
+    do(bench, "export", format="c", precision="f64")
+    do(bench, "save model")
+    assert {path.suffix for path in bench.state.written} >= {".toml", ".c", ".h"}
+
+
+def test_a_project_is_opened_again(bench: Workbench, tmp_path: Path) -> None:
+    do(bench, "start", law="coulomb")
+    again = Workbench(tmp_path / "other", [str(bench.project.path)])
+    assert again.wait(WAIT)
+    assert again.project.node.kept.rmse == bench.project.node.kept.rmse
+    assert again.joint.comparison is not None
+
+
+def test_errors_are_the_sentence_of_the_command(bench: Workbench) -> None:
+    act(bench, "start", {"law": ["cuolomb"]})
+    assert bench.wait(WAIT)
+    with pytest.raises(StribeckError) as error:
+        sb.model("cuolomb")
+    assert bench.state.message is not None
+    assert bench.state.message.text == str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("action", "fields", "said"),
+    [
+        ("nothing", {}, "no action"),
+        ("diagnose", {}, "no law is fitted"),
+        ("open", {"path": ["/nowhere.csv"]}, "no such file"),
+        ("open", {}, "'path' is empty"),
+        ("choose", {"number": ["7"]}, "no recording 7"),
+        ("plan", {"lowest position": ["a"]}, "give a number"),
+        ("prove", {}, "no law is fitted"),
+    ],
+)
+def test_what_cannot_be_done(
+    bench: Workbench, action: str, fields: dict[str, list[str]], said: str
+) -> None:
+    with pytest.raises(StribeckError, match=said):
+        act(bench, action, fields)
+
+
+def test_a_column_is_read_as_a_channel(tmp_path: Path) -> None:
+    path = tmp_path / "joint.csv"
+    joint(rows=1500).rename({"velocity": "speed of it"}).write_csv(path)
+    bench = Workbench(tmp_path, [str(path)])
+    assert bench.wait(WAIT)
+    do(bench, "apply", option="map", value="velocity=speed of it")
+    assert bench.joint.recording is not None
+    assert bench.joint.recording.columns["velocity"].source == "speed of it"
+
+
+def test_work_is_stopped_at_once(bench: Workbench) -> None:
+    do(bench, "start", law="coulomb")
+    act(bench, "improve", {})
+    bench.cancel()
+    assert bench.wait(0.1)
+    assert bench.project.node.label == "coulomb"
+
+
+def test_what_is_sent_keeps_its_name_and_stays_in_the_folder(bench: Workbench) -> None:
+    content = Path(bench.joint.path).read_bytes()
+    for _ in range(2):
+        bench.upload("../../outside.csv", content)
+        assert bench.wait(WAIT)
+    sent = sorted((bench.folder / "uploads").iterdir())
+    assert [path.name for path in sent] == ["outside-2.csv", "outside.csv"]
+    with pytest.raises(StribeckError, match="format"):
+        bench.upload("run.exe", b"")
+
+
+def test_options_of_a_form() -> None:
+    made = options_of({"joint": ["2"], "gear_ratio": ["50"], "map": ["time=t\nvelocity=w"]})
+    assert (made.joint, made.gear_ratio, made.map) == ("2", 50.0, ("time=t", "velocity=w"))
+    made = with_option(made, "map", "velocity=v2")
+    assert made.pairs("map") == {"time": "t", "velocity": "v2"}
+    assert with_option(made, "trust", "").trust
