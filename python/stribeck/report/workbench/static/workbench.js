@@ -57,17 +57,17 @@ async function draw() {
   const places = [...document.querySelectorAll("[data-figure]")];
   if (!places.length) return;
   const made = await (await fetch(page.figures)).json();
-  const roots = {};
-  for (const place of places) {
-    const id = made.places && made.places[place.dataset.figure];
-    if (!id) { place.hidden = true; continue; }
-    const plot = place.querySelector(".plot");
+  if (!made.item) { places.forEach((place) => { place.hidden = true; }); return; }
+  // BokehJS fills the places in the order of the document: each figure needs one.
+  for (const [name, id] of Object.entries(made.places)) {
+    const place = places.find((one) => one.dataset.figure === name);
+    const plot = place ? place.querySelector(".plot") : document.body.appendChild(document.createElement("div"));
+    plot.hidden = !place;
     plot.id = made.item.roots[id];
-    roots[id] = plot.id;
   }
-  if (!Object.keys(roots).length) return;
+  for (const place of places) place.hidden = !(place.dataset.figure in made.places);
   const known = Bokeh.documents.length;
-  await Bokeh.embed.embed_items(made.docs, [{ ...made.item, roots, root_ids: Object.keys(roots) }]);
+  await Bokeh.embed.embed_items(made.docs, [made.item]);
   if (Bokeh.documents.length > known) followZoom(Bokeh.documents[known]);
   page.drawn = "1";
 }
