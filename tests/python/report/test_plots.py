@@ -116,3 +116,18 @@ def test_steady_points_have_no_time(path: Path) -> None:
     for what in ("time", "hysteresis", "warm-up", "spectrum"):
         with pytest.raises(sb.SpecError, match="steady-state points"):
             sb.plot(points, sb.model("coulomb", coulomb_friction=4.0, viscous_friction=2.0), what)
+
+
+@pytest.mark.parametrize("effect", ["backlash", "delay", "position", "offset"])
+def test_models_whose_friction_is_no_curve_are_drawn_as_dots(path: Path, effect: str) -> None:
+    recording = sb.read(path)
+    figure = sb.plot(recording, sb.fit(f"coulomb+{effect}", recording, starts=1))
+    named = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert named == ["measured", f"coulomb+{effect}"]
+
+
+def test_of_two_models_alike_the_stored_one_is_named(fits) -> None:
+    stored = sb.model("coulomb", coulomb_friction=4.0, viscous_friction=3.0)
+    figure = sb.plot(fits[0].recording, [fits[0], stored], "residual-velocity")
+    named = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert named == ["coulomb", "coulomb, not refitted"]

@@ -102,12 +102,18 @@ class Page:
     @property
     def _legend_columns(self) -> int:
         """Columns of the legend: as many names beside each other as the width holds."""
-        longest = max(len(short(fit.model.spec)) for fit in self.fits)
+        longest = max(len(self.name(fit)) for fit in self.fits)
         return max(1, int(self.width // (12.0 + 1.35 * max(longest, 9))))
 
     def colour(self, index: int) -> str:
         """Colour of a model."""
         return COLOURS[index % len(COLOURS)]
+
+    def name(self, fit: Fit) -> str:
+        """Name of a model in the legend; of two alike, which one was not fitted here."""
+        alike = sum(other.model.spec == fit.model.spec for other in self.fits)
+        stored = ", not refitted" if alike > 1 and fit.starts == 0 else ""
+        return f"{short(fit.model.spec)}{stored}"
 
     def line(self, index: int) -> dict[str, object]:
         """Colour, style and width of a model's line."""
@@ -160,7 +166,7 @@ class Page:
         drawn = self.line(index)
         if dotted:
             drawn |= {"linestyle": "none", "marker": ".", "markersize": 4}
-        return Line2D([], [], label=short(fit.model.spec), **drawn)  # type: ignore[arg-type]
+        return Line2D([], [], label=self.name(fit), **drawn)  # type: ignore[arg-type]
 
 
 def _measured(label: str, as_line: bool) -> Line2D:
