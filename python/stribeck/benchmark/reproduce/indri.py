@@ -85,13 +85,15 @@ def reproduce(seed: int = 0, quick: bool = False) -> Reproduction:
     )
 
 
+#: Share of a printed relative error that ours may differ by, and why.
 _NOISE = (
-    "the torque error is simulated with the printed share; its correlation leaves 10 % of it to "
-    "chance"
+    0.1,
+    "the torque error is simulated with the printed share; its correlation leaves 10 % to chance",
 )
 _CIRCLE = (
+    0.5,
     "the torque error has the size of the identification; speed and radius of the circle, which "
-    "are not printed, set the torque that it is divided by, and with it a half of the figure"
+    "are not printed, set the torque that it is divided by, and with it a half of the figure",
 )
 _DATA = (
     "The paper publishes no measurements. The arm is simulated with eq 14: four inertial "
@@ -243,18 +245,12 @@ def _error_rows(
     what: str,
     printed: tuple[float, float],
     ours: tuple[float, float],
-    why: str,
+    allowed: tuple[float, str],
 ) -> list[Row]:
-    share = 0.1 if why is _NOISE else 0.5
-    return [
-        Row(
-            where,
-            f"relative error, {what}, joint {k}",
-            "%",
-            paper,
-            100.0 * found,
-            share * paper,
-            why,
-        )
-        for k, (paper, found) in enumerate(zip(printed, ours, strict=True), 1)
-    ]
+    """Relative errors of both joints; `allowed` is the share of the printed one, and why."""
+    share, why = allowed
+    rows = []
+    for k, (paper, found) in enumerate(zip(printed, ours, strict=True), 1):
+        quantity = f"relative error, {what}, joint {k}"
+        rows.append(Row(where, quantity, "%", paper, 100.0 * found, share * paper, why))
+    return rows

@@ -27,14 +27,14 @@ SLOW, VERY_SLOW = 0.1, 0.02
 
 def motions(seed: int) -> Iterable[Picture]:
     """Figures 3, 4, 5, 8 and 9: the motions of the arm, its torques and its friction."""
-    paths = []
+    paths, others = [], []
     for test, number in ((1, 4), (2, 8)):
         planned = data.robot(test, seed).trajectory
         clock = np.linspace(0.0, planned.seconds, 1500)
         q, v, a = planned(clock)
         paths.append((test, _tool(q)))
-        yield _trajectory(number, test, clock, (q, v, a, _rates(clock, _tool(q))))
-        yield _torques(number + 1, test, seed)
+        others.append(_trajectory(number, test, clock, (q, v, a, _rates(clock, _tool(q)))))
+        others.append(_torques(number + 1, test, seed))
     figure = new_figure(9.0, 4.0)
     for k, (test, path) in enumerate(paths):
         axes = figure.add_subplot(1, 2, k + 1, projection="3d")
@@ -48,6 +48,7 @@ def motions(seed: int) -> Iterable[Picture]:
         "kind.",
         figure,
     )
+    yield from others
 
 
 def _tool(q: Array) -> Array:
@@ -114,7 +115,8 @@ def _torques(number: int, test: int, seed: int) -> Picture:
         axes.set_xlabel("time [s]")
     for axes in grid[:, 0]:
         axes.set_ylabel("torque [N m]")
-    grid[0, 2].legend(frameon=False, fontsize=8)
+    lines, names = grid[0, 2].get_legend_handles_labels()
+    figure.legend(lines, names, loc="outside upper right", ncols=2, frameon=False, fontsize=9)
     said = (
         "Joint torque and friction over time, Test 1."
         if test == 1

@@ -89,8 +89,10 @@ _DATA = (
     f"cycles at {data.THIN_RATE:g} Hz, from {data.COLD:g} to {data.WARM:g} degC.",
     "Each law is fitted from its printed parameters and from one more start, over all samples as "
     "in the review. Six draws of way points show how far they move an error.",
-    "Figures 3 to 5, 8 and 9 are those of the synthetic arm of `stribeck generate`, with the "
-    "kinematics and masses of a UR5e and friction outside the catalog.",
+    "Joint 2, the energies of tables 4 to 6, and figures 3 to 5, 8 and 9 are those of the "
+    "synthetic arms of stribeck generate, with the kinematics and masses of a UR5e, motor "
+    "constants of the usual size and friction outside the catalog; several arms show how far "
+    "errors scatter.",
 )
 _LEFT_OUT = (
     "tables 4 to 6, energies in J: those of a robot whose motor constants the review does not "
