@@ -211,8 +211,8 @@ def warm_laws(motion: data.Motion, fitted: Sequence[Fitted]) -> Iterable[Picture
             yield Picture(
                 f"figure_{number}",
                 f"figure {number} (joint 1)",
-                "Friction over velocity, coloured by temperature: it falls as the joint warms up, "
-                "as in the review.",
+                "Friction over velocity, coloured by temperature: as in the review it falls as the "
+                "joint warms up, with li's printed parameters by no more than 1.2 N m.",
                 figure,
             )
 
