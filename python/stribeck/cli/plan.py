@@ -96,7 +96,7 @@ def plan(
 
     Without data: stribeck plan MODEL.toml.
     """
-    limits = _range(position)
+    limits = position_range(position)
     joint = _joint(data, model, noise, starts=starts, seed=seed, reading=reading)
     say("note: searching for a motion, some seconds to a minute ...")
     planned = make(
@@ -148,7 +148,8 @@ def _kind(model: Model) -> str:
     return "revolute" if model.position_unit == "rad" else "prismatic"
 
 
-def _range(text: str) -> tuple[float, float]:
+def position_range(text: str) -> tuple[float, float]:
+    """The ends of `LOW:HIGH`."""
     low, mark, high = text.partition(":")
     try:
         if mark:

@@ -12,15 +12,27 @@ from stribeck.cli.common import (
     echo_json,
     echo_result,
     json_option,
-    least_fall_option,
     recording_options,
     say,
     seed_option,
     starts_option,
 )
 from stribeck.cli.data import split
-from stribeck.cli.options import Command, Values, added, gathered
-from stribeck.cli.outputs import ROBOT, TABLE, URDF, CheckedCommand
+from stribeck.cli.outputs import TABLE, URDF, CheckedCommand
+from stribeck.cli.plan import position_range
+from stribeck.cli.robot_options import (
+    by_joint,
+    cutoff_option,
+    evaluate_option,
+    joint_model_option,
+    loop_options,
+    output_option,
+    payload_option,
+    read_runs,
+    robot_options,
+    runs_argument,
+)
+from stribeck.motion.design.motion import Limits
 from stribeck.motion.generate.files import file_bytes
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
@@ -30,58 +42,11 @@ from stribeck.robot.describe import read_robot
 from stribeck.robot.diagnosis import RobotDiagnosis
 from stribeck.robot.fit import ORDINARY, fit_robot
 from stribeck.robot.improve import MOST_STEPS, improve_robot
-from stribeck.robot.motion import RobotMotion, read_motion
+from stribeck.robot.plan import plan_robot
 from stribeck.robot.result import RobotFit
 from stribeck.robot.simulate import simulate_robot
 from stribeck.robot.stored import read_friction, write_robot
 from stribeck.robot.updated_urdf import write_urdf
-
-output_option = click.option(
-    "-o",
-    "--output",
-    type=ROBOT,
-    default=None,
-    help="Write the identified robot to this file (TOML).",
-)
-runs_argument = click.argument("runs", nargs=-1, required=True, metavar="RUNS...")
-cutoff_option = click.option(
-    "--cutoff",
-    type=float,
-    default=None,
-    help="Low-pass on both sides of the torque balance [Hz]. [default: ten times the bandwidth of "
-    "the motion]",
-)
-evaluate_option = click.option(
-    "--evaluate",
-    multiple=True,
-    metavar="FILE",
-    help="Score the result on this recording, on which nothing is chosen.",
-)
-joint_model_option = click.option(
-    "--joint-model",
-    multiple=True,
-    metavar="JOINT=SPEC",
-    help="Model of one joint, in place of --model.",
-)
-payload_option = click.option(
-    "--payload", multiple=True, metavar="RUN", help="Run in which the last link carries a payload."
-)
-
-
-def robot_options(command: Command) -> Command:
-    """Add `--robot` and `--urdf`; the command receives the robot as `described`."""
-    options = (
-        click.option("--robot", "robot_file", default=None, metavar="FILE", help="Robot file."),
-        click.option("--urdf", default=None, metavar="FILE", help="URDF of the robot."),
-    )
-
-    def build(values: Values) -> Robot:
-        given = [path for path in (values.pop("robot_file"), values.pop("urdf")) if path]
-        if len(given) != 1:
-            raise SpecError("one description of the robot is needed: --robot FILE or --urdf FILE")
-        return read_robot(given[0])
-
-    return gathered(command, options, "described", build)
 
 
 @click.group()
@@ -125,30 +90,6 @@ def show(described: str, as_json: bool) -> None:
             "not_identifiable": list(base.not_shown),
         }
     )
-
-
-def read_runs(
-    described: Robot, runs: tuple[str, ...], reading: ReadOptions, cutoff: float | None
-) -> RobotMotion:
-    """Read the recordings of all joints, and refuse channels that contradict each other."""
-    motion = read_motion(described, runs, reading, cutoff)
-    for recording in motion.joints:
-        recording.require_consistent()
-        for check in recording.checks:
-            if not check.ok:
-                say(f"note: joint {recording.joint}: accepted with --trust: {check.said}")
-    return motion
-
-
-def by_joint(given: tuple[str, ...]) -> dict[str, str]:
-    """`JOINT=SPEC` texts as a mapping."""
-    made = {}
-    for text in given:
-        name, equals, spec = text.partition("=")
-        if not equals or not name or not spec:
-            raise SpecError(f"--joint-model {text}: write JOINT=SPEC, such as 2=coulomb+load")
-        made[name.strip()] = spec.strip()
-    return made
 
 
 @robot.command(cls=CheckedCommand)
@@ -231,26 +172,6 @@ def compare(
         motion, specs, payload=payload, evaluate=others, starts=starts, seed=seed
     )
     echo_result(found, as_json)
-
-
-def loop_options(command: Command) -> Command:
-    """Add the options that `diagnose` and `improve` share."""
-    return added(
-        (
-            runs_argument,
-            robot_options,
-            click.option("--base", default=ORDINARY, show_default=True, help="LAW[+effect...]."),
-            joint_model_option,
-            payload_option,
-            cutoff_option,
-            least_fall_option,
-            starts_option,
-            recording_options,
-            seed_option,
-            json_option,
-        ),
-        command,
-    )
 
 
 @robot.command(cls=CheckedCommand)
@@ -372,3 +293,42 @@ def export(described: str, source: str, output: str) -> None:
     """Write a URDF with the inertia, damping and friction of ROBOT, a file of `robot fit -o`."""
     write_urdf(output, source, read_robot(described), read_friction(described))
     say(f"wrote {output}")
+
+
+@robot.command(cls=CheckedCommand)
+@click.argument("described", metavar="ROBOT")
+@click.option(
+    "--position", default="-1.5:1.5", show_default=True, help="LOW:HIGH of each joint [rad, m]."
+)
+@click.option("--speed", type=float, default=1.5, show_default=True, help="Largest speed.")
+@click.option(
+    "--acceleration", type=float, default=5.0, show_default=True, help="Largest acceleration."
+)
+@click.option("--seconds", type=float, default=20.0, show_default=True, help="Duration [s].")
+@click.option("--rate", type=float, default=200.0, show_default=True, help="Samples per second.")
+@click.option("-o", "--output", type=TABLE, default=None, help="Write the motion (CSV, Parquet).")
+@seed_option
+@json_option
+def plan(
+    described: str,
+    position: str,
+    speed: float,
+    acceleration: float,
+    seconds: float,
+    rate: float,
+    output: str | None,
+    seed: int,
+    as_json: bool,
+) -> None:
+    """Plan a motion of all joints of ROBOT that shows base parameters and friction well.
+
+    Torque and collisions are not checked.
+    """
+    low, high = position_range(position)
+    limits = Limits(low, high, speed, acceleration)
+    made = plan_robot(read_robot(described), limits, seconds=seconds, rate=rate, seed=seed)
+    if output is not None:
+        content = file_bytes(made.to_frame(), Path(output).suffix.lower())
+        write_table(output, content, 'kind = "recording"\n', RecordingError)
+        say(f"wrote {output}")
+    echo_result(made, as_json)

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from stribeck.robot.compare import RobotComparison
     from stribeck.robot.diagnosis import RobotDiagnosis
     from stribeck.robot.improve import RobotImprovement
+    from stribeck.robot.plan import RobotPlan
     from stribeck.robot.result import Evaluated, JointFit, Payload, RobotFit
 
 #: Base parameters that a terminal shows; the JSON has all.
@@ -217,4 +218,25 @@ def robot_improvement_text(found: RobotImprovement) -> str:
         "\n".join(where),
         causes_text(found.rigid_body),
         robot_fit_text(found.final),
+    )
+
+
+def robot_plan_text(plan: RobotPlan) -> str:
+    """The extent of a planned motion, and what it gains."""
+    rows = [["joint", "from", "to", "", "speed", "acceleration"]]
+    for k, joint in enumerate(plan.robot.joints):
+        q, v, a = (x[:, k] for x in (plan.position, plan.velocity, plan.acceleration))
+        unit = "rad" if joint.movement == "revolute" else "m"
+        sizes = (float(q.min()), float(q.max()), float(abs(v).max()), float(abs(a).max()))
+        low, high, speed, bend = (f"{size:.2f}" for size in sizes)
+        rows.append([joint.name, low, high, unit, f"{speed} {unit}/s", f"{bend} {unit}/s2"])
+    return joined(
+        f"{plan.robot.name}: {plan.time[-1]:.3g} s, {len(plan.time)} samples",
+        table(rows, right=[1, 2, 4, 5]),
+        paragraph(
+            f"Standard errors of the {plan.parameters} base and friction parameters are smaller "
+            f"than on a random motion within the same limits by a factor of {plan.gain:.2f} "
+            "(geometric mean). Torque and collisions are not checked.",
+            0,
+        ),
     )

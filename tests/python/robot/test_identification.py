@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.base.errors import FitError, ModelFileError, SpecError
+from stribeck.motion.design.motion import Limits, SampledMotion
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
@@ -17,6 +18,7 @@ from stribeck.robot.describe import read_robot
 from stribeck.robot.fit import fit_robot
 from stribeck.robot.improve import improve_robot
 from stribeck.robot.motion import RobotMotion, read_motion
+from stribeck.robot.plan import plan_robot
 from stribeck.robot.simulate import COLUMNS, simulate_robot
 from stribeck.robot.stored import read_friction, write_robot
 from stribeck.robot.tables import from_tables
@@ -163,6 +165,19 @@ def test_an_updated_urdf_has_the_same_torques(arm: Robot, tmp_path: Path) -> Non
     other = from_tables("other", [{"a": 0.4}])
     with pytest.raises(ModelFileError, match="has no joint 1"):
         write_urdf(path, arm.source, other, {})
+
+
+def test_a_planned_motion_keeps_its_limits(arm: Robot) -> None:
+    limits = Limits(-0.8, 1.2, 1.0, 4.0)
+    made = plan_robot(arm, limits, seconds=10.0, rate=50.0, tried=60)
+    assert made.gain > 1.0
+    for k in range(len(arm.joints)):
+        motion = (made.position[:, k], made.velocity[:, k], made.acceleration[:, k])
+        assert limits.hold(SampledMotion(made.time, *motion))
+        assert max(abs(motion[1][0]), abs(motion[1][-1])) < 1e-9
+        assert np.max(np.abs(np.gradient(motion[0], made.time) - motion[1])) < 0.05
+    with pytest.raises(SpecError, match="no limits of joint joint_1"):
+        plan_robot(arm, {"joint_0": limits})
 
 
 def test_log_cholesky_factors_give_bodies() -> None:

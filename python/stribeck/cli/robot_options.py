@@ -1,0 +1,113 @@
+"""Options and inputs that the commands of `stribeck robot` share."""
+
+from __future__ import annotations
+
+import click
+
+from stribeck.base.errors import SpecError
+from stribeck.cli.common import (
+    json_option,
+    least_fall_option,
+    recording_options,
+    say,
+    seed_option,
+    starts_option,
+)
+from stribeck.cli.options import Command, Values, added, gathered
+from stribeck.cli.outputs import ROBOT
+from stribeck.recording.options import ReadOptions
+from stribeck.robot.arm import Robot
+from stribeck.robot.describe import read_robot
+from stribeck.robot.fit import ORDINARY
+from stribeck.robot.motion import RobotMotion, read_motion
+
+output_option = click.option(
+    "-o",
+    "--output",
+    type=ROBOT,
+    default=None,
+    help="Write the identified robot to this file (TOML).",
+)
+runs_argument = click.argument("runs", nargs=-1, required=True, metavar="RUNS...")
+cutoff_option = click.option(
+    "--cutoff",
+    type=float,
+    default=None,
+    help="Low-pass on both sides of the torque balance [Hz]. [default: ten times the bandwidth of "
+    "the motion]",
+)
+evaluate_option = click.option(
+    "--evaluate",
+    multiple=True,
+    metavar="FILE",
+    help="Score the result on this recording, on which nothing is chosen.",
+)
+joint_model_option = click.option(
+    "--joint-model",
+    multiple=True,
+    metavar="JOINT=SPEC",
+    help="Model of one joint, in place of --model.",
+)
+payload_option = click.option(
+    "--payload", multiple=True, metavar="RUN", help="Run in which the last link carries a payload."
+)
+
+
+def robot_options(command: Command) -> Command:
+    """Add `--robot` and `--urdf`; the command receives the robot as `described`."""
+    options = (
+        click.option("--robot", "robot_file", default=None, metavar="FILE", help="Robot file."),
+        click.option("--urdf", default=None, metavar="FILE", help="URDF of the robot."),
+    )
+
+    def build(values: Values) -> Robot:
+        given = [path for path in (values.pop("robot_file"), values.pop("urdf")) if path]
+        if len(given) != 1:
+            raise SpecError("one description of the robot is needed: --robot FILE or --urdf FILE")
+        return read_robot(given[0])
+
+    return gathered(command, options, "described", build)
+
+
+def read_runs(
+    described: Robot, runs: tuple[str, ...], reading: ReadOptions, cutoff: float | None
+) -> RobotMotion:
+    """Read the recordings of all joints, and refuse channels that contradict each other."""
+    motion = read_motion(described, runs, reading, cutoff)
+    for recording in motion.joints:
+        recording.require_consistent()
+        for check in recording.checks:
+            if not check.ok:
+                say(f"note: joint {recording.joint}: accepted with --trust: {check.said}")
+    return motion
+
+
+def by_joint(given: tuple[str, ...]) -> dict[str, str]:
+    """`JOINT=SPEC` texts as a mapping."""
+    made = {}
+    for text in given:
+        name, equals, spec = text.partition("=")
+        if not equals or not name or not spec:
+            raise SpecError(f"--joint-model {text}: write JOINT=SPEC, such as 2=coulomb+load")
+        made[name.strip()] = spec.strip()
+    return made
+
+
+def loop_options(command: Command) -> Command:
+    """Add the options that `diagnose` and `improve` share."""
+    return added(
+        (
+            runs_argument,
+            robot_options,
+            click.option("--base", default=ORDINARY, show_default=True, help="LAW[+effect...]."),
+            joint_model_option,
+            payload_option,
+            cutoff_option,
+            least_fall_option,
+            starts_option,
+            recording_options,
+            seed_option,
+            json_option,
+        ),
+        command,
+    )

@@ -1,0 +1,194 @@
+"""Motions of a whole robot that show its base parameters and friction well.
+
+Fourier series of all joints from rest to rest (Swevers et al. 1997), by D-optimal design: the
+product of the standard errors of all parameters is as small as the search makes it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import polars as pl
+from numpy.typing import NDArray
+
+from stribeck.base.checks import check_count, check_number
+from stribeck.base.errors import SpecError, listed, nearest
+from stribeck.base.shown import Shown
+from stribeck.identify.triangle import Triangle
+from stribeck.motion.design.fourier import FourierMotions
+from stribeck.motion.design.motion import Limits
+from stribeck.robot.arm import Robot
+from stribeck.robot.base_parameters import BaseParameters
+
+Array = NDArray[np.float64]
+
+#: Motions that are tried; random ones among them, from which the search starts.
+TRIED, RANDOM = 1500, 20
+#: Samples per second during the search: several in a period of the fastest harmonic.
+COARSE = 20.0
+#: Spread of a change of the design of one joint, of ranges from 0 to 1.
+SPREAD = 0.15
+
+
+@dataclass(frozen=True, repr=False)
+class RobotPlan(Shown):
+    """A planned motion of all joints.
+
+    Attributes
+    ----------
+    time, position, velocity, acceleration : arrays [n] and [n, N]
+        In s; rad or m, and their derivatives.
+    gain
+        By how much the standard errors are smaller than on a random motion within the same limits:
+        the median of random motions, geometric mean over all parameters.
+    parameters
+        Number of base and friction parameters.
+    """
+
+    robot: Robot
+    time: Array
+    position: Array
+    velocity: Array
+    acceleration: Array
+    gain: float
+    parameters: int
+
+    def to_dict(self) -> dict[str, object]:
+        """The JSON of `stribeck robot plan`."""
+        joints = [
+            {
+                "joint": name,
+                "position": [float(self.position[:, k].min()), float(self.position[:, k].max())],
+                "speed": float(np.abs(self.velocity[:, k]).max()),
+                "acceleration": float(np.abs(self.acceleration[:, k]).max()),
+            }
+            for k, name in enumerate(self.robot.names)
+        ]
+        return {
+            "robot": self.robot.name,
+            "seconds": float(self.time[-1]),
+            "gain": self.gain,
+            "parameters": self.parameters,
+            "joints": joints,
+        }
+
+    def to_frame(self) -> pl.DataFrame:
+        """One row per sample: time, and the motion of each joint."""
+        made = {"time": self.time}
+        for k, name in enumerate(self.robot.names):
+            made[f"position_{name}"] = self.position[:, k]
+            made[f"velocity_{name}"] = self.velocity[:, k]
+            made[f"acceleration_{name}"] = self.acceleration[:, k]
+        return pl.DataFrame(made)
+
+
+def plan_robot(
+    robot: Robot,
+    limits: Limits | Mapping[str, Limits],
+    *,
+    seconds: float = 20.0,
+    rate: float = 200.0,
+    tried: int = TRIED,
+    seed: int = 0,
+) -> RobotPlan:
+    """Plan a motion of all joints within limits of position, speed and acceleration.
+
+    Torque and collisions are not checked: run the motion in a simulator first.
+
+    Parameters
+    ----------
+    limits
+        Of all joints, or by name of the joint.
+    seconds, rate
+        Duration, s, and samples per second of the result, Hz.
+    tried
+        Motions that the search compares.
+
+    Raises
+    ------
+    SpecError
+        A joint has no limits.
+    """
+    check_number("seconds", seconds, 2.0, 600.0, " s")
+    check_number("rate", rate, 10.0, 10_000.0, " Hz")
+    check_count("tried", tried, RANDOM)
+    search = _Search(robot, _families(robot, limits, seconds))
+    random = np.random.default_rng(seed)
+    designs = [search.drawn(random) for _ in range(RANDOM)]
+    scores = [search.score(search.motions(design)) for design in designs]
+    design, score = designs[int(np.argmax(scores))], max(scores)
+    for k in range(tried - RANDOM):
+        joint = k % len(robot.joints)
+        step = SPREAD * random.normal(size=design[joint].size)
+        changed = [*design]
+        changed[joint] = np.clip(design[joint] + step, 0.0, 1.0)
+        found = search.score(search.motions(changed))
+        if found > score:
+            design, score = changed, found
+    time, position, velocity, acceleration = search.sampled(design, rate)
+    gain = float(np.exp((score - np.median(scores)) / search.parameters))
+    return RobotPlan(robot, time, position, velocity, acceleration, gain, search.parameters)
+
+
+def _families(
+    robot: Robot, limits: Limits | Mapping[str, Limits], seconds: float
+) -> list[FourierMotions]:
+    if isinstance(limits, Limits):
+        return [FourierMotions(limits, seconds, COARSE) for _ in robot.joints]
+    for name in limits:
+        if name not in robot.names:
+            hint = nearest(name, robot.names) or f"; the joints are {listed(robot.names)}"
+            raise SpecError(f"{robot.name} has no joint '{name}'{hint}")
+    missing = [name for name in robot.names if name not in limits]
+    if missing:
+        raise SpecError(f"there are no limits of joint {listed(missing)}: give them for each joint")
+    return [FourierMotions(limits[name], seconds, COARSE) for name in robot.names]
+
+
+class _Search:
+    """Motions of a robot, scored by what they show."""
+
+    def __init__(self, robot: Robot, families: list[FourierMotions]) -> None:
+        self.robot, self.families = robot, families
+        self.base = BaseParameters.of(robot)
+        self.parameters = self.base.count + 3 * len(families)
+
+    def drawn(self, random: np.random.Generator) -> list[Array]:
+        """A random design of each joint."""
+        return [random.random(family.variables) for family in self.families]
+
+    def sampled(self, design: list[Array], rate: float) -> tuple[Array, Array, Array, Array]:
+        """Time [n], and position, velocity and acceleration [n, N]."""
+        joints = [
+            family.motion(own, rate) for family, own in zip(self.families, design, strict=True)
+        ]
+        position = np.stack([joint.position for joint in joints], axis=1)
+        velocity = np.stack([joint.velocity for joint in joints], axis=1)
+        acceleration = np.stack([joint.acceleration for joint in joints], axis=1)
+        return joints[0].time, position, velocity, acceleration
+
+    def motions(self, design: list[Array]) -> tuple[Array, Array, Array]:
+        """The motion during the search."""
+        return self.sampled(design, COARSE)[1:]
+
+    def score(self, motion: tuple[Array, Array, Array]) -> float:
+        """Half the logarithm of the determinant of the information on all parameters.
+
+        The noise of a joint is taken as proportional to the size of its torque, which follows from
+        its row of the regressor.
+        """
+        rigid = self.robot.regressor(*motion)[:, :, self.base.chosen]
+        count, joints, size = rigid.shape
+        matrix = np.zeros((count, joints, self.parameters))
+        matrix[:, :, :size] = rigid
+        velocity = motion[1]
+        for joint in range(joints):
+            columns = (np.sign(velocity[:, joint]), velocity[:, joint], np.ones(count))
+            for k, column in enumerate(columns):
+                matrix[:, joint, size + 3 * joint + k] = column
+        scale = np.sqrt(np.mean(np.sum(rigid**2, axis=2), axis=0))
+        rows = (matrix / scale[:, None]).reshape(count * joints, -1)
+        diagonal = np.abs(np.diag(Triangle.of(rows, np.zeros(len(rows))).factor))
+        return float(np.sum(np.log(np.maximum(diagonal, 1e-300))))
