@@ -65,8 +65,8 @@ class Exchanges:
     best
         The exchange with the smallest held-out error of those to be made.
     ties
-        For each effect the others that predict as well in its place with no more parameters, and
-        their weights.
+        For each effect the others that predict as well in its place with no more parameters, or
+        better with more, and their weights.
     """
 
     best: Exchange | None
@@ -95,7 +95,9 @@ def exchanges(
             better = difference(by.fit, current).statistic
             if _is_preferred(finding, by, current, worse, better):
                 made.append(Exchange(finding, without, by, worse))
-            elif better <= SIMPLEST and by.parameters <= len(current.model.names):
+            elif better <= SIMPLEST and (
+                by.parameters <= len(current.model.names) or worse > SIMPLEST
+            ):
                 ties.setdefault(finding.effect, {})[by.effect] = tie_weight(better)
     best = min(made, key=lambda one: held_out_square(one.by.fit, current), default=None)
     return Exchanges(best, ties)
@@ -123,10 +125,11 @@ def _in_place(current: Fit, without: Fit, effect: str, seed: int) -> Trial | Non
 def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, better: float) -> bool:
     """Whether the model with the other effect is the better one.
 
-    It is where it predicts better by a standard error. Where both predict alike, it is if it has
-    fewer parameters, or as many and is a rigid-body or measurement cause in place of friction.
+    It is where it predicts better by a standard error, or by two with more parameters. Where both
+    predict alike, it is if it has fewer parameters, or as many and is a rigid-body or measurement
+    cause in place of friction.
     """
-    if worse > SIMPLEST:
+    if worse > (TIE if by.parameters > len(current.model.names) else SIMPLEST):
         return True
     less_friction = is_friction(finding.effect) and not is_friction(by.effect)
     more_friction = is_friction(by.effect) and not is_friction(finding.effect)

@@ -76,7 +76,7 @@ def ranked(
     doubtful = _doubtful_ties(best, sift, tried, least, seed)
     total = claimed + sum(doubtful.values())
     alike = [t.effect for t in tied]
-    named = alike + [row.trial.effect for row in sift.demoted if row.trial.effect in doubtful]
+    named = [*alike, *doubtful]
     made = []
     for t in ordered:
         chance = min(1.0, t.evidence.p_value * tried)
