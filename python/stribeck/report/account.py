@@ -20,6 +20,7 @@ from stribeck.report.diagnosis import (
     left_after,
     left_text,
     likely_effects,
+    trend_text,
     visible_rows,
 )
 from stribeck.report.improvement import passivity_sentence, stopped_sentence, summary_sentence
@@ -173,7 +174,12 @@ def of_diagnosis(diagnosis: Diagnosis, comparison: Comparison | None = None) -> 
         )
         for f in diagnosis.findings
     )
-    left = (errors_sentence(diagnosis), left_after(diagnosis), explainable_after(diagnosis))
+    left = (
+        errors_sentence(diagnosis),
+        left_after(diagnosis),
+        explainable_after(diagnosis),
+        trend_text(diagnosis.trend),
+    )
     return Account(
         diagnosis_summary(diagnosis),
         (fitted, *(f.fit for f in diagnosis.findings[:1])),
@@ -210,6 +216,7 @@ def of_improvement(improvement: Improvement, comparison: Comparison | None = Non
         floor_sentence(improvement.noise_floor, unit),
         left_text(improvement.unexplained),
         explainable_text(improvement.last.explainable, final.model.spec, unit),
+        trend_text(improvement.last.trend),
         _relative_sentence(final),
     )
     return Account(

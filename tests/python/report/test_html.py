@@ -102,7 +102,7 @@ def test_the_page_of_a_diagnosis(diagnosis: sb.Diagnosis, diagnosed: str) -> Non
     assert "With load added" in diagnosed and "noise floor" in diagnosed.lower()
     for row in (*diagnosis.untestable, *diagnosis.smallest_visible):
         assert row.effect in diagnosed
-    nothing = replace(diagnosis, verdict="none", findings=())
+    nothing = replace(diagnosis, verdict="none", findings=(), demoted=(), not_claimed=())
     assert "No effect that this recording can show is missing" in diagnosis_page(nothing)
 
 
