@@ -19,7 +19,6 @@ from stribeck.models.formula_law import Declaration, FormulaTerms, check_terms
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.published.sets import PREFIX, published
-from stribeck.models.signs import check_signs
 from stribeck.models.spec import parse_effects, parse_spec
 from stribeck.models.writer import SCHEMA
 
@@ -253,10 +252,6 @@ class _Reader:
                 bounds[p.name] = self._bounds(row["bounds"], header, "bounds")
             if "per_run" in row:
                 per_run[p.name] = self._of_runs(row["per_run"], f"{header}.per_run]")
-        try:
-            check_signs(made.law, made.parameters, values)
-        except SpecError as error:
-            raise self.stop(str(error), "parameters") from None
         # Equal bounds hold a parameter in every fit that follows.
         limits = {name: pair for name, pair in bounds.items() if pair[0] == pair[1]}
         filled = replace(made, bounds=bounds, limits=limits).with_values(np.array(values))

@@ -96,19 +96,6 @@ def test_a_sign_that_the_law_restores_is_refused_with_the_rule() -> None:
     assert sb.model("tadese_full", **turned).value("viscous_level_backward") == 38.0
 
 
-def test_a_model_file_with_such_a_sign_is_refused(tmp_path) -> None:
-    path = tmp_path / "indy.toml"
-    names = [p.name for p in sb.model("tadese_full").parameters]
-    sb.model("tadese_full", **dict.fromkeys(names, 1.0)).save(path)
-    text = path.read_text().replace(
-        "[parameters.viscous_level_backward]\nvalue = 1.0",
-        "[parameters.viscous_level_backward]\nvalue = -1.0",
-    )
-    path.write_text(text)
-    with pytest.raises(sb.ModelFileError, match="turn the signs"):
-        sb.load(path)
-
-
 def test_a_file_of_m0_from_before_its_exponent_was_a_parameter_is_read(tmp_path) -> None:
     path = tmp_path / "m0.toml"
     sb.published("bittencourt/figure_3/m0").save(path)
