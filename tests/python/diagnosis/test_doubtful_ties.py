@@ -1,0 +1,33 @@
+"""An effect that may not be claimed is an alternative all the same: it lowers the confidence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.residual.noise_floor import noise_floor
+from stribeck.diagnosis.trials.evidence import evidence
+from stribeck.diagnosis.trials.ranking import ranked
+from stribeck.diagnosis.trials.sifting import Doubted, Sifted
+from stribeck.diagnosis.trials.trial import Trial
+from synthetic import joint, record
+
+
+@pytest.mark.parametrize("how", ["demoted", "refused"])
+def test_an_effect_that_predicts_as_well_lowers_the_confidence(tmp_path: Path, how: str) -> None:
+    before = sb.fit("coulomb", record(tmp_path, joint(0.5)), starts=1)
+    after = sb.add(before, "offset", starts=1)
+    trial = Trial("offset", after, evidence(before, after))
+    # Another effect with the same torque, and one more parameter, that breaks a rule.
+    wider = sb.add(before, "direction", starts=1)
+    other = Doubted(Trial("direction", wider, evidence(before, wider)), "a reason")
+    floor = noise_floor(after)
+
+    def confidence(sift: Sifted) -> tuple[float, tuple[str, ...]]:
+        (first,) = ranked(before, sift, 20, 0.01, floor, 0).findings
+        return first.confidence, first.indistinguishable_from
+
+    assert confidence(Sifted((trial,))) == (pytest.approx(1.0, abs=1e-3), ())
+    value, names = confidence(Sifted((trial,), **{how: (other,)}))
+    assert 0.45 < value < 0.9 and names == ("direction",)
