@@ -27,7 +27,7 @@ from stribeck.diagnosis.loop.improve import improve
 from stribeck.fitting.result import Fit
 from stribeck.projects.project import Project
 from stribeck.recording.options import ReadOptions
-from stribeck.report.account import of_improvement, of_project
+from stribeck.report.account import error_of, of_improvement, of_project
 from stribeck.report.improvement import summary_sentence
 
 #: Bytes from which the kind of a file shows.
@@ -125,7 +125,7 @@ def _of_data(
     for name in (*named, *specs):
         say(f"note: {name} ...")
         fits.append(model_fit(name, recording, starts=starts, seed=seed))
-    best = min(fits, key=_error).model if fits else "coulomb"
+    best = min(fits, key=error_of).model if fits else "coulomb"
     improvement = improve(best, recording, starts=starts, seed=seed, progress=say)
     others = [f for f in fits if f.model.spec != improvement.base.model.spec]
     steps = [step.after for step in improvement.steps]
@@ -137,7 +137,3 @@ def _of_data(
         "compare": comparison.to_dict(),
         "improve": improvement.to_dict(),
     }
-
-
-def _error(fit: Fit) -> float:
-    return fit.rmse if fit.rmse_held_out is None else fit.rmse_held_out

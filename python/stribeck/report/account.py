@@ -135,18 +135,18 @@ class Account:
 
 def of_comparison(comparison: Comparison, untestable: Iterable[Untestable] = ()) -> Account:
     """Of models side by side; the last of the page is the one with the smallest error."""
-    ranked = sorted(comparison.models, key=lambda a: -_error(a.fit))
+    ranked = sorted(comparison.models, key=lambda a: -error_of(a.fit))
     best = ranked[-1]
     unit = best.fit.model.torque_unit
     places = worst_places(best, 1)
     worst = f" Its largest errors: {places[0]}." if places else ""
     held = "held-out error" if best.rmse_held_out is not None else "error"
     if len(ranked) == 1:
-        summary = f"The {held} of {best.model} is {plain(_error(best.fit))} {unit}.{worst}"
+        summary = f"The {held} of {best.model} is {plain(error_of(best.fit))} {unit}.{worst}"
     else:
         summary = (
             f"Of {len(ranked)} models, {best.model} has the smallest error: {held} "
-            f"{plain(_error(best.fit))} {unit}.{worst}"
+            f"{plain(error_of(best.fit))} {unit}.{worst}"
         )
     return Account(
         summary,
@@ -262,7 +262,7 @@ def of_project(project: Project, diagnosis: Diagnosis, comparison: Comparison | 
     if not steps:
         return here
     unit = fits[-1].model.torque_unit
-    first, last = _error(fits[0]), _error(fits[-1])
+    first, last = error_of(fits[0]), error_of(fits[-1])
     summary = (
         f"From {fits[0].model.spec} to {fits[-1].model.spec} the error falls from {plain(first)} "
         f"to {plain(last)} {unit} ({change_text(first, last)}). {here.summary}"
@@ -285,6 +285,6 @@ def _relative_sentence(fit: Fit) -> str:
     return f"Relative residual ({what}): {percent(fit.relative_residual)}."
 
 
-def _error(fit: Fit) -> float:
+def error_of(fit: Fit) -> float:
     """The held-out error of a fit, or its error where there is none."""
     return fit.rmse if fit.rmse_held_out is None else fit.rmse_held_out

@@ -11,7 +11,7 @@ import numpy as np
 from stribeck.base.files import png_bytes
 from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog
-from stribeck.report.account import Account, Step, of_diagnosis, of_improvement
+from stribeck.report.account import Account, Step, error_of, of_diagnosis, of_improvement
 from stribeck.report.certificate import certificate_text
 from stribeck.report.comparison import MARKED, REGIMES_LEGEND, compared, overview_rows
 from stribeck.report.diagnosis import less_likely_sentence, untestable_rows
@@ -194,7 +194,7 @@ def comparison_tables(comparison: Comparison) -> dict[str, object]:
 
 
 def _step(number: int, step: Step) -> StepPart:
-    before, after = _error(step.before), _error(step.after)
+    before, after = error_of(step.before), error_of(step.after)
     sure = "" if step.confidence is None else confidence_words(step.confidence)
     model = step.before.model if step.verb == "drop" else step.after.model
     ties = f"On this data it cannot be told from {listed(step.ties, 'or')}." if step.ties else ""
@@ -213,10 +213,6 @@ def _step(number: int, step: Step) -> StepPart:
         "change": change_text(before, after),
         "model": step.after.model.spec,
     }
-
-
-def _error(fit: Fit) -> float:
-    return fit.rmse if fit.rmse_held_out is None else fit.rmse_held_out
 
 
 def _errors_sentence(fit: Fit) -> str:

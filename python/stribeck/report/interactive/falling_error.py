@@ -10,6 +10,7 @@ from bokeh.models import ColumnDataSource, Range1d
 
 from stribeck.report.interactive.base import (
     COLOURS,
+    FLOOR,
     hover,
     legend_above,
     name_places,
@@ -74,7 +75,7 @@ def falling_error(
         named = plot.line(
             [noise_floor] * 2,
             [0, 0],
-            color="#009E73",
+            color=FLOOR,
             line_dash="dotted",
             line_width=2,
         )
