@@ -146,7 +146,7 @@ def read_motion(
     given = {**dict(robot.columns), **dict(split_pairs("map", options.map))}
     made = []
     for number, joint in enumerate(robot.joints, start=1):
-        names = {c: n.format(joint=joint.name, number=number) for c, n in given.items()}
+        names = {c: _column(text, joint.name, number) for c, text in given.items()}
         own = replace(options, map=names, joint_kind=joint.movement)
         if names == given:
             own = replace(own, joint=joint.name)
@@ -155,6 +155,17 @@ def read_motion(
             own = replace(own, torque_constant=joint.drive_gain, gear_ratio=1.0)
         made.append(replace(read_with(list(files), own), joint=joint.name))
     return RobotMotion.of(robot, made, cutoff)
+
+
+def _column(text: str, joint: str, number: int) -> str:
+    """A column's name for one joint."""
+    try:
+        return text.format(joint=joint, number=number)
+    except (KeyError, IndexError, ValueError, AttributeError):
+        raise RecordingError(
+            f"the column {text!r} cannot be named for a joint: {{joint}} stands for its name, "
+            f"{{number}} for its number, and a brace in a name is doubled"
+        ) from None
 
 
 def _cutoff(path: str, joints: Sequence[Recording], given: float | None) -> float:

@@ -50,8 +50,8 @@ def updated_urdf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
         if element.get("type") == "fixed":
             _without_inertial(links[_child(element)])
     for joint in robot.joints:
-        if joint.inertial is None:
-            raise ModelFileError(f"{robot.name}: the inertia of joint {joint.name} is not known")
+        if joint.inertial is None or not joint.inertial[0] > 0.0:
+            raise ModelFileError(f"{robot.name}: the mass on joint {joint.name} is not known")
         link = links[_child(joints[joint.name])]
         _without_inertial(link)
         link.insert(0, _inertial(joint.inertial))

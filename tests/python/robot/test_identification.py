@@ -8,7 +8,7 @@ import arms
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.base.errors import FitError, ModelFileError, SpecError
+from stribeck.base.errors import FitError, ModelFileError, RecordingError, SpecError
 from stribeck.motion.design.motion import Limits, SampledMotion
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
@@ -213,6 +213,11 @@ def test_bad_urdf(tmp_path: Path) -> None:
     path.write_text("<robot")
     with pytest.raises(ModelFileError, match="not a URDF that can be read"):
         read_robot(path)
+
+
+def test_columns_that_cannot_be_named(arm: Robot) -> None:
+    with pytest.raises(RecordingError, match="cannot be named for a joint"):
+        read_motion(arm, ["run.csv"], ReadOptions(map=["position=q_{axis}"]))
 
 
 def test_names_that_do_not_exist(arm: Robot, tmp_path: Path) -> None:
