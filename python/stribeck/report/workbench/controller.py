@@ -9,11 +9,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from stribeck.base.errors import ProjectError, RecordingError, SpecError, StribeckError
-from stribeck.base.files import write_bytes_whole, write_whole
+from stribeck.base.files import write_bytes_whole, write_table, write_whole
 from stribeck.base.lock import one_writer
 from stribeck.diagnosis.compare import Comparison
 from stribeck.exporters.export import Export
 from stribeck.motion.design.result import Plan
+from stribeck.motion.generate.files import file_bytes
 from stribeck.passivity.certificate import Certificate
 from stribeck.projects.project import Project
 from stribeck.projects.sides import Sides
@@ -295,6 +296,7 @@ class Workbench:
                 joint.certificates[joint.project.current] = result
             case Plan():
                 joint.plan = result
+                return self._save_motion(result)
             case Export():
                 return self._wrote(*result.files)
             case str():
@@ -315,6 +317,13 @@ class Workbench:
             project.save()
         if project.path not in self.state.written:
             self.state.written.append(project.path)
+
+    def _save_motion(self, plan: Plan) -> Message:
+        path = self._made(self.folder) / f"{self._stem()}.motion.csv"
+        kind = "revolute" if plan.model.position_unit == "rad" else "prismatic"
+        sidecar = f'kind = "recording"\njoint_kind = "{kind}"\n'
+        write_table(path, file_bytes(plan.to_frame(), ".csv"), sidecar)
+        return self._wrote(path)
 
     def _wrote(self, *paths: Path) -> Message:
         self.state.written += [path for path in paths if path not in self.state.written]

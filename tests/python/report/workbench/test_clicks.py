@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import statistics
 import subprocess
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import polars as pl
+import psutil
 import pytest
 import stribeck as sb
 from browser import PAGES, artefacts, chromium, done, go, press, workbench
@@ -22,15 +27,26 @@ def opened(tmp_path: Path) -> Iterator[tuple[Any, str]]:
         yield page, address
 
 
-def shoot(page: Any, folder: Path, name: str) -> None:
-    """Screenshots of a page as a desktop and a phone show it; nothing may be wider than it."""
+@pytest.fixture
+def shared_data() -> Path:
+    folder = Path(__file__).resolve().parents[5] / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip(f"published measurements are not at {folder}")
+    return folder
+
+
+def shoot(page: Any, folder: Path, name: str) -> list[str]:
+    """Screenshots of a page as a desktop and a phone show it; returns where it is too wide."""
+    found = []
     for width in (1280, 390):
         page.set_viewport_size({"width": width, "height": 900})
         page.wait_for_timeout(700)
         page.screenshot(path=str(folder / f"{name}-{width}.png"), full_page=True)
         wide = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
-        assert wide <= 0, f"{name} is {wide} pixels wider than {width}"
+        if wide > 0:
+            found.append(f"{wide} pixels wider than {width}")
     page.set_viewport_size({"width": 1280, "height": 900})
+    return found
 
 
 def faults(page: Any) -> list[str]:
@@ -89,6 +105,7 @@ def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> No
     press(page, "Prove passivity")
     assert "passive" in page.inner_text("pre")
     press(page, "Plan the motion")
+    assert "demo-1.motion.csv" in page.inner_text("p.done")
     go(page, "Export")
     press(page, "Export the program")
     press(page, "Write the report")
@@ -98,8 +115,7 @@ def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> No
         go(page, title)
         if page.locator("[data-figure]").count():
             page.wait_for_selector("body[data-drawn='1']")
-        wrong[title] = faults(page)
-        shoot(page, folder, title.lower())
+        wrong[title] = [*faults(page), *shoot(page, folder, title.lower())]
     assert not any(wrong.values()), wrong
     assert not failed
     kept = tmp_path / "kept"
@@ -126,3 +142,83 @@ def test_long_work_is_stopped_at_once(opened: tuple[Any, str]) -> None:
     done(page)
     assert "Stopped" in page.inner_text("main")
     assert page.locator("tr.current").count() == 1
+
+
+def test_ur10e_by_clicks(tmp_path: Path, shared_data: Path) -> None:
+    path = shared_data / "ur10e" / "ur-20_01_22-joint_2.parquet"
+    with workbench(tmp_path, path) as (_, address), chromium() as page:
+        page.goto(address)
+        page.wait_for_selector("body[data-busy='0']")
+        go(page, "Check")
+        page.get_by_role("button", name="Joint 2", exact=True).click()
+        page.wait_for_selector("body[data-busy='0']")
+        page.get_by_label("derive").fill("torque=i_A_2 * 10.6956")
+        press(page, "Read the file again")
+        go(page, "Compare")
+        press(page, "Fit this law")
+        go(page, "Missing")
+        press(page, "Find what is missing")
+        assert "load" in page.inner_text("article h2")
+        press(page, "Add load")
+        assert "+ load" in page.inner_text("tr.current")
+        go(page, "Export")
+        press(page, "Write the report")
+        press(page, "Export the program")
+    (folder,) = (tmp_path / "kept").glob("*-c")
+    compile = ["cc", "-std=c99", "-o", "try", "friction.c", "friction_test.c"]
+    subprocess.run(compile, cwd=folder, check=True)
+    subprocess.run([str(folder / "try")], check=True)
+    assert list((tmp_path / "kept").glob("*.report.html"))
+
+
+def test_a_million_samples(tmp_path: Path) -> None:
+    path = tmp_path / "million.parquet"
+    million(path)
+    with workbench(tmp_path) as (process, address), chromium() as page:
+        page.goto(address)
+        page.get_by_label("Path of a recording").fill(str(path))
+        began = time.monotonic()
+        page.get_by_role("button", name="Open", exact=True).first.click()
+        page.wait_for_selector("body[data-drawn='1']")
+        opened = time.monotonic() - began
+        page.wait_for_selector("body[data-busy='0']")
+        page.wait_for_selector("body[data-drawn='1']")
+        zooms = [zoomed(page, 10.0 * k, 10.0 * k + 100.0 / (k + 1)) for k in range(15)]
+        largest = psutil.Process(process.pid).memory_info().rss / 1e6
+    said = f"open {opened:.2f} s, zoom {statistics.median(zooms):.0f} ms, {largest:.0f} MB"
+    (artefacts(tmp_path / "pictures") / "million.txt").write_text(said)
+    assert largest < 1000.0, said
+    # Times are those of a computer that does nothing else: here only that none is absurd.
+    assert opened < 60.0 and statistics.median(zooms) < 2000.0, said
+
+
+def million(path: Path) -> None:
+    """A joint at 1 kHz for a thousand seconds."""
+    rows = 1_000_000
+    t = np.arange(rows) / 1000.0
+    v = 1.5 * np.sin(0.7 * t) + 0.5 * np.sin(2.3 * t)
+    q = np.cumsum(v) / 1000.0
+    noise = np.random.default_rng(0).standard_normal((2, rows))
+    torque = 5.0 * np.tanh(v / 0.01) + 2.0 * v + 1.5 * np.gradient(v, 0.001) + 0.3 * noise[0]
+    columns = {"time": t, "position": q, "velocity": v + 1e-4 * noise[1], "torque": torque}
+    pl.DataFrame(columns).write_parquet(path)
+
+
+def zoomed(page: Any, start: float, end: float) -> float:
+    """Zoom the axis of time; the time until the samples of that stretch are drawn, ms."""
+    return float(
+        page.evaluate(
+            """([start, end]) => new Promise((done) => {
+                const bokeh = Bokeh.documents[0], began = performance.now();
+                const range = bokeh.get_model_by_name("window");
+                const source = bokeh.get_model_by_name("samples");
+                const drawn = () => {
+                    source.properties.data.change.disconnect(drawn);
+                    requestAnimationFrame(() => done(performance.now() - began));
+                };
+                source.properties.data.change.connect(drawn);
+                range.setv({ start, end });
+            })""",
+            [start, end],
+        )
+    )
