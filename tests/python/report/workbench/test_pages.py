@@ -31,6 +31,16 @@ def bench(tmp_path: Path) -> Iterator[Workbench]:
     made.cancel()
 
 
+@pytest.fixture(scope="module")
+def idle(tmp_path_factory: pytest.TempPathFactory) -> Workbench:
+    """An open recording on which nothing is done."""
+    folder = tmp_path_factory.mktemp("idle")
+    joint(rows=1500).write_csv(folder / "joint.csv")
+    made = Workbench(folder / "kept", [str(folder / "joint.csv")])
+    assert made.wait(WAIT)
+    return made
+
+
 def do(bench: Workbench, action: str, **fields: str) -> None:
     act(bench, action, {name: [said] for name, said in fields.items()})
     assert bench.wait(WAIT)
@@ -100,10 +110,10 @@ def test_errors_are_the_sentence_of_the_command(bench: Workbench) -> None:
     ],
 )
 def test_what_cannot_be_done(
-    bench: Workbench, action: str, fields: dict[str, list[str]], said: str
+    idle: Workbench, action: str, fields: dict[str, list[str]], said: str
 ) -> None:
     with pytest.raises(StribeckError, match=said):
-        act(bench, action, fields)
+        act(idle, action, fields)
 
 
 def test_a_column_is_read_as_a_channel(tmp_path: Path) -> None:
