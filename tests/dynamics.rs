@@ -123,6 +123,47 @@ fn the_mean_is_that_of_many_small_steps() {
     }
 }
 
+/// A torque that depends on no motion adds to the friction at the end and to the mean alike.
+#[test]
+fn an_offset_adds_to_every_torque() {
+    let bases: [(&str, &[f64]); 4] = [
+        ("dahl", &[50.0, 5.0, 1.0]),
+        ("lugre", &[50.0, 1.3, 0.4, 5.0, 8.0, 0.1, 1.7]),
+        ("bliman_sorine", &[5.0, 0.4, 0.16, 0.2]),
+        ("elastoplastic", &[50.0, 1.3, 0.4, 5.0, 8.0, 0.1, 0.6]),
+    ];
+    let made = |law, effects: &[&str], values: &[f64]| {
+        let mut spec = Spec::new(law, effects.iter().copied()).unwrap();
+        spec.set_constant("reference_velocity", 0.7).unwrap();
+        spec.with(values).unwrap()
+    };
+    for (law, values) in bases {
+        // With viscous friction in every law, so that there are both a rate and an additive part.
+        let values = [values, &[0.4, 1.5, 10.0]].concat();
+        let without = made(law, &["nonlinear_viscous"], &values);
+        let with = made(law, &["nonlinear_viscous", "offset"], &[&values[..], &[0.7]].concat());
+        let (mut a, mut b) = (State::default(), State::default());
+        for v in [0.3, 0.02, -0.001, -0.4] {
+            let plain = without.step(&mut a, &sample(v), 0.01);
+            let shifted = with.step(&mut b, &sample(v), 0.01);
+            close(shifted.torque, plain.torque + 0.7, 1e-13);
+            close(shifted.mean_torque, plain.mean_torque + 0.7, 1e-13);
+        }
+    }
+}
+
+/// A bristle that is not bent yet resists by its damping and the viscous friction alone.
+#[test]
+fn a_bristle_without_deflection_is_a_damper() {
+    let damped = |law: &str| ["lugre", "elastoplastic", "leuven"].contains(&law);
+    for (_, model) in models(1.0).into_iter().filter(|&(law, _)| damped(law)) {
+        for v in [0.02, -0.3] {
+            let torque = model.step(&mut State::default(), &sample(v), 1e-12).torque;
+            close(torque, (1.3 + 0.4) * v, 1e-6);
+        }
+    }
+}
+
 #[test]
 fn states_stay_bounded_and_finite() {
     for stiffness in [1e-3, 1.0, 1e6, 1e12] {

@@ -108,6 +108,53 @@ fn static_laws_of_the_other_papers() {
     close(steady(-0.2), -5.5927725752990117, 1e-15);
 }
 
+/// The servo laws where the external torque drives the motor, and the reverse.
+#[test]
+fn servo_laws_with_opposing_torques() {
+    #[rustfmt::skip]
+    let expected: [(&str, &[f64], [f64; 2]); 6] = [
+        ("bam_m1", &[1.3, 0.4], [-1.36, 1.4]),
+        ("bam_m2", &[1.3, 0.7, 0.2, 1.6, 0.4], [-1.7324044763966807, 1.5676707186051123]),
+        ("bam_m3", &[1.3, 0.15, 0.4], [-2.08, 1.955]),
+        ("bam_m4", &[1.3, 0.7, 0.15, 0.08, 0.2, 1.6, 0.4], [-2.6566949320200026, 2.1935714796152741]),
+        ("bam_m5", &[1.3, 0.7, 0.12, 0.21, 0.05, 0.09, 0.2, 1.6, 0.4], [-2.6363904715906297, 2.3049366540371938]),
+        ("bam_m6", &[1.3, 0.7, 0.12, 0.21, 0.05, 0.09, 0.011, 0.017, 0.2, 1.6, 0.4], [-2.6656933838191, 2.3087308028696295]),
+    ];
+    let samples = [(-0.15, 3.0, -1.8), (0.25, -1.2, 2.5)];
+    for (law, values, torques) in expected {
+        for ((velocity, external_torque, motor_torque), torque) in samples.into_iter().zip(torques)
+        {
+            let sample = Sample { external_torque, motor_torque, ..Sample::at(velocity) };
+            close(at(law, &[], values, &sample), torque, 2e-14);
+        }
+    }
+}
+
+/// `s2 = s20 + s2T T` and `s3 = s30 + s3T T`: at one temperature a slope is a shift.
+#[test]
+fn slopes_with_temperature_shift_their_parameters() {
+    let spec = Spec::new("tadese_full", []).unwrap();
+    let names: Vec<&str> = spec.parameters().map(|p| p.name).collect();
+    let mut values = vec![50.0, 2.0, 0.1, 5.0, 4.0];
+    values.extend([3.0, -0.02, 0.5, 0.01, 2.5, -0.01, 0.7, 0.02]);
+    values.extend([0.3, 2.0, 0.1, 0.05, 0.01, -0.2, 3.0, -0.1, -0.02, 0.01]);
+    values.extend([-0.3, 1.0, -0.1, 0.06, 0.01, 0.2, 4.0, 0.1, -0.03, 0.01]);
+    let temperature = 31.0;
+    let mut shifted = values.clone();
+    for (i, name) in names.iter().enumerate().filter(|(_, name)| name.contains("_slope")) {
+        let base = names.iter().position(|other| *other == name.replace("_slope", "")).unwrap();
+        shifted[base] += values[i] * temperature;
+        shifted[i] = 0.0;
+    }
+    for velocity in [-0.4, -0.02, 0.02, 0.4] {
+        let sample = Sample { temperature, load_torque: 2.0, ..Sample::at(velocity) };
+        let expected = at("tadese_full", &[], &shifted, &sample);
+        close(at("tadese_full", &[], &values, &sample), expected, 1e-14);
+        let warmer = Sample { temperature: 50.0, ..sample };
+        assert!((at("tadese_full", &[], &values, &warmer) - expected).abs() > 1e-3);
+    }
+}
+
 #[test]
 fn static_amplitude_of_lugre_is_the_total() {
     let lugre = [1e5, 0.0, 0.0, 1.0, 1.5, 0.1, 2.0];

@@ -4,8 +4,8 @@
 mod common;
 
 use common::{every_model, motion, values};
-use stribeck::Spec;
 use stribeck::batch::{self, BatchError, TimeStep};
+use stribeck::{Dual, Real, Spec};
 
 #[test]
 fn gradient_is_the_derivative_of_every_model() {
@@ -197,4 +197,59 @@ fn selected_parameters_exist_and_are_unique() {
     };
     assert_eq!(refused(&[1, 2]), BatchError::Wanted { index: 2, parameters: 2 });
     assert_eq!(refused(&[1, 0, 1]), BatchError::WantedTwice(1));
+}
+
+/// Functions of one number with their derivatives, against difference quotients of the values.
+#[test]
+fn derivatives_of_functions_are_difference_quotients() {
+    type Slope = Dual<f64, 1>;
+    /// Compares a function from its lowest argument on.
+    macro_rules! compare {
+        ($($name:literal from $low:literal: |$x:ident, $of:ident| $body:expr;)*) => { $({
+            fn function<S: Real>($x: S) -> S {
+                let $of = <S::Plain as Real>::from_f64;
+                let _ = &$of;
+                $body
+            }
+            for k in 0..60 {
+                // No kink, and no argument on the border between two formulas.
+                let x = $low + 0.1031 * f64::from(k);
+                let h = 1e-3 * x.abs().clamp(0.05, 1.0);
+                let quotient = |h: f64| (function(x + h) - function(x - h)) / (2.0 * h);
+                let expected = (4.0 * quotient(0.5 * h) - quotient(h)) / 3.0;
+                let found = function(Slope::variable(x, 0));
+                let value = function(x);
+                let size = value.abs().max(1.0);
+                assert!((found.value - value).abs() <= 1e-14 * size, "{} at {x}", $name);
+                let error = (found.derivative[0] - expected).abs();
+                assert!(error < 1e-8 * expected.abs().max(1.0), "{} at {x}: {error}", $name);
+            }
+        })* };
+    }
+    compare! {
+        "exp" from -3.0: |x, of| x.exp();
+        "expm1" from -3.0: |x, of| x.expm1();
+        "ln" from 0.05: |x, of| x.ln();
+        "sqrt" from 0.05: |x, of| x.sqrt();
+        "cbrt" from 0.05: |x, of| x.cbrt();
+        "sin" from -3.0: |x, of| x.sin();
+        "cos" from -3.0: |x, of| x.cos();
+        "sin and cos" from -3.0: |x, of| { let (sin, cos) = x.sin_cos(); sin + cos.scale(of(0.3)) };
+        "tanh" from -3.0: |x, of| x.tanh();
+        "atan" from -3.0: |x, of| x.atan();
+        "abs" from -3.0: |x, of| x.abs();
+        "phi_1" from -3.0: |x, of| x.phi(1);
+        "phi_2" from -3.0: |x, of| x.phi(2);
+        "power" from 0.05: |x, of| x.powf(x.scale(of(0.7)));
+        "power of a constant" from -3.0: |x, of| x.exp_with_base(of(0.3));
+        "reciprocal" from 0.05: |x, of| x.reciprocal_times(of(2.5));
+        "quotient" from 0.05: |x, of| (x * x - x) / (x + x * x.shift(of(1.5)));
+        "sums" from -3.0: |x, of| {
+            let mut sum = x.shift(of(0.5));
+            sum.add_scaled(&(x * x), of(1.5));
+            sum.add_linear_combination([&x, &(x * x * x)], [of(0.25), of(-0.75)]);
+            sum += x;
+            -sum
+        };
+    }
 }

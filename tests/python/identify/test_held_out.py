@@ -199,3 +199,23 @@ def test_no_refit_leaves_much_more_than_before(
     found = Bounded(lower, upper).refine(p, start, start, square)
     assert np.sum(p.residual(found) ** 2) <= ASTRAY * square
     assert np.all(found >= lower) and np.all(found <= upper)
+
+
+@pytest.mark.parametrize(("velocity", "exponent"), [(0.5, 0.25), (2.0, 0.25), (8.0, 0.25)])
+def test_a_step_that_raises_the_error_is_not_taken(
+    curve: tuple[Problem, Array, Array, Array], velocity: float, exponent: float
+) -> None:
+    """A sharper and a wider curve, from which a Gauss-Newton step more than doubles the error."""
+    p, best, lower, upper = curve
+    factor = {"stribeck_velocity": velocity, "stribeck_exponent": exponent}
+    factors = [factor.get(name, 1.0) for name in p.model.names]
+    start = np.clip(best * factors, lower, upper)
+    square = float(np.sum(p.residual(start) ** 2))
+    every = np.arange(start.size)
+    factors_here = p.triangle(start, every, np.ones(start.size))
+    assert factors_here is not None
+    by = Bounded(lower, upper)
+    step = by.step(start, factors_here)
+    assert np.sum(p.residual(step) ** 2) > ASTRAY * square
+    found = by.refine(p, start, start, square)
+    assert np.sum(p.residual(found) ** 2) <= square
