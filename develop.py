@@ -180,7 +180,7 @@ def audit() -> None:
 
 
 def mutants() -> None:
-    """Change operators of the crate and of the package; the tests must notice. Takes an hour."""
+    """Change operators of the crate and of the package; the tests must notice."""
     if shutil.which("cargo-mutants") is None:
         run("cargo", "install", "--quiet", "--locked", "cargo-mutants")
     run(PYTHON, "-m", "pip", "install", "--quiet", "--constraint", LOCK, "cosmic-ray")
