@@ -45,7 +45,7 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
     joint, joint_kind
         Joint of a file that holds several; ``"revolute"`` or ``"prismatic"``.
     gear_ratio, torque_constant, screw_pitch
-        Torque = current [A] * torque_constant [N m/A] * gear_ratio; force = torque * 2 pi/pitch [m].
+        Torque = current [A] * torque_constant [N m/A] * gear_ratio; force = torque * 2 pi / pitch.
     inertia
         Known inertia [kg m2] or mass [kg]: load torque = inertia * acceleration (+ gravity).
     km, kb, kt
