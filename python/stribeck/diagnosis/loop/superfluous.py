@@ -12,6 +12,7 @@ from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import QUICK
 from stribeck.identify.figures import rms
+from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
 
 
@@ -48,7 +49,8 @@ def superfluous(findings: Sequence[Finding], current: Fit, least: float, seed: i
     """The effect of a finding without which the model predicts as well, if there is one.
 
     Without it the error rises by less than half of `least`, by no more than noise explains, or the
-    held-out error by no more than one standard error. Of several the one that is needed least.
+    held-out error by no more than one standard error where it is not significant among all effects.
+    Of several the one that is needed least.
     """
     rises: dict[str, float] = {}
     for finding in findings:
@@ -59,10 +61,9 @@ def superfluous(findings: Sequence[Finding], current: Fit, least: float, seed: i
         level = rms(current.weighted(current.residual[rows]))
         rise = rms(current.weighted(without.residual[rows])) / level - 1.0
         statistic = difference(without, current).statistic
-        if (
-            rise < least / 2
-            or statistic <= SIMPLEST
-            or evidence(without, current).p_value > SIGNIFICANCE
-        ):
+        chance = evidence(without, current).p_value
+        # Among all effects a finding must be significant; there, it needs no further proof.
+        doubtful = chance * len(effect_ids()) > SIGNIFICANCE
+        if rise < least / 2 or chance > SIGNIFICANCE or (doubtful and statistic <= SIMPLEST):
             rises[finding.effect] = statistic
     return min(rises, key=lambda effect: rises[effect]) if rises else None

@@ -35,6 +35,9 @@ def few_samples(claim: Claim) -> str | None:
     each = carried.share * move.size / carried.events
     length = move.size / max(np.unique(move).size, 1)
     parameters = len(claim.after.model.names) - len(claim.before.model.names)
+    # An effect of one parameter, such as a delay, claims no shape.
+    if parameters < 2:
+        return None
     if each >= min(FEWEST * parameters, LARGE * length):
         return None
     return (
