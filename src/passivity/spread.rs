@@ -86,7 +86,7 @@ fn halvings(first: f64) -> impl Iterator<Item = f64> {
 }
 
 /// All combinations of the values of the channels, with speeds over decades.
-fn points(region: &Region, channels: &[Channel]) -> Vec<Point> {
+pub(super) fn points(region: &Region, channels: &[Channel]) -> Vec<Point> {
     let mut made = vec![middle_of(region)];
     for &channel in channels {
         let values = values(region, channel);

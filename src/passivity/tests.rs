@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use super::branches;
 use super::enclosure::Enclosure;
 use super::friction::{Bristled, sliding};
-use super::region::{Region, Side, pieces};
+use super::region::{Region, Side, faster_than, pieces};
+use super::spread;
 use crate::catalog::LawId;
 use crate::common;
 use crate::common::random::hold;
@@ -116,4 +117,51 @@ fn a_ratio_that_is_capped_is_contained() {
         }
     }
     contains_its_points(&spec, &values);
+}
+
+fn velocities(lower: f64, upper: f64) -> Vec<Region> {
+    pieces(&[
+        Side { channel: Channel::Velocity, lower, upper },
+        Side { channel: Channel::Temperature, lower: 20.0, upper: 40.0 },
+    ])
+}
+
+#[test]
+fn only_the_faster_parts_of_regions_are_kept() {
+    let kept = |speed: f64| -> Vec<_> {
+        let fast = faster_than(&velocities(-2.0, 3.0), speed);
+        fast.iter().map(|region| (region.velocity.lower, region.velocity.upper)).collect()
+    };
+    assert_eq!(kept(0.5), [(-2.0, -0.5), (0.5, 3.0)]);
+    assert_eq!(kept(2.5), [(2.5, 3.0)], "no speed backward is so fast");
+    assert_eq!(kept(4.0), []);
+}
+
+/// The points that guide a passive fit lie in their region, reach its ends and are not few.
+#[test]
+fn spread_points_reach_the_ends_of_their_region() {
+    let channels = [Channel::Velocity, Channel::Temperature];
+    for region in velocities(-1e-3, 3.0) {
+        let points = spread::points(&region, &channels);
+        assert!(points.len() >= 40, "{}", points.len());
+        for channel in channels {
+            let side = region.channel(channel);
+            let all: Vec<_> = points.iter().map(|point| point.channel(channel)).collect();
+            assert!(all.iter().all(|&x| side.lower <= x && x <= side.upper), "{channel:?}");
+            assert!(all.contains(&side.lower) && all.contains(&side.upper), "{channel:?}");
+        }
+    }
+}
+
+/// Where a law gives the sign a width, steady sliding bends the bristle by the smoothed sign only.
+#[test]
+fn a_smoothed_sign_weakens_a_bristle_near_rest() {
+    let smoothed = common::every_model().into_iter().find_map(|spec| {
+        let model = spec.with(&common::values(&spec)).ok()?;
+        let at = |velocity| Bristled::of(&model, &Sample::at(velocity));
+        let (slow, fast) = (at(1e-6)?, at(1e3)?);
+        (slow.strength() < 0.5 * slow.dry).then_some((slow, fast))
+    });
+    let (_, fast) = smoothed.expect("a law of the catalog smooths its sign");
+    assert!((fast.strength() / fast.dry - 1.0).abs() < 1e-9);
 }
