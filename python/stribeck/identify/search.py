@@ -43,8 +43,9 @@ FEWER_WITHOUT_BOUNDS = 4
 COARSE_WITHOUT_BOUNDS = 1e-12
 #: As many starts again are searched where more than this share of them ended alone.
 UNSURE = 0.3
-#: The neighbourhood of the best minimum is searched unless this share of the starts ended there.
-AGREED = 1.0 / 3.0
+#: The neighbourhood of the best minimum is searched unless this share of the starts ended there, and
+#: so many of them.
+AGREED, FEWEST_AGREED = 1.0 / 3.0, 2
 
 
 def multi_start(
@@ -126,8 +127,8 @@ def _between_bounds(
         return tried
     best = int(np.argmin([search.square for search in tried]))
     leaders = leaders_of(tried, space)
-    # A single start agrees with none.
-    if len(tried) > 1 and np.mean(leaders == leaders[best]) >= AGREED:
+    agreed = int(np.sum(leaders == leaders[best]))
+    if agreed >= max(AGREED * len(tried), FEWEST_AGREED):
         return tried
     if share_alone(leaders) > UNSURE:
         at = starts_between_bounds(first, space, start, moved, 2 * starts, seed)[starts:]

@@ -28,9 +28,7 @@ def test_m0_errs_on_m_star_as_published() -> None:
     frame = papers.static_friction_curves(4)
     v = frame["velocity"].to_numpy()
     truth = papers.m_star(v, frame["load_torque"].to_numpy(), frame["temperature"].to_numpy())
-    m0 = sb.model(
-        "m0", Fc=3.24e-2, Fs=3.84e-2, Fv=4.04e-4, vs=13.80, constants={"stribeck_exponent": 1.91}
-    )
+    m0 = sb.model("m0", Fc=3.24e-2, Fs=3.84e-2, Fv=4.04e-4, vs=13.80, alpha=1.91)
     error = np.abs(m0.torque(v) - truth)
     assert np.mean(error) == pytest.approx(2.2e-2, rel=0.10)
     np.testing.assert_allclose(m0.torque(v), papers.m0(v), rtol=1e-12)
