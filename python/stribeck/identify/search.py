@@ -43,8 +43,8 @@ FEWER_WITHOUT_BOUNDS = 4
 COARSE_WITHOUT_BOUNDS = 1e-12
 #: As many starts again are searched where more than this share of them ended alone.
 UNSURE = 0.3
-#: The neighbourhood of the best minimum is searched unless this share of the starts ended there, and
-#: so many of them.
+#: The neighbourhood of the best minimum is searched unless this share of the starts ended there,
+#: and so many of them.
 AGREED, FEWEST_AGREED = 1.0 / 3.0, 2
 
 
