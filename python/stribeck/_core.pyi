@@ -84,8 +84,9 @@ class _Units(TypedDict):
     units: list[_Unit]
     channels: list[_Channel]
 
+@final
 class RigidBodies:
-    def __init__(self, links: Sequence[LinkRow], gravity: Sequence[float]) -> None: ...
+    def __new__(cls, links: Sequence[LinkRow], gravity: Sequence[float]) -> RigidBodies: ...
     def inverse_dynamics(
         self, position: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike
     ) -> NDArray[np.float64]: ...

@@ -1,4 +1,5 @@
-//! Consistency of the algorithms with each other; `tests/robot.rs` has values of other programs.
+//! Consistency of the algorithms with each other; `tests/python/robot` has values of
+//! another program.
 
 use super::{Body, Inertial, LinkState, Movement, PARAMETERS, Pose, Tree};
 use crate::joint::{Number, Vector};
@@ -19,7 +20,7 @@ fn bodies() -> [Body<f64>; N] {
         let mut draw = numbers(k + 1);
         let mut next = || draw.next().unwrap();
         let axis = Vector::from([next(), next(), next()]);
-        let length = f64::dot(&axis, &axis).sqrt();
+        let length = crate::math::f64::sqrt(f64::dot(&axis, &axis));
         let turn = Vector::from([0.6, 0.0, 0.8]);
         let placement = Pose {
             rotation: super::pose::about(&turn, next()),
