@@ -16,6 +16,7 @@
     python3 develop.py instructions  count the instructions of each kernel (--write: keep the table)
     python3 develop.py peers         measure times against other packages (--bam FOLDER: also BAM)
     python3 develop.py papers        repeat the papers, and write docs/papers.md with its pictures
+    python3 develop.py gallery       write docs/effects.md and its pictures
     python3 develop.py scaling       measure how times grow, and how close they are to the limit
 
 Needs git, CPython >= 3.10 and stable Rust. Every task builds what has changed first. This file uses
@@ -213,6 +214,11 @@ def papers() -> None:
     run(PYTHON, "tests/studies/papers.py", *sys.argv[2:])
 
 
+def gallery() -> None:
+    in_one_thread()
+    run(PYTHON, "tests/studies/gallery/page.py", *sys.argv[2:])
+
+
 def scaling() -> None:
     in_one_thread()
     run(PYTHON, "benches/kernels/limits.py")
@@ -240,6 +246,7 @@ TASKS = {
     "instructions": instructions,
     "peers": peers,
     "papers": papers,
+    "gallery": gallery,
     "scaling": scaling,
 }
 
