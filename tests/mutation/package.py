@@ -31,7 +31,7 @@ AREAS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     ),
     "ranking": (
         ("diagnosis/trials/ranking.py", "diagnosis/trials/sifting.py"),
-        ("diagnosis/test_ranking.py",),
+        ("diagnosis/test_ranking.py", "diagnosis/test_order.py"),
     ),
     "held-out": (
         ("identify/held_out.py",),
@@ -43,7 +43,7 @@ AREAS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         tuple(f"diagnosis/residual/{name}.py" for name in
               ("noise_floor", "regimes", "unexplained", "varying_friction", "explainable")),
         tuple(f"diagnosis/test_{name}.py" for name in
-              ("noise_floor", "unexplained", "varying_friction", "explainable")),
+              ("regimes", "unexplained", "varying_friction", "noise_floor", "explainable")),
     ),
 }  # fmt: skip
 #: Processor time after which the tests of an area hang, s.

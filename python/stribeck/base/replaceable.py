@@ -65,12 +65,15 @@ _SIGNATURES = {
     b"ARROW1": "Arrow",
     b"\x89PNG": "PNG",
     b"%PDF": "PDF",
-    b"<?xml": "SVG",
+    b"<?xml": "XML",
+    b"<svg": "SVG",
     b"<!doctype html": "HTML",
     b"MATLAB": "MATLAB",
     b"PK\x03\x04": "archive",
     b"\x89HDF": "HDF5",
 }
+#: The first element of an SVG file, after declarations and comments.
+_SVG = re.compile(rb"<svg[\s>]")
 _TOML_KIND = re.compile(rb'^kind = "(\w+)"', re.MULTILINE)
 
 
@@ -81,11 +84,13 @@ def kind_of(content: bytes) -> str:
     --------
     >>> kind_of(b'kind = "model"\\nlaw = "coulomb"'), kind_of(b"time,torque"), kind_of(b"")
     ('model file', 'text', 'empty')
+    >>> kind_of(b'<?xml version="1.0"?><robot name="arm"/>'), kind_of(b'<?xml?>\\n<svg width="9">')
+    ('XML', 'SVG')
     """
     start = content[:_ENOUGH]
     for signature, kind in _SIGNATURES.items():
         if start[: len(signature)].lower() == signature.lower():
-            return kind
+            return "SVG" if kind == "XML" and _SVG.search(start) else kind
     stated = _TOML_KIND.search(start)
     if stated:
         return f"{stated[1].decode()} file"

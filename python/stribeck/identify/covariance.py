@@ -55,9 +55,9 @@ def sandwich(
     """Covariance of the free parameters, array [p, p]; zero for the others."""
     p = jacobian.shape[1]
     covariance = np.zeros((p, p))
-    j = jacobian[:, free]
     if not free.any():
         return covariance
+    j, powers = _balanced(jacobian[:, free])
     count = int(batch.max()) + 1
     scores = np.zeros((count, j.shape[1]))
     np.add.at(scores, batch, j * residual[:, None])
@@ -65,7 +65,7 @@ def sandwich(
     dof = max(count - 1, 1)
     meat = scores.T @ scores * (count / dof)
     inverse = Triangle.of(j, residual).covariance()
-    covariance[np.ix_(free, free)] = inverse @ meat @ inverse
+    covariance[np.ix_(free, free)] = _restored(inverse @ meat @ inverse, powers)
     return covariance
 
 
@@ -82,9 +82,26 @@ def independent(
     freedom = residual.size - (int(free.sum()) if rank is None else rank)
     if free.any() and freedom > 0:
         variance = float(np.sum(residual**2)) / freedom
-        inverse = Triangle.of(jacobian[:, free], residual).covariance()
-        covariance[np.ix_(free, free)] = variance * inverse
+        j, powers = _balanced(jacobian[:, free])
+        inverse = Triangle.of(j, residual).covariance()
+        covariance[np.ix_(free, free)] = _restored(variance * inverse, powers)
     return covariance
+
+
+def _balanced(jacobian: Array) -> tuple[Array, NDArray[np.intc]]:
+    """The columns [n, p] brought to a size near 1, and the powers of two [p] that this takes.
+
+    The squares of a column that hardly affects the prediction would underflow, and their inverse
+    overflow. A power of two changes no digit of the result.
+    """
+    powers = np.frexp(np.abs(jacobian).max(axis=0, initial=0.0))[1]
+    return np.ldexp(jacobian, -powers), powers
+
+
+def _restored(covariance: Array, powers: NDArray[np.intc]) -> Array:
+    """The covariance [p, p] for the columns as they were; infinite where it overflows."""
+    with np.errstate(over="ignore"):
+        return np.ldexp(covariance, -(powers[:, None] + powers))
 
 
 def covariance_of(
@@ -119,12 +136,14 @@ def variances(
     """
     among = free.copy()
     among[parameter] = True
+    jacobian, powers = _balanced(jacobian)
     covariance, _ = covariance_of(jacobian, residual, batch, among, apart)
     determined = Directions.of(jacobian, among).without_hidden(jacobian, apart)
     inverse = Triangle.of(determined[:, among], residual).covariance()
     place = int(np.count_nonzero(among[:parameter]))
     variance = float(covariance[parameter, parameter])
-    return variance, variance / float(inverse[place, place])
+    own = _restored(covariance, powers)[parameter, parameter]
+    return float(own), variance / float(inverse[place, place])
 
 
 def seen(jacobian: Array, free: NDArray[np.bool_], apart: float = 1e-4) -> NDArray[np.bool_]:

@@ -68,9 +68,9 @@ def build(
     made = completed(data, layout, torque_at=torque_place(prepared))
     made = replace(made, checks=(*data.doubts, *checked(made, prepared, data.rows)))
     made = settled(made, data, standstill=standstill)
-    if made.averaged or prepared.settings.hold_out is None:
+    if prepared.settings.hold_out is None:
         return made
-    return with_hold_out(made, prepared, data.rows, prepared.settings.hold_out)
+    return with_hold_out(made, prepared, data.rows, prepared.settings.hold_out, layout)
 
 
 def load_channels(

@@ -9,13 +9,16 @@ import numpy as np
 from stribeck.base.errors import RecordingError, listed, nearest, option
 from stribeck.recording.arrays import Ints, bools, ints
 from stribeck.recording.cells import labels, numbered
+from stribeck.recording.channels import Layout
 from stribeck.recording.prepared import Prepared
 from stribeck.recording.recording import Recording
 
 __all__ = ["with_hold_out"]
 
 
-def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, given: str) -> Recording:
+def with_hold_out(
+    recording: Recording, prepared: Prepared, rows: Ints, given: str, layout: Layout
+) -> Recording:
     """The recording with one held-out block for each value of a column of its file.
 
     Parameters
@@ -24,11 +27,14 @@ def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, given: s
         Rows of the table that the recording was made of, [n].
     given
         ``"COLUMN"``, or ``"COLUMN=VALUE"`` to take the held-out error of this value alone.
+    layout
+        Says to which run each of the rows belongs, where each point is the average of a run.
 
     Raises
     ------
     RecordingError
-        No such column or value, or a column with the same value in every row.
+        No such column or value, a column with the same value in every row, or one that changes
+        within a run of which one point is made.
     """
     path, table = recording.path, prepared.table
     column, mark, value = (word.strip() for word in given.partition("="))
@@ -45,6 +51,8 @@ def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, given: s
         raise RecordingError(
             f"{where}: no row has {column} {value}; there are {', '.join(names[:20])}"
         )
+    if recording.averaged:
+        block = _of_runs(block, layout, f"{where}: {column}")
     counted = block == names.index(value) if mark else np.ones(block.size, dtype=bool)
     return replace(
         recording,
@@ -53,6 +61,21 @@ def with_hold_out(recording: Recording, prepared: Prepared, rows: Ints, given: s
         counted=bools(counted),
         notes=(*recording.notes, _note(column, value, names)),
     )
+
+
+def _of_runs(block: Ints, layout: Layout, what: str) -> Ints:
+    """The block of each run, from the blocks of its samples."""
+    starts = np.flatnonzero(np.diff(layout.run, prepend=-1))
+    of_run = block[starts]
+    length = np.diff(starts, append=block.size)
+    changes = np.flatnonzero(block != np.repeat(of_run, length))
+    if changes.size:
+        name = layout.run_names[layout.run[changes[0]]]
+        raise RecordingError(
+            f"{what} changes within run {name}, of which one point is made: hold out by a column "
+            f"that is constant in every run, or leave out {option('average')}"
+        )
+    return of_run
 
 
 def _note(column: str, value: str, values: list[str]) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from stribeck.base.errors import ModelFileError, StribeckError
 from stribeck.base.files import write_bytes_whole, write_whole
+from stribeck.base.replaceable import check_replaceable, kind_of
 
 
 def test_text_and_bytes_replace_a_file(tmp_path: Path) -> None:
@@ -45,3 +46,17 @@ def test_a_failure_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Monke
         write_whole(path, "new")
     assert path.read_text() == "old"
     assert os.listdir(tmp_path) == ["a.txt"]
+
+
+def test_a_picture_does_not_replace_a_robot(tmp_path: Path) -> None:
+    """Both may begin with the declaration of XML."""
+    picture = b'<?xml version="1.0"?>\n<!-- made by hand -->\n<svg xmlns="http://www.w3.org">'
+    robot = b'<?xml version="1.0"?>\n<robot name="arm"><link name="svg"/></robot>'
+    assert [kind_of(one) for one in (picture, picture[22:], robot)] == ["SVG", "text", "XML"]
+    assert kind_of(b"<svg width='9'>") == "SVG"
+    path = tmp_path / "arm.urdf"
+    path.write_bytes(robot)
+    with pytest.raises(StribeckError, match=r"a file of another kind is there \(XML, not SVG\)"):
+        check_replaceable(path, kind_of(picture))
+    path.write_bytes(picture)
+    check_replaceable(path, "SVG")

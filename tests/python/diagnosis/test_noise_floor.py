@@ -8,8 +8,16 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from made_fits import Array, Moved, left
 from stribeck.diagnosis.residual.explainable import explainable
-from stribeck.diagnosis.residual.noise_floor import noise_floor
+from stribeck.diagnosis.residual.noise_floor import (
+    FEWEST_PAIRS,
+    ONCE,
+    REACHED,
+    NoiseFloor,
+    noise_floor,
+    state_features,
+)
 from stribeck.diagnosis.residual.unexplained import unexplained
 from stribeck.effect.columns import displacement_since_reversal, hats
 from synthetic import ar1, joint, record
@@ -118,3 +126,114 @@ def test_white_noise_needs_no_repeats(tmp_path: Path) -> None:
     floor = noise_floor(sb.fit("coulomb", record(tmp_path, turning(0.0))))
     assert floor.value == pytest.approx(0.03, rel=0.1)
     assert floor.is_reached_by(0.031) and not floor.is_reached_by(0.06)
+
+
+def twice(gap: Array, gamma: Array, rmse: float = np.inf, seed: int = 4) -> sb.Fit:
+    """States that are passed twice, a distance apart; half of the squared difference is `gamma`.
+
+    All are far from each other, and far apart in time. The residual changes its sign at random.
+    """
+    rng = np.random.default_rng(seed)
+    speed = 10.0 + 100.0 * rng.permutation(gap.size)
+    half = rng.choice([-1.0, 1.0], gap.size) * np.sqrt(gamma / 2.0)
+    return left(
+        Moved(np.concatenate([speed, speed + gap])), np.concatenate([half, -half]), rmse=rmse
+    )
+
+
+STATES = 2 * FEWEST_PAIRS
+
+
+def test_floor_is_half_of_the_squared_difference_of_repetitions() -> None:
+    gamma = np.random.default_rng(1).uniform(1.0, 3.0, STATES)
+    same = np.zeros(STATES)
+    assert noise_floor(twice(same, gamma)).value == pytest.approx(np.sqrt(gamma.mean()))
+    # It is never above the error itself.
+    assert noise_floor(twice(same, gamma, rmse=0.5)).value == 0.5
+
+
+@pytest.mark.parametrize("slope", [0.0, 5.0, -1.0])
+def test_floor_is_that_at_no_distance(slope: float) -> None:
+    """A rise with the squared distance is the torque's, not the noise's; a fall is chance."""
+    squared = np.linspace(0.0, 1.0, STATES)
+    gamma = 2.0 + slope * squared
+    near = squared <= np.median(squared)
+    expected = 2.0 if slope > 0.0 else gamma[near].mean()
+    found = noise_floor(twice(np.sqrt(squared), gamma)).value
+    assert found == pytest.approx(np.sqrt(expected), rel=1e-6)
+
+
+def test_a_line_below_zero_is_no_variance() -> None:
+    """Half of the pairs count; where their line would start below zero, their mean is taken."""
+    squared = np.linspace(0.2, 1.0, STATES)
+    gamma = 10.0 * (squared - 0.2) ** 2
+    near = squared <= np.median(squared)
+    found = noise_floor(twice(np.sqrt(squared), gamma)).value
+    assert found == pytest.approx(np.sqrt(gamma[near].mean()), rel=1e-6)
+
+
+def test_states_that_are_passed_once_have_no_repetitions() -> None:
+    residual = np.random.default_rng(1).standard_normal(STATES)
+    said = noise_floor(left(Moved(1.0 + np.arange(float(STATES))), residual))
+    assert said.value is None and "same state twice" in str(said.why)
+    few = slice(0, FEWEST_PAIRS - 1)
+    said = noise_floor(left(Moved(np.ones(FEWEST_PAIRS - 1)), residual[few]))
+    assert said.value is None and f"({FEWEST_PAIRS - 1})" in str(said.why)
+
+
+def test_samples_close_in_time_are_no_repetition() -> None:
+    """Noise that lasts as long as a state is held; only the second pass has another one."""
+    held, states = 30, 40
+    rng = np.random.default_rng(2)
+    speed = np.repeat(10.0 + 100.0 * rng.permutation(states), held)
+    noise = np.repeat(rng.choice([-1.0, 1.0], states), held)
+    fit = left(Moved(np.concatenate([speed, speed])), np.concatenate([noise, -noise]))
+    assert noise_floor(fit).value == pytest.approx(np.sqrt(2.0))
+
+
+@pytest.mark.parametrize(("back", "once"), [(0.0, True), (0.4, True), (0.6, False)])
+def test_a_position_is_passed_twice_after_half_of_the_way_back(back: float, once: bool) -> None:
+    assert ONCE == 1.5
+    size = 4000
+    speed = np.where(np.arange(size) < size / (1.0 + back), 1.0, -1.0)
+    dt = np.full(size, 0.01)
+    smooth = np.sin(2.0 * np.pi * np.arange(size) / 1000.0)
+    moved = Moved(speed, dt=dt, position=np.cumsum(speed * dt))
+    assert ("no position twice" in str(noise_floor(left(moved, smooth)).why)) == once
+    # Rough noise can be told from a torque along the stroke.
+    rough = np.random.default_rng(1).standard_normal(size)
+    assert "no position twice" not in str(noise_floor(left(moved, rough)).why)
+    # Without positions nothing is known of them.
+    assert "no position twice" not in str(noise_floor(left(Moved(speed), smooth)).why)
+
+
+def test_a_floor_is_reached_within_half_of_it() -> None:
+    assert NoiseFloor(0.2).is_reached_by(0.2 * REACHED)
+    assert not NoiseFloor(0.2).is_reached_by(0.2 * REACHED + 1e-6)
+    assert not NoiseFloor(None).is_reached_by(0.0)
+
+
+def test_features_are_the_channels_that_vary_and_the_direction() -> None:
+    rng = np.random.default_rng(6)
+    size = 50
+    speed = rng.standard_normal(size)
+    warm, load = rng.standard_normal(size), 3.0 * rng.standard_normal(size)
+    rows = np.arange(0, size, 2)
+
+    def scaled(values: Array) -> Array:
+        return (values[rows] - values[rows].mean()) / values[rows].std()
+
+    moved = Moved(speed, temperature=warm, load_torque=load, position=np.full(size, 0.3))
+    expected = [scaled(speed), scaled(warm), scaled(load), 3.0 * np.sign(speed[rows])]
+    found = state_features(left(moved, speed), rows)
+    assert found == pytest.approx(np.column_stack(expected))
+    # The load that the model holds replaces one that was not recorded.
+    other = state_features(left(Moved(speed, temperature=warm), speed, load=load), rows)
+    assert other == pytest.approx(np.column_stack(expected))
+    place, push = rng.standard_normal((2, size))
+    every = state_features(
+        left(Moved(speed, position=place, acceleration=push, dt=np.full(size, 0.1)), speed), rows
+    )
+    travel = np.sqrt(displacement_since_reversal(Moved(speed, dt=np.full(size, 0.1))))  # type: ignore[arg-type]
+    expected = [*map(scaled, (speed, place, push, travel)), 3.0 * np.sign(speed[rows])]
+    assert every == pytest.approx(np.column_stack(expected))

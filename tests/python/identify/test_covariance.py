@@ -133,3 +133,25 @@ def test_variance_of_a_parameter_and_of_independent_errors() -> None:
         bread = np.linalg.inv(j[:, among].T @ j[:, among])[1, 1]
         assert variance == pytest.approx(expected, rel=1e-10)
         assert independently == pytest.approx(expected / bread, rel=1e-10)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_parameter_without_effect_has_an_infinite_variance() -> None:
+    """Also where the squares of its tangent are no numbers any more; that of the other is kept."""
+    rng = np.random.default_rng(9)
+    shape, r = rng.standard_normal(60), rng.standard_normal(60)
+    batch, free = np.repeat(np.arange(6), 10).astype(np.uint32), np.ones(2, dtype=bool)
+
+    def of(size: float) -> list[np.ndarray]:
+        j = np.column_stack([np.ones(60), size * shape])
+        return [sandwich(j, r, batch, free), independent(j, r, free)]
+
+    for usual, least in zip(of(1.0), of(2.0**-600), strict=True):
+        assert least[1, 1] == np.inf and not np.isnan(least).any()
+        assert least[0, 0] == usual[0, 0]
+    # A power of two changes no digit.
+    for usual, small in zip(of(1.0), of(2.0**-400), strict=True):
+        assert small[1, 1] == usual[1, 1] * 2.0**800 and small[0, 0] == usual[0, 0]
+    j = np.column_stack([np.ones(60), 2.0**-600 * shape])
+    usual = variances(np.column_stack([np.ones(60), shape]), r, batch, free, 1, 1e-4)
+    assert variances(j, r, batch, free, 1, 1e-4) == (np.inf, usual[1])

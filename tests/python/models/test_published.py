@@ -9,6 +9,7 @@ import pytest
 import stribeck as sb
 from as_user import answer, stribeck
 from stribeck.models.build import with_values
+from stribeck.models.catalog import catalog
 from stribeck.models.published.sets import every_set
 from synthetic import joint
 
@@ -124,3 +125,21 @@ def test_a_set_of_another_kind_of_joint_is_refused(tmp_path) -> None:
     joint().write_parquet(path)
     done = stribeck("compare", path, "published:gantry/table_1/gantry_map")
     assert done.returncode == 2 and "a model of another kind of joint" in done.stderr
+
+
+def test_a_value_beyond_the_bounds_of_a_fit_is_named_in_the_note() -> None:
+    """Bounds without a unit hold for every machine; the others are multiples of a scale."""
+    compared, beyond = 0, 0
+    for one in every_set().values():
+        table = {p["symbol"]: p for p in catalog()["laws"][one.model.law]["parameters"]}
+        for symbol, printed in one.printed.items():
+            known = table.get(symbol)
+            if known is None or known["scale"] not in (None, "none"):
+                continue
+            compared += 1
+            if not known["lower"] <= printed <= known["upper"]:
+                beyond += 1
+                assert f"{symbol} is beyond the bounds of a fit" in one.note, one.id
+                ends = f"{known['lower']:g} to {known['upper']:g}"
+                assert ends in one.note, one.id
+    assert compared > 50 > beyond > 0

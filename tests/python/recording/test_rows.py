@@ -164,10 +164,11 @@ def test_blocks(write, frame):
     assert set(hole.block) == set(range(10))
 
 
-def test_average(write):
+def steady_runs() -> pl.DataFrame:
+    """Six runs at a steady speed each, three backward and three forward."""
     rng = np.random.default_rng(5)
     speeds = [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]
-    table = pl.concat(
+    return pl.concat(
         [
             pl.DataFrame(
                 {
@@ -180,6 +181,11 @@ def test_average(write):
             for k, v in enumerate(speeds)
         ]
     )
+
+
+def test_average(write):
+    speeds = [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]
+    table = steady_runs()
     recording = read(write(table), map=("run=file",), average="run")
     assert recording.averaged and len(recording) == 6 and recording.block_count == 6
     np.testing.assert_allclose(recording.velocity, speeds, atol=0.02)
@@ -191,6 +197,23 @@ def test_average(write):
         read(write(table), average="run")
     with pytest.raises(RecordingError, match=r'`average="file"`: unknown value; give run or row'):
         read(write(table), average="file")
+
+
+def test_averaged_runs_are_held_out_by_a_column(write):
+    way = pl.when(pl.col("file") < "r3").then(pl.lit("backward")).otherwise(pl.lit("forward"))
+    table = steady_runs().with_columns(way=way, half=(pl.col("time") > 1.0).cast(int))
+    said = {"map": ("run=file",), "average": "run"}
+    recording = read(write(table), **said, hold_out="way")
+    assert recording.block_count == 2 and recording.block.tolist() == [0, 0, 0, 1, 1, 1]
+    one = read(write(table), **said, hold_out="way=forward")
+    assert one.counted.tolist() == [False] * 3 + [True] * 3
+    with pytest.raises(RecordingError, match="half changes within run r0, of which one point"):
+        read(write(table), **said, hold_out="half")
+    with pytest.raises(RecordingError, match="there is no column 'gain'"):
+        read(write(table), **said, hold_out="gain")
+    points = table.filter(pl.col("time") == 0.5).drop("time")
+    rows = read(write(points), average="row", hold_out="way")
+    assert rows.block.tolist() == recording.block.tolist()
 
 
 def test_derived_velocity_and_acceleration(write):

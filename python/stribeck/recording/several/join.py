@@ -61,13 +61,13 @@ def join(parts: Sequence[Part], path: str, *, standstill: bool = False) -> Recor
         ),
     )
     made = settled(made, data, standstill=standstill)
-    if made.averaged:
-        return made
-    if len(parts) >= MANY_RUNS:
+    if len(parts) >= MANY_RUNS and not made.averaged:
         block = np.repeat(np.arange(len(parts)), [part.rows for part in parts])
         made = replace(made, block=ints(block), block_count=len(parts))
     hold_out = data.prepared.settings.hold_out
-    return made if hold_out is None else with_hold_out(made, data.prepared, data.rows, hold_out)
+    if hold_out is None:
+        return made
+    return with_hold_out(made, data.prepared, data.rows, hold_out, layout)
 
 
 def _contradictory(parts: Sequence[Part]) -> list[Part]:
