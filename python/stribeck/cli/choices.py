@@ -59,6 +59,13 @@ CHOICE_OPTIONS = [
     ),
 ]
 
+per_run_option = click.option(
+    "--per-run",
+    multiple=True,
+    metavar="NAME,...",
+    help="Parameters with a value of their own in each run; the others are shared.",
+)
+
 
 def taken_choices(values: Values) -> Choices:
     """Take the values of these options out of all values."""

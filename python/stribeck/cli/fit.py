@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from stribeck.base.errors import SpecError
+from stribeck.cli.choices import per_run_option
 from stribeck.cli.common import (
     echo_result,
     json_option,
@@ -16,7 +17,7 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
-from stribeck.cli.data import data_argument
+from stribeck.cli.data import arguments_of, split_one
 from stribeck.cli.errors import ErrorChoice, error_options
 from stribeck.cli.evaluation import evaluate_option, judged
 from stribeck.cli.formulas import (
@@ -37,9 +38,12 @@ from stribeck.scale.streaming.stream import Stream
 
 
 @click.command(cls=CheckedCommand)
-@data_argument
+@arguments_of("DATA... [MODEL]")
 @click.option(
-    "--model", "spec", default=None, help="LAW[+effect...], or a model file to start from."
+    "--model",
+    "spec",
+    default=None,
+    help="LAW[+effect...], or a model file to start from; the same as MODEL.",
 )
 @model_options
 @error_options
@@ -48,12 +52,7 @@ from stribeck.scale.streaming.stream import Stream
     is_flag=True,
     help="Identify under passivity conditions; `stribeck check` proves the result.",
 )
-@click.option(
-    "--per-run",
-    multiple=True,
-    metavar="NAME,...",
-    help="Parameters with a value of their own in each run; the others are shared.",
-)
+@per_run_option
 @output_option
 @report_option
 @method_options
@@ -64,7 +63,7 @@ from stribeck.scale.streaming.stream import Stream
 @seed_option
 @json_option
 def fit(
-    data: tuple[str, ...],
+    arguments: tuple[str, ...],
     spec: str | None,
     written: Written,
     errors: ErrorChoice,
@@ -84,6 +83,7 @@ def fit(
 
     With --stream, Parquet files are read in passes: all samples are fitted, few are in memory.
     """
+    data, spec = split_one(arguments, "--model", spec)
     if streaming.asked:
         streaming.refuse(
             method=method.name != "rms",
@@ -101,8 +101,7 @@ def fit(
         return
     _check_method(method.name, passive=passive, per_run=bool(per_run))
     errors.refuse(method.name)
-    recording = read_recording(data, reading)
-    others = judged(evaluate, reading)
+    recording, others = read_recording(data, reading), judged(evaluate, reading)
     if method.name == "rms":
         fitted = written_fit(
             spec,

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from datetime import datetime
-from pathlib import Path
 
 import click
 
 from stribeck.base.pool import Stopped
+from stribeck.cli.choices import choice_options
 from stribeck.cli.common import (
     echo_result,
     json_option,
@@ -16,8 +16,11 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.data import split_one
 from stribeck.cli.outputs import FIGURE, PAGE, CheckedCommand
 from stribeck.cli.progress import Progress, stop_with
+from stribeck.cli.refused import OF_A_FLEET, refusing
+from stribeck.identify.choices import Choices
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.fleet.changes import Question
 from stribeck.scale.fleet.fleet import STRAGGLER
@@ -27,12 +30,12 @@ from stribeck.scale.fleet.result import Fleet
 
 
 @click.command(cls=CheckedCommand)
-@click.argument("files", nargs=-1, required=True, metavar=f"FILES... [{IMPROVE}]")
+@click.argument("files", nargs=-1, required=True, metavar="FILES... [MODEL]")
 @click.option(
     "--model",
     default=None,
     metavar=f"SPEC|M.toml|{IMPROVE}",
-    help=f"Model fitted to every joint; {IMPROVE}: improve from --base.  [default: {IMPROVE}]",
+    help=f"As MODEL: fitted to every joint; {IMPROVE}: improve from --base.  [default: {IMPROVE}]",
 )
 @click.option("--base", default="coulomb", show_default=True, help="Base model of improve.")
 @click.option(
@@ -112,6 +115,8 @@ from stribeck.scale.fleet.result import Fleet
 @click.option(
     "--report", type=PAGE, default=None, metavar="FILE", help="Write a self-contained page (HTML)."
 )
+@choice_options
+@refusing(OF_A_FLEET)
 @starts_option
 @recording_options
 @seed_option
@@ -134,6 +139,7 @@ def fleet(
     retry_failed: bool,
     picture: str | None,
     report: str | None,
+    choices: Choices,
     starts: int,
     reading: ReadOptions,
     seed: int,
@@ -145,8 +151,7 @@ def fleet(
     set OUTPUT/results. Ctrl-C stops; the same command continues, and more files add to it. Files
     that cannot be used are reported and skipped; the exit code is 2 only if none can be used.
     """
-    if model is None and files[-1] == IMPROVE and not Path(IMPROVE).exists():
-        files = files[:-1]
+    files, model = split_one(files, "--model", model, checked=False)
     since_day = None if since is None else since.date()
     question = Question(since_day, window, history, false_discovery, least_change)
     with Progress("tasks") as bar:
@@ -168,6 +173,7 @@ def fleet(
                 progress=bar.show,
                 note=lambda text: say(f"note: {text}"),
                 **reading.given(),
+                **choices.arguments(),
             )
         except (Stopped, KeyboardInterrupt):
             stop_with(bar, "the fleet", output)

@@ -9,6 +9,7 @@ import click
 
 from stribeck.base.errors import SpecError
 from stribeck.cli import interrupts
+from stribeck.cli.choices import per_run_option
 from stribeck.cli.common import (
     echo_result,
     figures_option,
@@ -24,8 +25,8 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
-from stribeck.cli.data import arguments_of_both, data_argument, split
-from stribeck.cli.evaluation import evaluate_option, judged
+from stribeck.cli.data import arguments_of, arguments_of_both, split, split_one
+from stribeck.cli.evaluation import evaluate_option, judged, refuse_fitted, with_judgements
 from stribeck.cli.fitted import fits_of
 from stribeck.cli.formulas import (
     Written,
@@ -39,6 +40,7 @@ from stribeck.cli.options import Values
 from stribeck.cli.outputs import FIGURE, CheckedCommand
 from stribeck.cli.pages import comparison_report, diagnosis_report, improvement_report
 from stribeck.cli.progress import RowProgress
+from stribeck.cli.refused import SHARED_VALUES, refusing
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
 from stribeck.diagnosis.compare import compare as compare_fits
 from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
@@ -51,6 +53,7 @@ from stribeck.identify.choices import parameters_of_effects
 from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import effect_name
 from stribeck.recording.options import ReadOptions
+from stribeck.recording.recording import Recording
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
 
@@ -58,6 +61,8 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 @click.command(cls=CheckedCommand)
 @arguments_of_both
 @formula_options
+@per_run_option
+@evaluate_option
 @click.option(
     "--plot", "picture", type=FIGURE, metavar="FILE", help="Write a figure of the residuals (PNG)."
 )
@@ -69,6 +74,8 @@ from stribeck.scale.streaming.improvement import StreamedImprovement
 def compare(
     arguments: tuple[str, ...],
     written: Written,
+    per_run: tuple[str, ...],
+    evaluate: tuple[str, ...],
     picture: str | None,
     report: str | None,
     starts: int,
@@ -80,8 +87,9 @@ def compare(
     data, models = split(arguments)
     if not (models or written.laws):
         raise SpecError("no model is given: name laws or model files, or write laws by --law")
-    recording = read_recording(data, reading)
-    fits = fits_of(models, written, recording, starts=starts, seed=seed)
+    recording, others = read_recording(data, reading), judged(evaluate, reading)
+    refuse_fitted(models, others)
+    fits = fits_of(models, written, recording, starts=starts, seed=seed, per_run=per_run)
     comparison = compare_fits(fits, recording)
     if picture is not None:
         from stribeck.base.files import save_figure
@@ -89,12 +97,14 @@ def compare(
         save_figure(comparison.plot(), picture)
         say(f"wrote {picture}")
     comparison_report(comparison, report)
-    echo_result(comparison, as_json)
+    echo_result(with_judgements(comparison, fits, others), as_json)
 
 
 @click.command(cls=CheckedCommand)
 @arguments_of_both
 @model_options
+@refusing({"--per-run": SHARED_VALUES})
+@evaluate_option
 @report_option
 @figures_option
 @candidate_option
@@ -107,6 +117,7 @@ def compare(
 def diagnose(
     arguments: tuple[str, ...],
     written: Written,
+    evaluate: tuple[str, ...],
     report: str | None,
     figures: str | None,
     candidates: tuple[str, ...],
@@ -127,7 +138,9 @@ def diagnose(
     model = models[0] if models else None
     check_candidates(candidates)
     streamed: StreamedDiagnosis | None = None
+    others: list[Recording] = []
     if streaming.asked:
+        streaming.refuse(evaluate=bool(evaluate))
         opened = streaming.open(data, reading, seed)
         with RowProgress() as bar:
             streamed = opened.diagnose(
@@ -141,7 +154,7 @@ def diagnose(
             )
         diagnosis = streamed.found
     else:
-        recording = read_recording(data, reading)
+        recording, others = read_recording(data, reading), judged(evaluate, reading)
         later = parameters_of_effects(candidates=candidates)
         fitted = written_fit(model, written, recording, later, starts=starts, seed=seed)
         diagnosis = diagnose_fit(
@@ -157,12 +170,14 @@ def diagnose(
     if streamed is not None:
         show(streamed, as_json)
     else:
-        echo_result(diagnosis, as_json)
+        echo_result(with_judgements(diagnosis, [diagnosis.fit], others), as_json)
 
 
 @click.command(cls=CheckedCommand)
-@click.argument("arguments", nargs=-1, required=True, metavar="DATA... MODEL EFFECT")
+@arguments_of("DATA... MODEL EFFECT")
 @model_options
+@refusing({"--per-run": SHARED_VALUES})
+@evaluate_option
 @output_option
 @starts_option
 @recording_options
@@ -171,6 +186,7 @@ def diagnose(
 def add(
     arguments: tuple[str, ...],
     written: Written,
+    evaluate: tuple[str, ...],
     output: str | None,
     starts: int,
     reading: ReadOptions,
@@ -188,7 +204,7 @@ def add(
             f"({', '.join(named) or 'none'}): write `stribeck add DATA MODEL EFFECT`"
         )
     model, effect = named
-    recording = read_recording(data, reading)
+    recording, others = read_recording(data, reading), judged(evaluate, reading)
     before = written_fit(
         model, written, recording, parameters_brought_by(effect), starts=starts, seed=seed
     )
@@ -196,13 +212,18 @@ def add(
     addition = Addition(effect_name(effect), before, after)
     if output is not None:
         save_fit(after, output)
-    echo_result(addition, as_json)
+    echo_result(with_judgements(addition, [before, after], others), as_json)
 
 
 @click.command(cls=CheckedCommand)
-@data_argument
-@click.option("--base", default=None, help="Spec, model file or formula. [default: coulomb]")
+@arguments_of("DATA... [MODEL]")
+@click.option(
+    "--base",
+    default=None,
+    help="Spec, model file or formula; the same as MODEL. [default: coulomb]",
+)
 @model_options
+@refusing({"--per-run": SHARED_VALUES})
 @output_option
 @report_option
 @click.option("--plot", "picture", type=FIGURE, metavar="FILE", help="Write the figure (PNG).")
@@ -224,7 +245,7 @@ def add(
 @seed_option
 @json_option
 def improve(
-    data: tuple[str, ...],
+    arguments: tuple[str, ...],
     base: str | None,
     written: Written,
     output: str | None,
@@ -246,6 +267,7 @@ def improve(
 
     With --stream, effects are searched on stretches of the data.
     """
+    data, base = split_one(arguments, "--base", base)
     check_candidates(candidates)
     for effect in reject:
         check_effect(effect)

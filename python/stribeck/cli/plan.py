@@ -10,6 +10,7 @@ from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure, write_table
 from stribeck.cli.common import (
     echo_result,
+    is_model_file,
     json_option,
     read_recording,
     recording_options,
@@ -17,12 +18,12 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.data import arguments_of, is_data, split_one
 from stribeck.cli.formulas import Written, written_fit
 from stribeck.cli.outputs import FIGURE, TABLE, CheckedCommand
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
-from stribeck.models.published.sets import PREFIX
 from stribeck.models.reader import read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes
@@ -30,8 +31,7 @@ from stribeck.recording.options import ReadOptions
 
 
 @click.command(cls=CheckedCommand)
-@click.argument("data")
-@click.argument("model", required=False)
+@arguments_of("DATA MODEL")
 @click.option(
     "--separate",
     "separate",
@@ -75,8 +75,7 @@ from stribeck.recording.options import ReadOptions
 @seed_option
 @json_option
 def plan(
-    data: str,
-    model: str | None,
+    arguments: tuple[str, ...],
     separate: tuple[str, ...],
     show: tuple[str, ...],
     position: str,
@@ -97,7 +96,7 @@ def plan(
     Without data: stribeck plan MODEL.toml.
     """
     limits = position_range(position)
-    joint = _joint(data, model, noise, starts=starts, seed=seed, reading=reading)
+    joint = _joint(arguments, noise, starts=starts, seed=seed, reading=reading)
     say("note: searching for a motion, some seconds to a minute ...")
     planned = make(
         joint,
@@ -125,8 +124,7 @@ def plan(
 
 
 def _joint(
-    data: str,
-    model: str | None,
+    arguments: tuple[str, ...],
     noise: float | None,
     *,
     starts: int,
@@ -134,14 +132,16 @@ def _joint(
     reading: ReadOptions,
 ) -> Fit | ModelFile:
     """A fit to DATA, or the model file that stands in its place."""
-    if model is not None:
-        if noise is not None:
-            raise SpecError("--noise is for a model file only: with DATA the noise is estimated")
-        recording = read_recording(data, reading)
-        return written_fit(model, Written(), recording, starts=starts, seed=seed)
-    if not data.endswith(".toml") and not data.startswith(PREFIX):
-        raise SpecError(f"no model is given for {data}: write stribeck plan {data} MODEL")
-    return read_model_file(data)
+    if not any(map(is_data, arguments)) and len(arguments) == 1 and is_model_file(arguments[0]):
+        return read_model_file(arguments[0])
+    data, model = split_one(arguments, "", None)
+    if model is None:
+        given = " ".join(data)
+        raise SpecError(f"no model is given for {given}: write stribeck plan {given} MODEL")
+    if noise is not None:
+        raise SpecError("--noise is for a model file only: with DATA the noise is estimated")
+    recording = read_recording(data, reading)
+    return written_fit(model, Written(), recording, starts=starts, seed=seed)
 
 
 def _kind(model: Model) -> str:

@@ -17,9 +17,10 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
-from stribeck.cli.data import split
+from stribeck.cli.data import split, split_one
 from stribeck.cli.outputs import TABLE, URDF, CheckedCommand
 from stribeck.cli.plan import position_range
+from stribeck.cli.refused import OF_A_DIAGNOSIS, OF_A_ROBOT, refusing
 from stribeck.cli.robot_options import (
     by_joint,
     cutoff_option,
@@ -95,7 +96,13 @@ def show(described: str, as_json: bool) -> None:
 @robot.command(cls=CheckedCommand)
 @runs_argument
 @robot_options
-@click.option("--model", "spec", default=ORDINARY, show_default=True, help="LAW[+effect...].")
+@click.option(
+    "--model",
+    "spec",
+    default=None,
+    help=f"LAW[+effect...], the same as SPEC.  [default: {ORDINARY}]",
+)
+@refusing(OF_A_ROBOT)
 @joint_model_option
 @payload_option
 @evaluate_option
@@ -108,7 +115,7 @@ def show(described: str, as_json: bool) -> None:
 def fit(
     runs: tuple[str, ...],
     described: Robot,
-    spec: str,
+    spec: str | None,
     joint_model: tuple[str, ...],
     payload: tuple[str, ...],
     evaluate: tuple[str, ...],
@@ -120,11 +127,12 @@ def fit(
     as_json: bool,
 ) -> None:
     """Identify base parameters of the rigid bodies and the friction of every joint."""
+    runs, spec = split_one(runs, "--model", spec)
     motion = read_runs(described, runs, reading, cutoff)
     others = [read_runs(described, (path,), reading, motion.cutoff) for path in evaluate]
     found = fit_robot(
         motion,
-        spec,
+        spec or ORDINARY,
         of_joints=by_joint(joint_model),
         payload=payload,
         evaluate=others,
@@ -144,6 +152,7 @@ def _save(found: RobotFit, output: str | None) -> None:
 @robot.command(cls=CheckedCommand)
 @click.argument("arguments", nargs=-1, required=True, metavar="RUNS... SPEC...")
 @robot_options
+@refusing(OF_A_ROBOT)
 @payload_option
 @evaluate_option
 @cutoff_option
@@ -176,10 +185,11 @@ def compare(
 
 @robot.command(cls=CheckedCommand)
 @loop_options
+@refusing(OF_A_DIAGNOSIS)
 def diagnose(
     runs: tuple[str, ...],
     described: Robot,
-    base: str,
+    base: str | None,
     joint_model: tuple[str, ...],
     payload: tuple[str, ...],
     cutoff: float | None,
@@ -190,10 +200,11 @@ def diagnose(
     as_json: bool,
 ) -> None:
     """Find which effect each joint lacks, and causes in the rigid bodies, on RUNS."""
+    runs, base = split_one(runs, "--base", base)
     motion = read_runs(described, runs, reading, cutoff)
     found = improve_robot(
         motion,
-        base,
+        base or ORDINARY,
         of_joints=by_joint(joint_model),
         payload=payload,
         starts=starts,
@@ -219,7 +230,7 @@ def diagnose(
 def improve(
     runs: tuple[str, ...],
     described: Robot,
-    base: str,
+    base: str | None,
     joint_model: tuple[str, ...],
     payload: tuple[str, ...],
     evaluate: tuple[str, ...],
@@ -233,11 +244,12 @@ def improve(
     as_json: bool,
 ) -> None:
     """Add to each joint the effects that it lacks, all joints identified together on RUNS."""
+    runs, base = split_one(runs, "--base", base)
     motion = read_runs(described, runs, reading, cutoff)
     others = [read_runs(described, (path,), reading, motion.cutoff) for path in evaluate]
     found = improve_robot(
         motion,
-        base,
+        base or ORDINARY,
         of_joints=by_joint(joint_model),
         payload=payload,
         evaluate=others,

@@ -15,6 +15,7 @@ from stribeck.cli.common import (
 )
 from stribeck.cli.options import Command, Values, added, gathered
 from stribeck.cli.outputs import ROBOT
+from stribeck.cli.refused import OF_A_ROBOT, refusing
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.describe import read_robot
@@ -28,7 +29,7 @@ output_option = click.option(
     default=None,
     help="Write the identified robot to this file (TOML).",
 )
-runs_argument = click.argument("runs", nargs=-1, required=True, metavar="RUNS...")
+runs_argument = click.argument("runs", nargs=-1, required=True, metavar="RUNS... [SPEC]")
 cutoff_option = click.option(
     "--cutoff",
     type=float,
@@ -99,7 +100,12 @@ def loop_options(command: Command) -> Command:
         (
             runs_argument,
             robot_options,
-            click.option("--base", default=ORDINARY, show_default=True, help="LAW[+effect...]."),
+            click.option(
+                "--base",
+                default=None,
+                help=f"LAW[+effect...], the same as SPEC.  [default: {ORDINARY}]",
+            ),
+            refusing(OF_A_ROBOT),
             joint_model_option,
             payload_option,
             cutoff_option,

@@ -103,15 +103,36 @@ def evaluated_on(fitted: Fit, recordings: Iterable[Recording]) -> Fit:
     """
     made = []
     for recording in recordings:
-        judged = evaluate(fitted.model, recording, fitted_on=fitted.recording.hashes)
-        if judged.rmse_held_out is None:
-            raise FitError(
-                f"{recording.path}: the model is fitted to it, so that its error there judges "
-                f"nothing: give another recording with {option('evaluate')}"
-            )
-        rows = int(recording.moving.sum())
-        made.append(Evaluated(recording.path, rows, judged.rmse, judged.relative_residual))
+        refuse_fitted_on(recording, fitted.recording.hashes)
+        made.append(evaluated(fitted.model, recording))
     return replace(fitted, evaluated=tuple(made))
+
+
+def evaluated(model: Model, recording: Recording) -> Evaluated:
+    """The error of a model on a recording."""
+    judged = evaluate(model, recording)
+    rows = int(recording.moving.sum())
+    return Evaluated(recording.path, rows, judged.rmse, judged.relative_residual)
+
+
+def refuse_fitted_on(recording: Recording, hashes: Collection[str]) -> None:
+    """Refuse to judge a model on a recording that it was fitted to.
+
+    Parameters
+    ----------
+    hashes
+        SHA-256 of the files that the model was fitted to.
+
+    Raises
+    ------
+    FitError
+        One of them is a file of the recording.
+    """
+    if not set(hashes).isdisjoint(recording.hashes):
+        raise FitError(
+            f"{recording.path}: the model is fitted to it, so that its error there judges "
+            f"nothing: give another recording with {option('evaluate')}"
+        )
 
 
 def _stored(model: Model, stderr: Mapping[str, float]) -> dict[str, Estimate]:

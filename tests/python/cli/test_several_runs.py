@@ -99,7 +99,7 @@ def test_refusals(folder: Path) -> None:
     fit = ("--model", "coulomb")
     refused("fit", "x*.csv", *fit, folder=folder, said="no file matches this pattern")
     refused("fit", "run1.csv", "run1.csv", *fit, folder=folder, said="is given twice")
-    refused("fit", "run1.csv", "m.toml", *fit, folder=folder, said="m.toml: is a model file")
+    refused("fit", "run1.csv", "m.toml", *fit, folder=folder, said="one of them with --model")
     refused("compare", "run1.csv", "m.csv", folder=folder, said="name it .toml")
     refused("compare", "coulomb", folder=folder, said="no recording is among coulomb")
     refused("compare", "logs/x*", "coulomb", folder=folder, said="no file matches")

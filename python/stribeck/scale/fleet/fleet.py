@@ -17,19 +17,22 @@ import polars as pl
 from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError, SpecError, StribeckError
 from stribeck.base.version import __version__
+from stribeck.identify.choices import Choices, parameters_of_effects
+from stribeck.models.build import law
+from stribeck.models.build import model as named
 from stribeck.models.formula_law import is_formula
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.published.sets import PREFIX
 from stribeck.models.reader import read_model_file
 from stribeck.models.spec import parse_spec
-from stribeck.recording.options import ReadArguments, ReadOptions
 from stribeck.recording.sidecar import read_sidecar
+from stribeck.scale.arguments import ScaleArguments, split_arguments
 from stribeck.scale.fleet.backend import backend_of
 from stribeck.scale.fleet.changes import Question, find_changes
 from stribeck.scale.fleet.effects import Effects, find_effects
 from stribeck.scale.fleet.files import expand
-from stribeck.scale.fleet.identified import IMPROVE
+from stribeck.scale.fleet.identified import IMPROVE, start_model
 from stribeck.scale.fleet.naming import Naming
 from stribeck.scale.fleet.result import Fleet
 from stribeck.scale.fleet.run import STRAGGLER, FleetRun, Progress
@@ -59,7 +62,7 @@ def fleet(
     retry_failed: bool = False,
     progress: Progress | None = None,
     note: Callable[[str], None] = lambda sentence: None,
-    **reading: Unpack[ReadArguments],
+    **options: Unpack[ScaleArguments],
 ) -> Fleet:
     """Identify every joint of many files; find joints that changed or stand out.
 
@@ -80,8 +83,8 @@ def fleet(
         Run a task again that takes this many times the median, or that failed before.
     progress, note
         Called with the numbers of tasks done and in all; called with a sentence on each incident.
-    **reading
-        Options of `stribeck.read`.
+    **options
+        Options of `stribeck.read`, and what is stated about parameters (`ChoiceArguments`).
 
     Raises
     ------
@@ -90,7 +93,7 @@ def fleet(
     Stopped
         On Ctrl-C; finished tasks are saved.
     """
-    work = _work(model, base, name, day, starts, seed, reading)
+    work = _work(model, base, name, day, starts, seed, options)
     naming, paths = Naming(name), expand(files)
     store = FleetStore(Path(output), work, retry_failed=retry_failed)
     run = FleetRun(store, work, straggler, progress, note)
@@ -110,25 +113,37 @@ def _work(
     day: str | None,
     starts: int,
     seed: int,
-    reading: ReadArguments,
+    given: ScaleArguments,
 ) -> Work:
     """Check the arguments and return the work to do on every joint."""
     if starts < 1 or seed < 0:
         raise SpecError(f"{starts} starts, seed {seed}: give at least 1 start and a seed from 0 on")
-    options = ReadOptions.of(reading)
+    options, choices = split_arguments(given)
     if options.sidecar is not None:
         read_sidecar(options.sidecar)
         options = replace(options, sidecar=str(Path(options.sidecar).absolute()))
+    model, base = _model_text(model), _model_text(base)
+    _check_names(choices, base if model == IMPROVE else model)
     return Work(
-        model=_model_text(model),
-        base=_model_text(base),
+        model=model,
+        base=base,
         starts=starts,
         seed=seed,
         reading=options,
         name=name,
         day_column=day,
         version=__version__,
+        choices=choices,
     )
+
+
+def _check_names(choices: Choices, text: str) -> None:
+    """Refuse what is stated about a parameter that neither the model nor any effect has."""
+    if not choices.is_empty:
+        known = start_model(text)
+        if isinstance(known, str):
+            known = law(known) if is_formula(known) else named(known)
+        choices.applied(known, parameters_of_effects())
 
 
 def _result(run: FleetRun, question: Question) -> Fleet:

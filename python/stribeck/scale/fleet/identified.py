@@ -12,6 +12,7 @@ from stribeck.diagnosis.loop.improve import improve
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
+from stribeck.identify.choices import Choices
 from stribeck.identify.covariance import batches, correlation_length, sandwich
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model
@@ -79,7 +80,12 @@ class Identified:
 
 
 def identify(
-    recording: Recording, model: str, base: str, starts: int = 20, seed: int = 0
+    recording: Recording,
+    model: str,
+    base: str,
+    starts: int = 20,
+    seed: int = 0,
+    choices: Choices | None = None,
 ) -> Identified:
     """Fit `model` to a recording, or improve `base` if `model` is ``"improve"``.
 
@@ -87,11 +93,14 @@ def identify(
     ----------
     model, base
         A spec, or the text of a model file whose values are the first start.
+    choices
+        What is stated about parameters.
     """
+    stated = (choices or Choices()).arguments()
     if model != IMPROVE:
-        fitted = fit(start_model(model), recording, starts=starts, seed=seed)
+        fitted = fit(start_model(model), recording, starts=starts, seed=seed, **stated)
         return _identified(fitted, (), noise_floor(fitted).value)
-    improvement = improve(start_model(base), recording, starts=starts, seed=seed)
+    improvement = improve(start_model(base), recording, starts=starts, seed=seed, **stated)
     found = tuple(
         Found(step.finding.effect, step.finding.confidence, step.finding.indistinguishable_from)
         for step in improvement.steps

@@ -34,6 +34,7 @@ IDENTITY = {
     "starts": "with another number of starts",
     "seed": "with another seed",
     "reading": "of recordings read with other options",
+    "choices": "with other bounds, starts or fixed values",
     "version": "made by another version of stribeck",
 }
 SCHEMA: dict[str, pl.DataType | type[pl.DataType]] = {

@@ -16,6 +16,7 @@ from threadpoolctl import threadpool_limits
 
 from stribeck.base.errors import RecordingError, StribeckError, nearest, option
 from stribeck.base.version import __version__
+from stribeck.identify.choices import Choices
 from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.readers import read_table
@@ -45,6 +46,8 @@ class Work:
         Column of the files that holds the date; None: the path has it.
     version
         Version of the package that submits the work; workers with another version refuse it.
+    choices
+        What is stated about parameters.
     """
 
     model: str
@@ -55,6 +58,7 @@ class Work:
     name: str | None
     day_column: str | None
     version: str
+    choices: Choices = field(default_factory=Choices)
 
     @property
     def label(self) -> str:
@@ -151,7 +155,9 @@ def identify_joint(task: Task, work: Work) -> TaskResult:
             recording = read_with(task.file, replace(work.reading, joint=task.select))
             if recording.sha256 != task.sha256:
                 raise RecordingError(f"{task.file} was changed meanwhile: run the command again")
-            identified = identify(recording, work.model, work.base, work.starts, work.seed)
+            identified = identify(
+                recording, work.model, work.base, work.starts, work.seed, work.choices
+            )
     except Exception as error:
         failure = _sentence(error)
     return TaskResult(task, identified, failure, time.perf_counter() - began)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import FitError, RecordingError, SpecError, option
@@ -17,8 +17,9 @@ from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
 from stribeck.identify.algorithms import GLOBAL
-from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
-from stribeck.recording.options import ReadArguments, ReadOptions
+from stribeck.identify.choices import Choices
+from stribeck.recording.options import ReadOptions
+from stribeck.scale.arguments import ScaleArguments, split_arguments
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
 from stribeck.scale.study.desk import Desk, StudyWorkers, study_workers
 from stribeck.scale.study.plan import REVIEW, STARTS, Job, StudyPlan, make_plan
@@ -28,10 +29,6 @@ from stribeck.scale.study.trial import Trial, fit_trials
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
-
-
-class StudyArguments(ReadArguments, ChoiceArguments, total=False):
-    """How the recording is read, and what is stated about parameters."""
 
 
 #: Called after each fit with the numbers of fits done and in all.
@@ -50,7 +47,7 @@ def study(
     workers: int | None = 1,
     progress: Progress | None = None,
     note: Callable[[str], None] | None = None,
-    **options: Unpack[StudyArguments],
+    **options: Unpack[ScaleArguments],
 ) -> Study:
     """Fit `laws` to every joint of a recording from many starts, and compare them.
 
@@ -100,17 +97,15 @@ def study(
     return result
 
 
-def _split(options: StudyArguments) -> tuple[ReadOptions, Choices]:
-    """How the recording is read, and what is stated about parameters."""
-    reading: dict[str, Any] = dict(options)
-    stated = {name: reading.pop(name) for name in CHOICE_NAMES if name in reading}
-    choices = Choices.of(cast(ChoiceArguments, stated))
+def _split(options: ScaleArguments) -> tuple[ReadOptions, Choices]:
+    """How the recording is read, and what is stated; refuses algorithms without starts."""
+    reading, choices = split_arguments(options)
     if choices.algorithm in GLOBAL:
         raise SpecError(
             f"a study searches from each start, {choices.algorithm} does not: give another "
             f"{option('algorithm')}"
         )
-    return ReadOptions.of(reading), choices
+    return reading, choices
 
 
 def _fit(

@@ -1,0 +1,71 @@
+"""Options of fitting commands that one of them cannot take: refused with the reason.
+
+Without this, click would say that there is no such option, and not why or what to do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+import click
+
+from stribeck.base.errors import SpecError
+from stribeck.cli.options import Command, added
+
+#: Why effects are sought with one value of each parameter.
+SHARED_VALUES = (
+    "effects are sought with one value of each parameter in all runs; `stribeck fit` and "
+    "`stribeck compare` take it"
+)
+#: What a study does not take.
+OF_A_STUDY = {
+    "--per-run": "a study fits each law with one value of each parameter; `stribeck fit` and "
+    "`stribeck compare` take it",
+}
+#: What a fleet does not take.
+OF_A_FLEET = {
+    "--per-run": "each file of a fleet has a fit and values of its own already",
+    "--evaluate": "a fleet compares the days of each joint; to judge one model on another "
+    "recording, use `stribeck fit --evaluate`",
+}
+#: What whole robots do not take, each for the same reason.
+OF_A_ROBOT = dict.fromkeys(
+    (
+        "--start",
+        "--bound",
+        "--fix",
+        "--prior",
+        "--constraint",
+        "--tie",
+        "--loss",
+        "--algorithm",
+        "--per-run",
+    ),
+    "the joints of a robot have parameters of the same names, and are identified together by "
+    "weighted least squares; `stribeck fit --joint NAME` takes it for one joint",
+)
+#: What the diagnosis of a robot does not take besides.
+OF_A_DIAGNOSIS = {
+    "--evaluate": "it gives no model to judge; `stribeck robot improve --evaluate` does",
+}
+
+
+def refusing(reasons: Mapping[str, str]) -> Callable[[Command], Command]:
+    """Add hidden options that raise the reason why the command cannot take them.
+
+    Parameters
+    ----------
+    reasons
+        By flag: a clause that says why, and what to do.
+    """
+
+    def refuse(ctx: click.Context, param: click.Parameter, value: Iterable[str]) -> None:
+        for _ in value:
+            flag = param.opts[0]
+            raise SpecError(f"`{ctx.command_path}` does not take {flag}: {reasons[flag]}")
+
+    hidden = [
+        click.option(flag, multiple=True, hidden=True, expose_value=False, callback=refuse)
+        for flag in reasons
+    ]
+    return lambda command: added(hidden, command)
