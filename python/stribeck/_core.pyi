@@ -88,7 +88,12 @@ class _Units(TypedDict):
 class RigidBodies:
     def __new__(cls, links: Sequence[LinkRow], gravity: Sequence[float]) -> RigidBodies: ...
     def inverse_dynamics(
-        self, position: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike
+        self,
+        position: ArrayLike,
+        velocity: ArrayLike,
+        acceleration: ArrayLike,
+        *,
+        single: bool = False,
     ) -> NDArray[np.float64]: ...
     def regressor(
         self, position: ArrayLike, velocity: ArrayLike, acceleration: ArrayLike

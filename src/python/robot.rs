@@ -8,8 +8,9 @@ use numpy::{AllowTypeChange, IntoPyArray, PyArray2, PyArray3, PyArrayLike2, PyAr
 use pyo3::prelude::*;
 
 use super::ModelError;
-use crate::joint::{Matrix, Vector};
+use crate::joint::{Matrix, Number, Vector};
 use crate::robot::{Body, Inertial, LinkState, Movement, PARAMETERS, Pose, Tree};
+use crate::scalar::Real;
 
 type Columns<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
@@ -27,17 +28,19 @@ struct Described {
 }
 
 impl Described {
-    fn body(&self) -> Body<f64> {
+    fn body<P: Number>(&self) -> Body<P> {
+        let cast = P::from_f64;
+        let rotation = self.rotation.map(|row| row.map(cast));
         Body {
             parent: self.parent,
             movement: if self.prismatic { Movement::Prismatic } else { Movement::Revolute },
-            axis: Vector::from(self.axis),
+            axis: Vector::from(self.axis.map(cast)),
             placement: Pose {
-                rotation: Matrix::<f64, 3, 3>::from(self.rotation).transpose(),
-                translation: Vector::from(self.translation),
+                rotation: Matrix::<P, 3, 3>::from(rotation).transpose(),
+                translation: Vector::from(self.translation.map(cast)),
             },
-            inertial: Inertial::from_parameters(self.parameters),
-            rotor: self.rotor,
+            inertial: Inertial::from_parameters(self.parameters.map(cast)),
+            rotor: cast(self.rotor),
         }
     }
 }
@@ -46,6 +49,7 @@ impl Described {
 #[pyclass(frozen, module = "stribeck._core")]
 pub struct RigidBodies {
     bodies: Vec<Body<f64>>,
+    single: Vec<Body<f32>>,
     gravity: [f64; 3],
 }
 
@@ -58,10 +62,12 @@ impl RigidBodies {
         if bodies.iter().enumerate().any(|(k, body)| body.parent.is_some_and(|p| p >= k)) {
             return Err(ModelError::new_err("a link stands before the link that carries it"));
         }
-        Ok(Self { bodies, gravity })
+        let single = links.iter().map(Described::body).collect();
+        Ok(Self { bodies, single, gravity })
     }
 
-    /// Torques [n, N] of a motion [n, N].
+    /// Torques [n, N] of a motion [n, N]; with `single`, computed in single precision.
+    #[pyo3(signature = (position, velocity, acceleration, *, single=false))]
     #[allow(clippy::needless_pass_by_value)]
     fn inverse_dynamics<'py>(
         &self,
@@ -69,16 +75,17 @@ impl RigidBodies {
         position: Columns<'py>,
         velocity: Columns<'py>,
         acceleration: Columns<'py>,
+        single: bool,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let motion = self.motion([&position, &velocity, &acceleration])?;
         let n = self.bodies.len();
         let rows = motion[0].len() / n.max(1);
-        let mut torque = vec![0.0; rows * n];
-        py.detach(|| {
-            let (tree, mut states) = self.ready();
-            for (k, torque) in torque.chunks_mut(n.max(1)).enumerate() {
-                let [q, v, a] = row(&motion, k, n);
-                tree.inverse_dynamics(q, v, a, &mut states, torque);
+        let torque = py.detach(|| {
+            if single {
+                let gravity = self.gravity.map(f32::from_f64);
+                torques(&Tree { bodies: &self.single, gravity }, &motion)
+            } else {
+                torques(&Tree { bodies: &self.bodies, gravity: self.gravity }, &motion)
             }
         });
         torque.into_pyarray(py).reshape([rows, n])
@@ -193,6 +200,21 @@ impl RigidBodies {
         }
         Ok(views.map(|view| view.iter().copied().collect()))
     }
+}
+
+/// Torques of a motion, row by row.
+fn torques<P: Number>(tree: &Tree<'_, P>, motion: &[Vec<f64>; 3]) -> Vec<f64> {
+    let n = tree.bodies.len().max(1);
+    let cast = motion.each_ref().map(|column| column.iter().map(|&x| P::from_f64(x)).collect());
+    let [position, velocity, acceleration]: [Vec<P>; 3] = cast;
+    let mut states = vec![LinkState::new(); tree.bodies.len()];
+    let mut torque = vec![P::zero(); position.len()];
+    for (k, torque) in torque.chunks_mut(n).enumerate() {
+        let of = k * n..(k + 1) * n;
+        let (q, v, a) = (&position[of.clone()], &velocity[of.clone()], &acceleration[of]);
+        tree.inverse_dynamics(q, v, a, &mut states, torque);
+    }
+    torque.into_iter().map(|x| x.value()).collect()
 }
 
 fn row<const K: usize>(motion: &[Vec<f64>; K], k: usize, n: usize) -> [&[f64]; K] {

@@ -7,10 +7,11 @@
 //! 5(3), 1986.
 //!
 //! [`Tree`] works on slices, for robots known at run time; [`Robot`] on arrays, for those known at
-//! compile time.
+//! compile time. [`ArmFeedforward`] adds the friction of every joint.
 
 mod body;
 mod dynamics;
+mod feedforward;
 mod mass;
 mod pose;
 mod regressor;
@@ -18,6 +19,7 @@ mod state;
 
 pub use body::{Body, Inertial, Movement, PARAMETERS};
 pub use dynamics::Robot;
+pub use feedforward::ArmFeedforward;
 pub use pose::Pose;
 pub use state::{LinkState, Tree};
 

@@ -129,3 +129,89 @@ fn a_robot_without_mass_has_no_acceleration() {
     let robot = super::Robot { bodies, gravity: [0.0; 3] };
     assert_eq!(robot.forward_dynamics(&state(1), &state(2), &state(3)), None);
 }
+
+/// The bodies in single precision.
+fn single(bodies: &[Body<f64>; N]) -> [Body<f32>; N] {
+    bodies.map(|body| {
+        let [mass, x, y, z, xx, xy, yy, xz, yz, zz, rotor] =
+            parameters(&[body; N])[0].map(|x| x as f32);
+        Body {
+            parent: body.parent,
+            movement: body.movement,
+            axis: body.axis.map(|x| x as f32),
+            placement: Pose {
+                rotation: body.placement.rotation.map(|x| x as f32),
+                translation: body.placement.translation.map(|x| x as f32),
+            },
+            inertial: Inertial::from_parameters([mass, x, y, z, xx, xy, yy, xz, yz, zz]),
+            rotor,
+        }
+    })
+}
+
+/// Single precision has a relative spacing of 1.2e-7. Motions are exact in it, so that what remains
+/// is rounding of the robot's numbers and of the sums along the chain.
+#[test]
+fn single_precision_is_close_to_double() {
+    let bodies = bodies();
+    let gravity = [0.3, -0.4, -9.7];
+    let double = super::Robot { bodies, gravity };
+    let robot = super::Robot { bodies: single(&bodies), gravity: gravity.map(|x| x as f32) };
+    for seed in 0..200 {
+        let [q, v, a] = [seed, seed + 300, seed + 600].map(|seed| state(seed).map(|x| x as f32));
+        let wide = |x: [f32; N]| x.map(f64::from);
+        let held = [
+            (
+                double.inverse_dynamics(&wide(q), &wide(v), &wide(a)),
+                robot.inverse_dynamics(&q, &v, &a),
+            ),
+            (double.gravity_torque(&wide(q)), robot.gravity_torque(&q)),
+        ];
+        for (expected, found) in held {
+            let largest = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            for (expected, found) in expected.iter().zip(found) {
+                let error = (f64::from(found) - expected).abs();
+                assert!(error < 2e-6 * largest, "{found} {expected} {largest}");
+            }
+        }
+    }
+}
+
+#[test]
+fn feedforward_is_the_rigid_bodies_and_the_friction_under_their_load() {
+    use crate::{Interval, Sample, Spec, State};
+
+    let robot = super::Robot { bodies: bodies(), gravity: [0.3, -0.4, -9.7] };
+    let mut spec = Spec::new("lugre", ["load"]).unwrap();
+    spec.set_constant("reference_load", 10.0).unwrap();
+    let values = [1e3, 1.0, 0.5, 2.0, 2.5, 0.1, 1.7, 0.2, 1.0, 0.1, 1.2];
+    let law = spec.with(&values).unwrap();
+    let mut arm = super::ArmFeedforward::new(robot, [law; N]);
+    let mut states = [State::default(); N];
+    let planned = |seed| {
+        let (q, v, a) = (state(seed), state(seed + 100), state(seed + 200));
+        core::array::from_fn::<_, N, _>(|k| Sample {
+            position: q[k],
+            acceleration: a[k],
+            ..Sample::at(v[k])
+        })
+    };
+    for seed in 60..80 {
+        let planned = planned(seed);
+        let load = robot.inverse_dynamics(
+            &planned.map(|x| x.position),
+            &planned.map(|x| x.velocity),
+            &planned.map(|x| x.acceleration),
+        );
+        let torque = arm.torque(&planned, 1e-3);
+        for k in 0..N {
+            let sample = Sample { load_torque: load[k], ..planned[k] };
+            let friction = law.step_over(&mut states[k], &Interval::constant(sample, 1e-3)).torque;
+            assert_eq!(torque[k], load[k] + friction);
+            assert!(friction.abs() > 1e-3);
+        }
+    }
+    let again = arm.torque(&planned(60), 1e-3);
+    arm.reset();
+    assert_ne!(arm.torque(&planned(60), 1e-3), again);
+}

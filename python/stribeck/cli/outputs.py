@@ -88,7 +88,7 @@ class Folder(Output):
 
 MODEL = Output("model file")
 PAGE = Output("HTML")
-URDF = Output("URDF", (".urdf",))
+DESCRIPTION = Output("robot description", (".urdf", ".xml"))
 ROBOT = Output("robot file", (".toml",))
 FIGURE = Output("figure", tuple(f".{ending}" for ending in FORMATS))
 TABLE = Output("table", TABLES)

@@ -18,9 +18,10 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.data import split, split_one
-from stribeck.cli.outputs import TABLE, URDF, CheckedCommand
+from stribeck.cli.outputs import TABLE, CheckedCommand
 from stribeck.cli.plan import position_range
 from stribeck.cli.refused import OF_A_DIAGNOSIS, OF_A_ROBOT, refusing
+from stribeck.cli.robot_export import export
 from stribeck.cli.robot_options import (
     by_joint,
     cutoff_option,
@@ -47,7 +48,6 @@ from stribeck.robot.plan import plan_robot
 from stribeck.robot.result import RobotFit
 from stribeck.robot.simulate import simulate_robot
 from stribeck.robot.stored import read_friction, write_robot
-from stribeck.robot.updated_urdf import write_urdf
 
 
 @click.group()
@@ -62,7 +62,7 @@ def robot() -> None:
 @click.argument("described", metavar="ROBOT")
 @json_option
 def show(described: str, as_json: bool) -> None:
-    """Show the joints of ROBOT (a robot file or a URDF), and what torques can show of it."""
+    """Show the joints of ROBOT (a robot file, URDF or MJCF), and what torques can show of it."""
     found = read_robot(described)
     if not as_json:
         click.echo(repr(found))
@@ -299,16 +299,6 @@ def simulate(
 
 @robot.command(cls=CheckedCommand)
 @click.argument("described", metavar="ROBOT")
-@click.option("--urdf", "source", required=True, metavar="FILE", help="URDF of the robot.")
-@click.option("-o", "--output", type=URDF, required=True, help="URDF to write.")
-def export(described: str, source: str, output: str) -> None:
-    """Write a URDF with the inertia, damping and friction of ROBOT, a file of `robot fit -o`."""
-    write_urdf(output, source, read_robot(described), read_friction(described))
-    say(f"wrote {output}")
-
-
-@robot.command(cls=CheckedCommand)
-@click.argument("described", metavar="ROBOT")
 @click.option(
     "--position", default="-1.5:1.5", show_default=True, help="LOW:HIGH of each joint [rad, m]."
 )
@@ -344,3 +334,6 @@ def plan(
         write_table(output, content, 'kind = "recording"\n', RecordingError)
         say(f"wrote {output}")
     echo_result(made, as_json)
+
+
+robot.add_command(export)

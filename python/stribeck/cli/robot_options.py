@@ -55,16 +55,19 @@ payload_option = click.option(
 
 
 def robot_options(command: Command) -> Command:
-    """Add `--robot` and `--urdf`; the command receives the robot as `described`."""
+    """Add `--robot`, `--urdf` and `--mjcf`; the command receives the robot as `described`."""
     options = (
         click.option("--robot", "robot_file", default=None, metavar="FILE", help="Robot file."),
         click.option("--urdf", default=None, metavar="FILE", help="URDF of the robot."),
+        click.option("--mjcf", default=None, metavar="FILE", help="MJCF of the robot."),
     )
 
     def build(values: Values) -> Robot:
-        given = [path for path in (values.pop("robot_file"), values.pop("urdf")) if path]
+        given = [path for name in ("robot_file", "urdf", "mjcf") if (path := values.pop(name))]
         if len(given) != 1:
-            raise SpecError("one description of the robot is needed: --robot FILE or --urdf FILE")
+            raise SpecError(
+                "one description of the robot is needed: --robot FILE, --urdf FILE or --mjcf FILE"
+            )
         return read_robot(given[0])
 
     return gathered(command, options, "described", build)

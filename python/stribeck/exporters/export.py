@@ -6,12 +6,10 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TypeVar, get_args
+from typing import Literal, get_args
 
 from stribeck.base.arguments import door
-from stribeck.base.errors import ModelFileError, SpecError, nearest, option
-from stribeck.base.files import write_whole
-from stribeck.base.replaceable import check_own
+from stribeck.base.errors import ModelFileError, SpecError, option
 from stribeck.exporters.about import About
 from stribeck.exporters.c.files import c_files, identifier
 from stribeck.exporters.document import json_files
@@ -20,6 +18,7 @@ from stribeck.exporters.precision import FIXED, FLOATING, FixedPrecision, Precis
 from stribeck.exporters.program import Program
 from stribeck.exporters.rust.files import rust_files
 from stribeck.exporters.vectors import vectors
+from stribeck.exporters.written import chosen, write_files
 from stribeck.fitting.result import Fit
 from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
@@ -137,8 +136,8 @@ def _export(
     box: Mapping[str, tuple[float, float]],
     seed: int,
 ) -> Export:
-    language: Language = _choice("to", to, get_args(Language))
-    form: Precision | FixedPrecision = _choice("precision", precision, (*FLOATING, *FIXED))
+    language: Language = chosen("to", to, get_args(Language))
+    form: Precision | FixedPrecision = chosen("precision", precision, (*FLOATING, *FIXED))
     if libm and (language != "c" or form in FIXED):
         raise SpecError(
             f"libm is for C in floating point: leave it out, or give {option('to', 'c')}"
@@ -151,7 +150,7 @@ def _export(
         language=language,
         precision=form,
         passive=None if certificate is None else certificate.passive,
-        files=_write(texts, folder),
+        files=write_files(texts, folder),
     )
 
 
@@ -189,30 +188,3 @@ def _provenance(model: Model | ModelFile | Fit) -> FittedOn:
         case ModelFile():
             return model.fitted_on
     return ModelFile.of(model).fitted_on
-
-
-_Named = TypeVar("_Named", bound=str)
-
-
-def _choice(name_of_option: str, given: str, known: tuple[_Named, ...]) -> _Named:
-    for name in known:
-        if name == given:
-            return name
-    raise SpecError(
-        f"{name_of_option} cannot be {given!r}{nearest(given, known)}; give one of "
-        f"{', '.join(known)}"
-    )
-
-
-def _write(texts: Mapping[str, str], folder: Path) -> tuple[Path, ...]:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ModelFileError(
-            f"cannot create the folder {folder}: {error.strerror or error}; give another one"
-        ) from None
-    for name, text in texts.items():
-        check_own(folder / name, text, ModelFileError)
-    for name, text in texts.items():
-        write_whole(folder / name, text, ModelFileError)
-    return tuple(folder / name for name in texts)

@@ -82,11 +82,10 @@ def vectors(
     rng = np.random.default_rng(seed)
     form = np.float32 if precision == "f32" else np.float64
     channels = {
-        name: _waveform(_side(model, name, box), rows, rng).astype(form).astype(np.float64)
+        name: waveform(side(model, name, box), rows, rng).astype(form).astype(np.float64)
         for name in program.channels
     }
-    dt = np.repeat(rng.choice(_STEPS, size=-(-rows // 25)), 25)[:rows]
-    dt = dt.astype(form).astype(np.float64)
+    dt = cycles(rows, rng).astype(form).astype(np.float64)
     friction = model.without_effect("delay")
     given: ChannelArguments = {
         name: column for name, column in channels.items() if name != "velocity"
@@ -115,9 +114,13 @@ def _point(channels: Mapping[str, NDArray[np.float64]], row: int) -> str:
     return ", ".join(f"{name} = {column[row]:.4g}" for name, column in channels.items())
 
 
-def _side(
-    model: Model, channel: str, box: Mapping[str, tuple[float, float]]
-) -> tuple[float, float]:
+def cycles(rows: int, rng: np.random.Generator) -> NDArray[np.float64]:
+    """Lengths of cycles, s; the same for 25 in a row."""
+    return np.repeat(rng.choice(_STEPS, size=-(-rows // 25)), 25)[:rows]
+
+
+def side(model: Model, channel: str, box: Mapping[str, tuple[float, float]]) -> tuple[float, float]:
+    """The range of a channel: as given, of the model, or a usual one."""
     constants = model.core.constants
     if channel in box:
         return box[channel]
@@ -128,11 +131,11 @@ def _side(
     return _USUAL[channel]
 
 
-def _waveform(
-    side: tuple[float, float], rows: int, rng: np.random.Generator
+def waveform(
+    within: tuple[float, float], rows: int, rng: np.random.Generator
 ) -> NDArray[np.float64]:
     """Values of a channel: a slow wave, a fast one, rest, and jumps over its whole side."""
-    low, high = side
+    low, high = within
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     time = np.arange(rows)
     wave = middle + half * np.sin(2.0 * np.pi * time / rng.uniform(60.0, 90.0))

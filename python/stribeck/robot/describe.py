@@ -1,4 +1,4 @@
-"""Robot files: `kind = "robot"`, with a Denavit-Hartenberg table, frames, or the name of a URDF."""
+"""Robot files: `kind = "robot"`, with a Denavit-Hartenberg table, frames, a URDF or an MJCF."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from stribeck.base.errors import ModelFileError
 from stribeck.base.toml import TomlText, read_text
 from stribeck.robot.arm import GRAVITY, Movement, Robot, RobotJoint
 from stribeck.robot.frames import KEYS, joint_of
+from stribeck.robot.mjcf import is_mjcf, read_mjcf
 from stribeck.robot.tables import Convention, from_tables
 from stribeck.robot.urdf import read_urdf
 
 #: Version of the file's layout.
 SCHEMA = 1
-_KEYS = ("kind", "schema", "name", "urdf", "convention", "gravity", "joint", "columns", "fitted_on")
+_SOURCES = ("urdf", "mjcf", "convention")
+_KEYS = ("kind", "schema", "name", *_SOURCES, "gravity", "joint", "columns", "fitted_on")
 _ROW = ("name", "kind", "a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
 _NUMBERS = ("a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
 #: Channels of a joint that `[columns]` may name.
@@ -24,7 +26,7 @@ CHANNELS = ("time", "position", "velocity", "acceleration", "torque", "current",
 
 
 def read_robot(path: str | Path) -> Robot:
-    """Read a robot from a robot file (TOML) or a URDF.
+    """Read a robot from a robot file (TOML), a URDF or an MJCF.
 
     Raises
     ------
@@ -33,7 +35,7 @@ def read_robot(path: str | Path) -> Robot:
     """
     where = Path(path)
     if where.suffix.lower() in (".urdf", ".xml"):
-        return read_urdf(where)
+        return _described(where)
     text = TomlText(where, read_text(where, "robot file", ModelFileError), ModelFileError)
     content = text.parsed()
     if content.get("kind") != "robot":
@@ -41,10 +43,13 @@ def read_robot(path: str | Path) -> Robot:
     text.check_keys(content, _KEYS)
     if content.get("schema", SCHEMA) != SCHEMA:
         raise text.stop(f"schema {content['schema']!r} is not {SCHEMA}", "schema")
-    if ("urdf" in content) == ("convention" in content):
-        raise text.stop("either urdf = FILE or convention with a table of joints is needed")
-    if "urdf" in content:
-        made = _with_urdf(text, content)
+    given = [key for key in _SOURCES if key in content]
+    if len(given) != 1:
+        raise text.stop(
+            "one of urdf = FILE, mjcf = FILE and convention with a table of joints is needed"
+        )
+    if given[0] != "convention":
+        made = _from_file(text, content, given[0])
     elif content["convention"] == "frames":
         made = _with_frames(text, content)
     else:
@@ -135,16 +140,26 @@ def _with_table(text: TomlText, content: Mapping[str, object]) -> Robot:
     )
 
 
-def _with_urdf(text: TomlText, content: Mapping[str, object]) -> Robot:
-    made = read_urdf(text.path.parent / str(content["urdf"]))
+def _described(path: Path) -> Robot:
+    """The robot of a URDF or an MJCF."""
+    if path.suffix.lower() == ".xml" and is_mjcf(read_text(path, "robot", ModelFileError)):
+        return read_mjcf(path)
+    return read_urdf(path)
+
+
+def _from_file(text: TomlText, content: Mapping[str, object], key: str) -> Robot:
+    made = _described(text.path.parent / str(content[key]))
     gains = {}
     for row in _rows(text, content):
         if row.get("name") not in made.names:
-            raise text.stop(f"{row.get('name')!r} is no joint of the URDF", "[[joint]]", "name")
+            raise text.stop(
+                f"{row.get('name')!r} is no joint of the {key.upper()}", "[[joint]]", "name"
+            )
         gains[row["name"]] = _gain(row)
     joints = tuple(replace(joint, drive_gain=gains.get(joint.name)) for joint in made.joints)
     name = str(content.get("name", made.name))
-    return replace(made, name=name, joints=joints, gravity=_gravity(text, content))
+    gravity = _gravity(text, content) if "gravity" in content else made.gravity
+    return replace(made, name=name, joints=joints, gravity=gravity)
 
 
 def _gravity(text: TomlText, content: Mapping[str, object]) -> tuple[float, float, float]:

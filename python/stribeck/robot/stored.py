@@ -83,6 +83,10 @@ def read_friction(path: str | Path) -> dict[str, Model]:
         A joint has no friction.
     """
     where = Path(path)
+    if where.suffix.lower() in (".urdf", ".xml"):
+        raise ModelFileError(
+            f"{where} has no friction that was identified: give a file of `stribeck robot fit -o`"
+        )
     text = TomlText(where, read_text(where, "robot file", ModelFileError), ModelFileError)
     content = text.parsed()
     rows = content.get("joint", [])

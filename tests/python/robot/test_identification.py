@@ -190,7 +190,7 @@ def test_log_cholesky_factors_give_bodies() -> None:
     ("text", "said"),
     [
         ("kind = 'model'", 'kind = "robot" is needed'),
-        ("kind = 'robot'", "either urdf = FILE or convention"),
+        ("kind = 'robot'", "one of urdf = FILE, mjcf = FILE and convention"),
         ("kind = 'robot'\nconvention = 'dh'\n[[joint]]", "standard, modified or frames"),
         ("kind = 'robot'\nconvention = 'standard'", "there is no joint"),
         ("kind = 'robot'\nconvention = 'standard'\n[[joint]]\nb = 1", "line 4: key 'b' is unknown"),

@@ -97,7 +97,7 @@ def c_files(
     """
     form = FORMATS[precision]
     model = about.model
-    parameters = tuple(_parameters(model))
+    parameters = tuple(parameter_members(model))
     shared = {
         "name": name,
         "title": model.spec,
@@ -106,10 +106,10 @@ def c_files(
         "libm": libm,
         "parameters": parameters,
         "channels": channel_members(model, program),
-        "states": [Member(s.name, _unit(model, s.unit), s.what) for s in program.states],
+        "states": state_members(model, program),
         "torque_unit": model.torque_unit,
     }
-    body = Statements(program, form, tuple(p.name for p in parameters), _functions(form, libm))
+    body = Statements(program, form, tuple(p.name for p in parameters), function_names(form, libm))
     scale = max(abs(x) for x in vectors.torque) or 1.0
 
     def render(file: str, **more: object) -> str:
@@ -119,9 +119,9 @@ def c_files(
         f"{name}.h": render("model.h.j2", about=list(wrapped(about.lines()))),
         f"{name}.c": render(
             "model.c.j2",
-            elementary=_elementary(program, form, libm),
+            elementary=elementary_source(wanted_functions(program), form, libm),
             statements=str(body),
-            unused_arguments=list(_unused(program)),
+            unused_arguments=list(unused_arguments(program)),
         ),
         f"{name}_vectors.h": render("vectors.h.j2", rows=_Rows(vectors.rows, form)),
         f"{name}_test.c": render(
@@ -148,7 +148,13 @@ def channel_members(model: Model, program: Program) -> list[Member]:
     return [Member(c, _unit(model, _CHANNEL_UNITS[c])) for c in program.channels]
 
 
-def _parameters(model: Model) -> Iterator[Member]:
+def state_members(model: Model, program: Program) -> list[Member]:
+    """The states of a program, with their units."""
+    return [Member(s.name, _unit(model, s.unit), s.what) for s in program.states]
+
+
+def parameter_members(model: Model) -> Iterator[Member]:
+    """The parameters of a model, with their values."""
     for p, value in zip(model.parameters, model.values, strict=True):
         yield Member(identifier(p.name), p.unit, p.description, p.symbol, float(value))
 
@@ -157,7 +163,8 @@ def _unit(model: Model, unit: str) -> str:
     return joint_unit(unit, model.load_unit, model.position_unit)
 
 
-def _functions(form: Format, libm: bool) -> dict[str, str]:
+def function_names(form: Format, libm: bool) -> dict[str, str]:
+    """Names of the elementary functions in C, by operation."""
     own = {name: f"elementary_{name}" for name in (*elementary.PARTS, "abs", "sign")}
     own["is_finite"] = "is_finite"
     if libm:
@@ -165,13 +172,18 @@ def _functions(form: Format, libm: bool) -> dict[str, str]:
     return own
 
 
-def _elementary(program: Program, form: Format, libm: bool) -> str:
+def wanted_functions(program: Program) -> set[str]:
+    """Names of the operations of a program, and of constants that need a function."""
     functions = set(program.functions)
     if any(o.name == "constant" and math.isinf(o.value) for o in program.operations):
         functions.add("infinity")
-    if libm:
-        functions -= set(_LIBM)
-    wanted = functions & {*elementary.PARTS, "abs", "sign", "is_finite", "infinity"}
+    return functions
+
+
+def elementary_source(functions: set[str], form: Format, libm: bool) -> str:
+    """The elementary functions among these, and what they call, in C."""
+    known = {*elementary.PARTS, "abs", "sign", "is_finite", "infinity"}
+    wanted = (functions - set(_LIBM) if libm else functions) & known
     if not wanted:
         return ""
     context = elementary.context(wanted, form)
@@ -179,7 +191,8 @@ def _elementary(program: Program, form: Format, libm: bool) -> str:
     return template("c", "elementary.c.j2").render(context)
 
 
-def _unused(program: Program) -> Iterator[str]:
+def unused_arguments(program: Program) -> Iterator[str]:
+    """Arguments of the step that a program does not use."""
     names = program.functions
     if "parameter" not in names:
         yield "parameters"

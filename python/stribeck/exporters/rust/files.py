@@ -24,9 +24,8 @@ def rust_files(
     model = about.model
     effects = [*model.effects, *model.rigid_body]
 
-    def literal(x: float) -> str:
-        text = str(np.float32(x)) if precision == "f32" else repr(float(x))
-        return text if any(mark in text for mark in ".e") else f"{text}.0"
+    def number(x: float) -> str:
+        return literal(x, precision)
 
     text = template("rust", "model.rs.j2").render(
         about=[
@@ -41,13 +40,19 @@ def rust_files(
         effects=[effect for effect in effects if effect != "delay"],
         constants=sorted(model.core.constants.items()),
         parameters=[
-            (p.name, p.unit, literal(value))
+            (p.name, p.unit, number(value))
             for p, value in zip(model.parameters, model.values, strict=True)
             if p.name != "delay"
         ],
         torque_unit=model.torque_unit,
         channels=program.channels,
-        rows=[[literal(x) for x in row] for row in vectors.rows],
-        literal=literal,
+        rows=[[number(x) for x in row] for row in vectors.rows],
+        literal=number,
     )
     return {f"{name}.rs": text}
+
+
+def literal(x: float, precision: Precision) -> str:
+    """A number with the fewest digits that read back with the same bits."""
+    text = str(np.float32(x)) if precision == "f32" else repr(float(x))
+    return text if any(mark in text for mark in ".e") else f"{text}.0"
