@@ -66,6 +66,8 @@ _SIGNATURES = {
     b"\x89PNG": "PNG",
     b"%PDF": "PDF",
     b"<?xml": "XML",
+    b"<robot": "XML",
+    b"<mujoco": "XML",
     b"<svg": "SVG",
     b"<!doctype html": "HTML",
     b"MATLAB": "MATLAB",
@@ -74,8 +76,6 @@ _SIGNATURES = {
 }
 #: The first element of an SVG file, after declarations and comments.
 _SVG = re.compile(rb"<svg[\s>]")
-#: The root of a URDF or an MJCF.
-_ROBOT = re.compile(rb"\s*(<\?.*?\?>\s*)?(<!--.*?-->\s*)*<(robot|mujoco)\b", re.DOTALL)
 _TOML_KIND = re.compile(rb'^kind = "(\w+)"', re.MULTILINE)
 
 
@@ -87,11 +87,9 @@ def kind_of(content: bytes) -> str:
     >>> kind_of(b'kind = "model"\\nlaw = "coulomb"'), kind_of(b"time,torque"), kind_of(b"")
     ('model file', 'text', 'empty')
     >>> kind_of(b'<?xml version="1.0"?><robot name="arm"/>'), kind_of(b'<?xml?>\\n<svg width="9">')
-    ('robot description', 'SVG')
+    ('XML', 'SVG')
     """
     start = content[:_ENOUGH]
-    if _ROBOT.match(start):
-        return "robot description"
     for signature, kind in _SIGNATURES.items():
         if start[: len(signature)].lower() == signature.lower():
             return "SVG" if kind == "XML" and _SVG.search(start) else kind

@@ -88,7 +88,7 @@ class Folder(Output):
 
 MODEL = Output("model file")
 PAGE = Output("HTML")
-DESCRIPTION = Output("robot description", (".urdf", ".xml"))
+DESCRIPTION = Output("XML", (".urdf", ".xml"))
 ROBOT = Output("robot file", (".toml",))
 FIGURE = Output("figure", tuple(f".{ending}" for ending in FORMATS))
 TABLE = Output("table", TABLES)

@@ -89,21 +89,19 @@ def export_robot(
     precision : {"f64", "f32"}
         Number format.
     seed
-        Seed of the test vectors.
+        Of the test vectors.
 
     Raises
     ------
-    SpecError
-        A format that is unknown, or a joint without friction or inertial parameters.
-    ModelFileError
-        The folder cannot be written to.
+    SpecError, ModelFileError
+        A format that is unknown, a joint without friction or inertial parameters, or a folder that
+        cannot be written to.
 
     Examples
     --------
     >>> import stribeck as sb, numpy as np, tempfile
     >>> from stribeck.robot.tables import from_tables
-    >>> arm = from_tables("pendulum", [{"a": 0.5, "alpha": 1.57}], names=["hip"])
-    >>> arm = arm.with_bodies(np.array([[2.0, 0, 0, 0, 0.1, 0, 0.1, 0, 0, 0.1, 0.02]]))
+    >>> arm = from_tables("pendulum", [{"a": 0.5}], names=["hip"]).with_bodies(np.ones((1, 11)))
     >>> friction = {"hip": sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)}
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     written = export_robot(arm, friction, "c", folder, precision="f32")
