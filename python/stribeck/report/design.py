@@ -25,7 +25,7 @@ def plan_text(plan: Plan) -> str:
         f"{plain(limits.acceleration)} {unit}/s2."
     )
     smallest = (
-        "Smallest effect that a diagnosis finds 19 times in 20, as the value of its parameter and "
+        "Smallest effect that is significant 19 times in 20, as the value of its parameter and "
         "as torque (RMS):"
     )
     return joined(

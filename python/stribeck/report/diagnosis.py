@@ -32,7 +32,7 @@ VERDICTS = {
 #: The verdict where effects lower the held-out error, and none may be claimed.
 NO_CLAIM = "What remains is more than noise, but no effect can be claimed on this recording."
 #: Headings of the lists of a diagnosis.
-VISIBLE = "Not found. Smallest RMS torque that would have been found 19 times in 20"
+VISIBLE = "Not found. Smallest RMS torque that would have been significant 19 times in 20"
 DEMOTED = "Lowers the held-out error, but this recording does not show it well enough"
 NOT_CLAIMED = "Lowers the held-out error, but cannot be the cause, or need not be"
 ALIKE = "Indistinguishable from each other on this data"

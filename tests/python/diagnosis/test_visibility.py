@@ -64,7 +64,7 @@ def planted(rec: sb.Recording, effect: str, size: float) -> Array:
 
 
 def hits(folder: Path, effect: str, seeds: range, shares: tuple[float, ...]) -> dict[float, int]:
-    """How often a diagnosis finds an effect planted at these shares of its smallest visible size.
+    """How often a diagnosis finds or demotes an effect planted at these shares of its visible size.
 
     An answer that cannot be told from it counts.
     """
@@ -76,7 +76,8 @@ def hits(folder: Path, effect: str, seeds: range, shares: tuple[float, ...]) -> 
         for share in shares:
             torque = frame["torque"].to_numpy() + planted(rec, effect, share * row.value)
             changed = record(folder, frame.with_columns(torque=pl.Series(torque)))
-            found = sb.diagnose(sb.fit("coulomb", changed)).findings
+            diagnosis = sb.diagnose(sb.fit("coulomb", changed))
+            found = (*diagnosis.findings, *diagnosis.demoted)
             count[share] += any(effect in (f.effect, *f.indistinguishable_from) for f in found)
     return count
 

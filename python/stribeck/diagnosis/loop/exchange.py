@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.loop.superfluous import brought_by, fit_without
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.result import Finding
@@ -84,7 +84,8 @@ def exchanges(
     made: list[Exchange] = []
     ties: dict[str, dict[str, float]] = {}
     for finding, others in zip(findings, rivals, strict=True):
-        possible = [e for e in others if not _is_in(e, current) and effect_name(e) not in refused]
+        free = [e for e in others if not _is_in(e, current) and effect_name(e) not in refused]
+        possible = [*_simpler(finding), *free]
         if not possible or (without := fit_without(current, finding, seed)) is None:
             continue
         for effect in possible[:MOST]:
@@ -101,6 +102,11 @@ def exchanges(
                 ties.setdefault(finding.effect, {})[by.effect] = tie_weight(better)
     best = min(made, key=lambda one: held_out_square(one.by.fit, current), default=None)
     return Exchanges(best, ties)
+
+
+def _simpler(finding: Finding) -> tuple[str, ...]:
+    """The effect that came with that of a finding: once others are added it may do alone."""
+    return tuple(effect for effect in brought_by(finding) if effect != finding.effect)
 
 
 def _is_in(effect: str, current: Fit) -> bool:
@@ -147,6 +153,11 @@ def tied(finding: Finding, others: Mapping[str, float]) -> tuple[float, tuple[st
 
 
 def ties_of(exchange: Exchange) -> dict[str, float]:
-    """The effect that is replaced as a tie of the other, where both predict alike."""
+    """The effect that is replaced as a tie of the other, where both predict alike.
+
+    An effect that contains the other is none: its further parameters bring nothing.
+    """
     apart = exchange.apart
+    if exchange.by.effect in _simpler(exchange.finding):
+        return {}
     return {exchange.finding.effect: tie_weight(apart)} if apart <= TIE else {}

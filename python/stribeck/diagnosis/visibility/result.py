@@ -11,7 +11,9 @@ from stribeck.diagnosis.testable import Untestable
 
 @dataclass(frozen=True)
 class SmallestVisible:
-    """The smallest effect that the diagnosis would have found, with 95 % probability.
+    """The smallest effect that would have been significant, with 95 % probability.
+
+    The diagnosis may demote a significant effect, for example where few moves carry it.
 
     Attributes
     ----------
@@ -68,7 +70,8 @@ class Visibility:
     Attributes
     ----------
     smallest
-        For each effect that was not found, the smallest that would have been; smallest first.
+        For each effect that was not found, the smallest that would have been significant; smallest
+        first.
     groups
         Effects that are indistinguishable on this recording.
     hidden
