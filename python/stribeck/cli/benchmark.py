@@ -122,3 +122,58 @@ def diagnosis(
         echo_json({"cases": len(answers), "seeds": seeds, **score.to_dict()})
     else:
         click.echo(score_text(score))
+
+
+@benchmark.command(cls=CheckedCommand)
+@click.option(
+    "--seeds",
+    type=click.IntRange(min=1),
+    default=10,
+    show_default=True,
+    help="Arms with each effect or cause.",
+)
+@click.option(
+    "--share",
+    type=click.FloatRange(0.0, 1.0, min_open=True),
+    default=1.0,
+    show_default=True,
+    help="Share of these arms that is run, drawn by --seed; at least one of each kind.",
+)
+@click.option(
+    "--only",
+    default=None,
+    metavar="WORD",
+    help="Only arms of this group (effect, rigid, none, coverage), or with this hidden.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    default=None,
+    help="Number of processes. [default: one per core]",
+)
+@seed_option
+@json_option
+def robot(
+    seeds: int, share: float, only: str | None, workers: int | None, seed: int, as_json: bool
+) -> None:
+    """Hide effects in one joint of simulated six-joint arms, and causes in their rigid bodies.
+
+    Counts the right answers, and the 95 % intervals of identified arms that hold the truth.
+    """
+    from stribeck.benchmark.arms.cases import arm_cases
+    from stribeck.benchmark.arms.score import run_arms
+    from stribeck.benchmark.arms.text import arm_score_text
+
+    chosen = arm_cases(seeds, share=share, only=only, seed=seed)
+    with Progress("arms") as bar:
+        try:
+            answers, score = run_arms(chosen, workers=workers, progress=bar.show)
+        except (Stopped, KeyboardInterrupt):
+            bar.close()
+            say(f"stribeck: stopped after {bar.done or 'no'} of {len(chosen)} arms")
+            sys.exit(130)
+    if as_json:
+        rows = [answer.to_dict() for answer in answers]
+        echo_json({"seeds": seeds, "share": share, **score.to_dict(), "answers": rows})
+    else:
+        click.echo(arm_score_text(score))

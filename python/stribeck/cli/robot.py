@@ -324,7 +324,7 @@ def plan(
 ) -> None:
     """Plan a motion of all joints of ROBOT that shows base parameters and friction well.
 
-    Torque and collisions are not checked.
+    A robot file may state `torque_limit` of a joint, and spheres of its links that must not meet.
     """
     low, high = position_range(position)
     limits = Limits(low, high, speed, acceleration)

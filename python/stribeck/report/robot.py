@@ -223,20 +223,46 @@ def robot_improvement_text(found: RobotImprovement) -> str:
 
 def robot_plan_text(plan: RobotPlan) -> str:
     """The extent of a planned motion, and what it gains."""
-    rows = [["joint", "from", "to", "", "speed", "acceleration"]]
+    rows = [["joint", "from", "to", "", "speed", "acceleration", "torque", "limit"]]
     for k, joint in enumerate(plan.robot.joints):
         q, v, a = (x[:, k] for x in (plan.position, plan.velocity, plan.acceleration))
         unit = "rad" if joint.movement == "revolute" else "m"
         sizes = (float(q.min()), float(q.max()), float(abs(v).max()), float(abs(a).max()))
         low, high, speed, bend = (f"{size:.2f}" for size in sizes)
-        rows.append([joint.name, low, high, unit, f"{speed} {unit}/s", f"{bend} {unit}/s2"])
+        torque = (
+            "" if plan.torque is None else f"{plain(float(plan.torque[k]))} {joint.torque_unit}"
+        )
+        largest = plain(joint.torque_limit) if joint.torque_limit else ""
+        moves = [f"{speed} {unit}/s", f"{bend} {unit}/s2"]
+        rows.append([joint.name, low, high, unit, *moves, torque, largest])
     return joined(
         f"{plan.robot.name}: {plan.time[-1]:.3g} s, {len(plan.time)} samples",
-        table(rows, right=[1, 2, 4, 5]),
-        paragraph(
-            f"Standard errors of the {plan.parameters} base and friction parameters are smaller "
-            f"than on a random motion within the same limits by a factor of {plan.gain:.2f} "
-            "(geometric mean). Torque and collisions are not checked.",
-            0,
-        ),
+        table(rows, right=[1, 2, 4, 5, 6, 7]),
+        paragraph(f"{_gain(plan)} {_checked(plan)}", 0),
     )
+
+
+def _gain(plan: RobotPlan) -> str:
+    if plan.gain is None:
+        return "No random motion is within these limits, so that a gain cannot be stated."
+    return (
+        f"Standard errors of the {plan.parameters} base and friction parameters are smaller than "
+        "on a random motion within the same limits by a factor of "
+        f"{plan.gain:.2f} (geometric mean)."
+    )
+
+
+def _checked(plan: RobotPlan) -> str:
+    """What is known of torques and collisions."""
+    limited = any(joint.torque_limit for joint in plan.robot.joints)
+    torque = (
+        "Torques of the rigid bodies are within their limits; friction comes on top."
+        if limited
+        else "Torques are not limited."
+    )
+    apart = (
+        f"Spheres of links stay {100.0 * plan.clearance:.1f} cm apart."
+        if plan.robot.spheres
+        else "Collisions are not checked."
+    )
+    return f"{torque} {apart}"

@@ -70,6 +70,8 @@ class RobotJoint:
         Inertia of the rotor through the gear, kg m2 or kg.
     drive_gain
         Torque at the joint per motor current, N m/A or N/A; None: torques are recorded.
+    torque_limit
+        Largest torque of the drive, N m or N; None: not known.
     """
 
     name: str
@@ -81,6 +83,7 @@ class RobotJoint:
     inertial: Array | None = None
     rotor: float = 0.0
     drive_gain: float | None = None
+    torque_limit: float | None = None
 
     @property
     def torque_unit(self) -> str:
@@ -101,6 +104,25 @@ class RobotJoint:
         }
 
 
+@dataclass(frozen=True)
+class Sphere:
+    """A sphere that a link does not leave.
+
+    Attributes
+    ----------
+    joint
+        The joint that moves the link; None: the base.
+    centre
+        In the frame of the link, m.
+    radius
+        m.
+    """
+
+    joint: str | None
+    centre: tuple[float, float, float]
+    radius: float
+
+
 @dataclass(frozen=True, repr=False)
 class Robot(Shown):
     """A robot as it is described, before anything is identified.
@@ -115,6 +137,8 @@ class Robot(Shown):
         Column of a recording by channel, with ``{joint}`` and ``{number}`` (from 1) for the joint.
     source
         The file that describes it.
+    spheres
+        Spheres that the links do not leave, which must not meet.
     """
 
     name: str
@@ -122,6 +146,7 @@ class Robot(Shown):
     gravity: tuple[float, float, float] = GRAVITY
     columns: tuple[tuple[str, str], ...] = ()
     source: str = ""
+    spheres: tuple[Sphere, ...] = ()
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -13,6 +13,9 @@ from stribeck.robot.motion import RobotMotion
 
 Array = NDArray[np.float64]
 
+#: Powers of the position in the torque of a spring.
+SPRING_TERMS = 3
+
 
 @dataclass(frozen=True, eq=False)
 class Cause:
@@ -80,11 +83,18 @@ def payload(motion: RobotMotion, runs: tuple[str, ...]) -> Cause:
 
 
 def spring(motion: RobotMotion, joint: int) -> Cause:
-    """A spring between a joint and its carrier, such as a balancer or a stiff cable."""
-    columns = np.zeros((*motion.position.shape, 1))
-    columns[:, joint, 0] = motion.position[:, joint]
+    """A spring between a joint and its carrier, such as a balancer or a cable.
+
+    Cables stiffen and balancers turn about points beside the axis, so the torque is a smooth
+    function of the position: a cubic.
+    """
+    position = motion.position[:, joint]
+    middle = 0.5 * (position.min() + position.max())
+    part = (position - middle) / max(np.ptp(position) / 2.0, 1e-9)
+    columns = np.zeros((*motion.position.shape, SPRING_TERMS))
+    columns[:, joint] = part[:, None] ** np.arange(1, SPRING_TERMS + 1)
     name = motion.robot.names[joint]
-    return Cause("spring", f"a spring, balancer or stiff cable at joint {name}", motion, columns)
+    return Cause("spring", f"a spring, balancer or cable at joint {name}", motion, columns)
 
 
 def coupling(motion: RobotMotion, first: int, second: int) -> Cause:

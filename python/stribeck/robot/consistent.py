@@ -34,6 +34,7 @@ PRIOR = 1e-2
 WITHIN = 3.0
 #: Logarithms of the factors change by at most this much: nothing overflows.
 FARTHEST = 12.0
+_FOUR, _ABOVE = np.arange(4), np.triu_indices(4, 1)
 
 
 @dataclass(frozen=True)
@@ -77,16 +78,30 @@ def consistent_bodies(solved: Solved, errors: Errors) -> Bodies:
     _, left, _ = solved.stacked()
     weight = PRIOR * linear.length(left)
 
+    prior = weight / np.sqrt(start.size)
+    shown = root @ base.mapping
+
     def parameters(x: Array) -> Array:
-        links = [inertial_of(part) for part in x[: 10 * count].reshape(count, 10)]
-        return np.column_stack([np.array(links), np.exp(x[10 * count :])])
+        links = inertial_of(x[: 10 * count].reshape(count, 10))
+        return np.column_stack([links, np.exp(x[10 * count :])])
 
     def residual(x: Array) -> Array:
-        apart = root @ (base.mapping @ parameters(x).ravel()) - target
-        return np.concatenate([apart, weight / np.sqrt(x.size) * (x - start)])
+        return np.concatenate([shown @ parameters(x).ravel() - target, prior * (x - start)])
+
+    def jacobian(x: Array) -> Array:
+        slopes = _slopes(x[: 10 * count].reshape(count, 10))
+        by_link = shown.reshape(-1, count, 11)
+        by_factors = np.einsum("ijk,jlk->ijl", by_link[:, :, :10], slopes).reshape(-1, 10 * count)
+        by_rotors = by_link[:, :, 10] * np.exp(x[10 * count :])
+        return np.vstack([np.hstack([by_factors, by_rotors]), prior * np.eye(x.size)])
 
     found = scipy.optimize.least_squares(
-        residual, start, bounds=(start - FARTHEST, start + FARTHEST), x_scale=0.1, max_nfev=200
+        residual,
+        start,
+        jacobian,
+        bounds=(start - FARTHEST, start + FARTHEST),
+        x_scale=0.1,
+        max_nfev=200,
     )
     made = parameters(found.x)
     apart = base.mapping @ made.ravel() - solved.values.base[: base.count]
@@ -126,15 +141,37 @@ def pseudo_inertia(parameters: Array) -> Array:
 
 
 def inertial_of(logarithms: Array) -> Array:
-    """Ten inertial parameters from log-Cholesky factors [10]: always of a body."""
-    upper = np.zeros((4, 4))
-    upper[np.diag_indices(4)] = np.exp(logarithms[:4])
-    upper[np.triu_indices(4, 1)] = logarithms[4:]
-    moments = upper @ upper.T
-    second = moments[:3, :3]
-    inertia = np.trace(second) * np.eye(3) - second
+    """Ten inertial parameters [..., 10] from log-Cholesky factors [..., 10]: always of a body."""
+    upper = _factors(logarithms)
+    return _of_moments(upper @ np.swapaxes(upper, -1, -2))
+
+
+def _factors(logarithms: Array) -> Array:
+    """Upper factors [..., 4, 4] of the pseudo-inertia."""
+    upper = np.zeros((*logarithms.shape[:-1], 4, 4))
+    upper[..., _FOUR, _FOUR] = np.exp(logarithms[..., :4])
+    upper[..., _ABOVE[0], _ABOVE[1]] = logarithms[..., 4:]
+    return upper
+
+
+def _slopes(logarithms: Array) -> Array:
+    """Derivatives [n, 10, 10] of `inertial_of` [n, 10], by the factor in the second axis."""
+    upper = _factors(logarithms)
+    moved = np.zeros((len(upper), 10, 4, 4))
+    moved[:, _FOUR, _FOUR, _FOUR] = np.exp(logarithms[:, :4])
+    moved[:, 4 + np.arange(6), _ABOVE[0], _ABOVE[1]] = 1.0
+    half = moved @ np.swapaxes(upper, -1, -2)[:, None]
+    return _of_moments(half + np.swapaxes(half, -1, -2))
+
+
+def _of_moments(moments: Array) -> Array:
+    """Ten inertial parameters of pseudo-inertias [..., 4, 4]; linear."""
+    second = moments[..., :3, :3]
+    trace = np.trace(second, axis1=-2, axis2=-1)[..., None, None]
+    inertia = trace * np.eye(3) - second
     rows, columns = [0, 0, 1, 0, 1, 2], [0, 1, 1, 2, 2, 2]
-    return np.array([moments[3, 3], *moments[:3, 3], *inertia[rows, columns]])
+    parts = [moments[..., 3, 3, None], moments[..., :3, 3], inertia[..., rows, columns]]
+    return np.concatenate(parts, axis=-1)
 
 
 def _known(inertial: Array | None) -> Array:

@@ -10,17 +10,18 @@ from pathlib import Path
 from stribeck.base.errors import ModelFileError
 from stribeck.base.toml import TomlText, read_text
 from stribeck.robot.arm import GRAVITY, Movement, Robot, RobotJoint
-from stribeck.robot.frames import KEYS, joint_of
+from stribeck.robot.frames import KEYS, joint_of, torque_limit
 from stribeck.robot.mjcf import is_mjcf, read_mjcf
+from stribeck.robot.spheres import read_spheres
 from stribeck.robot.tables import Convention, from_tables
 from stribeck.robot.urdf import read_urdf
 
 #: Version of the file's layout.
 SCHEMA = 1
 _SOURCES = ("urdf", "mjcf", "convention")
-_KEYS = ("kind", "schema", "name", *_SOURCES, "gravity", "joint", "columns", "fitted_on")
-_ROW = ("name", "kind", "a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
+_KEYS = ("kind", "schema", "name", *_SOURCES, "gravity", "joint", "sphere", "columns", "fitted_on")
 _NUMBERS = ("a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
+_ROW = ("name", "kind", *_NUMBERS, "torque_limit")
 #: Channels of a joint that `[columns]` may name.
 CHANNELS = ("time", "position", "velocity", "acceleration", "torque", "current", "temperature")
 
@@ -54,7 +55,8 @@ def read_robot(path: str | Path) -> Robot:
         made = _with_frames(text, content)
     else:
         made = _with_table(text, content)
-    return replace(made, columns=_columns(text, content), source=str(where))
+    spheres = read_spheres(text, content.get("sphere", []), made.names)
+    return replace(made, columns=_columns(text, content), source=str(where), spheres=spheres)
 
 
 def _tables(
@@ -129,7 +131,7 @@ def _with_table(text: TomlText, content: Mapping[str, object]) -> Robot:
         }
         for row in rows
     ]
-    return from_tables(
+    made = from_tables(
         str(content.get("name", text.path.stem)),
         table,
         convention=chosen,
@@ -138,6 +140,9 @@ def _with_table(text: TomlText, content: Mapping[str, object]) -> Robot:
         drive_gains=[_gain(row) for row in rows],
         gravity=_gravity(text, content),
     )
+    pairs = zip(made.joints, rows, strict=True)
+    joints = tuple(replace(joint, torque_limit=torque_limit(text, row)) for joint, row in pairs)
+    return replace(made, joints=joints)
 
 
 def _described(path: Path) -> Robot:
@@ -149,17 +154,20 @@ def _described(path: Path) -> Robot:
 
 def _from_file(text: TomlText, content: Mapping[str, object], key: str) -> Robot:
     made = _described(text.path.parent / str(content[key]))
-    gains = {}
+    given = {}
     for row in _rows(text, content):
         if row.get("name") not in made.names:
             raise text.stop(
                 f"{row.get('name')!r} is no joint of the {key.upper()}", "[[joint]]", "name"
             )
-        gains[row["name"]] = _gain(row)
-    joints = tuple(replace(joint, drive_gain=gains.get(joint.name)) for joint in made.joints)
+        given[row["name"]] = (_gain(row), torque_limit(text, row))
+    joints = []
+    for joint in made.joints:
+        gain, largest = given.get(joint.name, (None, None))
+        joints.append(replace(joint, drive_gain=gain, torque_limit=largest))
     name = str(content.get("name", made.name))
     gravity = _gravity(text, content) if "gravity" in content else made.gravity
-    return replace(made, name=name, joints=joints, gravity=gravity)
+    return replace(made, name=name, joints=tuple(joints), gravity=gravity)
 
 
 def _gravity(text: TomlText, content: Mapping[str, object]) -> tuple[float, float, float]:

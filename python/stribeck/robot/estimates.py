@@ -40,18 +40,21 @@ class Errors:
 def base_estimates(solved: Solved) -> Errors:
     """The base parameters, and the covariance of all parameters."""
     jacobian, residual, cell = solved.stacked()
-    low, high = solved.balance.bounds()
+    lowest, highest = solved.balance.bounds()
     values = solved.values.whole()
-    held = low == high
-    at_bound = ~held & reached(values, low, high)
+    held = lowest == highest
+    at_bound = ~held & reached(values, lowest, highest)
     covariance, freedom = covariance_of(jacobian, residual, cell, ~held & ~at_bound, APART)
     base = solved.balance.base
     errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
+    quantile = float(scipy.special.stdtrit(freedom, 0.975))
+    low, high = values - quantile * errors, values + quantile * errors
     rows = tuple(
-        BaseEstimate(text, float(values[k]), float(errors[k]), unit)
+        BaseEstimate(
+            text, float(values[k]), float(errors[k]), (float(low[k]), float(high[k])), unit
+        )
         for k, (text, unit) in enumerate(zip(base.texts, base.units, strict=True))
     )
-    quantile = float(scipy.special.stdtrit(freedom, 0.975))
     return Errors(rows, covariance, seen(jacobian, ~held, APART), at_bound, quantile)
 
 

@@ -23,6 +23,7 @@ KEYS = (
     "inertial",
     "rotor",
     "drive_gain",
+    "torque_limit",
     "friction",
 )
 _SYMBOLS = [symbol for symbol, _ in PARAMETERS[:10]]
@@ -56,7 +57,18 @@ def joint_of(text: TomlText, row: Mapping[str, object], names: Sequence[str]) ->
         _inertial(text, row),
         float(_numbers(text, row, "rotor", (), np.array(0.0))),
         None if "drive_gain" not in row else float(gain),
+        torque_limit(text, row),
     )
+
+
+def torque_limit(text: TomlText, row: Mapping[str, object]) -> float | None:
+    """Largest torque of a joint's drive."""
+    if "torque_limit" not in row:
+        return None
+    value = float(_numbers(text, row, "torque_limit", (), np.array(math.nan)))
+    if value <= 0.0:
+        raise text.stop("torque_limit is above 0", "[[joint]]", "torque_limit")
+    return value
 
 
 def _numbers(

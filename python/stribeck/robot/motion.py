@@ -20,6 +20,11 @@ Array = NDArray[np.float64]
 
 #: The filter's cut-off as a multiple of the fastest joint's bandwidth of motion.
 BANDWIDTHS = 10.0
+#: Position and velocity pass a low-pass so many times as fast before they are differentiated, so
+#: that their accelerations are whole below the cut-off, where both sides are compared.
+BEFORE = 3.0
+#: Cut-offs as a share of the sampling rate at most.
+FASTEST = 0.4
 #: Segments of so many samples are too short to be filtered.
 SHORTEST = 30
 
@@ -66,7 +71,7 @@ class RobotMotion:
                     f"value is missing with {option('where')}"
                 )
         chosen = _cutoff(first.path, joints, cutoff)
-        order = _Filter(first, chosen)
+        order = _Filter(first, min(BEFORE * chosen, FASTEST * first.rate_hz))
         position = order.smooth(np.stack([np.asarray(r.position) for r in joints], axis=1))
         measured = np.stack([r.velocity for r in joints], axis=1)
         velocity = order.smooth(measured)
@@ -172,10 +177,10 @@ def _cutoff(path: str, joints: Sequence[Recording], given: float | None) -> floa
     """The cut-off of the low-pass, Hz."""
     rate = joints[0].rate_hz
     if given is not None:
-        if not 0.0 < given < 0.4 * rate:
+        if not 0.0 < given < FASTEST * rate:
             raise RecordingError(
-                f"{path}: {option('cutoff', given)} Hz lies outside 0 .. {0.4 * rate:.3g} Hz, two "
-                f"fifths of the sampling rate"
+                f"{path}: {option('cutoff', given)} Hz lies outside 0 .. {FASTEST * rate:.3g} Hz, "
+                f"two fifths of the sampling rate"
             )
         return given
     bands = [recording.motion_band for recording in joints]
@@ -202,9 +207,16 @@ class _Filter:
         return made
 
     def slope(self, values: Array) -> Array:
-        """Derivative by time, by central differences."""
+        """Derivative by time, by central differences of fourth order."""
         made = np.zeros_like(values)
         for part in self.parts:
-            if part.stop - part.start > 1:
+            size = part.stop - part.start
+            if size > 1:
                 made[part] = np.gradient(values[part], self.time[part], axis=0)
+            if size > 4:
+                time, own = self.time[part][:, None], values[part]
+                rise = 8.0 * (own[3:-1] - own[1:-3]) - (own[4:] - own[:-4])
+                made[part.start + 2 : part.stop - 2] = rise / (
+                    8.0 * (time[3:-1] - time[1:-3]) - (time[4:] - time[:-4])
+                )
         return made

@@ -21,6 +21,7 @@ from stribeck.motion.design.fourier import FourierMotions
 from stribeck.motion.design.motion import Limits
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
+from stribeck.robot.spheres import clearance
 
 Array = NDArray[np.float64]
 
@@ -28,6 +29,11 @@ Array = NDArray[np.float64]
 TRIED, RANDOM = 1500, 20
 #: Samples per second during the search: several in a period of the fastest harmonic.
 COARSE = 20.0
+#: Share of a torque limit, and distance between spheres, m, that the search keeps at its samples: a
+#: motion comes closer between them.
+TORQUE_SHARE, APART = 0.98, 0.01
+#: Random motions that are drawn to find those within the limits.
+DRAWN = 100
 #: Spread of a change of the design of one joint, of ranges from 0 to 1.
 SPREAD = 0.15
 
@@ -42,9 +48,14 @@ class RobotPlan(Shown):
         In s; rad or m, and their derivatives.
     gain
         By how much the standard errors are smaller than on a random motion within the same limits:
-        the median of random motions, geometric mean over all parameters.
+        the median of random motions, geometric mean over all parameters. None: no random motion
+        is within the limits.
     parameters
         Number of base and friction parameters.
+    torque : array [N]
+        Largest torque of the rigid bodies by joint, N m or N; None: inertia is not known.
+    clearance
+        Smallest distance between spheres of links, m; infinite without spheres.
     """
 
     robot: Robot
@@ -52,8 +63,10 @@ class RobotPlan(Shown):
     position: Array
     velocity: Array
     acceleration: Array
-    gain: float
+    gain: float | None
     parameters: int
+    torque: Array | None
+    clearance: float
 
     def to_dict(self) -> dict[str, object]:
         """The JSON of `stribeck robot plan`."""
@@ -63,6 +76,8 @@ class RobotPlan(Shown):
                 "position": [float(self.position[:, k].min()), float(self.position[:, k].max())],
                 "speed": float(np.abs(self.velocity[:, k]).max()),
                 "acceleration": float(np.abs(self.acceleration[:, k]).max()),
+                "torque": None if self.torque is None else float(self.torque[k]),
+                "torque_limit": self.robot.joints[k].torque_limit,
             }
             for k, name in enumerate(self.robot.names)
         ]
@@ -71,6 +86,7 @@ class RobotPlan(Shown):
             "seconds": float(self.time[-1]),
             "gain": self.gain,
             "parameters": self.parameters,
+            "clearance": self.clearance if self.robot.spheres else None,
             "joints": joints,
         }
 
@@ -95,7 +111,8 @@ def plan_robot(
 ) -> RobotPlan:
     """Plan a motion of all joints within limits of position, speed and acceleration.
 
-    Torque and collisions are not checked: run the motion in a simulator first.
+    Torques of the rigid bodies stay within the torque limits of the robot's joints, and the spheres
+    of its links apart. Friction is not part of these torques; run the motion in a simulator first.
 
     Parameters
     ----------
@@ -109,27 +126,38 @@ def plan_robot(
     Raises
     ------
     SpecError
-        A joint has no limits.
+        A joint has no limits; torques are limited, but inertia is not known; no motion is found
+        within the limits.
     """
     check_number("seconds", seconds, 2.0, 600.0, " s")
     check_number("rate", rate, 10.0, 10_000.0, " Hz")
     check_count("tried", tried, RANDOM)
+    if any(joint.torque_limit for joint in robot.joints) and not robot.has_inertia:
+        raise SpecError(
+            f"{robot.name} has torque limits, but the inertial parameters of its links are not "
+            f"known: give a robot file of `stribeck robot fit -o`, or a URDF"
+        )
     search = _Search(robot, _families(robot, limits, seconds))
-    random = np.random.default_rng(seed)
-    designs = [search.drawn(random) for _ in range(RANDOM)]
-    scores = [search.score(search.motions(design)) for design in designs]
-    design, score = designs[int(np.argmax(scores))], max(scores)
-    for k in range(tried - RANDOM):
-        joint = k % len(robot.joints)
-        step = SPREAD * random.normal(size=design[joint].size)
-        changed = [*design]
-        changed[joint] = np.clip(design[joint] + step, 0.0, 1.0)
-        found = search.score(search.motions(changed))
-        if found > score:
-            design, score = changed, found
+    design, score, usual = search.best(np.random.default_rng(seed), tried)
     time, position, velocity, acceleration = search.sampled(design, rate)
-    gain = float(np.exp((score - np.median(scores)) / search.parameters))
-    return RobotPlan(robot, time, position, velocity, acceleration, gain, search.parameters)
+    torque = robot.torque(position, velocity, acceleration) if robot.has_inertia else None
+    apart = float(clearance(robot, position).min())
+    if apart < 0.0 or (torque is not None and _excess(robot, torque) > 1.0):
+        raise SpecError(
+            f"{robot.name}: no motion within the torque limits and without collision is found: "
+            f"allow less position, speed or acceleration"
+        )
+    gain = None if usual is None else float(np.exp((score - usual) / search.parameters))
+    largest = None if torque is None else np.abs(torque).max(axis=0)
+    return RobotPlan(
+        robot, time, position, velocity, acceleration, gain, search.parameters, largest, apart
+    )
+
+
+def _excess(robot: Robot, torque: Array) -> float:
+    """Largest share of its limit that a joint's torque [n, N] reaches; 0 without limits."""
+    limits = np.array([joint.torque_limit or np.inf for joint in robot.joints])
+    return float(np.max(np.abs(torque) / limits))
 
 
 def _families(
@@ -145,6 +173,11 @@ def _families(
     if missing:
         raise SpecError(f"there are no limits of joint {listed(missing)}: give them for each joint")
     return [FourierMotions(limits[name], seconds, COARSE) for name in robot.names]
+
+
+def _key(rank: tuple[float, float]) -> tuple[float, float]:
+    """Orders designs: less violation first, then more information."""
+    return -rank[0], rank[1]
 
 
 class _Search:
@@ -172,6 +205,49 @@ class _Search:
     def motions(self, design: list[Array]) -> tuple[Array, Array, Array]:
         """The motion during the search."""
         return self.sampled(design, COARSE)[1:]
+
+    def best(
+        self, random: np.random.Generator, tried: int
+    ) -> tuple[list[Array], float, float | None]:
+        """The best design with its score, and the median score of random ones within the limits.
+
+        Of two designs the one with the smaller violation of the limits is better, and of two
+        without violation that with the larger score (Deb 2000).
+        """
+        designs = [self.drawn(random) for _ in range(RANDOM)]
+        if self.is_limited:
+            designs += [self.drawn(random) for _ in range(DRAWN - RANDOM)]
+        ranks = [self.rank(design) for design in designs]
+        usual = [score for violation, score in ranks if violation == 0.0][:RANDOM]
+        design, rank = max(zip(designs, ranks, strict=True), key=lambda pair: _key(pair[1]))
+        for k in range(tried - RANDOM):
+            joint = k % len(self.families)
+            step = SPREAD * random.normal(size=design[joint].size)
+            changed = [*design]
+            changed[joint] = np.clip(design[joint] + step, 0.0, 1.0)
+            found = self.rank(changed)
+            if _key(found) > _key(rank):
+                design, rank = changed, found
+        return design, rank[1], float(np.median(usual)) if usual else None
+
+    @property
+    def is_limited(self) -> bool:
+        """Whether there are limits beside those of position, speed and acceleration."""
+        limited = any(joint.torque_limit for joint in self.robot.joints)
+        return limited or bool(self.robot.spheres)
+
+    def rank(self, design: list[Array]) -> tuple[float, float]:
+        """Violation of the limits of torque and distance, and score, of a design."""
+        motion = self.motions(design)
+        violation = 0.0
+        if self.is_limited:
+            apart = float(clearance(self.robot, motion[0]).min())
+            violation = max(0.0, APART - apart)
+            if self.robot.has_inertia:
+                share = _excess(self.robot, self.robot.torque(*motion))
+                violation += max(0.0, share - TORQUE_SHARE)
+        # The score of what is not allowed is never needed.
+        return violation, self.score(motion) if violation == 0.0 else 0.0
 
     def score(self, motion: tuple[Array, Array, Array]) -> float:
         """Half the logarithm of the determinant of the information on all parameters.

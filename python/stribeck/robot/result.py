@@ -53,16 +53,17 @@ class JointFit:
 
 @dataclass(frozen=True)
 class BaseEstimate:
-    """A base parameter with its standard error."""
+    """A base parameter with its standard error and 95 % interval."""
 
     combination: str
     value: float
     stderr: float
+    ci95: tuple[float, float]
     unit: str
 
     def to_dict(self) -> dict[str, object]:
         """As JSON."""
-        return dict(vars(self))
+        return {**vars(self), "ci95": list(self.ci95)}
 
 
 @dataclass(frozen=True)

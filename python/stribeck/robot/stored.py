@@ -14,7 +14,7 @@ from stribeck.base.toml import TomlText, read_text
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model
-from stribeck.robot.arm import PARAMETERS, Array
+from stribeck.robot.arm import PARAMETERS, Array, Robot
 from stribeck.robot.describe import SCHEMA
 from stribeck.robot.result import RobotFit
 
@@ -45,12 +45,16 @@ def robot_toml(found: RobotFit) -> str:
         row.add("rotor", float(values[10]))
         if joint.drive_gain is not None:
             row.add("drive_gain", float(joint.drive_gain))
+        if joint.torque_limit is not None:
+            row.add("torque_limit", float(joint.torque_limit))
         friction = tomlkit.table()
         errors = {n: e.stderr for n, e in fitted.estimates.items() if e.stderr is not None}
         ModelFile(fitted.model, errors).write_into(friction)
         row.add("friction", friction)
         rows.append(row)
     document.add("joint", rows)
+    if robot.spheres:
+        document.add("sphere", _spheres(robot))
     first = balance.motion.joints[0]
     fitted_on = {
         "path": first.path,
@@ -59,6 +63,18 @@ def robot_toml(found: RobotFit) -> str:
     }
     document.add("fitted_on", tomlkit.item(fitted_on))
     return tomlkit.dumps(document)
+
+
+def _spheres(robot: Robot) -> tomlkit.items.AoT:
+    rows = tomlkit.aot()
+    for sphere in robot.spheres:
+        row = tomlkit.table()
+        if sphere.joint is not None:
+            row.add("joint", sphere.joint)
+        row.add("centre", list(sphere.centre))
+        row.add("radius", sphere.radius)
+        rows.append(row)
+    return rows
 
 
 def _inertial(values: Array) -> tomlkit.items.InlineTable:

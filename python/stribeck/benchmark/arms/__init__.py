@@ -1,0 +1,1 @@
+"""Simulated arms with a known truth: hidden effects, payloads, intervals."""
