@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from stribeck.benchmark.cases import Case
 from stribeck.benchmark.coverage import Interval, intervals
-from stribeck.benchmark.oracle import held_out_rmse
+from stribeck.benchmark.oracle import detection, held_out_rmse
 from stribeck.benchmark.sample import Sample
 
 if TYPE_CHECKING:
@@ -38,6 +38,8 @@ class CaseAnswer:
         motion cannot show.
     sizes
         Actual size of each hidden effect relative to the noise.
+    detectable
+        Size of each hidden effect over its standard error in the generator's own model.
     verdict
         Verdict of the last diagnosis.
     rmse_held_out, oracle_rmse
@@ -53,6 +55,7 @@ class CaseAnswer:
     implied: tuple[str, ...] = ()
     cannot_show: tuple[str, ...] = ()
     sizes: tuple[float, ...] = ()
+    detectable: tuple[float, ...] = ()
     steps: tuple[NamedEffect, ...] = ()
     verdict: str = ""
     untestable: tuple[str, ...] = ()
@@ -85,7 +88,7 @@ class CaseAnswer:
             The JSON is not that of a case.
         """
         fields: dict[str, Any] = {k: v for k, v in stored.items() if k != "name"}
-        for key in ("hidden", "implied", "cannot_show", "sizes", "untestable"):
+        for key in ("hidden", "implied", "cannot_show", "sizes", "detectable", "untestable"):
             fields[key] = tuple(fields[key])
         case = fields["case"]
         tuples = {key: tuple(case.get(key, ())) for key in ("effects", "nuisances")}
@@ -129,12 +132,18 @@ def _compared(
     case: Case, sample: Sample, recording: Recording, improvement: Improvement
 ) -> CaseAnswer:
     truth = sample.truth
+    hidden = tuple(e for e in truth["hidden"] if e != "none")
     return CaseAnswer(
         case,
-        hidden=tuple(e for e in truth["hidden"] if e != "none"),
+        hidden=hidden,
         implied=tuple(truth["implied"]),
         cannot_show=tuple(truth["cannot_show"]),
         sizes=tuple(truth["sizes"].values()),
+        detectable=tuple(
+            detection(sample.oracle, e, recording.torque, recording.moving)
+            for e in hidden
+            if e in sample.oracle.effects
+        ),
         steps=tuple(
             NamedEffect(s.finding.effect, s.finding.confidence, s.finding.indistinguishable_from)
             for s in improvement.steps

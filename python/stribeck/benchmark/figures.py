@@ -11,7 +11,8 @@ from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from stribeck.benchmark.score import Confusion, Reliability
+from stribeck.benchmark.reliability import Reliability
+from stribeck.benchmark.score import Confusion
 from stribeck.report.style import AFTER, BEFORE, DPI, MEASURED
 
 #: Colours of shares from 0 to 1.

@@ -1,6 +1,11 @@
-"""The held-out error of the generator's formula with parameters fitted to the recording."""
+"""What the best possible model of a recording reaches: the generator's own formula, refitted.
+
+Its held-out error, and how surely it detects each hidden effect.
+"""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,8 +13,12 @@ from numpy.typing import NDArray
 from stribeck.base import linear
 from stribeck.benchmark.draws import root_mean_square
 from stribeck.benchmark.sample import Oracle
+from stribeck.identify.covariance import batches, correlation_length
 
 Array = NDArray[np.float64]
+
+#: Parameters besides its own that are the size of an effect.
+SIZE_OF = {"carried": ("backlash", "elasticity")}
 
 
 def held_out_rmse(
@@ -37,3 +46,41 @@ def held_out_rmse(
         change = linear.least_norm(columns[others], error[others])
         left[inside] = error[inside] - columns[inside] @ change
     return root_mean_square(left)
+
+
+def detection(oracle: Oracle, effect: str, torque: Array, scored: NDArray[np.bool_]) -> float:
+    """Size of a hidden effect over its standard error, in the generator's own model.
+
+    All other parameters of the model, the simpler effects that the hidden ones contain, and the
+    size of each nuisance are fitted beside it: only the part of the effect's torque counts that
+    they cannot replace. The standard error comes from batches longer than the correlation of the
+    noise.
+
+    Parameters
+    ----------
+    effect : str
+        A name in ``oracle.effects``.
+    torque : array [n]
+        Recorded torque.
+    scored : bool array [n]
+        Scored samples.
+    """
+    others = [
+        column
+        for name, column in oracle.tangents.items()
+        if name != effect and effect not in SIZE_OF.get(name, ())
+    ]
+    others += [*oracle.contained.values(), *oracle.nuisances]
+    columns = np.column_stack(others)[scored]
+    columns = columns / np.maximum(np.sqrt(np.mean(columns**2, axis=0)), 1e-300)
+    whole = oracle.effects[effect][scored]
+    part = whole - columns @ linear.least_norm(columns, whole)
+    if root_mean_square(part) <= 1e-9 * root_mean_square(whole):
+        return 0.0
+    every = np.column_stack([columns, whole / root_mean_square(whole)])
+    error = (torque - oracle.prediction)[scored]
+    noise = error - every @ linear.least_norm(every, error)
+    batch = batches(noise.size, correlation_length(noise), fewest=20)
+    scores = np.bincount(batch, part * noise)
+    spread = math.sqrt(float(scores @ scores))
+    return float(part @ part) / spread if spread > 0 else math.inf

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import polars as pl
@@ -13,7 +12,17 @@ from numpy.typing import NDArray
 from stribeck.benchmark.answer import CaseAnswer
 from stribeck.benchmark.by_nuisance import OfNuisance, by_nuisance
 from stribeck.benchmark.cases import CORRELATIONS, SIZES
-from stribeck.benchmark.judge import FAILED, NONE, UNEXPLAINED, Judgement, is_right, judge
+from stribeck.benchmark.judge import FAILED, NONE, UNEXPLAINED, Judgement, judge
+from stribeck.benchmark.recall import Recall, recalls
+from stribeck.benchmark.reliability import (
+    Above,
+    LeftOut,
+    Reliability,
+    above,
+    in_bins,
+    judged_findings,
+    left_out,
+)
 from stribeck.benchmark.share import Share
 from stribeck.models.catalog import effect_ids
 
@@ -41,8 +50,6 @@ COVERAGE_BAR = (0.90, 0.98)
 #: single effects of these sizes.
 RATIO_BAR = 1.03
 RATIO_SIZES = (1.0, 0.3)
-#: Edges of the bins of `confidence`.
-CONFIDENCE_EDGES = (0.0, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 1.0)
 #: Row of the confusion matrix for effects outside the library.
 OUTSIDE = "outside the library"
 
@@ -59,16 +66,6 @@ class ScoreGroup:
     def passed(self) -> bool:
         """Whether the share reaches the bar."""
         return self.share.value >= self.bar
-
-
-@dataclass(frozen=True)
-class Reliability:
-    """Findings whose confidence is in one bin, and how many of them are correct."""
-
-    low: float
-    high: float
-    mean: float
-    share: Share
 
 
 @dataclass(frozen=True)
@@ -131,6 +128,9 @@ class Score:
     coverage: tuple[Coverage, ...]
     failures: tuple[tuple[CaseAnswer, Judgement], ...]
     nuisances: tuple[OfNuisance, ...] = ()
+    recall: tuple[Recall, ...] = ()
+    above: tuple[Above, ...] = ()
+    left_out: tuple[LeftOut, ...] = ()
 
     @property
     def passed(self) -> bool:
@@ -153,10 +153,10 @@ class Score:
                 "columns": list(self.confusion.columns),
                 "counts": self.confusion.counts.tolist(),
             },
-            "reliability": [
-                {"from": r.low, "to": r.high, "mean_confidence": r.mean, **r.share.to_dict()}
-                for r in self.reliability
-            ],
+            "reliability": [row.to_dict() for row in self.reliability],
+            "findings_above": [row.to_dict() for row in self.above],
+            "nuisance_left_out": [row.to_dict() for row in self.left_out],
+            "recall": [row.to_dict() for row in self.recall],
             "held_out_over_oracle": [
                 {
                     "of": r.title,
@@ -198,6 +198,7 @@ def score(answers: Iterable[CaseAnswer]) -> Score:
     """Judge results and compute the statistics."""
     every = list(answers)
     judged = [(a, judge(a)) for a in every if a.case.group != "coverage"]
+    findings = judged_findings(every)
     wrong = [(a, j) for a, j in judged if not j.right]
     wrong += [
         (a, Judgement(False, False, FAILED, a.failure))
@@ -207,11 +208,14 @@ def score(answers: Iterable[CaseAnswer]) -> Score:
     return Score(
         tuple(_groups(judged)),
         _confusion(judged),
-        tuple(_reliability(judged)),
+        tuple(in_bins(findings)),
         tuple(_ratios(judged)),
         tuple(_coverages(every)),
         tuple(wrong),
         tuple(by_nuisance(every)),
+        tuple(recalls(every)),
+        tuple(above(findings)),
+        tuple(left_out(findings)),
     )
 
 
@@ -257,17 +261,6 @@ def _confusion(judged: Judged) -> Confusion:
     for row, column in pairs:
         counts[rows.index(row), columns.index(column)] += 1
     return Confusion(rows, columns, counts)
-
-
-def _reliability(judged: Judged) -> Iterable[Reliability]:
-    """Numbers of correct findings by confidence."""
-    found = [(step.confidence, is_right(step, a)) for a, _ in judged for step in a.steps]
-    for low, high in pairwise(CONFIDENCE_EDGES):
-        last = high == CONFIDENCE_EDGES[-1]
-        inside = [(c, ok) for c, ok in found if low <= c < high or (last and c == high)]
-        if inside:
-            mean = float(np.mean([c for c, _ in inside]))
-            yield Reliability(low, high, mean, Share(sum(ok for _, ok in inside), len(inside)))
 
 
 def _ratios(judged: Judged) -> Iterable[Ratio]:

@@ -6,13 +6,14 @@ from collections import Counter
 from collections.abc import Sequence
 
 from stribeck.benchmark.by_nuisance import OfNuisance
+from stribeck.benchmark.recall import CONFIDENT, DETECTABLE, RECALL_BAR, Recall
+from stribeck.benchmark.reliability import BARS, Above, LeftOut, Reliability
 from stribeck.benchmark.score import (
     COVERAGE_BAR,
     RATIO_BAR,
     Confusion,
     Coverage,
     Ratio,
-    Reliability,
     Score,
     ScoreGroup,
 )
@@ -32,6 +33,16 @@ def score_text(score: Score) -> str:
         _part(
             "Findings by confidence, and how many of them are right",
             _reliability(score.reliability),
+        ),
+        _part("Findings above a confidence, bounded by recording", _above(score.above)),
+        _part(
+            "Findings of friction among one nuisance, and share expected from all other recordings",
+            _left_out(score.left_out),
+        ),
+        _part(
+            f"Hidden effects of at least {DETECTABLE:g} standard errors in the generator's own "
+            f"model, and those named with a confidence above {CONFIDENT:g}",
+            _recall(score.recall),
         ),
         _part(
             "Final held-out RMSE over that of the generator's own formula, refitted",
@@ -130,6 +141,66 @@ def _reliability(bins: Sequence[Reliability]) -> str:
         for r in bins
     ]
     return table(rows, right=(1, 2, 3, 4, 5))
+
+
+def _above(rows_of: Sequence[Above]) -> str:
+    if not rows_of:
+        return ""
+    header = ["above", "findings", "recordings", "of controls", "right", "share", "at least", "bar"]
+    rows = [header]
+    rows += [
+        [
+            f"{r.confidence:g}",
+            str(r.share.total),
+            str(r.recordings),
+            str(r.of_controls),
+            str(r.share.count),
+            _percent(r.share.value),
+            _percent(r.lower),
+            _percent(BARS[r.confidence]),
+        ]
+        for r in rows_of
+    ]
+    return table(rows, right=range(8))
+
+
+def _left_out(rows_of: Sequence[LeftOut]) -> str:
+    if not rows_of:
+        return ""
+    rows = [["nuisance", "findings", "right", "share", "95 % interval", "expected", "holds"]]
+    rows += [
+        [
+            r.nuisance,
+            str(r.share.total),
+            str(r.share.count),
+            _percent(r.share.value),
+            _interval(r.share),
+            _percent(r.expected),
+            _mark(r.holds),
+        ]
+        for r in rows_of
+    ]
+    return table(rows, right=(1, 2, 3, 4, 5))
+
+
+def _recall(rows_of: Sequence[Recall]) -> str:
+    if not rows_of:
+        return ""
+    rows = [["hidden", "too small", "detectable", "named", "share", "with any", "bar", "reached"]]
+    rows += [
+        [
+            r.title,
+            str(r.too_small),
+            str(r.named.total),
+            str(r.named.count),
+            _percent(r.named.value),
+            str(r.found.count),
+            _percent(RECALL_BAR),
+            _mark(r.passed),
+        ]
+        for r in rows_of
+    ]
+    return table(rows, right=range(1, 7))
 
 
 def _ratios(ratios: Sequence[Ratio]) -> str:

@@ -16,6 +16,7 @@ from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.trials.candidates import candidates_for, passing_trials
 from stribeck.diagnosis.trials.imitations import without_imitations
+from stribeck.diagnosis.trials.outshone import without_outshone
 from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import Ranked, ranked
 from stribeck.diagnosis.trials.sifting import Sifted
@@ -107,7 +108,9 @@ def _diagnosed(
     passed, tried = passing_trials(fitted, offered.possible, least_fall, seed, progress)
     sift = Sifted.of(fitted, passed, least_fall)
     sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
-    sift = without_imitations(fitted, sift, tried, least_fall)
+    stood = sift
+    sift = without_imitations(fitted, stood, tried, least_fall)
+    sift = without_outshone(stood, sift, tried, least_fall, seed)
     best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)
     order = ranked(fitted, sift, tried, least_fall, floor, seed)

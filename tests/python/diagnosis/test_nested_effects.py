@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import stribeck as sb
+from stribeck.diagnosis.loop.exchange import exchanges, ties_of
+from stribeck.diagnosis.result import Finding
 from synthetic import joint, motion, record
 
 
@@ -37,3 +39,19 @@ def test_what_a_springs_rest_position_does_is_no_offset(tmp_path: Path) -> None:
     q = motion()[1]
     pull = 0.4 * np.exp(1.2 * q)
     assert names(record(tmp_path, joint(pull - pull.mean() + 0.03))) == ["spring"]
+
+
+def test_a_wider_effect_gives_way_to_what_remains_of_it(tmp_path: Path) -> None:
+    """Before the offset is in the model, the quadrants imitate a part of it."""
+    frame = joint()
+    v, tl = motion()[2], frame["load_torque"].to_numpy()
+    friction = 0.15 * np.abs(tl) * np.sign(v)
+    recording = record(tmp_path, joint(friction + 0.2))
+    before = sb.fit("coulomb", recording)
+    wider = sb.fit("coulomb+load+quadrant", recording, starts=2)
+    finding = Finding("quadrant", 1.0, 2.0, 1.0, None, "", (), wider, before)
+    whole = sb.fit("coulomb+load+quadrant+offset", recording, starts=2)
+    best = exchanges([finding], [()], whole, (), 0).best
+    assert best is not None and best.by.effect == "load"
+    # It contains the other, and is no alternative to it.
+    assert ties_of(best) == {}

@@ -239,14 +239,19 @@ class _Session:
     def _base(self, seen: Channels, *names: str) -> Array:
         """Columns of the base model, and of the simpler effects contained in those of `names`."""
         v = seen.velocity[self.rows]
-        columns = [np.sign(v), v]
+        return np.stack([np.sign(v), v, *self._contained(seen, *names).values()], 1)
+
+    def _contained(self, seen: Channels, *names: str) -> dict[str, Array]:
+        """Shapes of the simpler effects contained in those of `names`."""
+        v = seen.velocity[self.rows]
+        shapes = {}
         if "direction" in names:
-            columns.append(np.ones_like(v))
+            shapes["offset"] = np.ones_like(v)
         if "quadrant" in names:
-            columns.append(np.sign(v) * np.abs(self._known_load(seen, {})[self.rows]))
+            shapes["load"] = np.sign(v) * np.abs(self._known_load(seen, {})[self.rows])
         if "frictional_lag" in names:
-            columns.append(np.sign(v) * self.friction.shapes.falls(np.abs(v)))
-        return np.stack(columns, 1)
+            shapes["stribeck"] = np.sign(v) * self.friction.shapes.falls(np.abs(v))
+        return shapes
 
     def _size(self, seen: Channels, x: Amplitudes, effect: str) -> float:
         """RMS of one effect outside the span of the base model."""
@@ -325,7 +330,13 @@ class _Session:
         prediction = predict(values)
         free = {e: v for e, v in values.items() if e not in SIMULATED}
         made = tangents(lambda at: predict({**values, **at}), free, prediction)
-        return Oracle(prediction, made)
+        whole = self._left_over(seen, x)
+        return Oracle(
+            prediction,
+            made,
+            {e: whole - self._left_over(seen, x, e) for e in self.wanted},
+            self._contained(seen, *self.wanted),
+        )
 
 
 def _current_noise(rng: np.random.Generator, rate: int, rows: int) -> Array:

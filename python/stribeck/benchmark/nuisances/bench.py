@@ -26,16 +26,14 @@ class Bench:
     ----------
     channels : dict of arrays [n]
         The columns of the recording.
-    prediction, tangents
-        As in `Oracle`: a nuisance that acts on the torque acts on these, so that the oracle knows
-        it.
+    oracle : Oracle
+        A nuisance that acts on the torque acts on this too, so that the oracle knows it.
     noise
         RMS of the noise of the torque.
     """
 
     channels: Mapping[str, Array]
-    prediction: Array
-    tangents: Mapping[str, Array]
+    oracle: Oracle
     noise: float
 
     @classmethod
@@ -43,8 +41,7 @@ class Bench:
         """The bench of a recording as generated."""
         return cls(
             {name: sample.frame[name].to_numpy() for name in sample.frame.columns},
-            sample.oracle.prediction,
-            sample.oracle.tangents,
+            sample.oracle,
             float(sample.truth["noise_rms"]),
         )
 
@@ -64,34 +61,35 @@ class Bench:
 
     def with_channels(self, **channels: Array) -> Bench:
         """The same with other values in some channels."""
-        return replace(self, channels={**self.channels, **channels})
+        made = replace(self, channels={**self.channels, **channels})
+        oracle = self.oracle
+        for added in made._errors_of_friction(self):
+            oracle = oracle.with_nuisance(added)
+        return replace(made, oracle=oracle)
+
+    def _errors_of_friction(self, exact: Bench) -> list[Array]:
+        """What the channels of `exact` add to the torque of load and friction of these."""
+        load, v, heat = (self[c] - exact[c] for c in ("load_torque", "velocity", "temperature"))
+        turned = np.sign(self["velocity"]) - np.sign(exact["velocity"])
+        direction, speed = np.sign(exact["velocity"]), exact["velocity"]
+        return [c for c in (load, turned, v, heat * direction, heat * speed) if c.any()]
 
     def torque_through(self, chain: Callable[[Array], Array]) -> Bench:
         """The same with the torque, as recorded and as predicted, through a measuring `chain`."""
-        prediction = chain(self.prediction)
-        return replace(
-            self.with_channels(torque=chain(self["torque"])),
-            prediction=prediction,
-            tangents={
-                name: chain(self.prediction + column) - prediction
-                for name, column in self.tangents.items()
-            },
-        )
+        made = self.with_channels(torque=chain(self["torque"]))
+        return replace(made, oracle=self.oracle.through(chain))
 
     def kept(self, rows: NDArray[np.bool_]) -> Bench:
         """The same with some of the rows, bool [n]."""
         return replace(
             self,
             channels={name: values[rows] for name, values in self.channels.items()},
-            prediction=self.prediction[rows],
-            tangents={name: column[rows] for name, column in self.tangents.items()},
+            oracle=self.oracle.kept(rows),
         )
 
     def sample(self, truth: Mapping[str, object]) -> Sample:
         """The recording with its `truth`."""
-        return Sample(
-            pl.DataFrame(dict(self.channels)), dict(truth), Oracle(self.prediction, self.tangents)
-        )
+        return Sample(pl.DataFrame(dict(self.channels)), dict(truth), self.oracle)
 
 
 #: What a bench adds to a recording; random quantities come from the generator.

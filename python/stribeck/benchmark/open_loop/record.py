@@ -185,12 +185,17 @@ class _Session:
 
     def _base(self, *names: str) -> Array:
         """Columns of the base model, and of the simpler effects contained in those of `names`."""
-        columns = [np.sign(self.v), self.v]
+        return np.stack([np.sign(self.v), self.v, *self._contained(*names).values()], 1)
+
+    def _contained(self, *names: str) -> dict[str, Array]:
+        """Shapes of the simpler effects contained in those of `names`."""
+        shapes = {}
         if "direction" in names:
-            columns.append(np.ones_like(self.v))
+            shapes["offset"] = np.ones_like(self.v)
         if "quadrant" in names:
-            columns.append(np.sign(self.v) * np.abs(self.world.true_load(self.t, self.q, self.a)))
-        return np.stack(columns, 1)
+            load = self.world.true_load(self.t, self.q, self.a)
+            shapes["load"] = np.sign(self.v) * np.abs(load)
+        return shapes
 
     def size(self, name: str, amplitude: float) -> float:
         """RMS of one effect outside the span of the base model."""
@@ -283,4 +288,11 @@ class _Session:
             return np.asarray((torque - known + given)[self.keep])
 
         prediction = predict(values)
-        return Oracle(prediction, tangents(predict, values, prediction))
+        without = {e: {k: v for k, v in values.items() if k != e} for e in amplitudes}
+        contained = self._contained(*amplitudes)
+        return Oracle(
+            prediction,
+            tangents(predict, values, prediction),
+            {e: prediction - predict(others) for e, others in without.items()},
+            {name: shape[self.keep] for name, shape in contained.items()},
+        )
