@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import stribeck as sb
 from synthetic import joint, record
+
+
+@pytest.fixture(scope="session", autouse=True)
+def no_result_is_kept() -> Iterator[None]:
+    """Commands of the tests leave nothing in the cache of the user, in this process or others."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("STRIBECK_LAST", "off")
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -62,7 +62,11 @@ def write_whole(
 
 
 def write_bytes_whole(
-    path: str | os.PathLike[str], content: bytes, error: type[StribeckError] = StribeckError
+    path: str | os.PathLike[str],
+    content: bytes,
+    error: type[StribeckError] = StribeckError,
+    *,
+    told: bool = True,
 ) -> None:
     """Write `content` so that a reader never sees a part of it.
 
@@ -76,6 +80,8 @@ def write_bytes_whole(
         The file's content.
     error
         The error to raise where the file cannot be written.
+    told
+        Whether the file is one of `written_files`.
 
     Raises
     ------
@@ -98,7 +104,8 @@ def write_bytes_whole(
             if target.exists():
                 os.chmod(unfinished, stat.S_IMODE(target.stat().st_mode))
             os.replace(unfinished, target)
-            note_written(path)
+            if told:
+                note_written(path)
         except BaseException:
             with contextlib.suppress(FileNotFoundError):
                 os.unlink(unfinished)

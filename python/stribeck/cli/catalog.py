@@ -12,6 +12,7 @@ from stribeck.cli.common import echo_json, json_option, recording_options, say, 
 from stribeck.cli.data import data_argument
 from stribeck.cli.flags import with_flags
 from stribeck.cli.outputs import FIGURE, CheckedCommand
+from stribeck.cli.words import complete_effect, complete_law
 from stribeck.diagnosis.inspect import inspect as inspect_file
 from stribeck.diagnosis.inspect import write_proposed
 from stribeck.models.catalog import catalog, check_effect, effect_ids, law_row
@@ -31,7 +32,7 @@ _figure_option = click.option(
 
 
 @click.command(cls=CheckedCommand)
-@click.argument("id", required=False)
+@click.argument("id", required=False, shell_complete=complete_law)
 @_figure_option
 @seed_option
 @json_option
@@ -64,7 +65,7 @@ def models(id: str | None, output: str | None, seed: int, as_json: bool) -> None
 
 
 @click.command(cls=CheckedCommand)
-@click.argument("id", required=False)
+@click.argument("id", required=False, shell_complete=complete_effect)
 @_figure_option
 @seed_option
 @json_option

@@ -8,6 +8,7 @@ from __future__ import annotations
 import importlib
 
 import click
+from click.shell_completion import CompletionItem
 
 from stribeck.base.errors import nearest
 
@@ -39,6 +40,8 @@ COMMANDS = {
     "study": ("study", "Fit many laws to every joint of DATA and compare them."),
     "fleet": ("fleet", "Fit every joint of many FILES; find the joints that changed."),
     "reproduce": ("reproduce", "Repeat the tables and figures of a paper."),
+    "last": ("last", "Print the last result again, or save its model."),
+    "completion": ("completion", "Complete words in bash, zsh or fish."),
     "generate": ("generate", "Make a synthetic recording with hidden effects."),
     "benchmark": ("benchmark", "Measure how often the diagnosis is right."),
 }
@@ -63,6 +66,17 @@ class Commands(click.Group):
         """Write the table without importing a command."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, what) for name, (_, what) in COMMANDS.items()])
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
+        """Commands that begin alike, without importing them."""
+        named = [
+            CompletionItem(name, help=what)
+            for name, (_, what) in COMMANDS.items()
+            if name.startswith(incomplete)
+        ]
+        return (
+            named if incomplete[:1] != "-" else click.Command.shell_complete(self, ctx, incomplete)
+        )
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -13,8 +14,10 @@ import click
 
 from stribeck.base.arguments import MOST_SEED, MOST_STARTS
 from stribeck.cli.flags import with_flags
+from stribeck.cli.kept import keep
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.outputs import FOLDER, MODEL, PAGE
+from stribeck.cli.terminal import on_stderr
 from stribeck.diagnosis.result import Finding
 from stribeck.fitting.evaluate import evaluate, refuse_other_joint
 from stribeck.fitting.fit import fit
@@ -54,17 +57,31 @@ class Result(Protocol):
         ...
 
 
-def echo_result(result: Result, as_json: bool) -> None:
-    """Print a result on stdout, as JSON or as text."""
-    if as_json:
+def echo_result(result: Result, as_json: bool, file_text: Callable[[], str] | None = None) -> None:
+    """Print a result on stdout, as JSON or as text, and keep it for `stribeck last`.
+
+    Parameters
+    ----------
+    file_text
+        Gives the text of the file that `-o` would write, where that is no model file.
+    """
+    text = None if as_json else with_flags(repr(result))
+    if text is None:
         echo_json(result.to_dict())
     else:
-        click.echo(with_flags(repr(result)))
+        click.echo(text)
+
+    def in_json() -> dict[str, object]:
+        return {key: finite(value) for key, value in result.to_dict().items()}
+
+    unsaved = keep(result, text, in_json, file_text)
+    if unsaved and text is not None and sys.stderr.isatty():
+        say("note: the model is in no file; `stribeck last -o M.toml` writes it")
 
 
 def say(sentence: str) -> None:
     """Print progress or a warning on stderr."""
-    click.echo(with_flags(sentence), err=True)
+    click.echo(on_stderr(with_flags(sentence)), err=True)
 
 
 json_option = click.option(

@@ -14,6 +14,7 @@ from stribeck.base.errors import SpecError
 from stribeck.base.replaceable import kind_of
 from stribeck.cli.common import say
 from stribeck.cli.options import Command
+from stribeck.cli.words import complete_model
 from stribeck.identify.statements import names_in
 from stribeck.models.formula_law import is_formula
 from stribeck.models.published.sets import PREFIX
@@ -49,7 +50,9 @@ def is_data(argument: str) -> bool:
 
 def arguments_of(metavar: str) -> Callable[[Command], Command]:
     """The positional arguments of a command: DATA, then models."""
-    return click.argument("arguments", nargs=-1, required=True, metavar=metavar)
+    return click.argument(
+        "arguments", nargs=-1, required=True, metavar=metavar, shell_complete=complete_model
+    )
 
 
 #: One or several recordings, and models among them.

@@ -30,6 +30,7 @@ from stribeck.cli.outputs import CheckedCommand
 from stribeck.cli.pages import fit_report
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
+from stribeck.cli.words import complete_model
 from stribeck.fitting.evaluate import evaluated_on
 from stribeck.identify.scaling import model_for
 from stribeck.recording.options import ReadOptions
@@ -43,6 +44,7 @@ from stribeck.scale.streaming.stream import Stream
     "--model",
     "spec",
     default=None,
+    shell_complete=complete_model,
     help="LAW[+effect...], or a model file to start from; the same as MODEL.",
 )
 @model_options

@@ -42,6 +42,7 @@ from stribeck.cli.pages import comparison_report, diagnosis_report, improvement_
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.refused import SHARED_VALUES, refusing
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
+from stribeck.cli.words import complete_model
 from stribeck.diagnosis.compare import compare as compare_fits
 from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
 from stribeck.diagnosis.loop.add import Addition, parameters_brought_by
@@ -220,6 +221,7 @@ def add(
 @click.option(
     "--base",
     default=None,
+    shell_complete=complete_model,
     help="Spec, model file or formula; the same as MODEL. [default: coulomb]",
 )
 @model_options

@@ -17,7 +17,7 @@ from stribeck.cli import interrupts
 from stribeck.cli.commands import Commands
 from stribeck.cli.flags import with_flags
 from stribeck.cli.surroundings import check_surroundings
-from stribeck.cli.terminal import show_everywhere
+from stribeck.cli.terminal import on_stderr, show_everywhere
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})
@@ -88,7 +88,7 @@ def _drop_output() -> None:
 
 def _stop(sentence: str) -> NoReturn:
     try:
-        click.echo(one_line(f"stribeck: {with_flags(sentence)}"), err=True)
+        click.echo(on_stderr(one_line(f"stribeck: {with_flags(sentence)}")), err=True)
     except OSError:
         # Nobody can be told: the exit code remains.
         os.dup2(os.open(os.devnull, os.O_WRONLY), 2)

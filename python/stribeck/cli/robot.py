@@ -47,7 +47,7 @@ from stribeck.robot.improve import MOST_STEPS, improve_robot
 from stribeck.robot.plan import plan_robot
 from stribeck.robot.result import RobotFit
 from stribeck.robot.simulate import simulate_robot
-from stribeck.robot.stored import read_friction, write_robot
+from stribeck.robot.stored import read_friction, robot_toml, write_robot
 
 
 @click.group()
@@ -140,7 +140,7 @@ def fit(
         seed=seed,
     )
     _save(found, output)
-    echo_result(found, as_json)
+    echo_result(found, as_json, lambda: robot_toml(found))
 
 
 def _save(found: RobotFit, output: str | None) -> None:
@@ -260,7 +260,7 @@ def improve(
         progress=lambda sentence: say(f"note: {sentence}"),
     )
     _save(found.final, output)
-    echo_result(found, as_json)
+    echo_result(found, as_json, lambda: robot_toml(found.final))
 
 
 @robot.command(cls=CheckedCommand)

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import codecs
+import os
+import shutil
 import sys
+import textwrap
 import unicodedata
+
+import click
 
 _NAME = "stribeck.plain"
 #: One character each, so that columns stay aligned.
@@ -25,6 +30,33 @@ def show_everywhere() -> None:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(errors=_NAME)
+
+
+#: Colours of the words that begin a line on stderr.
+_COLOURS = {"stribeck:": "red", "note:": "yellow"}
+
+
+def on_stderr(sentence: str) -> str:
+    """A sentence for stderr: on a terminal wrapped to its width, its first word in colour.
+
+    There is no colour where NO_COLOR is set (https://no-color.org) or the terminal is dumb.
+    """
+    if sys.stderr is None or sys.stderr.closed or not sys.stderr.isatty():
+        return sentence
+    first = sentence.partition(" ")[0]
+    if "\n" not in sentence:
+        width = max(shutil.get_terminal_size().columns - 1, 20)
+        indent = " " * (len(first) + 1) if first in _COLOURS else ""
+        sentence = textwrap.fill(
+            sentence,
+            width,
+            subsequent_indent=indent,
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+    if os.environ.get("NO_COLOR") or os.environ.get("TERM") == "dumb" or first not in _COLOURS:
+        return sentence
+    return click.style(first, fg=_COLOURS[first], bold=True) + sentence[len(first) :]
 
 
 def _replaced(error: UnicodeError) -> tuple[str, int]:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from stribeck.report.layout import WIDTH, joined, notes_text, paragraph, table, width_of
+from stribeck.report.layout import joined, line_width, notes_text, paragraph, table, width_of
 from stribeck.report.numbers import percent, plain, signed
 from stribeck.report.parameters import effective_text
 from stribeck.report.recording import REGIMES, file_name, held_out_meaning, scored_sentence
@@ -68,7 +68,7 @@ def _overview(comparison: Comparison) -> str:
     names = [a.model for a in models]
     numbers = [f"[{k}]" for k in range(1, len(models) + 1)]
     shown = table([heading, *_beside(numbers, figures)], right=columns)
-    if width_of(shown) + max(map(len, names)) - len(heading[0]) <= WIDTH:
+    if width_of(shown) + max(map(len, names)) - len(heading[0]) <= line_width():
         return table([heading, *_beside(names, figures)], right=columns)
     listed = [f"  {tag} {name}" for tag, name in zip(numbers, names, strict=True)]
     return joined(shown, "\n".join(listed))

@@ -1,16 +1,19 @@
-"""How text is set on a terminal: paragraphs, tables, bars. No line is wider than `WIDTH`."""
+"""How text is set: paragraphs, tables, bars. No line is wider than `WIDTH`, nor the terminal."""
 
 from __future__ import annotations
 
 import io
 import math
 import re
+import shutil
+import sys
 import textwrap
 from collections.abc import Collection, Iterable, Sequence
 
 from stribeck.report.numbers import change_text, plain
 
-WIDTH = 98
+#: Characters of the longest line, and of the shortest that text is still wrapped to.
+WIDTH, NARROWEST = 98, 40
 BAR = 40
 EIGHTHS = " ▏▎▍▌▋▊▉█"
 
@@ -22,12 +25,20 @@ _RULED = "    \n    \n ── \n    \n    \n    \n    \n    \n"
 _TOGETHER = re.compile(r"(?<=\d) (?=(?:N|rad|m|s|Hz|K|J|degC|%)(?:\W|$))|(?<=\bN) (?=m\b)")
 
 
+def line_width() -> int:
+    """Characters of a line: those of the terminal, where stdout is one, and at most `WIDTH`."""
+    stream = sys.stdout
+    if stream is None or stream.closed or not stream.isatty():
+        return WIDTH
+    return max(NARROWEST, min(WIDTH, shutil.get_terminal_size().columns))
+
+
 def paragraph(text: str, indent: int = 2, hang: int = 0) -> str:
     """`text` wrapped to the width, each line indented."""
     first = " " * indent
     filled = textwrap.fill(
         _TOGETHER.sub("\N{NO-BREAK SPACE}", text),
-        WIDTH,
+        line_width(),
         initial_indent=first,
         subsequent_indent=first + " " * hang,
         break_long_words=False,
@@ -103,8 +114,20 @@ def table(
         emoji=False,
         highlight=False,
     )
-    console.print(made)
+    # Names and numbers are never cut: a terminal that is too narrow for them breaks the lines.
+    fewest = _fewest(rows, {*right, *whole})
+    console.print(made, width=min(WIDTH - indent, max(line_width() - indent, fewest)))
     return "\n".join((" " * indent + line).rstrip() for line in out.getvalue().splitlines())
+
+
+def _fewest(rows: Sequence[Sequence[str]], unbroken: Collection[int]) -> int:
+    """Characters that a table needs so that no word of it is broken."""
+    wide = 0
+    for k in range(len(rows[0])):
+        cells = [row[k] for row in rows]
+        words = cells if k in unbroken else [word for cell in cells for word in cell.split()]
+        wide += max(map(len, words), default=0) + 2
+    return wide
 
 
 def width_of(text: str) -> int:

@@ -10,7 +10,16 @@ from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.describe import physically
 from stribeck.report.comparison import comparison_figure, comparison_text
 from stribeck.report.diagnosis import VERDICTS, less_likely_sentence
-from stribeck.report.layout import BAR, WIDTH, bar, bars_legend, bullets, joined, paragraph, table
+from stribeck.report.layout import (
+    BAR,
+    bar,
+    bars_legend,
+    bullets,
+    joined,
+    line_width,
+    paragraph,
+    table,
+)
 from stribeck.report.numbers import (
     DASH,
     change_text,
@@ -229,7 +238,7 @@ def parameters_beside(first: Node, second: Node) -> str:
             e = column.get(name)
             cells.append(DASH if e is None else _value(e.value, e.stderr))
             unit = unit if e is None else unit_text(e.unit)
-        rows.append([textwrap.shorten(name, WIDTH // 3), *cells, unit])
+        rows.append([textwrap.shorten(name, line_width() // 3), *cells, unit])
     return table(rows)
 
 

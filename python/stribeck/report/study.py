@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from stribeck.report.layout import WIDTH, paragraph, table
+from stribeck.report.layout import line_width, paragraph, table
 from stribeck.report.numbers import MINUS, listed, plain, thousands
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def _error_tables(study: Study, each: Table) -> list[str]:
         (f"torque error at low speed, |v| < {' or '.join(lows)} [{names}]", True),
     ):
         lines += [f"  {title}"] if not lines else ["", f"  {title}"]
-        blocks = -(-len(joints) // ((WIDTH - 20) // 16))
+        blocks = -(-len(joints) // max(1, (line_width() - 20) // 16))
         per_block = -(-len(joints) // blocks)
         for at in range(0, len(joints), per_block):
             cells = error_rows(study, each.rows, joints[at : at + per_block], low)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.report.layout import line_width
 from stribeck.report.numbers import plain
 
 __all__ = ["MARKS", "text_plot"]
@@ -15,9 +16,10 @@ Array = NDArray[np.float64]
 
 #: One mark for each curve.
 MARKS = "•+x"
-#: Columns and rows of the grid.
+#: Most columns of the grid, and its rows.
 COLUMNS, ROWS = 61, 15
-_INDENT = 2
+#: Spaces before each line, and those that the labels of an axis may take.
+_INDENT, _LABELS = 2, 12
 
 
 def text_plot(
@@ -48,11 +50,12 @@ def text_plot(
         return ""
     left, right = float(every_x.min()), float(every_x.max())
     low, high = _range(every_y)
-    grid = np.full((ROWS, COLUMNS), " ")
+    columns = min(COLUMNS, line_width() - _INDENT - _LABELS)
+    grid = np.full((ROWS, columns), " ")
     if low < 0.0 < high:
         grid[_place(np.array([0.0]), high, low, ROWS)] = "·"
     for k, (x, y) in enumerate(drawn):
-        grid[_place(y, high, low, ROWS), _place(x, left, right, COLUMNS)] = MARKS[k % len(MARKS)]
+        grid[_place(y, high, low, ROWS), _place(x, left, right, columns)] = MARKS[k % len(MARKS)]
     labels = {0: plain(high), ROWS - 1: plain(low)}
     if low < 0.0 < high:
         labels.setdefault(int(_place(np.array([0.0]), high, low, ROWS)[0]), "0")
@@ -66,8 +69,8 @@ def text_plot(
     ends = [10.0**left, 10.0**right] if log else [left, right]
     first, last = map(plain, ends)
     under = " " * (_INDENT + wide + 1)
-    lines.append(f"{under}└{'─' * COLUMNS}")
-    between = COLUMNS - len(first) - len(last)
+    lines.append(f"{under}└{'─' * columns}")
+    between = columns - len(first) - len(last)
     lines.append(f"{under} {first}{x_label.center(between)}{last}")
     return "\n".join(line.rstrip() for line in lines)
 
