@@ -16,6 +16,8 @@ NOT_RUN = {
     "cargo test": "tests, which run on their own",
     "pip install": "installs from the network",
     "jupyter": "waits for clicks; tests/python/tutorials runs the notebooks",
+    "stribeck completion": "writes into the home; tests/python/cli/test_terminal.py",
+    'eval "$(stribeck completion': "is for a shell; tests/python/cli/test_terminal.py",
     "stribeck demo": "tests/python/cli/test_demo.py compares the README with it",
     "stribeck app": "waits for clicks; tests/python/report/workbench makes them",
     "stribeck robot": "needs recordings of a whole robot; tests/python/robot has them",
