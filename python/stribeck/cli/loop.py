@@ -49,9 +49,9 @@ from stribeck.diagnosis.loop.add import Addition, parameters_brought_by
 from stribeck.diagnosis.loop.add import add as add_to
 from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.loop.improve import improve as improve_from
+from stribeck.diagnosis.trials.dry_friction import check_rejected
 from stribeck.fitting.evaluate import evaluated_on
 from stribeck.identify.choices import parameters_of_effects
-from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import effect_name
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
@@ -271,8 +271,7 @@ def improve(
     """
     data, base = split_one(arguments, "--base", base)
     check_candidates(candidates)
-    for effect in reject:
-        check_effect(effect)
+    check_rejected(reject)
     if base is None and not written.laws:
         base = "coulomb"
     start = written.model(base)

@@ -85,12 +85,6 @@ def check_effect(effect: str) -> str:
     return effect
 
 
-def check_effects(effects: Iterable[str]) -> None:
-    """Raise `SpecError` unless the catalog has every one of `effects`."""
-    for effect in effects:
-        check_effect(effect)
-
-
 def laws() -> pl.DataFrame:
     """The catalog of friction laws, one row per law.
 

@@ -129,6 +129,25 @@ class FormulaTerms:
         return tuple(self.core.channels)
 
     @cached_property
+    def has_dry_friction(self) -> bool:
+        """Whether a term is dry friction, smoothed or not, that reads the velocity alone.
+
+        Examples
+        --------
+        >>> FormulaTerms("law", "b*v + c*tanh(v/w)").has_dry_friction
+        True
+        >>> FormulaTerms("law", "b*v + c*abs(load)*sgn(v)").has_dry_friction
+        False
+        """
+        made = self.core.operations
+        return any(
+            term["kind"] in ("dry", "smoothed")
+            and {what for kind, what in made[slice(*term["part"])] if kind == "channel"}
+            == {"velocity"}
+            for term in self.core.terms
+        )
+
+    @cached_property
     def dimensions(self) -> tuple[Powers | None, ...]:
         """The dimension of each parameter that follows from the formula; None where none does."""
         return derive(self.core.operations, len(self.symbols))

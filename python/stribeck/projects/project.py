@@ -24,11 +24,11 @@ from stribeck.diagnosis.loop.path import (
 )
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis
+from stribeck.diagnosis.trials.dry_friction import check_rejected
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.models.catalog import check_effect
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
 from stribeck.projects.findings import Found, Remembered
@@ -247,7 +247,7 @@ class Project(Plotted):
             The effect is unknown, or in the model already.
         """
         model = self.node.kept.model
-        check_effect(effect)
+        check_rejected((effect,))
         if model.has(effect):
             raise SpecError(f"effect {effect!r} is in {model.spec} already: drop it instead")
         return self._rejecting(self.current, effect, why)

@@ -130,6 +130,10 @@ def hedged(finding: Finding, word: str | None = None) -> str:
 
 def nothing_found(last: Diagnosis, spec: str, *, unexplained: bool) -> str:
     """That no effect was found, and whether something remains unexplained."""
+    if last.trend is not None:
+        return (
+            f"No effect is claimed to be missing from the model {spec}, but {_changes(last.trend)}."
+        )
     if last.has_doubts:
         return (
             f"The model {spec} leaves more than noise on this recording, but no effect that lowers "
@@ -244,13 +248,8 @@ def trend_text(found: Trend | None) -> str:
     """What changes along the recording, and what would tell why."""
     if found is None:
         return ""
-    shown = [
-        f"{name} {'rises' if change.share > 0.0 else 'falls'} by {percent(abs(change.share))} "
-        f"(± {percent(change.stderr)})"
-        for name, change in found.changes.items()
-        if change.clear
-    ]
-    said = f"Over the {plain(found.seconds)} s of the recording {listed(shown)}"
+    said = _changes(found)
+    said = f"{said[0].upper()}{said[1:]}"
     if found.cause == "gain":
         return (
             f"{said}: all by the same share, so it is the gain of the motor torque (magnets weaken "
@@ -260,6 +259,17 @@ def trend_text(found: Trend | None) -> str:
         f"{said}. No temperature was recorded: this may be temperature, wear or run-in. Record the "
         f"temperature to tell."
     )
+
+
+def _changes(found: Trend) -> str:
+    """Which parts change along the recording, and by how much."""
+    shown = [
+        f"{name} {'rises' if change.share > 0.0 else 'falls'} by {percent(abs(change.share))} "
+        f"(± {percent(change.stderr)})"
+        for name, change in found.changes.items()
+        if change.clear
+    ]
+    return f"over the {plain(found.seconds)} s of the recording {listed(shown)}"
 
 
 def explainable_text(explainable: Explainable | None, spec: str, unit: str) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.trend import DRY, LOAD, VISCOUS, trend
-from stribeck.report.diagnosis import trend_text
+from stribeck.report.diagnosis import diagnosis_summary, trend_text
 from synthetic import COULOMB, joint, motion, record
 from synthetic import VISCOUS as COEFFICIENT
 from synthetic import Array as Torque
@@ -63,6 +63,11 @@ def test_a_drift_of_viscous_friction_is_not_called_one_of_dry_friction(tmp_path:
     said = sb.diagnose(sb.fit("coulomb", recording, starts=1))
     assert "drift" not in {row.effect for row in said.findings}
     assert said.to_dict()["trend"]["changes"][VISCOUS]["clear"]
+    # The first sentence names what changes.
+    summary = diagnosis_summary(said)
+    assert "viscous friction falls by 16 %" in summary and "dry friction" not in summary
+    (drift,) = [row for row in said.not_claimed if row.effect == "drift"]
+    assert drift.reason == "over the recording viscous friction changes, not dry friction"
 
 
 def test_nothing_changes_or_a_thermometer_says_why(tmp_path: Path) -> None:

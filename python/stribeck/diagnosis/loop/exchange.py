@@ -15,6 +15,7 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
+from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import (
     SIGNIFICANCE,
@@ -132,8 +133,8 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
     """Whether the model with the other effect is the better one.
 
     It is where it predicts better by a standard error, or by two with more parameters. Where both
-    predict alike, it is if it has fewer parameters, or as many and is a rigid-body or measurement
-    cause in place of friction.
+    predict alike, it is if its size is known and the other's is not, if it has fewer parameters, or
+    if it has as many and is a rigid-body or measurement cause in place of friction.
     """
     if worse > (TIE if by.parameters > len(current.model.names) else SIMPLEST):
         return True
@@ -141,6 +142,9 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
     more_friction = is_friction(by.effect) and not is_friction(finding.effect)
     if better > SIMPLEST or more_friction:
         return False
+    known, other_known = has_known_size(by.effect, by.fit), has_known_size(finding.effect, current)
+    if known is not other_known:
+        return known
     fewer = len(current.model.names) - by.parameters
     return fewer > 0 or (fewer == 0 and less_friction)
 

@@ -27,6 +27,7 @@ from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.testable import Untestable
+from stribeck.diagnosis.trials.dry_friction import check_rejected
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
@@ -35,7 +36,6 @@ from stribeck.identify.confounded import Combination
 from stribeck.identify.effort import FROM_NEARBY
 from stribeck.identify.scaling import model_for
 from stribeck.identify.uncertain_direction import rows_left_out
-from stribeck.models.catalog import check_effects
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
@@ -159,7 +159,7 @@ def improve(
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the base model or of effects
         that may be added. They stay in force throughout.
     """
-    check_effects(rejected)
+    check_rejected(rejected)
     recording = as_one(recording)
     progress(f"fitting {base if isinstance(base, str) else base.spec}")
     few = excerpt(recording, sample_rows, seed)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.trend import DRY, trend
-from stribeck.effect.base import number
 from stribeck.models.catalog import effect_row
 
 
@@ -23,6 +22,5 @@ def other_part_changes(claim: Claim) -> str | None:
         return "the load and friction change by the same share over the recording: it is the gain"
     if found.changes[DRY].clear:
         return None
-    shares = {name: change.share for name, change in found.changes.items() if change.clear}
-    others = [f"{name} by {number(100.0 * share)} %" for name, share in shares.items()]
-    return f"not dry friction changes over the recording, but {' and '.join(others)}"
+    others = [name for name, change in found.changes.items() if change.clear]
+    return f"over the recording {' and '.join(others)} changes, not dry friction"

@@ -9,6 +9,11 @@ from functools import partial
 from stribeck.base.pool import on_threads
 from stribeck.diagnosis.extend import missing_simpler_effect
 from stribeck.diagnosis.testable import Untestable, untestable
+from stribeck.diagnosis.trials.dry_friction import (
+    dry_friction_first,
+    dry_friction_for,
+    is_missing_dry_friction,
+)
 from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import (
@@ -44,7 +49,10 @@ class Candidates:
 
 
 def candidates_for(fitted: Fit, rejected: Collection[str], more: Collection[str]) -> Candidates:
-    """The catalog's effects and `more` by formula, without those `rejected`."""
+    """The catalog's effects and `more` by formula, without those `rejected`.
+
+    Dry friction is one of them where the law, a formula, has none.
+    """
     recording, model = fitted.recording, fitted.model
     cannot = untestable(recording, own_load(model, recording))
     inside = {*model.effects, *model.rigid_body, *model.own_effects}
@@ -53,7 +61,7 @@ def candidates_for(fitted: Fit, rejected: Collection[str], more: Collection[str]
             check_channels(model.with_effect(effect, {}), recording)
     possible = tuple(
         effect
-        for effect in (*effect_ids(), *more)
+        for effect in (*effect_ids(), *more, *dry_friction_for(model, more))
         if not {effect_name(effect)} & {*inside, *cannot, *rejected}
     )
     hidden = tuple(row for effect, row in cannot.items() if effect not in inside)
@@ -103,12 +111,16 @@ def passing_trials(
     good = [t for t in good if falls_on_all_samples(fitted, t)]
     flexible = FlexibleRefit.of(fitted) if good else None
     if flexible is not None:
-        good = [t for t in good if not flexible.explains(t, tried, least)]
+        good = [
+            t
+            for t in good
+            if is_missing_dry_friction(t, fitted.model) or not flexible.explains(t, tried, least)
+        ]
     good.sort(key=lambda trial: trial.rank)
     for pair in pairs:
         if pair.larger in good and pair.together.rank < good[0].rank:
             good.sort(key=lambda trial: trial is not pair.larger)
-    return good, tried
+    return dry_friction_first(good, fitted.model), tried
 
 
 @dataclass(frozen=True)

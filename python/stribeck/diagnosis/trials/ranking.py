@@ -11,6 +11,7 @@ from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import held_out_square
+from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
@@ -27,7 +28,8 @@ from stribeck.effect.describe import is_friction, where
 from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 
-#: An effect that brings this share of the fall of the best, and adds nothing to it, is a tie.
+#: An effect that brings this share of the fall of the best, adds nothing to it and has no more
+#: parameters, is a tie.
 ALIKE = 0.9
 #: A tie with a smaller weight changes no confidence that is shown.
 NEGLIGIBLE = 0.005
@@ -127,21 +129,30 @@ def _tied(
     """The best trial and those indistinguishable from it, in the order in which they are named."""
     best = good[0]
     level, least_left = held_out_square(before, before), held_out_square(best.fit, before)
+
+    def is_alike(t: Trial) -> bool:
+        fall = level - held_out_square(t.fit, before)
+        return fall >= ALIKE * (level - least_left) and t.parameters <= best.parameters
+
     same = {
         t.effect
         for t in good[1:]
-        if (
-            statistic[t.effect] <= TIE
-            or level - held_out_square(t.fit, before) >= ALIKE * (level - least_left)
-        )
-        and not adds_to(best, t, tried, least, seed)
+        if (statistic[t.effect] <= TIE or is_alike(t)) and not adds_to(best, t, tried, least, seed)
     }
     tied = [best] + [t for t in good if t.effect in same]
-    # Of the ties that may replace the best, the simplest comes first.
+    # Of the ties that may replace the best, the simplest of those with a known size comes first.
     replaces = {
         t.effect: _may_replace(t, best, statistic[t.effect], tried, least, seed) for t in tied
     }
-    return sorted(tied, key=lambda t: (not replaces[t.effect], t.parameters, t.rank))
+    return sorted(
+        tied,
+        key=lambda t: (
+            not replaces[t.effect],
+            not has_known_size(t.effect, t.fit),
+            t.parameters,
+            t.rank,
+        ),
+    )
 
 
 def _doubtful_ties(
