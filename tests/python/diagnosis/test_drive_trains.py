@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
-from drive_trains import TwoInertias, late_stribeck
+from drive_trains import NOISE, TwoInertias, late_stribeck, reference
 from stribeck.base.errors import FitError
-from synthetic import joint, record
+from synthetic import joint, motion, record
 
 
 def steps(folder: Path, frame: object) -> dict[str, sb.Fit]:
@@ -79,3 +80,34 @@ def test_the_second_derivative_of_the_load_is_that_of_the_motion(tmp_path: Path)
     np.testing.assert_allclose(curvature[inside], expected[inside], rtol=1e-3, atol=0.01)
     # At the ends of a stretch differences are one-sided, and no jump is left.
     assert np.abs(curvature - expected).max() < 40.0
+
+
+def direct_drive(lacking: float, seed: int = 3, rows: int = 4000) -> pl.DataFrame:
+    """A motor on the axis of an unbalanced arm: its load torque lacks some inertia in kg m2."""
+    t = np.arange(rows) / 100.0
+    q, v, a = reference(t)
+    noise = np.random.default_rng(seed)
+    load = 0.3 * a + 2.0 * np.sin(q)
+    friction = 0.4 * np.sign(v) + 0.12 * v
+    return pl.DataFrame(
+        {
+            "time": t,
+            "position": q,
+            "velocity": v + 1e-4 * noise.standard_normal(rows),
+            "torque": load + lacking * a + friction + NOISE * noise.standard_normal(rows),
+            "load_torque": load,
+        }
+    )
+
+
+def test_a_wrong_inertia_is_no_elasticity_and_no_position(tmp_path: Path) -> None:
+    """On sines, acceleration is nearly proportional to position."""
+    found = steps(tmp_path, direct_drive(0.05))
+    assert list(found) == ["inertia"]
+    assert found["inertia"].model.value("inertia") == pytest.approx(0.05, rel=0.05)
+
+
+def test_a_small_ripple_is_no_spring(tmp_path: Path) -> None:
+    """Eight periods of 0.03 N m, the RMS of the noise, in the range of the motion."""
+    found = steps(tmp_path, joint(0.03 * np.sqrt(2.0) * np.sin(20.0 * motion()[1] + 0.3)))
+    assert list(found) == ["ripple"]

@@ -14,6 +14,7 @@ from stribeck.diagnosis.loop.superfluous import brought_by, superfluous, without
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
+from stribeck.effect.base import number
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
@@ -199,7 +200,7 @@ def improvement_paths(
     while True:
         current = start if path is None else path.current
         gone = () if path is None else path.superfluous
-        progress(f"searching for effects that {current.model.spec} lacks")
+        progress(f"searching for effects that {current.model.spec} lacks{_error_of(current)}")
         found = diagnose(
             current,
             least_fall=least_fall,
@@ -213,8 +214,8 @@ def improvement_paths(
         path = ImprovementPath(start, found, () if path is None else path.steps, gone)
         ends = not found.findings or len(path.steps) >= most_steps
         if not ends:
-            progress(f"adding {found.findings[0].effect}")
             path = path.with_best()
+            progress(f"adding {found.findings[0].effect}{_error_of(path.current)}")
             yield path
         findings = [step.finding for step in path.steps]
         shorter = _shortened(path, findings if ends else findings[:-1], least_fall, seed, progress)
@@ -226,6 +227,12 @@ def improvement_paths(
         if shorter is not None:
             path = shorter
             yield path
+
+
+def _error_of(fitted: Fit) -> str:
+    """The held-out error of a model, for a sentence of progress."""
+    error = fitted.rmse_held_out
+    return "" if error is None else f" (held-out error {number(error)} {fitted.model.torque_unit})"
 
 
 def _shortened(
@@ -257,6 +264,7 @@ def _exchanged(
     """The path with one effect exchanged, or None; and the path with its ties."""
     if len(path.steps) < 2:
         return None, path
+    progress("trying other effects in the place of each of those found")
     found = path.exchanges(rejected, seed)
     path = path.with_ties(found.ties)
     if found.best is None:

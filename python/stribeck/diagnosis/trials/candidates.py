@@ -16,6 +16,7 @@ from stribeck.diagnosis.trials.dry_friction import (
 )
 from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
 from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.told import Told
 from stribeck.diagnosis.trials.trial import (
     Trial,
     falls_on_all_samples,
@@ -87,9 +88,10 @@ def passing_trials(
         promising = [s for s in screenings if is_promising(s, least)]
         progress(f"  {len(promising)} of {len(screenings)} effects are promising")
         trials: list[Trial] = []
+        told = Told(progress, len(promising))
         each = zip(promising, pool.map(partial(try_effect, fitted), promising), strict=True)
-        for count, (screening, trial) in enumerate(each, 1):
-            progress(f"  fitted {count} of {len(promising)}: {effect_name(screening.effect)}")
+        for screening, trial in each:
+            told.fitted(effect_name(screening.effect), trial)
             trials += [trial] if trial else []
     tried = max(len(screenings), 1)
     good = [t for t in trials if passes(t, tried, least)]
