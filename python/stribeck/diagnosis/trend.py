@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 
 from stribeck.base import linear
 from stribeck.base.errors import StribeckError
+from stribeck.diagnosis.carrying import FEWEST_MOVES, fewest
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.covariance import batches, correlation_length, covariance_of
 from stribeck.identify.estimates import APART
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
+from stribeck.recording.moves import moves
 
 Array = NDArray[np.float64]
 
@@ -35,6 +37,8 @@ LEAST_FALL = 0.01
 SAME = 2.0
 #: A part with a smaller share of the torque says nothing about a change of its own.
 LEAST_PART = 0.02
+#: A part that changes steadily by a larger share of its mean has another sign at one end.
+LARGEST = 2.0
 
 
 @dataclass(frozen=True)
@@ -86,7 +90,8 @@ class Trend:
 def trend(fitted: Fit) -> Trend | None:
     """The trend that `fitted` leaves; None where there is none, or a temperature was recorded.
 
-    The model is linearised, and each part multiplied by time is added to it.
+    The model is linearised, and each part multiplied by time is added to it. Nothing is said where
+    fewer than five moves carry the change, or a part would change its sign.
     """
     r = fitted.recording
     if r.temperature is not None or r.averaged or "drift" in fitted.model.effects:
@@ -116,6 +121,9 @@ def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Tre
     values = linear.least_norm(scaled, residual, 1e-8)
     left = residual - scaled @ values
     fall = 1.0 - rms(left) / rms(residual) if rms(residual) > 0.0 else 0.0
+    move = np.maximum(moves(fitted.recording)[fitted.rows], 0)
+    if fall < LEAST_FALL or fewest(np.bincount(move, (residual - left) ** 2)) < FEWEST_MOVES:
+        return None
     batch = batches(left.size, correlation_length(left), fewest=20)
     free = np.ones(scaled.shape[1], dtype=bool)
     covariance, freedom = covariance_of(scaled, left, batch, free, APART)
@@ -124,7 +132,7 @@ def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Tre
     errors = np.sqrt(np.diag(covariance)[-count:]) / size[-count:]
     least = float(scipy.special.stdtrit(freedom, 1.0 - SIGNIFICANCE / 2.0 / count))
     clear = (errors > 0.0) & (np.abs(shares) > least * errors)
-    if fall < LEAST_FALL or not clear.any():
+    if not clear.any() or np.any(np.abs(shares[clear]) > LARGEST):
         return None
     changes = {
         name: Change(float(share), float(error), bool(shown))

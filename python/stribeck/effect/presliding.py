@@ -40,10 +40,11 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
 
 
 def _distance(after: Identified) -> float:
-    """Distance over which friction builds up, rad or m."""
+    """Distance over which friction builds up, rad or m; where the load changes it, at its RMS."""
     m = after.model
     slow = 1e-3 * max(abs(x) for x in m.box["velocity"])
-    return float(m.split(slow)["dry"][0]) / m.value("presliding_stiffness")
+    usual = {"load_torque": m.constants["reference_load"]} if "load" in m.effects else {}
+    return float(m.split(slow, **usual)["dry"][0]) / m.value("presliding_stiffness")
 
 
 def _where(before: Identified, after: Identified) -> str:

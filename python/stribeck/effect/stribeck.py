@@ -54,7 +54,23 @@ def _where(before: Identified, after: Identified) -> str:
     return (
         f"at low speed friction is {number(m.value('stribeck_height'))} {m.load_unit} higher than "
         f"the Coulomb level and falls to it around {number(m.value('stribeck_velocity'))} "
-        f"{m.position_unit}/s"
+        f"{m.position_unit}/s{_under_load(after)}"
+    )
+
+
+def _under_load(after: Identified) -> str:
+    """What a load, of the RMS recorded, adds to the height, where that is the larger part."""
+    m = after.model
+    if "load" not in m.effects:
+        return ""
+    usual = m.constants["reference_load"]
+    part = m.value("load_stribeck") * usual
+    if part <= m.value("stribeck_height"):
+        return ""
+    slow = m.value("stribeck_velocity") * m.value("load_stribeck_ratio")
+    return (
+        f", and under {number(usual)} {m.load_unit} of load {number(part)} {m.load_unit} more, "
+        f"falling around {number(slow)} {m.position_unit}/s"
     )
 
 

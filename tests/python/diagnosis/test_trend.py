@@ -74,3 +74,25 @@ def test_nothing_changes_or_a_thermometer_says_why(tmp_path: Path) -> None:
     assert trend(sb.fit("coulomb", drifting(tmp_path, np.zeros(ROWS)), starts=1)) is None
     warm = joint(-0.15 * COEFFICIENT * V * LATER, rows=ROWS, rate=RATE)
     assert trend(sb.fit("coulomb", record(tmp_path, warm, "warm"), starts=1)) is None
+
+
+def test_a_part_that_would_change_its_sign_says_nothing(tmp_path: Path) -> None:
+    """Viscous friction from -0.3 to 2.3 times its mean: something else is wrong."""
+    fitted = [
+        sb.fit("coulomb", drifting(tmp_path, share * COEFFICIENT * V * (LATER - 0.5)), starts=1)
+        for share in (1.6, 2.6)
+    ]
+    usual, impossible = map(trend, fitted)
+    assert usual is not None and usual.changes[VISCOUS].share == pytest.approx(1.6, rel=0.03)
+    assert impossible is None
+
+
+def test_few_moves_show_no_trend(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A slow and a fast move of three seconds are no change with time."""
+    rows = 300
+    t, _, v, _ = motion(rows)
+    frame = joint(-0.5 * COEFFICIENT * v * t / t[-1], rows=rows).drop("temperature")
+    fitted = sb.fit("coulomb", record(tmp_path, frame), starts=1)
+    assert trend(fitted) is None
+    monkeypatch.setattr("stribeck.diagnosis.trend.FEWEST_MOVES", 0)
+    assert trend(fitted) is not None

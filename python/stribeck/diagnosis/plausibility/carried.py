@@ -7,13 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.diagnosis.carrying import fewest
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.recording.moves import moves
 
 Array = NDArray[np.float64]
-
-#: The share of the gain that is looked at.
-MOST = 0.9
 
 
 @dataclass(frozen=True)
@@ -62,17 +60,3 @@ def squares_of_moves(claim: Claim) -> tuple[Array, Array]:
         for fit in (before, claim.after)
     )
     return without.astype(np.float64), along.astype(np.float64)
-
-
-def fewest(gains: Array) -> int:
-    """How many of `gains`, none negative, sum to 90 % of all.
-
-    Examples
-    --------
-    >>> fewest(np.array([1.0, 8.0, 0.5, 0.5]))
-    2
-    """
-    largest = np.cumsum(np.sort(gains)[::-1])
-    if largest.size == 0 or not largest[-1] > 0.0:
-        return 0
-    return int(np.searchsorted(largest, MOST * largest[-1])) + 1

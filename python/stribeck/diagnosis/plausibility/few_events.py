@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
+from stribeck.diagnosis.carrying import FEWEST_MOVES
 from stribeck.diagnosis.plausibility.carried import Carried, move_of, squares_of_moves
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
-
-#: Moves that must carry an effect.
-FEWEST = 5
 
 
 def few_events(claim: Claim) -> str | None:
     """Why too few moves carry the effect; None where enough do."""
     events = Carried.of(claim).events
-    if events >= FEWEST:
+    if events >= FEWEST_MOVES:
         return None
     carry = "move carries" if events == 1 else "moves carry"
-    return f"only {events} {carry} 90 % of what it gains, and at least {FEWEST} must"
+    return f"only {events} {carry} 90 % of what it gains, and at least {FEWEST_MOVES} must"
 
 
 def one_event(claim: Claim) -> str | None:

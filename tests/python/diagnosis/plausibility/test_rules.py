@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.carrying import fewest
 from stribeck.diagnosis.plausibility.cancelling import cancelling
-from stribeck.diagnosis.plausibility.carried import Carried, fewest
+from stribeck.diagnosis.plausibility.carried import Carried
 from stribeck.diagnosis.plausibility.claim import Claim, term_torques
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
 from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia

@@ -1,0 +1,47 @@
+"""What an effect does under load is said for the load that was recorded."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
+
+import pytest
+import stribeck as sb
+from stribeck.effect.base import Identified
+from stribeck.effect.describe import where
+
+
+def with_values(spec: str, **values: float) -> Identified:
+    """A model with an RMS load of 4 N m, as identified."""
+    made = replace(
+        sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5),
+        box={"velocity": (-1.0, 1.0), "load_torque": (-9.0, 9.0)},
+    )
+    for effect in spec.split("+"):
+        made = made.with_effect(effect, {"reference_load": 4.0} if effect == "load" else {})
+    known = dict(zip(made.names, made.values, strict=True)) | values
+    model = made.with_values([known[name] for name in made.names])  # type: ignore[arg-type]
+    return cast(Identified, SimpleNamespace(model=model))
+
+
+CURVE = {"stribeck_height": 0.5, "stribeck_velocity": 0.2, "stribeck_exponent": 2.0}
+LOAD = {"load_coulomb": 0.25, "load_exponent": 1.0, "load_stribeck_ratio": 2.0}
+
+
+@pytest.mark.parametrize(("part", "said"), [(0.3, True), (0.1, False)])
+def test_a_curve_that_the_load_makes(part: float, said: bool) -> None:
+    """0.3 of 4 N m is more than the 0.5 N m without load, 0.1 of them less."""
+    after = with_values("stribeck+load", **CURVE, **LOAD, load_stribeck=part)
+    text = where("stribeck", after, after)
+    assert "0.5 N m higher than the Coulomb level" in text
+    more = "under 4 N m of load 1.2 N m more, falling around 0.4 rad/s"
+    assert (more in text) is said
+
+
+@pytest.mark.parametrize(("spec", "distance"), [("presliding", 0.02), ("load+presliding", 0.03)])
+def test_bristles_bend_further_under_load(spec: str, distance: float) -> None:
+    values = {"presliding_stiffness": 100.0, "presliding_damping": 0.0}
+    load = {"load_coulomb": 0.25, "load_exponent": 1.0} if "load" in spec else {}
+    after = with_values(spec, **values, **load)
+    assert f"over about {distance} rad" in where("presliding", after, after)
