@@ -13,6 +13,7 @@ from stribeck.cli.common import (
     echo_result,
     json_option,
     recording_options,
+    report_option,
     say,
     seed_option,
     starts_option,
@@ -34,6 +35,7 @@ from stribeck.cli.robot_options import (
     robot_options,
     runs_argument,
 )
+from stribeck.cli.robot_page import robot_report
 from stribeck.motion.design.motion import Limits
 from stribeck.motion.generate.files import file_bytes
 from stribeck.recording.options import ReadOptions
@@ -111,6 +113,7 @@ def show(described: str, as_json: bool) -> None:
 @recording_options
 @seed_option
 @output_option
+@report_option
 @json_option
 def fit(
     runs: tuple[str, ...],
@@ -124,6 +127,7 @@ def fit(
     reading: ReadOptions,
     seed: int,
     output: str | None,
+    report: str | None,
     as_json: bool,
 ) -> None:
     """Identify base parameters of the rigid bodies and the friction of every joint."""
@@ -140,6 +144,7 @@ def fit(
         seed=seed,
     )
     _save(found, output)
+    robot_report(found, report)
     echo_result(found, as_json, lambda: robot_toml(found))
 
 
@@ -159,6 +164,7 @@ def _save(found: RobotFit, output: str | None) -> None:
 @starts_option
 @recording_options
 @seed_option
+@report_option
 @json_option
 def compare(
     arguments: tuple[str, ...],
@@ -169,6 +175,7 @@ def compare(
     starts: int,
     reading: ReadOptions,
     seed: int,
+    report: str | None,
     as_json: bool,
 ) -> None:
     """Compare laws, each on all joints, with RUNS."""
@@ -180,6 +187,7 @@ def compare(
     found = compare_robots(
         motion, specs, payload=payload, evaluate=others, starts=starts, seed=seed
     )
+    robot_report(found, report)
     echo_result(found, as_json)
 
 
@@ -227,6 +235,7 @@ def diagnose(
     show_default=True,
     help="Largest number of effects to add to one joint.",
 )
+@report_option
 def improve(
     runs: tuple[str, ...],
     described: Robot,
@@ -241,6 +250,7 @@ def improve(
     starts: int,
     reading: ReadOptions,
     seed: int,
+    report: str | None,
     as_json: bool,
 ) -> None:
     """Add to each joint the effects that it lacks, all joints identified together on RUNS."""
@@ -260,6 +270,7 @@ def improve(
         progress=lambda sentence: say(f"note: {sentence}"),
     )
     _save(found.final, output)
+    robot_report(found, report)
     echo_result(found, as_json, lambda: robot_toml(found.final))
 
 

@@ -51,26 +51,30 @@ def robot_fit_text(found: RobotFit) -> str:
     balance = found.solved.balance
     runs = balance.motion.joints[0].run_names
     from_runs = f"{len(runs)} runs" if len(runs) > 1 else "1 run"
-    bodies = (
-        "Bodies of positive mass density have these base parameters."
-        if found.consistent
-        else "No bodies of positive mass density have these base parameters: the nearest ones are "
-        f"{found.bodies.deviation:.1f} standard errors away."
-    )
     return joined(
         f"{balance.base.robot.name}: {len(found.joints)} joints, {balance.motion.rows} samples, "
         f"{from_runs}; low-pass {balance.motion.cutoff:.3g} Hz on both sides",
         errors_text(found.joints, found.ordinary, balance.held_out),
         friction_text(found.joints),
         _base_text(found),
-        bodies,
-        "" if found.payload is None else _payload_text(found.payload),
+        bodies_sentence(found),
+        "" if found.payload is None else paragraph(payload_sentence(found.payload), 0),
         *(evaluated_text(found.joints, row) for row in found.evaluated),
     )
 
 
-def errors_text(joints: Sequence[JointFit], ordinary: Sequence[JointFit], held_out: str) -> str:
-    """The errors of each joint beside those of the ordinary model."""
+def bodies_sentence(found: RobotFit) -> str:
+    """Whether links that can exist have the identified base parameters."""
+    if found.consistent:
+        return "Bodies of positive mass density have these base parameters."
+    return (
+        "No bodies of positive mass density have these base parameters: the nearest ones are "
+        f"{found.bodies.deviation:.1f} standard errors away."
+    )
+
+
+def errors_rows(joints: Sequence[JointFit], ordinary: Sequence[JointFit]) -> list[list[str]]:
+    """The errors of each joint beside those of the ordinary model; the heading first."""
     rows = [["joint", "model", "RMSE held out", "", "relative", "ordinary", "ratio"]]
     for mine, other in zip(joints, ordinary, strict=True):
         relative, before = mine.relative_residual_held_out, other.relative_residual_held_out
@@ -80,11 +84,21 @@ def errors_text(joints: Sequence[JointFit], ordinary: Sequence[JointFit], held_o
         rows.append(
             [mine.joint, mine.model.spec, rmse, unit, percent(relative), percent(before), ratio]
         )
-    legend = (
+    return rows
+
+
+def errors_legend(held_out: str) -> str:
+    """What the columns of the errors mean."""
+    return (
         f"relative: held-out residual over torque, both filtered; held out by {held_out}. "
         "ordinary: the same with Coulomb and viscous friction and a constant on each joint."
     )
-    return joined(table(rows, right=[2, 4, 5, 6]), paragraph(legend, 2))
+
+
+def errors_text(joints: Sequence[JointFit], ordinary: Sequence[JointFit], held_out: str) -> str:
+    """The errors of each joint beside those of the ordinary model."""
+    rows = table(errors_rows(joints, ordinary), right=[2, 4, 5, 6])
+    return joined(rows, paragraph(errors_legend(held_out), 2))
 
 
 def friction_text(joints: Sequence[JointFit]) -> str:
@@ -101,36 +115,48 @@ def friction_text(joints: Sequence[JointFit]) -> str:
     return table(rows, right=[2])
 
 
-def _base_text(found: RobotFit) -> str:
+def base_rows(found: RobotFit, most: int | None = None) -> list[list[str]]:
+    """Base parameters, the most certain first; the heading before them."""
     shown = sorted(found.base_parameters, key=lambda b: b.stderr / (abs(b.value) or 1e-300))
     rows = [["base parameter", "value", "error", "unit"]]
-    for row in shown[:MOST_ROWS]:
+    for row in shown[:most]:
         value, error = with_error(row.value, row.stderr)
-        text = row.combination if len(row.combination) < 60 else f"{row.combination[:57]}..."
-        rows.append([text, value, f"± {error}", row.unit])
-    left = len(shown) - MOST_ROWS
+        rows.append([row.combination, value, f"± {error}", row.unit])
+    return rows
+
+
+def _base_text(found: RobotFit) -> str:
+    heading, *rows = base_rows(found, MOST_ROWS)
+    cut = [[text if len(text) < 60 else f"{text[:57]}...", *rest] for text, *rest in rows]
+    left = len(found.base_parameters) - MOST_ROWS
     more = f"  and {left} more, less certain: --json has all" if left > 0 else ""
-    return table(rows, right=[1]) + (f"\n{more}" if more else "")
+    return table([heading, *cut], right=[1]) + (f"\n{more}" if more else "")
 
 
-def _payload_text(payload: Payload) -> str:
+def payload_sentence(payload: Payload) -> str:
+    """The mass of a payload with its interval."""
     low, high = payload.mass_ci95
     runs = ", ".join(payload.runs)
-    return paragraph(
+    return (
         f"Payload in {runs}: {plain(payload.mass, 4)} kg, 95 % interval {plain(low, 4)} to "
-        f"{plain(high, 4)} kg. It scales with the drive gains, which are taken as exact.",
-        0,
+        f"{plain(high, 4)} kg. It scales with the drive gains, which are taken as exact."
     )
 
 
-def evaluated_text(joints: Sequence[JointFit], row: Evaluated) -> str:
-    """Errors on a recording that nothing was fitted to."""
+def evaluated_rows(joints: Sequence[JointFit], row: Evaluated) -> list[list[str]]:
+    """Errors on a recording that nothing was fitted to; the heading first."""
     rows = [["joint", "relative", "ordinary", "ratio"]]
     for joint, mine, other, ratio in zip(
         joints, row.relative_residual, row.ordinary, row.ratio, strict=True
     ):
         rows.append([joint.joint, percent(mine), percent(other), f"{ratio:.2f}"])
-    return f"{Path(row.path).name}, not fitted:\n{table(rows, right=[1, 2, 3])}"
+    return rows
+
+
+def evaluated_text(joints: Sequence[JointFit], row: Evaluated) -> str:
+    """Errors on a recording that nothing was fitted to."""
+    rows = table(evaluated_rows(joints, row), right=[1, 2, 3])
+    return f"{Path(row.path).name}, not fitted:\n{rows}"
 
 
 def robot_comparison_text(compared: RobotComparison) -> str:
@@ -171,18 +197,19 @@ def robot_diagnosis_text(found: RobotDiagnosis) -> str:
     return joined(
         table(rows, right=[3]),
         causes_text(found.rigid_body),
-        "" if found.fit.payload is None else _payload_text(found.fit.payload),
+        "" if found.fit.payload is None else paragraph(payload_sentence(found.fit.payload), 0),
     )
 
 
-def causes_text(found: Sequence[Found]) -> str:
-    """Causes in the rigid bodies, best first."""
-    if not found:
-        return paragraph(
-            "Rigid bodies: no payload, spring, coupled rotor or tilt of the base lowers the "
-            "held-out error significantly.",
-            0,
-        )
+#: What is said where nothing is found in the rigid bodies.
+NO_CAUSES = (
+    "Rigid bodies: no payload, spring, coupled rotor or tilt of the base lowers the held-out error "
+    "significantly."
+)
+
+
+def causes_rows(found: Sequence[Found]) -> list[list[str]]:
+    """Causes in the rigid bodies, best first; the heading before them."""
     rows = [["in the rigid bodies", "error of all joints", "most on joint", "confidence"]]
     for one in found:
         joint, fall = one.joints[0]
@@ -190,11 +217,16 @@ def causes_text(found: Sequence[Found]) -> str:
         rows.append(
             [one.cause.text, error, f"{joint} ({percent(fall)} less)", percent(one.confidence)]
         )
-    return table(rows)
+    return rows
 
 
-def robot_improvement_text(found: RobotImprovement) -> str:
-    """The effects added to each joint, and the robot with them."""
+def causes_text(found: Sequence[Found]) -> str:
+    """Causes in the rigid bodies, best first."""
+    return table(causes_rows(found)) if found else paragraph(NO_CAUSES, 0)
+
+
+def added_rows(found: RobotImprovement) -> list[list[str]]:
+    """The effects added to each joint; the heading first."""
     rows = [["joint", "added", "RMSE held out", "", "relative"]]
     for name, steps in found.steps.items():
         for step in steps:
@@ -206,6 +238,12 @@ def robot_improvement_text(found: RobotImprovement) -> str:
             )
             unit = after.model.torque_unit
             rows.append([name, step.finding.effect, rmse, unit, relative])
+    return rows
+
+
+def robot_improvement_text(found: RobotImprovement) -> str:
+    """The effects added to each joint, and the robot with them."""
+    rows = added_rows(found)
     added = table(rows, right=[2, 4]) if len(rows) > 1 else "No effect is added."
     where = [
         paragraph(f"joint {name}, {step.finding.effect}: {step.finding.where}.", 2, 2)

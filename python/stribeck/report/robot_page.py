@@ -1,0 +1,181 @@
+"""Pages on robots: errors, what each joint has and lacks, rigid bodies, joint by joint."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from stribeck.effect.describe import physically
+from stribeck.report.numbers import confidence_words, percent, plain, unit_text
+from stribeck.report.page import picture_text, render
+from stribeck.report.page_figures import NO_FIGURES
+from stribeck.report.parameters import interval_text, parameter_rows
+from stribeck.report.robot import (
+    NO_CAUSES,
+    added_rows,
+    base_rows,
+    bodies_sentence,
+    causes_rows,
+    errors_legend,
+    errors_rows,
+    evaluated_rows,
+    payload_sentence,
+)
+from stribeck.report.robot_figure import robot_figure
+from stribeck.report.sections import Section
+from stribeck.report.versions import versions
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from stribeck.diagnosis.result import Diagnosis
+    from stribeck.robot.compare import RobotComparison
+    from stribeck.robot.improve import RobotImprovement, RobotStep
+    from stribeck.robot.result import JointFit, RobotFit
+
+PICTURE = "Friction of every joint over its velocity, measured and modelled"
+
+
+def robot_fit_page(found: RobotFit, command: str = "") -> str:
+    """A page on an identified robot.
+
+    Parameters
+    ----------
+    command
+        The command that made it.
+    """
+    sections = [_errors(found), *_evaluated(found), *_joints(found, {}, {}), _bodies(found)]
+    return _page(found, "rigid bodies and friction of all joints", sections, command)
+
+
+def robot_comparison_page(compared: RobotComparison, command: str = "") -> str:
+    """A page on several models of all joints; the figure is of the last one."""
+    last = compared.fits[-1]
+    heading = ["joint", *compared.specs]
+    rows = [
+        [joint.joint, *(percent(fit.joints[k].relative_residual_held_out) for fit in compared.fits)]
+        for k, joint in enumerate(last.joints)
+    ]
+    said = ["Held-out residual over torque, both filtered."]
+    sections = [Section("Models side by side", said, [[heading, *rows]])]
+    for spec, found in zip(compared.specs, compared.fits, strict=True):
+        tables = [evaluated_rows(found.joints, row) for row in found.evaluated]
+        names = [f"{Path(row.path).name}, not fitted." for row in found.evaluated]
+        sections.append(Section(spec, [*names, bodies_sentence(found)], tables))
+    sections += _joints(last, {}, {})
+    return _page(last, "models of all joints side by side", sections, command)
+
+
+def robot_improvement_page(found: RobotImprovement, command: str = "") -> str:
+    """A page on what every joint lacked, and the robot with it."""
+    final, added = found.final, added_rows(found)
+    causes = causes_rows(found.rigid_body)
+    said = [] if len(added) > 1 else ["No effect is added."]
+    said += [] if found.rigid_body else [NO_CAUSES]
+    tables = [rows for rows in (added, causes) if len(rows) > 1]
+    sections = [
+        Section("What was missing", said, tables),
+        _errors(final),
+        *_evaluated(final),
+        *_joints(final, found.steps, found.last),
+        _bodies(final),
+    ]
+    return _page(final, "what every joint lacks", sections, command)
+
+
+def _page(found: RobotFit, about: str, sections: Sequence[Section], command: str) -> str:
+    balance = found.solved.balance
+    motion = balance.motion
+    names = motion.joints[0].run_names
+    runs = f"runs {', '.join(names)}" if len(names) > 1 else "one run"
+    return render(
+        "sections.html",
+        name=balance.base.robot.name,
+        about=about,
+        summary=(
+            f"{len(found.joints)} joints, {motion.rows} samples, {runs}. Both sides of the torque "
+            f"balance pass a low-pass at {motion.cutoff:.3g} Hz."
+        ),
+        pictures=[(PICTURE, picture_text(robot_figure(found)))],
+        figures=NO_FIGURES,
+        sections=sections,
+        command=command,
+        versions=versions(),
+    )
+
+
+def _errors(found: RobotFit) -> Section:
+    held_out = found.solved.balance.held_out
+    rows = errors_rows(found.joints, found.ordinary)
+    return Section("Errors of the joints", [errors_legend(held_out)], [rows])
+
+
+def _evaluated(found: RobotFit) -> list[Section]:
+    return [
+        Section(
+            f"{Path(row.path).name}, not fitted",
+            ["Nothing was fitted to this recording, and nothing was chosen by it."],
+            [evaluated_rows(found.joints, row)],
+        )
+        for row in found.evaluated
+    ]
+
+
+def _joints(
+    found: RobotFit,
+    steps: Mapping[str, Sequence[RobotStep]],
+    last: Mapping[str, Diagnosis],
+) -> list[Section]:
+    """One section a joint: its model, what was added and why, its parameters."""
+    made = []
+    for joint in found.joints:
+        said = [
+            f"Model {joint.model.spec}; held-out RMSE {plain(joint.rmse_held_out)} "
+            f"{unit_text(joint.model.torque_unit)}."
+        ]
+        said += [_step(step) for step in steps.get(joint.joint, ())]
+        if joint.joint in last:
+            said += _verdict(last[joint.joint])
+        made.append(Section(f"Joint {joint.joint}", said, [_parameters(joint)]))
+    return made
+
+
+def _step(step: RobotStep) -> str:
+    finding = step.finding
+    where = f" {finding.where[:1].upper()}{finding.where[1:]}." if finding.where else ""
+    others = finding.indistinguishable_from
+    ties = f" On this data it cannot be told from {' or '.join(others)}." if others else ""
+    return (
+        f"{finding.effect}, {confidence_words(finding.confidence)}: "
+        f"{physically(finding.effect, step.after.model)} Held-out RMSE "
+        f"{plain(step.before.rmse_held_out)} → {plain(step.after.rmse_held_out)} "
+        f"{unit_text(step.after.model.torque_unit)}.{where}{ties}"
+    )
+
+
+def _verdict(last: Diagnosis) -> list[str]:
+    """What remains of a joint, and what its motion cannot show."""
+    said = []
+    if last.verdict == "unexplained":
+        said.append("Structure remains in its residual that no effect of the catalog explains.")
+    if last.untestable:
+        names = ", ".join(row.effect for row in last.untestable)
+        said.append(f"This motion cannot show: {names}.")
+    return said
+
+
+def _parameters(joint: JointFit) -> list[list[str]]:
+    estimates = list(joint.estimates.values())
+    heading = ["parameter", "symbol", "value", "error", "95 % interval", "unit", "relative", ""]
+    rows = zip(parameter_rows(estimates), estimates, strict=True)
+    return [heading, *([*row[:4], interval_text(e), *row[4:]] for row, e in rows)]
+
+
+def _bodies(found: RobotFit) -> Section:
+    said = [bodies_sentence(found)]
+    if found.payload is not None:
+        said.append(payload_sentence(found.payload))
+    hidden = found.solved.balance.base.not_shown
+    if hidden:
+        said.append(f"No torque shows: {', '.join(hidden)}.")
+    return Section("Rigid bodies", said, [base_rows(found)])

@@ -1,0 +1,60 @@
+"""Pages on robots: every joint has its section, and nothing is fetched."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.recording.options import ReadOptions
+from stribeck.report.robot_page import (
+    robot_comparison_page,
+    robot_fit_page,
+    robot_improvement_page,
+)
+from stribeck.robot.compare import compare_robots
+from stribeck.robot.fit import fit_robot
+from stribeck.robot.improve import improve_robot
+from stribeck.robot.motion import RobotMotion, read_motion
+from stribeck.robot.simulate import COLUMNS, simulate_robot
+from stribeck.robot.tables import from_tables
+
+
+@pytest.fixture(scope="module")
+def motion(tmp_path_factory: pytest.TempPathFactory) -> RobotMotion:
+    tip = [2.0, 0.6, 0.0, 0.0, 0.01, 0.0, 0.25, 0.0, 0.0, 0.25, 0.1]
+    bare = from_tables("planar", [{"a": 0.5}, {"a": 0.5}], gravity=(0.0, -9.81, 0.0))
+    arm = bare.with_bodies(np.array([tip, tip]))
+    law = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=1.0)
+    path = tmp_path_factory.mktemp("run") / "run.parquet"
+    made = simulate_robot(arm, dict.fromkeys(arm.names, law), seconds=15.0, rate=50.0, noise=0.01)
+    made.write_parquet(path)
+    reading = ReadOptions(map=[f"{channel}={column}" for channel, column in COLUMNS])
+    return read_motion(arm, [str(path)], reading)
+
+
+def test_a_page_of_a_fit(motion: RobotMotion) -> None:
+    page = robot_fit_page(fit_robot(motion), "stribeck robot fit")
+    for words in (
+        "planar",
+        "Joint 1",
+        "Joint 2",
+        "Rigid bodies",
+        "stribeck robot fit",
+        "N m s/rad",
+    ):
+        assert words in page
+    assert "http://" not in page.replace("http://www.w3.org", "")
+    assert page.count("data:image/png") == 1
+
+
+def test_a_page_of_models_side_by_side(motion: RobotMotion) -> None:
+    compared = compare_robots(motion, ["coulomb", "coulomb+offset"])
+    page = robot_comparison_page(compared)
+    assert "Models side by side" in page
+    assert page.count("<h2>coulomb") == 2
+
+
+def test_a_page_of_what_is_missing(motion: RobotMotion) -> None:
+    page = robot_improvement_page(improve_robot(motion, most_steps=0))
+    assert "No effect is added." in page
+    assert "What was missing" in page
