@@ -70,14 +70,14 @@ impl<P: Number> Tree<'_, P> {
     ) {
         self.place(position, links);
         let lifted = Twist { angular: zero(), linear: -Vector::from(self.gravity) };
-        for (k, body) in self.bodies.iter().enumerate() {
-            let (before, here) = links.split_at_mut(k);
-            let (carried, lift) = match body.parent {
-                Some(parent) => (before[parent].velocity, before[parent].acceleration),
+        let joints = self.bodies.iter().zip(velocity.iter().zip(acceleration));
+        for (k, (body, (&v, &a))) in joints.enumerate() {
+            let Some((before, [link, ..])) = links.split_at_mut_checked(k) else { return };
+            let (carried, lift) = match body.parent.and_then(|parent| before.get(parent)) {
+                Some(parent) => (parent.velocity, parent.acceleration),
                 None => (Twist::zero(), lifted),
             };
-            let link = &mut here[0];
-            let (axis, v, a) = (body.twist(), velocity[k], acceleration[k]);
+            let axis = body.twist();
             let mut moved = carried.at(&link.pose);
             let mut pushed = lift.at(&link.pose);
             // The parent turns: its origin accelerates the arm `translation` towards the centre.
@@ -94,7 +94,8 @@ impl<P: Number> Tree<'_, P> {
         }
     }
 
-    /// Torques (N m or N) of the joints for a motion: recursive Newton-Euler.
+    /// Torques (N m or N) of the joints for a motion: recursive Newton-Euler. It cannot panic: a
+    /// parent that does not stand before its link is taken for the base.
     pub fn inverse_dynamics(
         &self,
         position: &[P],
@@ -107,12 +108,9 @@ impl<P: Number> Tree<'_, P> {
         for (body, link) in self.bodies.iter().zip(links.iter_mut()) {
             link.wrench = needed(&body.inertial, link);
         }
-        for (k, body) in self.bodies.iter().enumerate().rev() {
-            let LinkState { wrench, pose, .. } = links[k];
-            torque[k] = body.torque(&wrench) + body.rotor * acceleration[k];
-            if let Some(parent) = body.parent {
-                links[parent].wrench.add(&wrench.carried(&pose));
-            }
+        self.sum_wrenches(links, torque);
+        for ((body, torque), a) in self.bodies.iter().zip(torque).zip(acceleration) {
+            *torque += body.rotor * *a;
         }
     }
 
@@ -121,17 +119,24 @@ impl<P: Number> Tree<'_, P> {
         self.place(position, links);
         let lift = -Vector::from(self.gravity);
         for (k, body) in self.bodies.iter().enumerate() {
-            let carried = body.parent.map_or(lift, |parent| links[parent].acceleration.linear);
-            let up = links[k].pose.turned_back(&carried);
-            links[k].acceleration.linear = up;
+            let Some((before, [link, ..])) = links.split_at_mut_checked(k) else { return };
+            let carrier = body.parent.and_then(|parent| before.get(parent));
+            let up = link.pose.turned_back(&carrier.map_or(lift, |own| own.acceleration.linear));
+            link.acceleration.linear = up;
             let Inertial { mass, moment, .. } = body.inertial;
-            links[k].wrench = Wrench { torque: moment.cross(&up), force: up * mass };
+            link.wrench = Wrench { torque: moment.cross(&up), force: up * mass };
         }
-        for (k, body) in self.bodies.iter().enumerate().rev() {
-            let LinkState { wrench, pose, .. } = links[k];
-            torque[k] = body.torque(&wrench);
-            if let Some(parent) = body.parent {
-                links[parent].wrench.add(&wrench.carried(&pose));
+        self.sum_wrenches(links, torque);
+    }
+
+    /// Adds to each link's wrench those of the links that it carries: what the joints' torques need
+    /// for it.
+    fn sum_wrenches(&self, links: &mut [LinkState<P>], torque: &mut [P]) {
+        for (k, (body, torque)) in self.bodies.iter().zip(torque).enumerate().rev() {
+            let Some((before, [link, ..])) = links.split_at_mut_checked(k) else { return };
+            *torque = body.torque(&link.wrench);
+            if let Some(carrier) = body.parent.and_then(|parent| before.get_mut(parent)) {
+                carrier.wrench.add(&link.wrench.carried(&link.pose));
             }
         }
     }

@@ -23,6 +23,7 @@ BARS = {
     ("bittencourt_a", "Cortex-M4F"): (240, 240),
     ("bittencourt_a_squared", "Cortex-M4F"): (110, 110),
     ("lugre_squared", "Cortex-M7"): (165, 190),
+    ("robot_feedforward", "Cortex-M7"): (12_000, 12_000),
 }
 
 

@@ -25,11 +25,15 @@ HOST = threading.Lock()
 
 @dataclass(frozen=True)
 class Tested:
-    """What an image steps, and how many of a board's steps are hashed: one in `share`."""
+    """What an image steps, and how many of a board's steps are hashed: one in `share`.
+
+    `emulated_floats`: also on processors without floating-point hardware.
+    """
 
     name: str
     features: tuple[str, ...]
     share: int
+    emulated_floats: bool = True
 
     def steps(self, board: Board) -> int:
         """The number of steps that are hashed."""
@@ -37,7 +41,11 @@ class Tested:
 
 
 # A step of the arm solves equations, within each other, so it takes longer.
-TESTED = (Tested("every law", (), 1), Tested("the arm", ("arm",), 50))
+TESTED = (
+    Tested("every law", (), 1),
+    Tested("the arm", ("arm",), 50),
+    Tested("the robot", ("robot",), 50, emulated_floats=False),
+)
 
 
 @dataclass(frozen=True)
@@ -53,6 +61,17 @@ class Board:
     flags: str = ""
     # For a C compiler, where exported C and the C interface run too.
     c_flags: tuple[str, ...] = ()
+
+    @property
+    def folder(self) -> Path:
+        """Where its images are built."""
+        return toolchain.BUILD / f"{self.name}-{self.number}"
+
+    @property
+    def tested(self) -> tuple[Tested, ...]:
+        """What is stepped on it."""
+        hardware = self.target.endswith("hf")
+        return tuple(each for each in TESTED if hardware or each.emulated_floats)
 
 
 BOARDS = (
@@ -74,6 +93,14 @@ BOARDS = (
         1_000_000,
         flags="-Ctarget-cpu=cortex-m7",
         c_flags=("-mcpu=cortex-m7", "-mthumb", "-mfpu=fpv5-d16", "-mfloat-abi=hard"),
+    ),
+    Board(
+        "Cortex-M7",
+        "thumbv7em-none-eabihf",
+        "mps2-an500",
+        "f32",
+        100_000,
+        flags="-Ctarget-cpu=cortex-m7",
     ),
 )
 
@@ -97,7 +124,7 @@ def build(board: Board, binary: str, tested: Tested = TESTED[0]) -> Path:
         folder=FIRMWARE,
         hashed=tested.steps(board),
     )
-    return toolchain.BUILD / board.name / board.target / "release" / binary
+    return board.folder / board.target / "release" / binary
 
 
 def build_interface(board: Board) -> Path:
@@ -108,7 +135,7 @@ def build_interface(board: Board) -> Path:
         *("rustc", "--package=stribeck-c", "--no-default-features", "--crate-type=staticlib"),
         folder=interface,
     )
-    release = toolchain.BUILD / board.name / board.target / "release"
+    release = board.folder / board.target / "release"
     program = release / "interface"
     subprocess.run(
         [
@@ -141,7 +168,7 @@ def _cargo(board: Board, *arguments: str, folder: Path, hashed: int = 0) -> None
         cwd=folder,
         env={
             **os.environ,
-            "CARGO_TARGET_DIR": str(toolchain.BUILD / board.name),
+            "CARGO_TARGET_DIR": str(board.folder),
             "RUSTC": str(toolchain.RUSTC),
             "RUSTFLAGS": f"--sysroot={root} -Clinker=arm-none-eabi-ld -Clinker-flavor=ld "
             f"-Clink-arg=--defsym=memory_size={board.memory} "

@@ -1,17 +1,21 @@
-//! The code that runs on the host and on the microcontroller: laws, an arm, a motion as input, and a
-//! hash of what they answer.
+//! The code that runs on the host and on the microcontroller: laws, an arm, a robot, a motion as
+//! input, and a hash of what they answer.
 #![no_std]
 
-// A program has one of them, so that neither changes how the compiler inlines the other.
+// A program has one of them, so that none changes how the compiler inlines another.
 #[cfg(feature = "arm")]
 mod arm;
-#[cfg(not(feature = "arm"))]
+#[cfg(not(any(feature = "arm", feature = "robot")))]
 mod laws;
+#[cfg(feature = "robot")]
+mod robot;
 
 #[cfg(feature = "arm")]
 pub use arm::{COUNTED, Joints, PROBED, STEPS, VALUES};
-#[cfg(not(feature = "arm"))]
+#[cfg(not(any(feature = "arm", feature = "robot")))]
 pub use laws::{COUNTED, Joints, PROBED, STEPS, VALUES};
+#[cfg(feature = "robot")]
+pub use robot::{COUNTED, Joints, PROBED, STEPS, VALUES};
 
 /// The number type that is tested.
 #[cfg(not(feature = "double"))]
