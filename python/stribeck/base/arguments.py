@@ -42,6 +42,11 @@ def _path(name: str, value: object) -> None:
         raise SpecError(f"`{name}` is {shown(value)}: a path has no null character")
 
 
+def _paths(name: str, value: object) -> None:
+    if isinstance(value, str | os.PathLike) or not isinstance(value, Iterable):
+        raise SpecError(f"`{name}` is {shown(value)}: give a list of paths")
+
+
 def _text(name: str, value: object) -> None:
     if not isinstance(value, str):
         raise SpecError(f"`{name}` is {shown(value)}: give a text")
@@ -91,6 +96,8 @@ RULES: dict[str, Rule] = {
     "box": _box,
     "folder": _path,
     "path": _path,
+    "output": _path,
+    "files": _paths,
 }
 
 
@@ -131,7 +138,7 @@ def door(
                 raise TypeError(f"{function.__name__}() {failure}") from None
             for name, value in given.items():
                 if name in kinds:
-                    _check_kind(name, value, *kinds[name])
+                    _check_kind(name, value, *kinds[name], given)
                 elif name in RULES:
                     RULES[name](name, value)
             try:
@@ -149,6 +156,16 @@ def door(
     return decorate
 
 
-def _check_kind(name: str, value: object, words: str, kinds: type | tuple[type, ...]) -> None:
-    if not isinstance(value, kinds):
-        raise SpecError(f"`{name}` is {shown(value)}: give {words}")
+def _check_kind(
+    name: str,
+    value: object,
+    words: str,
+    kinds: type | tuple[type, ...],
+    given: Mapping[str, object],
+) -> None:
+    if isinstance(value, kinds):
+        return
+    # What was to be given stands in another place.
+    swapped = next((other for other, one in given.items() if isinstance(one, kinds)), None)
+    hint = "" if swapped is None else f"; are `{name}` and `{swapped}` swapped?"
+    raise SpecError(f"`{name}` is {shown(value)}: give {words}{hint}")

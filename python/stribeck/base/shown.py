@@ -45,6 +45,10 @@ class Shown:
         function = _registered(type(self), "text")
         return object.__repr__(self) if function is None else str(_load(function)(self))
 
+    def summary(self) -> str:
+        """The result as the command line prints it."""
+        return repr(self)
+
     def _repr_html_(self) -> str:
         function = _registered(type(self), "notebook")
         if function is not None:

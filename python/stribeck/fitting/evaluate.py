@@ -11,13 +11,10 @@ import numpy as np
 from stribeck.base.arguments import door
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.evaluated import Evaluated
-from stribeck.fitting.prediction import refuse_infinite
+from stribeck.fitting.predict import predicted
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.estimates import Estimate
 from stribeck.identify.figures import relative_residual, rms
-from stribeck.identify.problem import Problem
-from stribeck.identify.scaling import check_channels
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
@@ -43,17 +40,7 @@ def evaluate(
     """
     began = time.perf_counter()
     recording = as_one(recording)
-    recording.require_consistent()
-    check_channels(model, recording)
-    if recording.load_torque is not None and model.rigid_body:
-        raise FitError(
-            f"the model {model.spec} contains an identified rigid body, and {recording.path} "
-            f"has load_torque: use a model that was fitted on data with load_torque"
-        )
-    load = own_load(model, recording)
-    problem = Problem(recording, model, np.flatnonzero(recording.moving), load)
-    prediction = problem.predict(model.values)
-    refuse_infinite(problem, prediction)
+    prediction, load = predicted(model, recording)
     residual, moving = recording.torque - prediction, recording.moving
     known = {fitted_on} if isinstance(fitted_on, str) else set(fitted_on or ())
     same = not known.isdisjoint(recording.hashes)

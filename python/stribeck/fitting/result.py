@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from os import PathLike
 from typing import Literal
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from stribeck.base.errors import StribeckError
+from stribeck.base.arguments import door
+from stribeck.base.errors import ModelFileError, StribeckError
 from stribeck.base.shown import Plotted
 from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.exogenous import tested
+from stribeck.fitting.predict import predicted
 from stribeck.fitting.stated import PLAIN, HeldConstraint, Under
 from stribeck.identify.confounded import Combination
 from stribeck.identify.ends import StartsReport
@@ -26,10 +29,13 @@ from stribeck.identify.matrix import ParameterMatrix
 from stribeck.identify.transients import stretches
 from stribeck.identify.uncertain_direction import uncertain_direction
 from stribeck.identify.weights import root_weights, weighted, weighted_rms
+from stribeck.models.fitted import note_origin
 from stribeck.models.model import Model
+from stribeck.models.model_file import ModelFile
 from stribeck.passivity.check import check
 from stribeck.passivity.imposed import PassiveCost
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.concat import Recordings, as_one
 
 Array = NDArray[np.float64]
 
@@ -106,6 +112,46 @@ class Fit(Plotted):
     _answers: dict[str, bool | None] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
+
+    def __post_init__(self) -> None:
+        if self.outcome != "not refitted":
+            note_origin(self.model, ModelFile.of(self).origin)
+
+    def predict(self, recording: Recordings) -> Array:
+        """The effort that the model predicts on a recording, measured motion in.
+
+        Parameters
+        ----------
+        recording : Recording or sequence of them
+            Of the same kind of joint. Its torque is not read.
+
+        Returns
+        -------
+        array [n]
+            Torque or force of every sample, in the unit of the fit.
+
+        Raises
+        ------
+        FitError
+            It lacks a channel that the model reads.
+
+        Examples
+        --------
+        >>> fit = sb.fit("coulomb", monday)  # doctest: +SKIP
+        >>> tuesday.torque - fit.predict(tuesday)  # doctest: +SKIP
+        """
+        return predicted(self.model, as_one(recording))[0]
+
+    @door(ModelFileError)
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the model file (TOML), with standard errors and what the model was fitted to.
+
+        Raises
+        ------
+        ModelFileError
+            The path cannot be written.
+        """
+        ModelFile.of(self).write(path)
 
     @property
     def residual(self) -> Array:

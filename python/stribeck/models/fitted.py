@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol, TypeAlias, TypedDict, runtime_checkable
 
 if TYPE_CHECKING:
@@ -29,6 +30,29 @@ class FittedOn(TypedDict, total=False):
 
 #: Value and standard error of a parameter in each run, by parameter and run.
 PerRun: TypeAlias = Mapping[str, Mapping[str, tuple[float, float | None]]]
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where the values of a model come from: what a model file keeps besides them.
+
+    Attributes
+    ----------
+    stderr
+        Standard errors by parameter.
+    """
+
+    stderr: Mapping[str, float] = field(default_factory=dict)
+    fitted_on: FittedOn = field(default_factory=FittedOn)
+    per_run: PerRun = field(default_factory=dict)
+
+
+def note_origin(model: Model, origin: Origin) -> None:
+    """Keep where the values of a model come from, for `Model.save`.
+
+    A model that is made from it by other values, or by `dataclasses.replace`, has no origin.
+    """
+    object.__setattr__(model, "_origin", origin)
 
 
 @runtime_checkable

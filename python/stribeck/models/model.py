@@ -6,7 +6,6 @@ The mathematics is in the compiled core; this module adds names, units and value
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
@@ -23,6 +22,7 @@ from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
 from stribeck.models.channels import columns, constant, finite, split_columns
 from stribeck.models.compiled import compiled
 from stribeck.models.drive import ARMATURE, KNOWN, VoltageDrive
+from stribeck.models.fitted import Origin
 from stribeck.models.formula_law import FormulaTerms, check_names, effect_terms, is_formula
 from stribeck.models.parameter import Parameter, declared
 from stribeck.models.stated import Stated
@@ -86,6 +86,7 @@ class Model:
     own: tuple[FormulaTerms, ...] = ()
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     stated: Stated = field(default_factory=Stated)
+    _origin: Origin = field(default_factory=Origin, init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         if self.own:
@@ -208,9 +209,8 @@ class Model:
 
     def with_values(self, values: ArrayLike) -> Model:
         """The same model with other values, array [p]."""
-        # A copy shares the compiled model.
-        made = copy(self)
-        object.__setattr__(made, "values", np.asarray(values, dtype=np.float64))
+        made = object.__new__(Model)  # it shares what is compiled
+        vars(made).update(vars(self), _origin=Origin(), values=np.asarray(values, dtype=float))
         made.__post_init__()
         return made
 
@@ -374,8 +374,7 @@ class Model:
             A parameter has no value yet.
         """
         if not np.isfinite(self.values).all():
-            pairs = zip(self.names, self.values, strict=True)
-            unknown = [name for name, value in pairs if not np.isfinite(value)]
+            unknown = [self.names[k] for k in np.flatnonzero(~np.isfinite(self.values))]
             raise SpecError(
                 f"{self.spec} has no value for {listed(unknown)}: fit the model or give values"
             )
@@ -385,16 +384,17 @@ class Model:
     def _friction_values(self) -> Array:
         if self.drive is None:
             return self.values
-        own = {row["name"] for row in self.core.parameters()}
+        own = [row["name"] for row in self.core.parameters()]
         return self.values[[name in own for name in self.names]]
 
     @door(ModelFileError)
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the model file (TOML).
+        """Write the model file (TOML), with the errors and provenance of its fit or file, if any.
 
         Raises
         ------
         ModelFileError
             A parameter has no value, or the path cannot be written.
         """
-        write_model(self, path)
+        known = self._origin
+        write_model(self, path, known.stderr, known.fitted_on, known.per_run)

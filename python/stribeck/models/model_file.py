@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import tomlkit
 from tomlkit.items import Table
 
-from stribeck.models.fitted import Fitted, FittedOn, HasModel, PerRun
+from stribeck.models.fitted import Fitted, FittedOn, HasModel, Origin, PerRun
 from stribeck.models.model import Model
 from stribeck.models.writer import add_model, model_toml, write_model
 
@@ -57,6 +57,11 @@ class ModelFile:
             for name, of_runs in fitted.per_run.items()
         }
         return cls(fitted.model, errors, fitted_on, per_run)
+
+    @property
+    def origin(self) -> Origin:
+        """What the file holds besides the model."""
+        return Origin(self.stderr, self.fitted_on, self.per_run)
 
     @property
     def hashes(self) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, StribeckError, nearest
 from stribeck.base.toml import TomlText, read_text
 from stribeck.models.catalog import constants_read, law_ids
-from stribeck.models.fitted import FittedOn
+from stribeck.models.fitted import FittedOn, note_origin
 from stribeck.models.formula_law import Declaration, FormulaTerms, check_terms
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -82,7 +82,9 @@ def load(path: str | os.PathLike[str]) -> Model:
     ModelFileError
         The file cannot be read, or holds something else than a model.
     """
-    return read_model_file(path).model
+    stored = read_model_file(path)
+    note_origin(stored.model, stored.origin)
+    return stored.model
 
 
 def parse_model_file(text: str, path: Path) -> ModelFile:

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from stribeck.base.arguments import door
 from stribeck.fitting.methods.stretches import Search, constant_speed
 from stribeck.fitting.protocols.breakaway import breakaways, dependence
 from stribeck.fitting.protocols.coast_down import coast_downs
@@ -47,6 +48,7 @@ class Protocol:
         return asdict(self)
 
 
+@door(recording=("a recording, as `stribeck.read` returns it", Recording))
 def found_protocols(recording: Recording) -> tuple[Protocol, ...]:
     """The test-bench protocols of a recording, by what they show.
 

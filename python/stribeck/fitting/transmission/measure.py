@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 import scipy
 
+from stribeck.base.arguments import door
 from stribeck.base.errors import FitError
 from stribeck.base.shown import Shown
 from stribeck.fitting.fit import fit
@@ -103,6 +104,7 @@ class Transmission(Shown):
         return {**asdict(self), "motor_share": self.motor_share}
 
 
+@door(recording=("a recording, as `stribeck.read` returns it", Recording))
 def measure_transmission(recording: Recording) -> Transmission:
     """Measure the transmission of a recording with encoders on both of its sides.
 
