@@ -1,3 +1,4 @@
+from . import robot
 from .base.errors import (
     FitError,
     ModelFileError,
@@ -111,6 +112,7 @@ __all__ = [
     "published_sets",
     "read",
     "read_model_file",
+    "robot",
     "simulate",
     "stream",
     "teach",

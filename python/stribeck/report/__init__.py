@@ -23,6 +23,7 @@ RENDERERS: dict[str, dict[str, str]] = {
         "text": "robot:robot_fit_text",
         "notebook": "notebook:frame_view",
     },
+    "stribeck.robot.follow:RobotTracking": {"text": "robot:robot_tracking_text"},
     "stribeck.robot.plan:RobotPlan": {"text": "robot:robot_plan_text"},
     "stribeck.robot.compare:RobotComparison": {
         "text": "robot:robot_comparison_text",

@@ -58,7 +58,7 @@ def simulate_robot(
     _check(robot, friction, seconds, rate, speed, noise)
     random = np.random.default_rng(seed)
     time = np.arange(int(seconds * rate)) / rate
-    q, v, a = _motion(time, len(robot.joints), speed, harmonics, random)
+    q, v, a = fourier_motion(time, len(robot.joints), speed, harmonics, random)
     load = robot.torque(q, v, a)
     named = dict(robot.columns) or dict(COLUMNS)
     effort = "torque" if "torque" in named else "current"
@@ -89,19 +89,24 @@ def _check(
     speed: float,
     noise: float,
 ) -> None:
-    for name in friction:
-        if name not in robot.names:
-            hint = nearest(name, robot.names) or f"; the joints are {listed(robot.names)}"
-            raise SpecError(f"{robot.name} has no joint '{name}'{hint}")
+    check_friction(robot, friction)
     check_number("seconds", seconds, 1.0, 3600.0, " s")
     check_number("rate", rate, 10.0, 10_000.0, " Hz")
     check_number("speed", speed, 1e-6, 1e3)
     check_share("noise", noise)
+
+
+def check_friction(robot: Robot, friction: Mapping[str, Model]) -> None:
+    """Refuse friction of joints that do not exist, and a robot whose bodies are not known."""
+    for name in friction:
+        if name not in robot.names:
+            hint = nearest(name, robot.names) or f"; the joints are {listed(robot.names)}"
+            raise SpecError(f"{robot.name} has no joint '{name}'{hint}")
     if not robot.has_inertia:
         raise SpecError(f"{robot.name}: the inertial parameters of its links are not known")
 
 
-def _motion(
+def fourier_motion(
     time: Array, joints: int, speed: float, harmonics: int, random: np.random.Generator
 ) -> tuple[Array, Array, Array]:
     """Position, velocity and acceleration [n, N] of a Fourier series with a period of 10 s."""
