@@ -1,7 +1,11 @@
-"""Command lines in README.md and docs/ are right."""
+"""Command lines in README.md and docs/ are right; slow: all of them run, except a list."""
 
 from __future__ import annotations
 
+import json
+import os
+import shutil
+import subprocess
 import sys
 from pathlib import Path
 
@@ -12,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from commands import NOT_RUN, Line, lines
 from stribeck.cli.main import cli
 
+HERE = Path(__file__).parent
 OF_STRIBECK = [line for line in lines() if line.words[0] == "stribeck"]
 
 
@@ -35,3 +40,20 @@ def test_command_and_options_exist(line: Line):
 def test_every_exception_is_of_a_line():
     unused = [head for head in NOT_RUN if not any(x.text.startswith(head) for x in lines())]
     assert unused == []
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
+def test_every_line_runs(tmp_path: Path):
+    done = subprocess.run(
+        [sys.executable, str(HERE / "run_commands.py")],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "OMP_NUM_THREADS": "1"},
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    rows = [json.loads(row) for row in done.stdout.splitlines()]
+    assert [f"{r['page']}: {r['line']}: {r['said']}" for r in rows if r["code"] != 0] == []
+    assert len(rows) == sum(line.reason is None for line in lines())
