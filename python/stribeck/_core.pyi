@@ -297,6 +297,7 @@ class Model:
         state: float | ArrayLike | None = None,
         *,
         single: bool = False,
+        out: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]: ...
     def gradient(
         self,
@@ -317,6 +318,7 @@ class Model:
         state: float | ArrayLike | None = None,
         *,
         wanted: Sequence[int] | None = None,
+        out: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def split(
         self,

@@ -8,6 +8,7 @@ use std::thread_local;
 use std::vec;
 use std::vec::Vec;
 
+use super::Outputs;
 use super::columns::{Channels, Columns, Rows};
 use crate::composed::Spec;
 use crate::graph::{self, Beginning, Inputs, Numbers, Operation, Recorded, Recorder, Schedule};
@@ -89,29 +90,24 @@ impl Compiled {
         Self { schedule, width: purpose.wanted.len() }
     }
 
-    /// Torque and derivatives, sample by sample.
+    /// Writes torque and derivatives, sample by sample.
     pub(super) fn run(
         &self,
         values: &[f64],
         rows: &Rows,
         channels: Channels<'_>,
         columns: &Columns<'_>,
-    ) -> (Vec<f64>, Vec<f64>) {
+        out: &mut Outputs<'_>,
+    ) {
         let width = self.width;
-        let mut torque = Vec::with_capacity(rows.count());
-        let mut slopes = Vec::with_capacity(rows.count() * width);
-        let mut transposed = vec![];
         self.each_block(values, rows, channels, columns, |block, outputs| {
-            outputs[0].append_to(&mut torque, block.len());
-            // Block by block, while they are in the first-level cache.
-            transposed.resize(block.len() * width, 0.0);
+            outputs[0].copy_to(&mut out.torque[block.clone()]);
+            let slopes = &mut out.slopes[block.start * width..block.end * width];
             for (k, slope) in outputs[1..].iter().enumerate() {
                 // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
-                slope.add_to_each(0.0, transposed[k..].iter_mut().step_by(width));
+                slope.add_to_each(0.0, slopes[k..].iter_mut().step_by(width));
             }
-            slopes.extend_from_slice(&transposed);
         });
-        (torque, slopes)
     }
 
     /// Passes torque and derivatives of each block of samples to `sink`.

@@ -91,6 +91,13 @@ pub enum BatchError {
     },
     /// A derivative is requested twice.
     WantedTwice(usize),
+    /// Memory for results has the wrong size.
+    Output {
+        /// Its length.
+        length: usize,
+        /// The length that it must have.
+        expected: usize,
+    },
 }
 
 impl From<ModelError<'static>> for BatchError {
@@ -154,6 +161,9 @@ impl fmt::Display for BatchError {
             }
             Self::WantedTwice(index) => {
                 write!(f, "the derivative with respect to parameter {index} is requested twice")
+            }
+            Self::Output { length, expected } => {
+                write!(f, "the results are {expected} numbers, but there is room for {length}")
             }
         }
     }

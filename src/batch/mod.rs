@@ -39,12 +39,28 @@ const BLOCK_LENGTH: usize = 256;
 /// # Errors
 /// Columns that are missing, of unequal length or not finite; inadmissible parameters.
 pub fn torque(spec: &Spec, values: &[f64], columns: &Columns<'_>) -> Result<Vec<f64>, BatchError> {
-    let (torque, _) = if spec.with(values)?.runs_side_by_side() {
-        side_by_side(spec, values, columns, &[], Locked::Refused)?
-    } else {
-        sample_by_sample::<f64>(spec, values, columns, &[], Locked::Refused)?
-    };
+    let mut torque = vec![0.0; columns.channels.velocity.len()];
+    torque_into(spec, values, columns, &mut torque)?;
     Ok(torque)
+}
+
+/// Like [`torque`], into memory that the caller keeps, one number per sample: fresh memory takes
+/// longer than many a law. After an error its content is unspecified.
+///
+/// # Errors
+/// As for [`torque`]; `out` of another length.
+pub fn torque_into(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    out: &mut [f64],
+) -> Result<(), BatchError> {
+    let out = Outputs { torque: out, slopes: &mut [] };
+    if spec.with(values)?.runs_side_by_side() {
+        side_by_side(spec, values, columns, &[], Locked::Refused, out)
+    } else {
+        sample_by_sample::<f64>(spec, values, columns, &[], Locked::Refused, out)
+    }
 }
 
 /// Like [`torque`], in single precision throughout, as a controller without `f64` computes it. A
@@ -57,7 +73,23 @@ pub fn torque_single(
     values: &[f64],
     columns: &Columns<'_>,
 ) -> Result<Vec<f64>, BatchError> {
-    sample_by_sample::<f32>(spec, values, columns, &[], Locked::Refused).map(|(torque, _)| torque)
+    let mut torque = vec![0.0; columns.channels.velocity.len()];
+    torque_single_into(spec, values, columns, &mut torque)?;
+    Ok(torque)
+}
+
+/// Like [`torque_single`], into memory that the caller keeps, as in [`torque_into`].
+///
+/// # Errors
+/// As for [`torque_into`].
+pub fn torque_single_into(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    out: &mut [f64],
+) -> Result<(), BatchError> {
+    let out = Outputs { torque: out, slopes: &mut [] };
+    sample_by_sample::<f32>(spec, values, columns, &[], Locked::Refused, out)
 }
 
 /// The friction torque of every sample, and its derivatives with respect to the `wanted` parameters
@@ -79,24 +111,45 @@ pub fn gradient(
             &all
         }
     };
+    let rows = columns.channels.velocity.len();
+    let (mut torque, mut slopes) = (vec![0.0; rows], vec![0.0; rows * wanted.len()]);
+    gradient_into(spec, values, columns, wanted, &mut torque, &mut slopes)?;
+    Ok((torque, slopes))
+}
+
+/// Like [`gradient`], into memory that the caller keeps: one number per sample, and one per sample
+/// and wanted derivative. After an error its content is unspecified.
+///
+/// # Errors
+/// As for [`gradient`]; `torque` or `slopes` of another length.
+pub fn gradient_into(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    wanted: &[usize],
+    torque: &mut [f64],
+    slopes: &mut [f64],
+) -> Result<(), BatchError> {
     check_wanted(values, wanted)?;
     if spec.with(values)?.runs_side_by_side() {
-        return side_by_side(spec, values, columns, wanted, Locked::Amplified);
+        let out = Outputs { torque, slopes };
+        return side_by_side(spec, values, columns, wanted, Locked::Amplified, out);
     }
     if wanted.len() <= MAX_DIRECTIONS {
-        return gradient_in_one_pass(spec, values, columns, wanted);
+        return gradient_in_one_pass(spec, values, columns, wanted, Outputs { torque, slopes });
     }
-    let mut torque = Vec::new();
-    let mut jacobian = vec![0.0; columns.channels.velocity.len() * wanted.len()];
+    check_length(slopes, columns.channels.velocity.len() * wanted.len())?;
+    let mut part = vec![0.0; columns.channels.velocity.len() * MAX_DIRECTIONS];
     for (pass, some) in wanted.chunks(MAX_DIRECTIONS).enumerate() {
-        let (same, part) = gradient_in_one_pass(spec, values, columns, some)?;
-        torque = same;
-        let rows = jacobian.chunks_exact_mut(wanted.len());
+        let part = &mut part[..columns.channels.velocity.len() * some.len()];
+        let out = Outputs { torque: &mut *torque, slopes: &mut *part };
+        gradient_in_one_pass(spec, values, columns, some, out)?;
+        let rows = slopes.chunks_exact_mut(wanted.len());
         for (row, part) in rows.zip(part.chunks_exact(some.len())) {
             row[pass * MAX_DIRECTIONS..][..some.len()].copy_from_slice(part);
         }
     }
-    Ok((torque, jacobian))
+    Ok(())
 }
 
 /// Like [`gradient`], block by block: `sink` receives the torque and each derivative of a block of
@@ -154,14 +207,15 @@ fn gradient_in_one_pass(
     values: &[f64],
     columns: &Columns<'_>,
     wanted: &[usize],
-) -> Result<(Vec<f64>, Vec<f64>), BatchError> {
-    let locked = Locked::Amplified;
-    match wanted.len() {
-        0 => sample_by_sample::<f64>(spec, values, columns, wanted, locked),
-        1..=4 => sample_by_sample::<Dual<f64, 4>>(spec, values, columns, wanted, locked),
-        5..=8 => sample_by_sample::<Dual<f64, 8>>(spec, values, columns, wanted, locked),
-        _ => sample_by_sample::<Dual<f64, MAX_DIRECTIONS>>(spec, values, columns, wanted, locked),
-    }
+    out: Outputs<'_>,
+) -> Result<(), BatchError> {
+    let run = match wanted.len() {
+        0 => sample_by_sample::<f64>,
+        1..=4 => sample_by_sample::<Dual<f64, 4>>,
+        5..=8 => sample_by_sample::<Dual<f64, 8>>,
+        _ => sample_by_sample::<Dual<f64, MAX_DIRECTIONS>>,
+    };
+    run(spec, values, columns, wanted, Locked::Amplified, out)
 }
 
 /// Dry magnitude, rate-dependent part and additive part of every sample (T), in steady sliding.
@@ -207,8 +261,17 @@ enum Locked {
     Amplified,
 }
 
-/// Torque, and derivatives row-major.
-type Results = (Vec<f64>, Vec<f64>);
+/// Where results go: the torque of each sample, and derivatives row-major.
+struct Outputs<'a> {
+    torque: &'a mut [f64],
+    slopes: &'a mut [f64],
+}
+
+fn check_length(out: &[f64], rows: usize) -> Result<(), BatchError> {
+    let length = out.len();
+    let error = BatchError::Output { length, expected: rows };
+    if length == rows { Ok(()) } else { Err(error) }
+}
 
 /// Evaluates blocks of samples in parallel, operation by operation.
 fn side_by_side(
@@ -217,9 +280,10 @@ fn side_by_side(
     columns: &Columns<'_>,
     wanted: &[usize],
     locked: Locked,
-) -> Result<Results, BatchError> {
-    measured(spec, values, columns, wanted, locked, |rows, channels| {
-        Compiled::of(spec, wanted, rows, columns).run(values, rows, channels, columns)
+    out: Outputs<'_>,
+) -> Result<(), BatchError> {
+    measured(spec, values, columns, wanted, locked, out, |rows, channels, out| {
+        Compiled::of(spec, wanted, rows, columns).run(values, rows, channels, columns, out);
     })
 }
 
@@ -264,20 +328,20 @@ fn sample_by_sample<S: Single>(
     columns: &Columns<'_>,
     wanted: &[usize],
     locked: Locked,
-) -> Result<Results, BatchError> {
+    out: Outputs<'_>,
+) -> Result<(), BatchError> {
     let direction = |index: usize| wanted.iter().position(|&own| own == index);
     let parameters: Vec<S> =
         values.iter().enumerate().map(|(i, &x)| S::parameter(x, direction(i))).collect();
     let model = spec.with(&parameters)?;
-    measured(spec, values, columns, wanted, locked, |rows, channels| {
-        let mut torque = Vec::with_capacity(rows.count());
-        let mut slopes = Vec::with_capacity(rows.count() * wanted.len());
-        evaluate(&model, rows, channels, columns, |t: &S| {
-            torque.push(t.value());
+    let width = wanted.len();
+    measured(spec, values, columns, wanted, locked, out, |rows, channels, out| {
+        evaluate(&model, rows, channels, columns, |row, t: &S| {
+            out.torque[row] = t.value();
             // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
-            slopes.extend(t.slopes().iter().take(wanted.len()).map(|d| d + 0.0));
+            let slopes = &mut out.slopes[row * width..(row + 1) * width];
+            slopes.iter_mut().zip(t.slopes()).for_each(|(slope, d)| *slope = d + 0.0);
         });
-        (torque, slopes)
     })
 }
 
@@ -286,7 +350,7 @@ fn evaluate<S: Scalar>(
     rows: &Rows,
     channels: Channels<'_>,
     columns: &Columns<'_>,
-    mut sink: impl FnMut(&S),
+    mut sink: impl FnMut(usize, &S),
 ) {
     let fresh = columns.start(model.memory());
     let mut state = fresh;
@@ -306,11 +370,11 @@ fn evaluate<S: Scalar>(
             dt: S::Plain::from_f64(dt),
             mean: false,
         };
-        sink(&model.step_over(&mut state, &interval).torque);
+        sink(i, &model.step_over(&mut state, &interval).torque);
     }
 }
 
-/// The measured torque for the torque that `run` returns: with loads from the balance of torques,
+/// The measured torque for the torque that `run` writes: with loads from the balance of torques,
 /// and with the delay.
 fn measured(
     spec: &Spec,
@@ -318,38 +382,46 @@ fn measured(
     columns: &Columns<'_>,
     wanted: &[usize],
     locked: Locked,
-    run: impl Fn(&Rows, Channels<'_>) -> Results,
-) -> Result<Results, BatchError> {
+    out: Outputs<'_>,
+    run: impl Fn(&Rows, Channels<'_>, &mut Outputs<'_>),
+) -> Result<(), BatchError> {
     let rows = columns.rows(spec)?;
     let width = wanted.len();
-    let balanced = |channels: Channels<'_>| -> Result<Results, BatchError> {
+    check_length(out.torque, rows.count())?;
+    check_length(out.slopes, rows.count() * width)?;
+    let balanced = |channels: Channels<'_>, mut out: Outputs<'_>| -> Result<(), BatchError> {
         let Some(balance) = Balance::of(spec, values, columns, &channels)? else {
-            return Ok(run(&rows, channels));
+            run(&rows, channels, &mut out);
+            return Ok(());
         };
         let channels = balance.complete(channels);
-        let (mut torque, mut slopes) = run(&rows, channels);
+        run(&rows, channels, &mut out);
         if locked == Locked::Refused {
             balance.refuse_locked()?;
         }
-        balance.settle(&mut torque);
-        balance.settle_slopes(spec, &channels, wanted, &mut slopes);
-        Ok((torque, slopes))
+        balance.settle(out.torque);
+        balance.settle_slopes(spec, &channels, wanted, out.slopes);
+        Ok(())
     };
-    let (mut torque, mut slopes) = balanced(columns.channels)?;
+    let Outputs { torque, slopes } = out;
+    balanced(columns.channels, Outputs { torque: &mut *torque, slopes: &mut *slopes })?;
     let place = |name| spec.parameters().position(|parameter| parameter.name == name);
     let Some(delay) = place("delay").filter(|_| spec.effects().contains(EffectId::Delay)) else {
-        return Ok((torque, slopes));
+        return Ok(());
     };
-    let (mut shifted, shifted_slopes) = balanced(columns.smoothed())?;
+    let mut shifted = vec![0.0; torque.len()];
+    let mut shifted_slopes = vec![0.0; slopes.len()];
+    let both = Outputs { torque: &mut shifted, slopes: &mut shifted_slopes };
+    balanced(columns.smoothed(), both)?;
     columns.add_load(&mut shifted);
-    let by_delay = delay::shift(&rows, values[delay], &shifted, 1, &mut torque);
+    let by_delay = delay::shift(&rows, values[delay], &shifted, 1, torque);
     if width > 0 {
-        delay::shift(&rows, values[delay], &shifted_slopes, width, &mut slopes);
+        delay::shift(&rows, values[delay], &shifted_slopes, width, slopes);
     }
     if let Some(own) = wanted.iter().position(|&index| index == delay) {
         for (row, slope) in slopes.chunks_exact_mut(width).zip(by_delay) {
             row[own] = slope;
         }
     }
-    Ok((torque, slopes))
+    Ok(())
 }

@@ -2,7 +2,6 @@
 
 #[cfg(feature = "identify")]
 use core::ops::Range;
-use std::vec::Vec;
 
 /// The values of one output: one per sample, or one for all.
 #[derive(Clone, Copy, Debug)]
@@ -50,12 +49,12 @@ impl Numbers<'_> {
         }
     }
 
-    /// Appends `count` values.
+    /// Writes the values.
     #[inline(always)]
-    pub fn append_to(&self, out: &mut Vec<f64>, count: usize) {
+    pub fn copy_to(&self, out: &mut [f64]) {
         match self {
-            Self::Same(x) => out.resize(out.len() + count, *x),
-            Self::Each(rows) => out.extend_from_slice(rows),
+            Self::Same(x) => out.fill(*x),
+            Self::Each(rows) => out.copy_from_slice(rows),
         }
     }
 

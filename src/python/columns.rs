@@ -6,7 +6,8 @@ use std::format;
 use std::string::String;
 use std::vec;
 
-use numpy::{AllowTypeChange, PyArrayLike1};
+use numpy::ndarray::Dimension;
+use numpy::{AllowTypeChange, PyArray, PyArrayLike1, PyArrayMethods, PyReadwriteArray};
 use pyo3::prelude::*;
 
 use super::ModelError;
@@ -22,6 +23,20 @@ pub(super) fn contiguous<'a>(array: &'a Array<'_>) -> Cow<'a, [f64]> {
         Ok(slice) => Cow::Borrowed(slice),
         Err(_) => Cow::Owned(array.as_array().to_vec()),
     }
+}
+
+/// Permission to write to an array that no argument of the call shares memory with.
+pub(super) fn writable<'py, D: Dimension>(
+    array: &Bound<'py, PyArray<f64, D>>,
+) -> PyResult<PyReadwriteArray<'py, f64, D>> {
+    array.try_readwrite().map_err(|error| ModelError::new_err(format!("out: {error}")))
+}
+
+/// The numbers of such an array, row by row.
+pub(super) fn numbers<'a, D: Dimension>(
+    array: &'a mut PyReadwriteArray<'_, f64, D>,
+) -> PyResult<&'a mut [f64]> {
+    array.as_slice_mut().map_err(|error| ModelError::new_err(format!("out: {error}")))
 }
 
 /// One time step for all samples, or one per sample.
@@ -82,11 +97,16 @@ pub(super) struct Arguments<'py> {
 }
 
 impl Arguments<'_> {
+    /// Number of samples.
+    pub(super) fn rows(&self) -> usize {
+        self.velocity.as_array().len()
+    }
+
     /// Runs `work` on the columns without holding the interpreter lock.
     pub(super) fn detached<T: Send>(
         &self,
         py: Python<'_>,
-        work: impl Fn(&Columns<'_>) -> T + Send + Sync,
+        work: impl FnOnce(&Columns<'_>) -> T + Send,
     ) -> PyResult<T> {
         let velocity = contiguous(&self.velocity);
         let position = self.position.as_ref().map(contiguous);

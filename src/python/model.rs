@@ -5,13 +5,12 @@ use std::format;
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::catalog::parameter;
-use super::columns::{Arguments, Array, Dt, Start, contiguous};
+use super::columns::{Arguments, Array, Dt, Start, contiguous, numbers, writable};
 use super::export::program;
 use super::{ModelError, refuse};
 use crate::batch;
@@ -140,10 +139,10 @@ impl Model {
     }
 
     /// Friction torque of every sample; with memory, at the end of the sample's step. `single`
-    /// computes in single precision throughout.
+    /// computes in single precision throughout. The result is written to `out` where it is given.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
-        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false))]
+        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false, out=None))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -164,6 +163,7 @@ impl Model {
         mean_velocity: Option<Array<'py>>,
         state: Option<Start<'py>>,
         single: bool,
+        out: Option<Bound<'py, PyArray1<f64>>>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -182,17 +182,23 @@ impl Model {
             mean_velocity,
             state,
         };
-        let run = if single { batch::torque_single } else { batch::torque };
-        let torque =
-            arguments.detached(py, |columns| run(&self.spec, &values, columns))?.map_err(refuse)?;
-        Ok(torque.into_pyarray(py))
+        let out = out.unwrap_or_else(|| PyArray1::zeros(py, arguments.rows(), false));
+        let run = if single { batch::torque_single_into } else { batch::torque_into };
+        let mut room = writable(&out)?;
+        let torque = numbers(&mut room)?;
+        arguments
+            .detached(py, |columns| run(&self.spec, &values, columns, torque))?
+            .map_err(refuse)?;
+        drop(room);
+        Ok(out)
     }
 
     /// Friction torque of every sample and its derivatives with respect to the `wanted` parameters
-    /// (indices, by default all) in that order, one column each.
+    /// (indices, by default all) in that order, one column each. Both are written to `out` where it
+    /// is given.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
-        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None))]
+        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None, out=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -213,6 +219,7 @@ impl Model {
         mean_velocity: Option<Array<'py>>,
         state: Option<Start<'py>>,
         wanted: Option<Vec<usize>>,
+        out: Option<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -231,15 +238,21 @@ impl Model {
             mean_velocity,
             state,
         };
-        let (torque, jacobian) = arguments
+        let wanted = wanted.unwrap_or_else(|| (0..values.len()).collect());
+        let rows = arguments.rows();
+        let (torque, slopes) = out.unwrap_or_else(|| {
+            let slopes = PyArray2::zeros(py, [rows, wanted.len()], false);
+            (PyArray1::zeros(py, rows, false), slopes)
+        });
+        let (mut torque_room, mut slopes_room) = (writable(&torque)?, writable(&slopes)?);
+        let (all, each) = (numbers(&mut torque_room)?, numbers(&mut slopes_room)?);
+        arguments
             .detached(py, |columns| {
-                batch::gradient(&self.spec, &values, columns, wanted.as_deref())
+                batch::gradient_into(&self.spec, &values, columns, &wanted, all, each)
             })?
             .map_err(refuse)?;
-        let shape = (torque.len(), wanted.map_or(values.len(), |wanted| wanted.len()));
-        let jacobian = Array2::from_shape_vec(shape, jacobian)
-            .map_err(|error| ModelError::new_err(error.to_string()))?;
-        Ok((torque.into_pyarray(py), jacobian.into_pyarray(py)))
+        drop((torque_room, slopes_room));
+        Ok((torque, slopes))
     }
 
     /// Parts of the torque in steady sliding: dict of `dry`, `rate` and `additive`.

@@ -16,10 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
 from stribeck.base.arguments import door
-from stribeck.base.checks import check_choice
 from stribeck.base.errors import ModelFileError, SpecError, listed
+from stribeck.models import evaluate
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
-from stribeck.models.channels import columns, constant, finite, split_columns
+from stribeck.models.channels import columns, constant, split_columns
 from stribeck.models.compiled import compiled
 from stribeck.models.drive import ARMATURE, KNOWN, VoltageDrive
 from stribeck.models.fitted import Origin
@@ -279,6 +279,7 @@ class Model:
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
         precision: Literal["double", "single"] = "double",
+        out: Array | None = None,
     ) -> Array:
         """Friction torque of each sample, and identified rigid-body terms where there are any.
 
@@ -302,6 +303,9 @@ class Model:
             Second derivative of the load torque by time, N m/s2 or N/s2, for `elasticity`.
         precision
             ``"single"`` gives the bits of a controller that computes in 32 bits.
+        out : array [n]
+            float64, contiguous: receives the torque and is returned, which saves fresh memory. It
+            shares none with the channels; after an error its content is unspecified.
 
         Returns
         -------
@@ -314,16 +318,12 @@ class Model:
         ValueError
             A channel that the model reads is missing.
         """
-        check_choice("precision", precision, ("double", "single"))
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
-        torque = self.core.torque(
-            self.known_values(),
-            **columns(self.core, velocity, dt, given),
-            state=state,
-            single=precision == "single",
+        read = columns(self.core, velocity, dt, given)
+        return evaluate.torque(
+            self.core, self.spec, self.known_values(), read, state, precision, out
         )
-        return finite(torque, f"the torque of {self.spec}")
 
     @door()
     def gradient(
@@ -340,14 +340,13 @@ class Model:
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
+        out: Array | None = None,
     ) -> Array:
-        """Derivatives of `torque` with respect to the parameters, array [n, p]."""
+        """Derivatives of `torque` with respect to the parameters; they and `out` are [n, p]."""
         given = [position, acceleration, temperature, load_torque, motor_torque]
         given += [external_torque, time, load_torque_curvature]
-        _, jacobian = self.core.gradient(
-            self.known_values(), **columns(self.core, velocity, dt, given), state=state
-        )
-        return finite(jacobian, f"the gradient of {self.spec}")
+        read = columns(self.core, velocity, dt, given)
+        return evaluate.gradient(self.core, self.spec, self.known_values(), read, state, out)
 
     @door()
     def split(self, velocity: ArrayLike, **channels: ArrayLike | None) -> dict[str, Array]:
