@@ -66,7 +66,6 @@ use std::collections::BTreeMap;
 use std::hint::black_box;
 use std::time::Instant;
 
-use bits::Bits;
 use format::{Format, within};
 
 /// Numbers per block, as in the crate; calls per measurement; measurements.
@@ -341,8 +340,8 @@ macro_rules! error {
             ("powf", &[x, p]) if x > 0.0 => powf(x, p),
             _ => continue,
         };
-        let place = |x: $float| x.abs().to_bits() as f64;
-        (place(value) - place(number($nearest)) - $above).abs()
+        let place = |x: $float| i128::from(x.abs().to_bits());
+        ((place(value) - place(number($nearest))) as f64 - $above).abs()
     }};
 }
 

@@ -199,6 +199,36 @@ fn selected_parameters_exist_and_are_unique() {
     assert_eq!(refused(&[1, 0, 1]), BatchError::WantedTwice(1));
 }
 
+/// The same bits, in memory that is not zero before; of the right length alone.
+#[test]
+fn results_go_into_memory_of_the_caller() {
+    let motion = motion(300);
+    let columns = motion.columns();
+    for spec in every_model() {
+        let values = values(&spec);
+        let (torque, slopes) = batch::gradient(&spec, &values, &columns, None).unwrap();
+        let single = batch::torque_single(&spec, &values, &columns).unwrap();
+        let wanted: Vec<usize> = (0..values.len()).collect();
+        let mut own = vec![f64::NAN; 300];
+        let mut own_slopes = vec![f64::NAN; slopes.len()];
+        batch::torque_into(&spec, &values, &columns, &mut own).unwrap();
+        assert_eq!(own, torque, "{spec}");
+        batch::torque_single_into(&spec, &values, &columns, &mut own).unwrap();
+        assert_eq!(own, single, "{spec}");
+        let mut into = |torque: &mut [f64], slopes: &mut [f64]| {
+            batch::gradient_into(&spec, &values, &columns, &wanted, torque, slopes)
+        };
+        into(&mut own, &mut own_slopes).unwrap();
+        assert_eq!((own.as_slice(), &own_slopes), (torque.as_slice(), &slopes), "{spec}");
+        let expected = slopes.len();
+        let short = BatchError::Output { length: expected - 1, expected };
+        assert_eq!(into(&mut own, &mut own_slopes[1..]), Err(short));
+        let short = BatchError::Output { length: 299, expected: 300 };
+        assert_eq!(into(&mut own[1..], &mut own_slopes), Err(short));
+        assert_eq!(batch::torque_into(&spec, &values, &columns, &mut own[1..]), Err(short));
+    }
+}
+
 /// Functions of one number with their derivatives, against difference quotients of the values.
 #[test]
 fn derivatives_of_functions_are_difference_quotients() {

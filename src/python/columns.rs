@@ -25,6 +25,15 @@ pub(super) fn contiguous<'a>(array: &'a Array<'_>) -> Cow<'a, [f64]> {
     }
 }
 
+/// An array for results, by NumPy: it asks for large pages, whose first use takes far less time.
+pub(super) fn fresh<'py, const N: usize, D: Dimension>(
+    py: Python<'py>,
+    shape: [usize; N],
+) -> PyResult<Bound<'py, PyArray<f64, D>>> {
+    let made = py.import("numpy")?.call_method1("empty", (shape,))?;
+    Ok(made.cast_into()?)
+}
+
 /// Permission to write to an array that no argument of the call shares memory with.
 pub(super) fn writable<'py, D: Dimension>(
     array: &Bound<'py, PyArray<f64, D>>,

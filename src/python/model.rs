@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::catalog::parameter;
-use super::columns::{Arguments, Array, Dt, Start, contiguous, numbers, writable};
+use super::columns::{Arguments, Array, Dt, Start, contiguous, fresh, numbers, writable};
 use super::export::program;
 use super::{ModelError, refuse};
 use crate::batch;
@@ -182,7 +182,10 @@ impl Model {
             mean_velocity,
             state,
         };
-        let out = out.unwrap_or_else(|| PyArray1::zeros(py, arguments.rows(), false));
+        let out = match out {
+            Some(out) => out,
+            None => fresh(py, [arguments.rows()])?,
+        };
         let run = if single { batch::torque_single_into } else { batch::torque_into };
         let mut room = writable(&out)?;
         let torque = numbers(&mut room)?;
@@ -240,10 +243,10 @@ impl Model {
         };
         let wanted = wanted.unwrap_or_else(|| (0..values.len()).collect());
         let rows = arguments.rows();
-        let (torque, slopes) = out.unwrap_or_else(|| {
-            let slopes = PyArray2::zeros(py, [rows, wanted.len()], false);
-            (PyArray1::zeros(py, rows, false), slopes)
-        });
+        let (torque, slopes) = match out {
+            Some(out) => out,
+            None => (fresh(py, [rows])?, fresh(py, [rows, wanted.len()])?),
+        };
         let (mut torque_room, mut slopes_room) = (writable(&torque)?, writable(&slopes)?);
         let (all, each) = (numbers(&mut torque_room)?, numbers(&mut slopes_room)?);
         arguments

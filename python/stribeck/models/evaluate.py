@@ -26,9 +26,13 @@ def torque(
 ) -> Array:
     """Torque of each sample, array [n], as `Model.torque` describes it."""
     check_choice("precision", precision, ("double", "single"))
-    room = output(out, read["velocity"].shape, {**read, "state": state})
-    core.torque(values, **read, state=state, single=precision == "single", out=room)
-    return finite(room, f"the torque of {spec}")
+    single = precision == "single"
+    if out is None:
+        found = core.torque(values, **read, state=state, single=single)
+    else:
+        check_output(out, read["velocity"].shape, {**read, "state": state})
+        found = core.torque(values, **read, state=state, single=single, out=out)
+    return finite(found, f"the torque of {spec}")
 
 
 def gradient(
@@ -40,14 +44,17 @@ def gradient(
     out: Array | None,
 ) -> Array:
     """Derivatives of the torque with respect to the parameters, array [n, p]."""
-    rows = read["velocity"].size
-    room = output(out, (rows, values.size), {**read, "state": state})
-    core.gradient(values, **read, state=state, out=(np.empty(rows), room))
-    return finite(room, f"the gradient of {spec}")
+    if out is None:
+        _, found = core.gradient(values, **read, state=state)
+    else:
+        rows = read["velocity"].size
+        check_output(out, (rows, values.size), {**read, "state": state})
+        _, found = core.gradient(values, **read, state=state, out=(np.empty(rows), out))
+    return finite(found, f"the gradient of {spec}")
 
 
-def output(out: object, shape: tuple[int, ...], read: Mapping[str, object]) -> Array:
-    """`out` if results of this shape can be written to it; a fresh array where it is None.
+def check_output(out: object, shape: tuple[int, ...], read: Mapping[str, object]) -> None:
+    """Refuse an array that results of this shape cannot be written to.
 
     Parameters
     ----------
@@ -65,12 +72,10 @@ def output(out: object, shape: tuple[int, ...], read: Mapping[str, object]) -> A
 
     Examples
     --------
-    >>> output(np.zeros(3), (2,), {})
+    >>> check_output(np.zeros(3), (2,), {})
     Traceback (most recent call last):
     stribeck.base.errors.SpecError: `out` has the shape (3,): give an array of shape (2,)
     """
-    if out is None:
-        return np.empty(shape)
     if type(out) is not np.ndarray or out.dtype != np.float64:
         what = f"an array of {out.dtype.name}" if isinstance(out, np.ndarray) else shown(out)
         raise SpecError(f"`out` is {what}: give an array of float64")
@@ -83,4 +88,3 @@ def output(out: object, shape: tuple[int, ...], read: Mapping[str, object]) -> A
     for name, values in read.items():
         if isinstance(values, np.ndarray) and np.may_share_memory(out, values):
             raise SpecError(f"`out` shares memory with `{name}`: give another array")
-    return out
