@@ -130,8 +130,10 @@ class _Reader:
 
     def read(self, data: Mapping[str, object]) -> ModelFile:
         if data.get("kind") != "model":
+            hint = "; robots have commands of their own: stribeck robot"
             raise self.stop(
-                f'this is not a model file: kind is {data.get("kind")!r}, "model" is needed',
+                f'this is not a model file: kind is {data.get("kind")!r}, "model" is needed'
+                + (hint if data.get("kind") == "robot" else ""),
                 *(["kind"] if "kind" in data else []),
             )
         if data.get("schema") != SCHEMA:

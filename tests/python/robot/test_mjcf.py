@@ -13,6 +13,7 @@ from stribeck.robot.arm import Robot
 from stribeck.robot.consistent import inertial_of
 from stribeck.robot.describe import read_robot
 from stribeck.robot.updated_mjcf import write_mjcf
+from stribeck.robot.updated_urdf import write_urdf
 from stribeck.robot.urdf import read_urdf
 
 #: A slide on a hinge, an axis beside the origin of its body, a reference, a fixed body, defaults.
@@ -46,9 +47,8 @@ ARM = """<?xml version="1.0"?>
 mujoco = pytest.importorskip("mujoco")
 
 
-def torque_by_mujoco(path: Path, states: tuple[np.ndarray, ...]) -> np.ndarray:
+def torque_by_mujoco(model: mujoco.MjModel, states: tuple[np.ndarray, ...]) -> np.ndarray:
     """Torques of MuJoCo's inverse dynamics, without friction, contacts and limits."""
-    model = mujoco.MjModel.from_xml_path(str(path))
     model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
     model.dof_damping[:] = 0.0
     data = mujoco.MjData(model)
@@ -66,7 +66,7 @@ def states(joints: int) -> tuple[np.ndarray, ...]:
 
 def agree(robot: Robot, path: Path) -> None:
     motion = states(len(robot.joints))
-    expected = torque_by_mujoco(path, motion)
+    expected = torque_by_mujoco(mujoco.MjModel.from_xml_path(str(path)), motion)
     found = robot.torque(*motion)
     assert np.max(np.abs(found - expected)) < 1e-10 * np.max(np.abs(expected))
 
@@ -119,8 +119,53 @@ def test_updated_mjcf_has_the_identified_torques(arm: Path, tmp_path: Path) -> N
     agree(read_robot(path), path)
     model = mujoco.MjModel.from_xml_path(str(path))
     assert model.dof_frictionloss.tolist() == [1.0, 2.0, 3.0]
-    assert np.ravel(model.dof_damping)[:3].tolist() == [0.5, 1.5, 2.5]
+    assert model.dof_damping.tolist() == [0.5, 1.5, 2.5]
     assert model.dof_armature.tolist() == [joint.rotor for joint in robot.joints]
+
+
+@pytest.fixture
+def updated_urdf(tmp_path: Path) -> tuple[Path, Robot]:
+    """An updated URDF of a tree with a slide, and the identified robot."""
+    source, path = tmp_path / "two_arms.urdf", tmp_path / "updated.urdf"
+    source.write_text(arms.urdf("two_arms"))
+    random = np.random.default_rng(2)
+    robot = read_urdf(source)
+    robot = robot.with_bodies(
+        np.array([[*inertial_of(0.3 * random.normal(size=10)), 0.0] for _ in robot.joints])
+    )
+    friction = {
+        name: sb.model("coulomb", coulomb_friction=1.0 + k, viscous_friction=0.5 + k)
+        for k, name in enumerate(robot.names)
+    }
+    write_urdf(path, source, robot, friction)
+    return path, robot
+
+
+def test_mujoco_loads_an_updated_urdf(updated_urdf: tuple[Path, Robot]) -> None:
+    path, robot = updated_urdf
+    model = mujoco.MjModel.from_xml_path(str(path))
+    model.opt.gravity[:] = robot.gravity
+    order = [robot.names.index(model.joint(k).name) for k in range(model.njnt)]
+    assert model.dof_frictionloss.tolist() == [1.0 + k for k in order]
+    assert model.dof_damping.tolist() == [0.5 + k for k in order]
+    motion = states(len(robot.joints))
+    found = torque_by_mujoco(model, tuple(column[:, order] for column in motion))
+    expected = robot.torque(*motion)[:, order]
+    assert np.max(np.abs(found - expected)) < 1e-10 * np.max(np.abs(expected))
+
+
+def test_pinocchio_loads_an_updated_urdf(updated_urdf: tuple[Path, Robot]) -> None:
+    pinocchio = pytest.importorskip("pinocchio")
+    path, robot = updated_urdf
+    model = pinocchio.buildModelFromUrdf(str(path))
+    model.gravity.linear = np.array(robot.gravity)
+    order = [robot.names.index(name) for name in list(model.names)[1:]]
+    motion = states(len(robot.joints))
+    data = model.createData()
+    rows = zip(*(column[:, order] for column in motion), strict=True)
+    found = np.array([pinocchio.rnea(model, data, q, v, a) for q, v, a in rows])
+    expected = robot.torque(*motion)[:, order]
+    assert np.max(np.abs(found - expected)) < 1e-10 * np.max(np.abs(expected))
 
 
 def test_mjcf_of_another_robot(arm: Path, tmp_path: Path) -> None:
