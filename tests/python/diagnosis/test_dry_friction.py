@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.base.errors import SpecError
+from stribeck.diagnosis.loop.add import parameters_brought_by
 from stribeck.diagnosis.trials.dry_friction import DRY, dry_friction_for
 from synthetic import COULOMB, joint, motion, record
 
@@ -43,6 +44,14 @@ def test_it_can_be_rejected(tmp_path: Path) -> None:
     assert "dry" not in {step.finding.effect for step in found.steps}
     with pytest.raises(SpecError, match="'drought'"):
         improved(tmp_path, joint(), rejected=["drought"])
+
+
+def test_it_can_be_added_by_its_name(plain: sb.Recording) -> None:
+    added = sb.add(sb.fit("b*v", plain, starts=1), "dry")
+    assert added.model.value("dry") == pytest.approx(COULOMB, rel=0.01)
+    assert parameters_brought_by("dry") == parameters_brought_by(DRY)
+    with pytest.raises(SpecError, match="'dry' is unknown"):
+        sb.add(added, "dry")
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from stribeck.base.arguments import door
 from stribeck.base.errors import FitError
 from stribeck.base.shown import Shown
+from stribeck.diagnosis.trials.dry_friction import lacks_dry_friction, spelled_out
 from stribeck.diagnosis.trials.trial import add_effect
 from stribeck.fitting.fit import on_recording, with_choices
 from stribeck.fitting.result import FIT, Fit
@@ -58,7 +59,8 @@ def add(
     Parameters
     ----------
     effect : str
-        An id of the catalog, or an effect by formula: ``"creep = c*abs(load)*sgn(v)"``.
+        An id of the catalog, or an effect by formula: ``"creep = c*abs(load)*sgn(v)"``. Where
+        a law by formula has no dry friction, ``"dry"`` stands for ``"dry = c*sgn(v)"``.
     **choices
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the model, which is then
         fitted again, or of the effect.
@@ -70,6 +72,8 @@ def add(
     FitError
         The recording lacks a channel that the effect needs.
     """
+    if lacks_dry_friction(fitted.model):
+        effect = spelled_out(effect)
     if not is_formula(effect):
         check_effect(effect)
     before = with_choices(
@@ -80,5 +84,6 @@ def add(
 
 def parameters_brought_by(effect: str) -> dict[str, str]:
     """Names of the parameters of an effect, and of the simpler one it contains, by any name."""
+    effect = spelled_out(effect)
     simpler = simpler_effect(effect)
     return parameters_of_effects([effect] if simpler is None else [simpler, effect])

@@ -25,6 +25,11 @@ def check_rejected(effects: Collection[str]) -> None:
             check_effect(effect)
 
 
+def spelled_out(effect: str) -> str:
+    """The text that adds an effect to a model: ``dry`` stands for its formula."""
+    return DRY if effect == effect_name(DRY) else effect
+
+
 def lacks_dry_friction(model: Model) -> bool:
     """Whether a model has no dry friction that the speed alone decides; laws of the catalog do."""
     return model.by_formula and not any(terms.has_dry_friction for terms in model.own)
