@@ -55,7 +55,7 @@ class RigidColumns:
     @cached_property
     def values(self) -> Array:
         """Array [n, N, b]."""
-        return np.ascontiguousarray(self.motion.regressor[:, :, self.base.chosen])
+        return self.motion.regressor(self.base.chosen)
 
     @cached_property
     def filtered(self) -> tuple[Array, ...]:
@@ -74,7 +74,8 @@ def payload(motion: RobotMotion, runs: tuple[str, ...]) -> Cause:
     first = motion.joints[0]
     among = [k for k, name in enumerate(first.run_names) if name in runs]
     carried = np.isin(first.run, among)
-    columns = motion.regressor[:, :, -11:-1] * carried[:, None, None]
+    last = 11 * (len(motion.joints) - 1)
+    columns = motion.regressor(np.arange(last, last + 10)) * carried[:, None, None]
     others = [name for name in first.run_names if name not in runs]
     text = f"a payload in {', '.join(runs)}"
     if len(first.run_names) == 2:

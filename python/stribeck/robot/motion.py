@@ -25,6 +25,8 @@ BANDWIDTHS = 10.0
 BEFORE = 3.0
 #: Cut-offs as a share of the sampling rate at most.
 FASTEST = 0.4
+#: Samples whose regressor is computed at once.
+STRETCH = 20_000
 #: Segments of so many samples are too short to be filtered.
 SHORTEST = 30
 
@@ -97,10 +99,19 @@ class RobotMotion:
         """Measured torques, array [n, N]."""
         return np.stack([recording.torque for recording in self.joints], axis=1)
 
-    @cached_property
-    def regressor(self) -> Array:
-        """Derivatives of the torques by the inertial parameters, array [n, N, 11 N]."""
-        return self.robot.regressor(self.position, self.velocity, self.acceleration)
+    def regressor(self, columns: NDArray[np.intp]) -> Array:
+        """Derivatives of the torques by some inertial parameters, array [n, N, columns].
+
+        By stretches of samples, so that those of all parameters are never in memory together.
+        """
+        made = np.empty((*self.position.shape, columns.size))
+        for first in range(0, self.rows, STRETCH):
+            part = slice(first, first + STRETCH)
+            whole = self.robot.regressor(
+                self.position[part], self.velocity[part], self.acceleration[part]
+            )
+            made[part] = whole[:, :, columns]
+        return made
 
     def filtered(self, values: Array, joint: int | None = None) -> Array:
         """The zero-phase low-pass of `values` [n, ...].

@@ -110,11 +110,15 @@ class Balance:
     @cached_property
     def columns(self) -> Array:
         """Columns of base parameters and of the causes, array [n, N, b]."""
+        if not self.causes:
+            return self.rigid.values
         return np.concatenate([self.rigid.values, *(c.columns for c in self.causes)], axis=2)
 
     @cached_property
     def filtered_columns(self) -> tuple[Array, ...]:
         """`columns` of each joint after the low-pass, at its scored samples."""
+        if not self.causes:
+            return self.rigid.filtered
         parts = [self.rigid.filtered, *(c.filtered for c in self.causes)]
         return tuple(np.concatenate(of_joint, axis=1) for of_joint in zip(*parts, strict=True))
 
