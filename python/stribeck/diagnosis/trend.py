@@ -122,7 +122,8 @@ def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Tre
     left = residual - scaled @ values
     fall = 1.0 - rms(left) / rms(residual) if rms(residual) > 0.0 else 0.0
     move = np.maximum(moves(fitted.recording)[fitted.rows], 0)
-    if fall < LEAST_FALL or fewest(np.bincount(move, (residual - left) ** 2)) < FEWEST_MOVES:
+    gains = np.bincount(move, (residual - left) ** 2).astype(np.float64)
+    if fall < LEAST_FALL or fewest(gains) < FEWEST_MOVES:
         return None
     batch = batches(left.size, correlation_length(left), fewest=20)
     free = np.ones(scaled.shape[1], dtype=bool)
