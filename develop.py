@@ -16,7 +16,7 @@
     python3 develop.py instructions  count the instructions of each kernel (--write: keep the table)
     python3 develop.py peers         measure times against other packages (--bam FOLDER: also BAM)
     python3 develop.py papers        repeat the papers, and write docs/papers.md with its pictures
-    python3 develop.py gallery       write docs/effects.md and its pictures
+    python3 develop.py gallery       write docs/law_catalog.md, docs/effects.md and its pictures
     python3 develop.py scaling       measure how times grow, and how close they are to the limit
 
 Needs git, CPython >= 3.10 and stable Rust. Every task builds what has changed first. This file uses
@@ -216,6 +216,7 @@ def papers() -> None:
 
 def gallery() -> None:
     in_one_thread()
+    run(PYTHON, "tests/studies/gallery/laws.py")
     run(PYTHON, "tests/studies/gallery/page.py", *sys.argv[2:])
 
 

@@ -1,4 +1,4 @@
-"""docs/effects.md says what the tables of the effects say."""
+"""docs/law_catalog.md and docs/effects.md say what the tables of laws and effects say."""
 
 from __future__ import annotations
 
@@ -12,18 +12,28 @@ from stribeck.models.catalog import effect_ids
 
 ROOT = Path(__file__).resolve().parents[3]
 PAGE = (ROOT / "docs/effects.md").read_text(encoding="utf-8")
-ADVICE = "docs/effects.md is not up to date: run python3 develop.py gallery"
+ADVICE = "not up to date: run python3 develop.py gallery"
+
+
+def module(name: str) -> ModuleType:
+    """A file of the gallery."""
+    path = ROOT / f"tests/studies/gallery/{name}.py"
+    spec = importlib.util.spec_from_file_location(f"gallery_{name}", path)
+    assert spec is not None and spec.loader is not None
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    return made
 
 
 @pytest.fixture(scope="module")
 def catalog() -> ModuleType:
     """What the page says that follows from the tables alone."""
-    path = ROOT / "tests/studies/gallery/catalog.py"
-    spec = importlib.util.spec_from_file_location("gallery_catalog", path)
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module("catalog")
+
+
+def test_page_of_laws_is_that_of_the_tables():
+    laws = module("laws")
+    assert laws.PAGE.read_text(encoding="utf-8") == laws.page(), ADVICE
 
 
 def test_every_effect_is_on_the_page_in_the_order_of_the_catalog():
