@@ -11,6 +11,8 @@ from .result import RobotFit
 from .simulate import simulate_robot
 from .stored import read_friction, write_robot
 from .tables import from_tables
+from .updated_mjcf import write_mjcf
+from .updated_urdf import write_urdf
 
 __all__ = [
     "Robot",
@@ -33,5 +35,7 @@ __all__ = [
     "read_motion",
     "read_robot",
     "simulate_robot",
+    "write_mjcf",
     "write_robot",
+    "write_urdf",
 ]
