@@ -13,6 +13,14 @@ from stribeck.models.model import Model
 from stribeck.passivity.certificate import Certificate
 from stribeck.passivity.check import check
 
+#: Torque of the terms of an identified rigid body, in the names of parameters and inputs.
+_TERMS = {
+    "inertia": "inertia * acceleration",
+    "gravity": "gravity_cos * cos(position) + gravity_sin * sin(position)",
+}
+#: What the load torque is where it was recorded.
+LOAD = "the torque at the joint without its friction: gravity, inertia, contact"
+
 
 @dataclass(frozen=True)
 class About:
@@ -67,6 +75,7 @@ class About:
             yield f"Effects: {', '.join(self.model.effects)}"
         if self.model.rigid_body:
             yield f"Rigid-body terms in the torque: {', '.join(self.model.rigid_body)}"
+        yield from self._load()
         if "delay" in self.model.effects:
             yield "The delay is part of the recording, not of the joint: it is left out."
         constants = self.model.core.constants
@@ -75,6 +84,30 @@ class About:
         yield ""
         yield from self._provenance()
         yield from self._passivity()
+
+    @property
+    def rigid_body_torque(self) -> str | None:
+        """The torque of the rigid body that was identified with the friction, as a formula."""
+        terms = [_TERMS[name] for name in self.model.rigid_body]
+        return " + ".join(terms) if terms else None
+
+    @property
+    def load_to_give(self) -> str | None:
+        """How a controller computes the input ``load_torque``; None where there is none."""
+        if "load_torque" not in self.model.core.needs:
+            return None
+        return self.rigid_body_torque or LOAD
+
+    def _load(self) -> Iterator[str]:
+        """What the torque holds besides friction, and how ``load_torque`` is computed."""
+        formula, given = self.rigid_body_torque, self.load_to_give
+        if formula is not None:
+            yield "The torque of a step is friction plus the torque of the identified rigid body,"
+            yield f"  {formula}."
+        if given is not None and formula is not None:
+            yield "The friction depends on that torque too: compute it, and give it as load_torque."
+        elif given is not None:
+            yield f"load_torque, an input, is {given}."
 
     def _provenance(self) -> Iterator[str]:
         fitted = self.fitted_on

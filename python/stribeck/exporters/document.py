@@ -21,7 +21,8 @@ def json_files(
     """One JSON document, by file name.
 
     ``step`` holds the operations of one step, each as a list of name, operands and argument; an
-    infinite constant is written ``"inf"``.
+    infinite constant is written ``"inf"``. ``rigid_body_torque`` is the part of the torque that is
+    no friction, ``load_torque`` how that input is computed; null where there is none.
     """
     model = about.model
     document = {
@@ -36,6 +37,8 @@ def json_files(
             {"name": p.name, "symbol": p.symbol, "unit": p.unit, "value": float(value)}
             for p, value in zip(model.parameters, model.values, strict=True)
         ],
+        "rigid_body_torque": about.rigid_body_torque,
+        "load_torque": about.load_to_give,
         "fitted_on": dict(about.fitted_on),
         "certificate": None if about.certificate is None else about.certificate.to_dict(),
         "step": {

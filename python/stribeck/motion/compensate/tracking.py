@@ -81,7 +81,7 @@ class Tracking(Plotted):
         ]
 
 
-@door(friction=WITH_MODEL)
+@door(friction=WITH_MODEL, joint=("a Joint, or None", (Joint, type(None))))
 def compensate(
     friction: Model | ModelFile | Fit,
     joint: Joint | None,

@@ -25,7 +25,11 @@ Array = NDArray[np.float64]
 MOST_STEPS = 10_000_000
 
 
-@door(model=WITH_MODEL)
+@door(
+    model=WITH_MODEL,
+    joint=("a Joint, or None", (Joint, type(None))),
+    drive=("a drive: Follow, Torque or Pull", (Torque, Follow, Pull)),
+)
 def simulate(
     model: Model | ModelFile | Fit,
     joint: Joint | None,
