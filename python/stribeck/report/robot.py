@@ -283,7 +283,7 @@ def robot_plan_text(plan: RobotPlan) -> str:
 
 def _gain(plan: RobotPlan) -> str:
     if plan.gain is None:
-        return "No random motion is within these limits, so that a gain cannot be stated."
+        return "Too few random motions are within these limits for a gain to be stated."
     return (
         f"Standard errors of the {plan.parameters} base and friction parameters are smaller than "
         "on a random motion within the same limits by a factor of "

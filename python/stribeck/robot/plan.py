@@ -32,8 +32,8 @@ COARSE = 20.0
 #: Share of a torque limit, and distance between spheres, m, that the search keeps at its samples: a
 #: motion comes closer between them.
 TORQUE_SHARE, APART = 0.98, 0.01
-#: Random motions that are drawn to find those within the limits.
-DRAWN = 100
+#: Random motions that are drawn to find those within the limits, and fewest of them for a median.
+DRAWN, FEWEST = 400, 3
 #: Spread of a change of the design of one joint, of ranges from 0 to 1.
 SPREAD = 0.15
 
@@ -48,8 +48,8 @@ class RobotPlan(Shown):
         In s; rad or m, and their derivatives.
     gain
         By how much the standard errors are smaller than on a random motion within the same limits:
-        the median of random motions, geometric mean over all parameters. None: no random motion
-        is within the limits.
+        the median of random motions, geometric mean over all parameters. None: too few random
+        motions are within the limits.
     parameters
         Number of base and friction parameters.
     torque : array [N]
@@ -138,7 +138,7 @@ def plan_robot(
             f"known: give a robot file of `stribeck robot fit -o`, or a URDF"
         )
     search = _Search(robot, _families(robot, limits, seconds))
-    design, score, usual = search.best(np.random.default_rng(seed), tried)
+    design, usual = search.best(np.random.default_rng(seed), tried)
     time, position, velocity, acceleration = search.sampled(design, rate)
     torque = robot.torque(position, velocity, acceleration) if robot.has_inertia else None
     apart = float(clearance(robot, position).min())
@@ -147,6 +147,7 @@ def plan_robot(
             f"{robot.name}: no motion within the torque limits and without collision is found: "
             f"allow less position, speed or acceleration"
         )
+    score = search.score(search.motions(design))
     gain = None if usual is None else float(np.exp((score - usual) / search.parameters))
     largest = None if torque is None else np.abs(torque).max(axis=0)
     return RobotPlan(
@@ -206,10 +207,8 @@ class _Search:
         """The motion during the search."""
         return self.sampled(design, COARSE)[1:]
 
-    def best(
-        self, random: np.random.Generator, tried: int
-    ) -> tuple[list[Array], float, float | None]:
-        """The best design with its score, and the median score of random ones within the limits.
+    def best(self, random: np.random.Generator, tried: int) -> tuple[list[Array], float | None]:
+        """The best design, and the median score of random ones within the limits.
 
         Of two designs the one with the smaller violation of the limits is better, and of two
         without violation that with the larger score (Deb 2000).
@@ -228,7 +227,7 @@ class _Search:
             found = self.rank(changed)
             if _key(found) > _key(rank):
                 design, rank = changed, found
-        return design, rank[1], float(np.median(usual)) if usual else None
+        return design, float(np.median(usual)) if len(usual) >= FEWEST else None
 
     @property
     def is_limited(self) -> bool:
@@ -246,7 +245,7 @@ class _Search:
             if self.robot.has_inertia:
                 share = _excess(self.robot, self.robot.torque(*motion))
                 violation += max(0.0, share - TORQUE_SHARE)
-        # The score of what is not allowed is never needed.
+        # Designs that are not allowed are compared by their violation alone.
         return violation, self.score(motion) if violation == 0.0 else 0.0
 
     def score(self, motion: tuple[Array, Array, Array]) -> float:
