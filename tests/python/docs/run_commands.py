@@ -18,7 +18,7 @@ import sys
 import time
 from pathlib import Path
 
-from commands import Line, lines
+from command_lines import Line, lines
 from stribeck.cli.main import main
 from stribeck.motion.generate.hidden import generate
 

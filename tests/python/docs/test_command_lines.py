@@ -13,7 +13,7 @@ import click
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from commands import NOT_RUN, Line, lines
+from command_lines import NOT_RUN, Line, lines
 from stribeck.cli.main import cli
 
 HERE = Path(__file__).parent
