@@ -166,7 +166,8 @@ def oldest() -> None:
     run(PYTHON, "-m", "pip", "install", "--quiet", "uv")
     run(BIN / "uv", "venv", "--quiet", "--clear", "--python", PYTHON, venv)
     run(BIN / "uv", "pip", "install", "--quiet", "--python", python,
-        "--resolution", "lowest-direct", "-r", "pyproject.toml")  # fmt: skip
+        "--resolution", "lowest-direct", "--extra", "readers", "--extra", "robots",
+        "-r", "pyproject.toml")  # fmt: skip
     # The tools of the tests may be new; the extension module is that of `setup`.
     run(BIN / "uv", "pip", "install", "--quiet", "--python", python, "--constraint", LOCK,
         "pytest", "pytest-timeout", "hypothesis", "mpmath", "syrupy", "distributed")  # fmt: skip

@@ -5,10 +5,11 @@ use std::vec::Vec;
 use proptest::prelude::*;
 
 use super::branches;
+use super::cycles::{Outcome, Reach, examine};
 use super::enclosure::Enclosure;
 use super::friction::{Bristled, sliding};
-use super::region::{Region, Side, faster_than, pieces};
-use super::spread;
+use super::region::{Region, Side, at, faster_than, halves, pieces};
+use super::{replay, spread};
 use crate::catalog::LawId;
 use crate::common;
 use crate::common::random::hold;
@@ -156,12 +157,112 @@ fn spread_points_reach_the_ends_of_their_region() {
 /// Where a law gives the sign a width, steady sliding bends the bristle by the smoothed sign only.
 #[test]
 fn a_smoothed_sign_weakens_a_bristle_near_rest() {
-    let smoothed = common::every_model().into_iter().find_map(|spec| {
-        let model = spec.with(&common::values(&spec)).ok()?;
-        let at = |velocity| Bristled::of(&model, &Sample::at(velocity));
-        let (slow, fast) = (at(1e-6)?, at(1e3)?);
-        (slow.strength() < 0.5 * slow.dry).then_some((slow, fast))
-    });
-    let (_, fast) = smoothed.expect("a law of the catalog smooths its sign");
-    assert!((fast.strength() / fast.dry - 1.0).abs() < 1e-9);
+    let mut smoothed = 0;
+    for spec in common::every_model() {
+        let Ok(model) = spec.with(&common::values(&spec)) else { continue };
+        let part = |velocity| {
+            let bristled = Bristled::of(&model, &Sample::at(velocity))?;
+            Some(bristled.strength() / bristled.dry)
+        };
+        let (Some(slow), Some(fast)) = (part(1e-6), part(1e3)) else { continue };
+        assert!((0.0..=1.0).contains(&slow), "{spec}: {slow}");
+        assert!((fast - 1.0).abs() < 1e-5, "{spec}: {fast}");
+        smoothed += usize::from(slow < 0.5);
+    }
+    assert!(smoothed > 0, "a law of the catalog smooths its sign");
+}
+
+/// s0, s1, s2, Fc, Fs, vs, alpha of Canudas de Wit et al. 1995, and the bounds of its numbers.
+fn lugre() -> (Composed<f64>, Composed<Enclosure>) {
+    let values = [1e5, 316.227_766_016_837_95, 0.4, 1.0, 1.5, 1e-3, 2.0];
+    let spec = Spec::new("lugre", []).unwrap();
+    let numbers = values.map(Enclosure::point);
+    (spec.with(&values[..]).unwrap(), spec.with(&numbers[..]).unwrap())
+}
+
+/// `f^2/D + s1 v (1 - f/D) + s2 v`, beyond the increase of `f^2/(2 s0)`.
+#[test]
+fn dissipation_of_a_bristle_is_that_of_its_equations() {
+    let (exact, bounded) = lugre();
+    for speed in [1e-4, 0.002, 0.7] {
+        let point = Sample::at(speed);
+        let known = Bristled::of(&exact, &point).unwrap();
+        let found = Bristled::of(&bounded, &at(&point)).unwrap();
+        for force in [-1.2, -0.3, 0.4, 1.1] {
+            let x = force / known.dry;
+            let expected = force * x + 316.227_766_016_837_95 * speed * (1.0 - x) + 0.4 * speed;
+            let bounds = found.dissipated(Enclosure::point(force));
+            let slack = 1e-12 * (1.0 + expected.abs());
+            assert!((bounds.lower - expected).abs() < slack, "{speed} {force}: {bounds:?}");
+            assert!((bounds.upper - expected).abs() < slack, "{speed} {force}: {bounds:?}");
+        }
+    }
+}
+
+/// A cycle around a force that is only approached has no size.
+#[test]
+fn a_cycle_lies_strictly_inside_the_forces_that_are_reached() {
+    let (_, bounded) = lugre();
+    let regions = pieces(&[Side { channel: Channel::Velocity, lower: -1.0, upper: 1.0 }]);
+    let active = |outer, inner| {
+        let reach = Reach { outer, inner };
+        match examine(&bounded, &regions, &[Channel::Velocity], reach, 20_000) {
+            Outcome::Active { force, .. } => Some(force),
+            _ => None,
+        }
+    };
+    let whole = [-1.5, 1.5];
+    let force = active(whole, whole).expect("the damping is too strong");
+    let (below, above) = (force - 0.0625, force + 0.0625);
+    assert_eq!(active([below, above], [below, above]), Some(force));
+    let higher = active([below, above], [force, above]).expect("it is not that force alone");
+    assert!(force < higher && higher < above, "{force} {higher}");
+    assert_ne!(active([below, above], [below, force]), Some(force));
+}
+
+/// Between ends of one sign that differ by more than a factor of four, a cut is geometric.
+#[test]
+fn regions_are_cut_at_their_midpoints() {
+    let cut = |lower: f64, upper: f64| {
+        let mut region = Region::at(Enclosure::point(0.0));
+        region.temperature = Enclosure { lower, upper };
+        let [low, high] = halves(&region, Channel::Temperature).unwrap();
+        assert_eq!((low.temperature.lower, high.temperature.upper), (lower, upper));
+        assert_eq!(low.temperature.upper, high.temperature.lower);
+        low.temperature.upper
+    };
+    for (lower, upper, expected) in [
+        (1.0, 3.0, 2.0),
+        (2.0, 6.0, 4.0),
+        (1.0, 16.0, 4.0),
+        (0.0625, 4.0, 0.5),
+        (-16.0, -1.0, -4.0),
+        (-3.0, -1.0, -2.0),
+        (0.0, 16.0, 8.0),
+        (-16.0, 0.0, -8.0),
+        (-1.0, 16.0, 7.5),
+    ] {
+        assert_eq!(cut(lower, upper), expected, "{lower} {upper}");
+    }
+    let mut region = Region::at(Enclosure::point(0.0));
+    region.temperature = Enclosure { lower: 1.0, upper: 1.0_f64.next_up() };
+    assert!(halves(&region, Channel::Temperature).is_none());
+}
+
+/// With negative damping the fastest motion of the box in its own direction generates most energy.
+#[test]
+fn steady_sliding_is_replayed_at_the_speed_of_its_direction() {
+    let spec = Spec::new("coulomb", []).unwrap();
+    let values: Vec<_> = spec
+        .parameters()
+        .map(|parameter| if parameter.name == "coulomb_friction" { 0.1 } else { -1.0 })
+        .collect();
+    let model = spec.with(&values[..]).unwrap();
+    for (velocity, fastest) in [(0.5, 4.0), (-0.5, -1.0)] {
+        let found = replay::sliding(&model, &Sample::at(velocity), [-1.0, 4.0]);
+        let held = found.holds[0].point.velocity;
+        assert_eq!(held, fastest);
+        let expected = held.abs() * (0.1 - held.abs());
+        assert!((found.work - expected).abs() < 1e-12, "{}", found.work);
+    }
 }

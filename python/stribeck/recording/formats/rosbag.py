@@ -38,9 +38,9 @@ def read_bag(file: Entered, asked: Asked) -> Read:
     if file.compressed:
         raise RecordingError(f"{file.name}: bags are read as they are: decompress it (gunzip)")
     first = file.suffix == ".bag"
-    reader: Any = Reader1(file.path) if first else Reader2(file.path)
+    kind: Any = Reader1 if first else Reader2
     try:
-        with reader:
+        with kind(file.path) as reader:
             kinds = {c.topic: c.msgtype for c in reader.connections}
             topics = Topics(file, kinds, asked)
             wanted = [c for c in reader.connections if c.topic in topics.wanted]
