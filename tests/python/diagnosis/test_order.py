@@ -60,6 +60,8 @@ class World:
     failing: set[str] = field(default_factory=set)
     not_everywhere: set[str] = field(default_factory=set)
     demoted: set[str] = field(default_factory=set)
+    #: Effects of which the recording does not determine how large they are.
+    of_unknown_size: set[str] = field(default_factory=set)
     #: Effects that no recording like this tells from one of the catalog.
     alike: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
@@ -91,6 +93,7 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
         "refined": lambda trial, before, seed: trial,
         "passes": lambda trial, *rest: trial.effect not in made.failing,
         "falls_on_all_samples": lambda before, trial: trial.effect not in made.not_everywhere,
+        "has_known_size": lambda effect, fit: effect not in made.of_unknown_size,
         "is_friction": lambda effect: effect in made.friction,
         "where": lambda *rest: "here",
         "find": lambda effect: Known(effect) if effect in made.alike else None,
@@ -188,7 +191,20 @@ def test_an_effect_with_nearly_the_same_fall_is_a_tie(world: World) -> None:
     found = order(BEST, other(3.0, 3, enough))
     assert names(found) == ["best", "other"]
     assert found.findings[0].indistinguishable_from == ("other",)
-    assert order(BEST, other(3.0, 3, too_little)).findings[0].indistinguishable_from == ()
+    for no_tie in (other(3.0, 3, too_little), other(3.0, 5, enough)):
+        assert order(BEST, no_tie).findings[0].indistinguishable_from == ()
+    assert order(BEST, other(3.0, 4, enough)).findings[0].indistinguishable_from == ("other",)
+
+
+def test_a_simpler_effect_of_unknown_size_wins_no_tie(world: World) -> None:
+    world.of_unknown_size = {"other"}
+    assert names(order(BEST, other(0.5, 3))) == ["best", "other"]
+    world.of_unknown_size = {"best", "other"}
+    assert names(order(BEST, other(0.5, 3))) == ["other", "best"]
+    # It comes before one that may not replace the best at all.
+    world.of_unknown_size = {"other"}
+    third = Tried("third", 4, Fitted(1.1, 1.21), 1.5, -0.9)
+    assert names(order(BEST, third, other(0.5, 5))) == ["best", "other", "third"]
 
 
 @pytest.mark.parametrize("statistic", [0.5, 3.0])
