@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from stribeck.base.errors import SpecError
+from stribeck.cli.choices import per_run_option
 from stribeck.cli.common import (
     echo_json,
     json_option,
@@ -43,6 +44,7 @@ from stribeck.report.plots.page import width_in_mm
     help="Column width: 88 mm, 180 mm, or a number of mm.",
 )
 @formula_options
+@per_run_option
 @starts_option
 @recording_options
 @seed_option
@@ -53,6 +55,7 @@ def plot(
     output: str,
     width: str,
     written: Written,
+    per_run: tuple[str, ...],
     starts: int,
     reading: ReadOptions,
     seed: int,
@@ -67,7 +70,7 @@ def plot(
     if not (models or written.laws):
         raise SpecError("no model is given: name laws or model files, or write laws by --law")
     recording = read_recording(data, reading)
-    fits = fits_of(models, written, recording, starts=starts, seed=seed)
+    fits = fits_of(models, written, recording, starts=starts, seed=seed, per_run=per_run)
     draw(recording, fits, what, width=millimetres, path=output)
     if as_json:
         drawn = [fitted.model.spec for fitted in fits]

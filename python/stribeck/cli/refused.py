@@ -17,6 +17,22 @@ SHARED_VALUES = (
     "effects are sought with one value of each parameter in all runs; `stribeck fit` and "
     "`stribeck compare` take it"
 )
+#: What commands that fit a spec on the way do not take.
+OF_A_SPEC = dict.fromkeys(
+    (
+        "--start",
+        "--bound",
+        "--fix",
+        "--prior",
+        "--constraint",
+        "--tie",
+        "--loss",
+        "--algorithm",
+        "--per-run",
+        "--evaluate",
+    ),
+    "a spec is fitted with the defaults; give it to `stribeck fit -o M.toml`, and name M.toml here",
+)
 #: What a study does not take.
 OF_A_STUDY = {
     "--per-run": "a study fits each law with one value of each parameter; `stribeck fit` and "

@@ -22,6 +22,7 @@ from stribeck.cli.common import (
 from stribeck.cli.data import arguments_of_both, split
 from stribeck.cli.outputs import PAGE, CheckedCommand
 from stribeck.cli.pages import write_account
+from stribeck.cli.refused import OF_A_SPEC, refusing
 from stribeck.diagnosis.compare import compare
 from stribeck.diagnosis.loop.improve import improve
 from stribeck.fitting.result import Fit
@@ -51,6 +52,7 @@ _HEAD = 4096
     metavar="FILE",
     help="The page (HTML). [default: name of DATA with .report.html]",
 )
+@refusing(OF_A_SPEC)
 @starts_option
 @recording_options
 @seed_option

@@ -18,6 +18,7 @@ from stribeck.cli.common import (
 )
 from stribeck.cli.data import arguments_of_both, split
 from stribeck.cli.outputs import FIGURE, CheckedCommand
+from stribeck.cli.refused import OF_A_SPEC, refusing
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.validation import validate as drive
 from stribeck.recording.options import ReadOptions
@@ -32,6 +33,7 @@ from stribeck.recording.options import ReadOptions
     metavar="FILE",
     help="Write a figure of both motions (PNG, SVG, PDF).",
 )
+@refusing(OF_A_SPEC)
 @starts_option
 @recording_options
 @seed_option

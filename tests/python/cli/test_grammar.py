@@ -33,6 +33,8 @@ FITTING: dict[str, set[str]] = {
     "improve": {"--per-run"},
     "study": {"--per-run"},
     "fleet": {"--per-run", "--evaluate"},
+    "report": ROBOT | {"--evaluate"},
+    "validate": ROBOT | {"--evaluate"},
     "robot fit": ROBOT,
     "robot compare": ROBOT,
     "robot diagnose": ROBOT | {"--evaluate"},
