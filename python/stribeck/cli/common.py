@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Protocol
@@ -17,7 +16,7 @@ from stribeck.cli.flags import with_flags
 from stribeck.cli.kept import keep
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.outputs import FOLDER, MODEL, PAGE
-from stribeck.cli.terminal import on_stderr
+from stribeck.cli.terminal import on_stderr, stderr_is_terminal
 from stribeck.diagnosis.result import Finding
 from stribeck.fitting.evaluate import evaluate, refuse_other_joint
 from stribeck.fitting.fit import fit
@@ -75,7 +74,7 @@ def echo_result(result: Result, as_json: bool, file_text: Callable[[], str] | No
         return {key: finite(value) for key, value in result.to_dict().items()}
 
     unsaved = keep(result, text, in_json, file_text)
-    if unsaved and text is not None and sys.stderr.isatty():
+    if unsaved and text is not None and stderr_is_terminal():
         say("note: the model is in no file; `stribeck last -o M.toml` writes it")
 
 

@@ -36,12 +36,17 @@ def show_everywhere() -> None:
 _COLOURS = {"stribeck:": "red", "note:": "yellow"}
 
 
+def stderr_is_terminal() -> bool:
+    """Whether somebody reads stderr; it may be closed, or there may be none."""
+    return sys.stderr is not None and not sys.stderr.closed and sys.stderr.isatty()
+
+
 def on_stderr(sentence: str) -> str:
     """A sentence for stderr: on a terminal wrapped to its width, its first word in colour.
 
     There is no colour where NO_COLOR is set (https://no-color.org) or the terminal is dumb.
     """
-    if sys.stderr is None or sys.stderr.closed or not sys.stderr.isatty():
+    if not stderr_is_terminal():
         return sentence
     first = sentence.partition(" ")[0]
     if "\n" not in sentence:
