@@ -83,7 +83,8 @@ def calibration_figure(bins: Sequence[Reliability]) -> Figure:
         linestyle="none",
         label="findings, 95 % interval",
     )
-    beside = {"xytext": (-6, 4), "textcoords": "offset points", "ha": "right"}
+    plain = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
+    beside = {"xytext": (-6, 4), "textcoords": "offset points", "ha": "right", "bbox": plain}
     for mean, share, r in zip(means, shares, bins, strict=True):
         axes.annotate(str(r.share.total), (mean, share), fontsize=8, color=MEASURED, **beside)
     axes.set(

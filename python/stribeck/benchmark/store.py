@@ -78,7 +78,7 @@ class AnswerStore:
             folder.mkdir(parents=True, exist_ok=True)
             if (folder / MANIFEST).exists():
                 self._check(manifest)
-                self.answers = {a.case.name: a for a in _read(folder / ANSWERS)}
+                self.answers = {a.case.name: a for a in read_answers(folder / ANSWERS)}
             elif any(folder.iterdir()):
                 raise StribeckError(
                     f"{folder} is not empty and contains no benchmark: "
@@ -186,7 +186,7 @@ def _finite(value: object) -> object:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _read(path: Path) -> list[CaseAnswer]:
+def read_answers(path: Path) -> list[CaseAnswer]:
     """Read earlier answers; an incomplete last line is ignored."""
     if not path.exists():
         return []

@@ -9,6 +9,9 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
+#: Powers with which the scale of a torque may change.
+SCALE_POWERS = (1.0, 2.0, 4.0, 8.0)
+
 
 def hats(x: Array, count: int) -> list[Array]:
     """Piecewise-linear functions of `x` over quantile knots, without the constant."""
@@ -28,7 +31,7 @@ def half_waves(position: Array, harmonics: range) -> list[Array]:
 def odd_powers(torque: Array, reference: float) -> list[Array]:
     """Odd functions of a torque that grow faster than it, as a changing torque constant does."""
     ratio = np.abs(torque) / (reference or 1.0)
-    return [torque * ratio**power for power in (1.0, 2.0, 4.0, 8.0)]
+    return [torque * ratio**power for power in SCALE_POWERS]
 
 
 def displacement_since_reversal(recording: Recording) -> Array:

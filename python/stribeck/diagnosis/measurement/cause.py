@@ -24,10 +24,13 @@ class MeasurementCause:
         The cause as a noun phrase, for sentences.
     columns
         What it may add to the torque of a fit: arrays [n]; none where it cannot act.
+    rising
+        How many of the columns, the last ones, cannot have a negative factor.
     """
 
     what: str
     columns: Callable[[Fit], list[Array]]
+    rising: int = 0
 
 
 def load_of(fit: Fit) -> Array:

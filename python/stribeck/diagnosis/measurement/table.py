@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from stribeck.diagnosis.measurement.cause import Array, MeasurementCause
@@ -18,3 +20,13 @@ def measurement_columns(fit: Fit) -> dict[str, Array]:
     """Columns [m, k] of each cause on the samples of a fit, by what the cause is."""
     found = ((cause.what, cause.columns(fit)) for cause in CAUSES)
     return {what: np.column_stack(columns)[fit.rows] for what, columns in found if columns}
+
+
+def least_factors(columns: Mapping[str, Array]) -> Array:
+    """The least factor that each of these columns, one after the other, may have [k]."""
+    rising = {cause.what: cause.rising for cause in CAUSES}
+    made = []
+    for what, of_cause in columns.items():
+        count = of_cause.shape[1]
+        made.append(np.where(np.arange(count) < count - rising[what], -np.inf, 0.0))
+    return np.concatenate(made)

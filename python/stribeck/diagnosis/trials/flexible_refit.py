@@ -27,12 +27,15 @@ class FlexibleRefit:
         The fit.
     columns : array [m, k]
         Columns that let its effects do so, on its samples.
+    least : array [k]
+        The least factor of each column.
     held_out, residual : array [m]
         Residual of the refits without each block, and of the refit to all samples.
     """
 
     before: Fit
     columns: Array
+    least: Array
     held_out: Array
     residual: Array
 
@@ -43,9 +46,10 @@ class FlexibleRefit:
         return cls.beside(before, columns) if columns.shape[1] else None
 
     @classmethod
-    def beside(cls, before: Fit, columns: Array) -> FlexibleRefit:
-        """A fit with given columns [m, k]."""
-        return cls(before, columns, *_linear_refit(before, columns, before))
+    def beside(cls, before: Fit, columns: Array, least: Array | None = None) -> FlexibleRefit:
+        """A fit with given columns [m, k], and their least factors; default: any."""
+        least = np.full(columns.shape[1], -np.inf) if least is None else least
+        return cls(before, columns, least, *_linear_refit(before, columns, before, least))
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
         """Whether a trial among `tried`, which must bring the fall `least`, no longer passes."""
@@ -54,7 +58,7 @@ class FlexibleRefit:
 
     def beside_columns(self, trial: Trial) -> tuple[float, float]:
         """What a trial adds to the columns: relative fall of the held-out RMSE, and p-value."""
-        along, residual_along = _linear_refit(trial.fit, self.columns, self.before)
+        along, residual_along = _linear_refit(trial.fit, self.columns, self.before, self.least)
         level = float(np.mean(self.held_out**2))
         fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
         p_value = added_torque_test(
@@ -70,11 +74,14 @@ def held_out_with_columns(fitted: Fit, extra: Array, before: Fit) -> Array:
 
     With the weights of `before`, so that fits are compared with the same weights.
     """
-    return _linear_refit(fitted, extra, before)[0]
+    return _linear_refit(fitted, extra, before, np.full(extra.shape[1], -np.inf))[0]
 
 
-def _linear_refit(fitted: Fit, extra: Array, before: Fit) -> tuple[Array, Array]:
-    """Held-out and in-sample residuals, weighted, of `fitted` linearised with `extra` columns."""
+def _linear_refit(fitted: Fit, extra: Array, before: Fit, least: Array) -> tuple[Array, Array]:
+    """Held-out and in-sample residuals, weighted, of `fitted` linearised with `extra` columns.
+
+    The `least` factors of these columns are zero or minus infinity.
+    """
     problem = Problem(
         fitted.recording, fitted.model, fitted.rows, fitted.load, loss_weight=before.loss_weight
     )
@@ -85,13 +92,14 @@ def _linear_refit(fitted: Fit, extra: Array, before: Fit) -> tuple[Array, Array]
     group = fitted.recording.block[fitted.rows].astype(np.uint32)
     sums = NormalEquations.of(columns, residual, group)
     matrix, vector = sums.total()
+    lower = np.concatenate([np.full(jacobian.shape[1], -np.inf), least])[size > 0]
     free = np.full(columns.shape[1], np.inf)
     # A small ridge bounds columns that only one block determines, in the refit without it.
     ridge = 1e-6 * residual.size * np.eye(columns.shape[1])
     held_out = residual.copy()
     for b in range(sums.square.size):
-        step = solve_bounded(matrix - sums.matrix[b] + ridge, vector - sums.vector[b], -free, free)
+        step = solve_bounded(matrix - sums.matrix[b] + ridge, vector - sums.vector[b], lower, free)
         rows = group == b
         held_out[rows] = residual[rows] - columns[rows] @ step
-    step = solve_bounded(matrix + ridge, vector, -free, free)
+    step = solve_bounded(matrix + ridge, vector, lower, free)
     return held_out, residual - columns @ step

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stribeck.diagnosis.measurement.table import measurement_columns
+from stribeck.diagnosis.measurement.table import least_factors, measurement_columns
 from stribeck.diagnosis.trials.evidence import Difference
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
@@ -25,8 +25,12 @@ def without_imitations(before: Fit, sift: Sifted, tried: int, least: float) -> S
     columns = measurement_columns(before) if suspects else {}
     if not columns:
         return sift
-    alone = {what: FlexibleRefit.beside(before, made) for what, made in columns.items()}
-    together = FlexibleRefit.beside(before, np.column_stack(list(columns.values())))
+    alone = {
+        what: FlexibleRefit.beside(before, made, least_factors({what: made}))
+        for what, made in columns.items()
+    }
+    every = np.column_stack(list(columns.values()))
+    together = FlexibleRefit.beside(before, every, least_factors(columns))
     for trial in suspects:
         better = _advantage(before, together, trial)
         if better < -TIE:

@@ -85,9 +85,21 @@ def ranked(
         is_tied = t.effect in alike
         share = weights[t.effect] / (total if is_tied else total + weights[t.effect])
         others = tuple(o for o in named if o != t.effect) if is_tied else ()
-        made.append(_finding(before, t, float((1.0 - chance) * share), others, floor))
+        confidence = float((1.0 - chance) * share)
+        if _simpler(before, t) & set(others):
+            confidence = min(confidence, DEMOTED)
+        made.append(_finding(before, t, confidence, others, floor))
     besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))
+
+
+def _simpler(before: Fit, trial: Trial) -> set[str]:
+    """The effects that a trial contains, and brings along.
+
+    Where one of them is a tie, little remains for the wider effect, and measuring may cause that:
+    as likely as not it is the simpler one.
+    """
+    return {*trial.fit.model.effects} - {*before.model.effects, trial.effect}
 
 
 def _none_but_demoted(
