@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.plausibility.rules import DEMOTED
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.ranking import MATERIAL, ranked, share_of_unexplained
@@ -150,3 +151,22 @@ def test_sifted_trials_keep_their_order(case: tuple[sb.Fit, dict[str, Trial]]) -
     again = Doubted(trials["offset"], "few events")
     rest = known.instead(trials["offset"], Sifted((), (again,)))
     assert rest == Sifted((trials["load"],), (weak, again))
+
+
+def test_a_wider_effect_is_as_likely_as_the_simpler_one_that_does_nearly_as_much(
+    tmp_path: Path,
+) -> None:
+    """A load dependence that hardly differs between motoring and generating."""
+    load, v = joint()["load_torque"].to_numpy(), motion()[2]
+    extra = 0.2 * np.abs(load) * np.sign(v) * (1.0 + 0.3 * (v * load > 0.0))
+    before = sb.fit("coulomb", record(tmp_path, joint(extra)))
+    trials = []
+    for effect, spec in (("quadrant", "coulomb+load+quadrant"), ("load", "coulomb+load")):
+        after = sb.fit(spec, before.recording)
+        trials.append(Trial(effect, after, evidence(before, after)))
+    wider, simpler = trials
+    assert tie_statistic(wider, simpler) > 3.0
+    found = ranked(before, Sifted((wider, simpler)), TRIED, LEAST, floor_of(before, 0.1), 0)
+    first = next(f for f in found.findings if f.effect == "quadrant")
+    assert first.indistinguishable_from == ("load",)
+    assert first.confidence == DEMOTED
