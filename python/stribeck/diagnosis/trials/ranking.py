@@ -27,6 +27,7 @@ from stribeck.diagnosis.trials.trial import (
 from stribeck.effect.describe import is_friction, where
 from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
+from stribeck.models.catalog import simpler_effect
 
 #: An effect that brings this share of the fall of the best, adds nothing to it and has no more
 #: parameters, is a tie.
@@ -86,20 +87,12 @@ def ranked(
         share = weights[t.effect] / (total if is_tied else total + weights[t.effect])
         others = tuple(o for o in named if o != t.effect) if is_tied else ()
         confidence = float((1.0 - chance) * share)
-        if _simpler(before, t) & set(others):
+        # Little remains for an effect whose simpler part is a tie, and measuring may cause that.
+        if simpler_effect(t.effect) in others:
             confidence = min(confidence, DEMOTED)
         made.append(_finding(before, t, confidence, others, floor))
     besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))
-
-
-def _simpler(before: Fit, trial: Trial) -> set[str]:
-    """The effects that a trial contains, and brings along.
-
-    Where one of them is a tie, little remains for the wider effect, and measuring may cause that:
-    as likely as not it is the simpler one.
-    """
-    return {*trial.fit.model.effects} - {*before.model.effects, trial.effect}
 
 
 def _none_but_demoted(
