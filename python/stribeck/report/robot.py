@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.report.layout import joined, paragraph, table
-from stribeck.report.numbers import DASH, percent, plain, unit_text, with_error
+from stribeck.report.diagnosis import doubts
+from stribeck.report.layout import bullets, joined, paragraph, table
+from stribeck.report.numbers import DASH, confidence_text, percent, plain, unit_text, with_error
 
 if TYPE_CHECKING:
     from stribeck.robot.arm import Robot
@@ -193,13 +194,23 @@ def robot_diagnosis_text(found: RobotDiagnosis) -> str:
         unit = joint.fit.model.torque_unit
         others = "".join(f" or {other}" for other in first.indistinguishable_from)
         lacks = f"{first.effect}{others}"
-        spec, sure = joint.fit.model.spec, percent(first.confidence)
+        spec, sure = joint.fit.model.spec, confidence_text(first.confidence)
         rows.append([name, spec, lacks, f"{before} → {after}", unit, sure])
     return joined(
         table(rows, right=[3]),
+        *_doubts_of_joints(found),
         causes_text(found.rigid_body),
         "" if found.fit.payload is None else paragraph(payload_sentence(found.fit.payload), 0),
     )
+
+
+def _doubts_of_joints(found: RobotDiagnosis) -> list[str]:
+    """Effects of each joint that lower the held-out error, but are demoted or not claimed."""
+    rows: dict[str, list[str]] = {}
+    for name, joint in found.joints.items():
+        for heading, sentences in doubts(joint):
+            rows.setdefault(heading, []).extend(f"joint {name}, {text}" for text in sentences)
+    return [bullets(f"{heading}:", sentences) for heading, sentences in rows.items()]
 
 
 #: What is said where nothing is found in the rigid bodies.

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stribeck.effect.describe import physically
+from stribeck.report.diagnosis import doubts
 from stribeck.report.numbers import confidence_words, percent, plain, unit_text
 from stribeck.report.page import picture_text, render
 from stribeck.report.page_figures import NO_FIGURES
@@ -157,7 +158,8 @@ def _verdict(last: Diagnosis) -> list[str]:
     """What remains of a joint, and what its motion cannot show."""
     said = []
     if last.verdict == "unexplained":
-        said.append("Structure remains in its residual that no effect of the catalog explains.")
+        said.append("Structure remains in its residual that no effect explains beyond doubt.")
+    said += [f"{heading}: {' '.join(sentences)}" for heading, sentences in doubts(last)]
     if last.untestable:
         names = ", ".join(row.effect for row in last.untestable)
         said.append(f"This motion cannot show: {names}.")
