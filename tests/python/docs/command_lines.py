@@ -22,6 +22,7 @@ NOT_RUN = {
     "stribeck app": "waits for clicks; tests/python/report/workbench makes them",
     "stribeck robot": "needs recordings of a whole robot; tests/python/robot has them",
     "stribeck benchmark": "takes minutes to hours; tests/python/benchmark",
+    "python tests/studies": "reads answers of the benchmark; tests/python/benchmark",
     "stribeck improve ../shared": "needs ../shared; tests/real/table.py, tests/python/same",
     "stribeck fit ../shared": "needs ../shared; tests/real/table.py, tests/python/same",
     'stribeck fleet "logs/*/*.parquet" --scheduler': "needs a cluster; tests/python/scale/fleet",
