@@ -208,7 +208,10 @@ def test_a_diagnosis_says_all_that(plain: sb.Recording) -> None:
         {"direction", "offset"} <= set(g) for g in answer["indistinguishable_groups"]
     )
     text = repr(diagnosis)
-    assert "Smallest RMS torque that would have been found" in text and "Indistinguishable" in text
+    assert (
+        "Smallest RMS torque that would have been significant" in text
+        and "Indistinguishable" in text
+    )
     assert max(map(len, text.splitlines())) <= 98
 
 

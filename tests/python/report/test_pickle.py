@@ -21,8 +21,8 @@ from synthetic import joint, record
 #: They hold fits, recordings and numbers as the others do.
 ELSEWHERE = {
     "ArmFit", "BristleStiffness", "Plan", "Robot", "RobotComparison", "RobotDiagnosis",
-    "RobotFit", "RobotImprovement", "RobotPlan", "SteadyPoints", "StreamedDiagnosis",
-    "StreamedFit", "StreamedImprovement", "Teaching", "Transmission",
+    "RobotFit", "RobotImprovement", "RobotPlan", "RobotTracking", "SteadyPoints",
+    "StreamedDiagnosis", "StreamedFit", "StreamedImprovement", "Teaching", "Transmission",
 }  # fmt: skip
 
 
