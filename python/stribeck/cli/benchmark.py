@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from stribeck.base.pool import Stopped
-from stribeck.cli.common import echo_json, json_option, say, seed_option
+from stribeck.cli.common import echo_json, json_option, say, seed_option, workers_option
 from stribeck.cli.outputs import CheckedCommand
 from stribeck.cli.progress import Progress
 
@@ -58,12 +58,7 @@ def benchmark() -> None:
     help="Nuisances on which the diagnosis was not developed.",
 )
 @click.option("--quick", is_flag=True, help="One recording of most kinds; takes minutes.")
-@click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    default=None,
-    help="Number of processes. [default: one per core]",
-)
+@workers_option
 @click.option(
     "-o",
     "--output",
@@ -145,12 +140,7 @@ def diagnosis(
     metavar="WORD",
     help="Only arms of this group (effect, rigid, none, coverage), or with this hidden.",
 )
-@click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    default=None,
-    help="Number of processes. [default: one per core]",
-)
+@workers_option
 @seed_option
 @json_option
 def robot(

@@ -93,6 +93,12 @@ seed_option = click.option(
     show_default=True,
     help="Seed of the random numbers.",
 )
+workers_option = click.option(
+    "--workers",
+    type=click.IntRange(min=1),
+    default=None,
+    help="Number of processes. [default: one per core]",
+)
 output_option = click.option(
     "-o",
     "--output",

@@ -17,20 +17,21 @@ SHARED_VALUES = (
     "effects are sought with one value of each parameter in all runs; `stribeck fit` and "
     "`stribeck compare` take it"
 )
+#: How the parameters of one model are found.
+_CHOICES = (
+    "--start",
+    "--bound",
+    "--fix",
+    "--prior",
+    "--constraint",
+    "--tie",
+    "--loss",
+    "--algorithm",
+    "--per-run",
+)
 #: What commands that fit a spec on the way do not take.
 OF_A_SPEC = dict.fromkeys(
-    (
-        "--start",
-        "--bound",
-        "--fix",
-        "--prior",
-        "--constraint",
-        "--tie",
-        "--loss",
-        "--algorithm",
-        "--per-run",
-        "--evaluate",
-    ),
+    (*_CHOICES, "--evaluate"),
     "a spec is fitted with the defaults; give it to `stribeck fit -o M.toml`, and name M.toml here",
 )
 #: What a study does not take.
@@ -46,17 +47,7 @@ OF_A_FLEET = {
 }
 #: What whole robots do not take, each for the same reason.
 OF_A_ROBOT = dict.fromkeys(
-    (
-        "--start",
-        "--bound",
-        "--fix",
-        "--prior",
-        "--constraint",
-        "--tie",
-        "--loss",
-        "--algorithm",
-        "--per-run",
-    ),
+    _CHOICES,
     "the joints of a robot have parameters of the same names, and are identified together by "
     "weighted least squares; `stribeck fit --joint NAME` takes it for one joint",
 )

@@ -19,6 +19,7 @@ from stribeck.cli.common import (
     say,
     seed_option,
     starts_option,
+    workers_option,
 )
 from stribeck.cli.data import arguments_of, split
 from stribeck.cli.evaluation import Judgement, WithJudgements, evaluate_option, judged
@@ -59,12 +60,7 @@ from stribeck.scale.study.study import study as make_study
     default=None,
     help="Limit of low speed in the tables. [default: 0.1 rad/s, or 0.01 m/s]",
 )
-@click.option(
-    "--workers",
-    type=click.IntRange(min=1),
-    default=None,
-    help="Number of processes. [default: one per core]",
-)
+@workers_option
 @report_option
 @recording_options
 @seed_option

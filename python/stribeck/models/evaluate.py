@@ -26,12 +26,9 @@ def torque(
 ) -> Array:
     """Torque of each sample, array [n], as `Model.torque` describes it."""
     check_choice("precision", precision, ("double", "single"))
-    single = precision == "single"
-    if out is None:
-        found = core.torque(values, **read, state=state, single=single)
-    else:
+    if out is not None:
         check_output(out, read["velocity"].shape, {**read, "state": state})
-        found = core.torque(values, **read, state=state, single=single, out=out)
+    found = core.torque(values, **read, state=state, single=precision == "single", out=out)
     return finite(found, f"the torque of {spec}")
 
 
@@ -44,12 +41,12 @@ def gradient(
     out: Array | None,
 ) -> Array:
     """Derivatives of the torque with respect to the parameters, array [n, p]."""
-    if out is None:
-        _, found = core.gradient(values, **read, state=state)
-    else:
+    both = None
+    if out is not None:
         rows = read["velocity"].size
         check_output(out, (rows, values.size), {**read, "state": state})
-        _, found = core.gradient(values, **read, state=state, out=(np.empty(rows), out))
+        both = np.empty(rows), out
+    _, found = core.gradient(values, **read, state=state, out=both)
     return finite(found, f"the gradient of {spec}")
 
 

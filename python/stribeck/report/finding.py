@@ -49,15 +49,7 @@ def finding_figure(finding: Finding, *, headed: bool = True) -> Figure:
     if headed:
         headline(figure, _headline(finding), 10.5)
     _name_errors(axes, finding)
-    figure.legend(
-        *axes.get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=2,
-        frameon=False,
-        fontsize=9,
-        title=panel_legend(effect),
-        title_fontsize=8.5,
-    )
+    legend_of_panel(figure, axes, effect)
     return figure
 
 
@@ -106,6 +98,19 @@ def finding_panel(axes: Axes, effect: str, before: Fit, after: Fit) -> None:
         axes.set_xscale("log")
     axes.set_xlabel(view.x_label)
     axes.set_ylabel(view.y_label)
+
+
+def legend_of_panel(figure: Figure, axes: Axes, effect: str) -> None:
+    """Put the legend of a panel below it, and how the panel is to be read."""
+    figure.legend(
+        *axes.get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=2,
+        frameon=False,
+        fontsize=9,
+        title=panel_legend(effect),
+        title_fontsize=8.5,
+    )
 
 
 def panel_legend(effect: str) -> str:

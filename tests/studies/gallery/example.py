@@ -10,7 +10,7 @@ from catalog import base_of
 from matplotlib.figure import Figure
 from stribeck.effect.registry import of_catalog
 from stribeck.motion.generate.hidden import generate
-from stribeck.report.finding import finding_panel, panel_legend
+from stribeck.report.finding import finding_panel, legend_of_panel
 from stribeck.report.style import new_figure, style
 
 #: One recording for each seed; the picture is of the first.
@@ -69,13 +69,5 @@ def _picture(effect: str, before: sb.Fit, after: sb.Fit) -> Figure:
     axes = figure.add_subplot()
     style(axes)
     finding_panel(axes, effect, before, after)
-    figure.legend(
-        *axes.get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=2,
-        frameon=False,
-        fontsize=9,
-        title=panel_legend(effect),
-        title_fontsize=8.5,
-    )
+    legend_of_panel(figure, axes, effect)
     return figure

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from stribeck.report.effect_example import EffectExample
-from stribeck.report.finding import finding_panel, panel_legend
+from stribeck.report.finding import finding_panel, legend_of_panel
 from stribeck.report.law_curve import LawCurve
 from stribeck.report.style import COLOURS, headline, new_figure, style, zero_line
 
@@ -41,13 +41,5 @@ def effect_figure(example: EffectExample, title: str) -> Figure:
     style(axes)
     finding_panel(axes, example.effect, example.without, example.with_it)
     headline(figure, title, 10.5)
-    figure.legend(
-        *axes.get_legend_handles_labels(),
-        loc="outside lower center",
-        ncols=2,
-        frameon=False,
-        fontsize=9,
-        title=panel_legend(example.effect),
-        title_fontsize=8.5,
-    )
+    legend_of_panel(figure, axes, example.effect)
     return figure

@@ -123,12 +123,7 @@ def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> No
     assert [node.label for node in project.tree] == ["coulomb", "+ load", "+ stribeck"]
     assert project.current == 1
     assert (kept / "demo-1.report.html").stat().st_size > 100_000
-    subprocess.run(
-        ["cc", "-std=c99", "-o", "try", "friction.c", "friction_test.c"],
-        cwd=kept / "demo-1-c",
-        check=True,
-    )
-    subprocess.run([str(kept / "demo-1-c" / "try")], check=True)
+    check_exported(kept / "demo-1-c")
 
 
 def test_long_work_is_stopped_at_once(opened: tuple[Any, str]) -> None:
@@ -165,10 +160,15 @@ def test_ur10e_by_clicks(tmp_path: Path, shared_data: Path) -> None:
         press(page, "Write the report")
         press(page, "Export the program")
     (folder,) = (tmp_path / "kept").glob("*-c")
+    check_exported(folder)
+    assert list((tmp_path / "kept").glob("*.report.html"))
+
+
+def check_exported(folder: Path) -> None:
+    """Compile an exported program and run its own test."""
     compile = ["cc", "-std=c99", "-o", "try", "friction.c", "friction_test.c"]
     subprocess.run(compile, cwd=folder, check=True)
     subprocess.run([str(folder / "try")], check=True)
-    assert list((tmp_path / "kept").glob("*.report.html"))
 
 
 def test_a_million_samples(tmp_path: Path) -> None:
