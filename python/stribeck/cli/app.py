@@ -34,8 +34,8 @@ from stribeck.recording.several.paths import named_files
 def app(data: tuple[str, ...], port: int, no_browser: bool, folder: str) -> None:
     """Open the workbench in a browser: load, compare, find what is missing, add, export.
 
-    DATA are recordings or project files. The first line printed is the address with its token,
-    which only this computer can reach; Ctrl-C ends it.
+    DATA are recordings, which are opened as runs of one joint, or project files. The first line
+    printed is the address with its token, which only this computer can reach; Ctrl-C ends it.
     """
     files = [file for one in data for file in ([one] if is_project(one) else named_files([one]))]
     try:

@@ -22,6 +22,7 @@ from stribeck.cli.common import (
     seed_option,
     starts_option,
 )
+from stribeck.cli.data import data_argument
 from stribeck.cli.formulas import Written, candidate_option, check_candidates
 from stribeck.cli.outputs import MODEL, CheckedCommand
 from stribeck.cli.pages import diagnosis_report
@@ -50,7 +51,7 @@ def _written(made: Project, as_json: bool) -> None:
 
 @project.command(cls=CheckedCommand)
 @click.argument("path", metavar="PROJECT")
-@click.argument("data")
+@data_argument
 @click.option(
     "--base",
     default="coulomb",
@@ -62,9 +63,15 @@ def _written(made: Project, as_json: bool) -> None:
 @seed_option
 @json_option
 def new(
-    path: str, data: str, base: str, starts: int, reading: ReadOptions, seed: int, as_json: bool
+    path: str,
+    data: tuple[str, ...],
+    base: str,
+    starts: int,
+    reading: ReadOptions,
+    seed: int,
+    as_json: bool,
 ) -> None:
-    """Make PROJECT of the recording DATA, with the base model fitted."""
+    """Make PROJECT of the recording DATA, with the base model fitted; several are its runs."""
     check_folder(path, ProjectError)
     with one_writer(path):
         if os.path.lexists(path):

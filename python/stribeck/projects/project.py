@@ -40,6 +40,7 @@ from stribeck.projects.source import Source
 from stribeck.projects.tables import project_dict, project_frame
 from stribeck.projects.tree import Tree
 from stribeck.projects.write import write_project
+from stribeck.recording.load import Given
 from stribeck.recording.options import ReadArguments
 from stribeck.recording.recording import Recording
 
@@ -80,19 +81,19 @@ class Project(Plotted):
     def new(
         cls,
         path: str | os.PathLike[str],
-        data: str | os.PathLike[str],
+        data: Given,
         base: str | Model = "coulomb",
         *,
         starts: int = 20,
         seed: int = 0,
         **reading: Unpack[ReadArguments],
     ) -> Project:
-        """Make a project of one recording; its first node is the fitted `base`.
+        """Make a project of one joint; its first node is the fitted `base`.
 
         Parameters
         ----------
         path, data
-            The project file, which is not written yet, and the recording.
+            The project file, which is not written yet, and the recording (several are its runs).
         **reading
             Options of `stribeck.read`.
 
@@ -126,8 +127,7 @@ class Project(Plotted):
     def save_model(self, path: str | os.PathLike[str]) -> None:
         """Write the model file of the current node."""
         file = self.node.kept.file
-        data = str(self.source.file)
-        replace(file, fitted_on={**file.fitted_on, "path": data}).write(path)
+        replace(file, fitted_on={**file.fitted_on, "path": self.source.file}).write(path)
 
     @property
     def node(self) -> Node:

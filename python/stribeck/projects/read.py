@@ -13,7 +13,7 @@ from stribeck.models.reader import read_model
 from stribeck.projects.findings import Found, Remembered
 from stribeck.projects.kept import Kept
 from stribeck.projects.node import CHANGES, Node
-from stribeck.projects.source import READING, Source
+from stribeck.projects.source import READING, Source, Stored
 from stribeck.projects.tree import Tree
 from stribeck.projects.write import SCHEMA
 
@@ -64,12 +64,16 @@ class _Reader:
                 f"schema {data.get('schema')!r} is unknown, {SCHEMA} is needed", "schema"
             )
         self.text.check_keys(data, TOP_KEYS)
-        tables = {key: self._table(data, key) for key in ("data", "nodes")}
-        tree = Tree(self._nodes(tables["nodes"]))
+        files = self._files(data)
+        tree = Tree(self._nodes(self._table(data, "nodes")))
         current = data.get("current")
         if not isinstance(current, int) or current not in [node.number for node in tree]:
             raise self.stop(f"current is {current!r}, but there is no such node", "current")
-        return StoredProject(self._source(tables["data"], data.get("reading", {})), tree, current)
+        reading = data.get("reading", {})
+        if not isinstance(reading, dict):
+            raise self.stop(f"reading is {reading!r}, a table is needed", "reading")
+        self.text.check_keys(reading, READING, "[reading]")
+        return StoredProject(Source(self.path.parent, files, reading), tree, current)
 
     def _table(self, data: Mapping[str, object], key: str) -> Mapping[str, object]:
         table = data.get(key)
@@ -77,15 +81,20 @@ class _Reader:
             raise self.stop(f"the table [{key}] is missing")
         return table
 
-    def _source(self, stored: Mapping[str, object], reading: object) -> Source:
-        self.text.check_keys(stored, DATA_KEYS, "[data]")
-        path, sha256 = (self._text(stored, key, "[data]") for key in ("path", "sha256"))
-        if not isinstance(reading, dict):
-            raise self.stop(f"reading is {reading!r}, a table is needed", "reading")
-        self.text.check_keys(reading, READING, "[reading]")
+    def _files(self, data: Mapping[str, object]) -> tuple[Stored, ...]:
+        """The data files: a table, or one for each of several."""
+        stored = data.get("data")
+        if not isinstance(stored, list):
+            return (self._file(self._table(data, "data"), "[data]"),)
+        if not stored or not all(isinstance(table, dict) for table in stored):
+            raise self.stop("a table [[data]] for each file is needed", "data")
+        return tuple(self._file(table, "[[data]]") for table in stored)
+
+    def _file(self, stored: Mapping[str, object], header: str) -> Stored:
+        self.text.check_keys(stored, DATA_KEYS, header)
+        path, sha256 = (self._text(stored, key, header) for key in ("path", "sha256"))
         key = "sidecar_sha256"
-        sidecar = self._text(stored, key, "[data]") if key in stored else None
-        return Source(self.path.parent, path, sha256, sidecar, reading)
+        return Stored(path, sha256, self._text(stored, key, header) if key in stored else None)
 
     def _nodes(self, tables: Mapping[str, object]) -> tuple[Node, ...]:
         nodes: list[Node] = []

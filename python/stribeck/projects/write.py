@@ -43,8 +43,11 @@ def project_toml(project: Project) -> str:
     document.add("kind", tomlkit.item("project"))
     document.add("schema", tomlkit.item(SCHEMA))
     document.add("current", tomlkit.item(project.current))
-    data = {"path": source.path, "sha256": source.sha256, "sidecar_sha256": source.sidecar_sha256}
-    document.add("data", _table(data))
+    tables = [_table(one.to_dict()) for one in source.files]
+    several = tomlkit.aot()
+    for table in tables:
+        several.append(table)
+    document.add("data", several if len(tables) > 1 else tables[0])
     if source.reading:
         document.add("reading", _table(source.reading))
     nodes = tomlkit.table(is_super_table=True)

@@ -55,7 +55,7 @@ def test_how_the_file_was_read_is_kept_as_it_was_said(folder: Path, tmp_path: Pa
         "map": ["load_torque=none"],
         "where": "time > 1.0",
     }
-    assert again.source.path == "sub/joint.csv"
+    assert again.source.path == "sub/joint.csv" and len(again.source.files) == 1
     assert len(again.recording) == len(made.recording)
     sidecar.write_text(sidecar.read_text() + "gear_ratio = 2.0\n")
     with pytest.raises(ProjectError, match="sidecar"):
@@ -149,3 +149,23 @@ def test_a_project_is_written_beside_its_data_or_not_at_all(
     with pytest.raises(ProjectError, match="write it to this folder"):
         branched.save(tmp_path / "elsewhere.toml")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_several_files_are_runs_of_the_joint(folder: Path, tmp_path: Path) -> None:
+    given = folder / "data" / "joint.csv"
+    paths = [Path(shutil.copy(given, tmp_path / f"run{k}.csv")) for k in (1, 2)]
+    made = sb.Project.new(tmp_path / "p.toml", paths, "coulomb", starts=1, where="time > 1.0")
+    made.save()
+    again = sb.project(tmp_path / "p.toml")
+    assert again.to_dict() == made.to_dict()
+    assert [one.path for one in again.source.files] == ["run1.csv", "run2.csv"]
+    assert again.recording.run_names == ("run1", "run2")
+    assert again.source.sha256 == sb.read(paths, where="time > 1.0").sha256
+    text = (tmp_path / "p.toml").read_text()
+    assert text.count("[[data]]") == 2
+    paths[1].write_text(given.read_text().replace("\n", "\n0.0", 1))
+    with pytest.raises(ProjectError, match=r"run2\.csv has changed since"):
+        sb.project(tmp_path / "p.toml")
+    (tmp_path / "p.toml").write_text(text.replace("[[data]]", "[[date]]"))
+    with pytest.raises(ProjectError, match="date"):
+        sb.project(tmp_path / "p.toml")

@@ -24,7 +24,7 @@ from stribeck.recording.rows import MANY_RUNS
 from stribeck.recording.several.agree import check_agreement
 from stribeck.recording.several.part import Part, joined_values
 
-__all__ = ["join"]
+__all__ = ["join", "joined_hash"]
 
 
 def join(parts: Sequence[Part], path: str, *, standstill: bool = False) -> Recording:
@@ -118,7 +118,7 @@ def _prepared(parts: Sequence[Part], path: str) -> Prepared:
     settings = replace(settings, mechanics=replace(settings.mechanics, motor=motor))
     files = tuple(file for part in parts for file in part.files)
     return Prepared(
-        Source(path, _hash(files), table, 0),
+        Source(path, joined_hash(files), table, 0),
         settings,
         table,
         np.arange(table.height),
@@ -127,7 +127,7 @@ def _prepared(parts: Sequence[Part], path: str) -> Prepared:
     )
 
 
-def _hash(files: Sequence[tuple[str, str]]) -> str:
+def joined_hash(files: Sequence[tuple[str, str]]) -> str:
     """Hash of the names and hashes of several files, in order; that of a single file."""
     if len(files) == 1:
         return files[0][1]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from stribeck.base.errors import RecordingError, SpecError
 from stribeck.diagnosis.compare import Comparison, compare
@@ -24,20 +26,29 @@ from stribeck.recording.scan import FileColumn
 from stribeck.report.account import of_project
 from stribeck.report.page import account_page
 from stribeck.report.workbench.work import Telling
+from stribeck.robot.describe import read_robot
+from stribeck.robot.improve import improve_robot as improve_joints
+from stribeck.robot.motion import read_motion
+
+#: One file, or several that are runs of one joint.
+Files: TypeAlias = tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class Looked:
-    """What a file holds.
+    """What files hold.
 
     Attributes
     ----------
     said
         The JSON of `stribeck inspect`.
+    joints
+        Names of all joints.
     """
 
     said: Mapping[str, object]
     columns: tuple[FileColumn, ...]
+    joints: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -60,23 +71,30 @@ class Limits:
     separate: tuple[str, ...]
 
 
-def look(tell: Telling, path: str, options: ReadOptions) -> Looked:
-    """Read a file, and say what it holds and can show."""
-    tell("said", "Reading the file")
+@dataclass(frozen=True)
+class RobotPage:
+    """The page of a whole robot, HTML."""
+
+    text: str
+
+
+def look(tell: Telling, files: Files, options: ReadOptions) -> Looked:
+    """Read files, and say what they hold and can show."""
+    tell("said", "Reading the file" if len(files) == 1 else f"Reading {len(files)} files")
     recording: Recording | None = None
     try:
-        recording = read_with(path, options)
+        recording = read_with(files, options)
     except RecordingError:
         # The inspection below says why.
         recording = None
     if recording is not None:
         tell("known", recording)
     tell("said", "Checking the channels against each other, and what they can show")
-    found = inspect(path, **options.given())
-    return Looked(found.to_dict(), found.table.columns)
+    found = inspect(files, **options.given())
+    return Looked(found.to_dict(), found.table.columns, found.table.joints)
 
 
-def begin(tell: Telling, path: str, data: str, base: str, options: ReadOptions) -> Changed:
+def begin(tell: Telling, path: str, data: Files, base: str, options: ReadOptions) -> Changed:
     """Make a project with its base model fitted."""
     tell("said", f"Fitting {base}")
     return _compared(tell, Project.new(path, data, base, **options.given()))
@@ -175,6 +193,21 @@ def page_of(tell: Telling, project: Project, command: str) -> str:
         raise SpecError("the model has no diagnosis: press Find what is missing first")
     account = of_project(project, diagnosis, compare(fits, project.recording))
     return account_page(account.made_by(command, check(project.fit)))
+
+
+def improve_robot(tell: Telling, files: Files, described: str, options: ReadOptions) -> RobotPage:
+    """Identify a whole robot and add what its joints lack; returns the page of it."""
+    # matplotlib is slow to import.
+    from stribeck.report.robot_page import robot_improvement_page
+
+    tell("said", "Reading all joints")
+    motion = read_motion(read_robot(described), files, replace(options, joint=None))
+    for recording in motion.joints:
+        recording.require_consistent()
+    found = improve_joints(motion, progress=lambda sentence: tell("said", sentence))
+    tell("said", "Writing the page")
+    command = shlex.join(["stribeck", "robot", "improve", *files, "--robot", described])
+    return RobotPage(robot_improvement_page(found, command))
 
 
 def _compared(tell: Telling, project: Project) -> Changed:

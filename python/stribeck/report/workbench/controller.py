@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -21,10 +21,14 @@ from stribeck.projects.sides import Sides
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.readers import SUFFIXES
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.paths import named_files
 from stribeck.report.workbench import actions
-from stribeck.report.workbench.actions import Changed, Looked
+from stribeck.report.workbench.actions import Changed, Looked, RobotPage
 from stribeck.report.workbench.state import Joint, Message, State
 from stribeck.report.workbench.work import Kind, Work
+
+#: How the names of projects end.
+PROJECT = ".toml"
 
 
 class Workbench:
@@ -35,7 +39,7 @@ class Workbench:
     folder
         Where projects, uploads and all that is exported are written; made when it is needed.
     files
-        Recordings or project files; the first is opened.
+        Recordings, which are opened as runs of one joint, or project files.
     spell : callable
         Writes the options in sentences.
 
@@ -53,32 +57,40 @@ class Workbench:
         self._changed = threading.Condition(threading.RLock())
         #: How long each kind of work took last, s.
         self.took: dict[str, float] = {}
+        recordings = [file for file in files if not file.endswith(PROJECT)]
         if files:
-            self.open(files[0])
+            self.open(*(recordings or files[:1]))
 
     # Data
 
-    def open(self, path: str) -> None:
-        """Open a recording or a project file."""
-        if not os.path.isfile(path):
-            raise RecordingError(f"{path}: there is no such file: check the path")
-        if path not in self.state.files:
-            self.state.files.append(path)
-        if path.endswith(".toml"):
-            self._do(actions.reopen, (path,), f"Opening {Path(path).name}", self._joint(path))
-            return
-        joint = self._joint(path)
-        self._look(joint, joint.options)
+    def open(self, *given: str) -> None:
+        """Open a recording, several files as its runs, or a project file."""
+        is_project = len(given) == 1 and given[0].endswith(PROJECT)
+        files = given if is_project else tuple(named_files(given))
+        for path in files:
+            if not os.path.isfile(path):
+                raise RecordingError(f"{path}: there is no such file: check the path")
+        self.state.files += [path for path in files if path not in self.state.files]
+        joint = self._joint(files)
+        if is_project:
+            self._do(actions.reopen, files, f"Opening {Path(files[0]).name}", joint)
+        else:
+            self._look(joint, joint.options)
 
-    def upload(self, name: str, content: bytes) -> None:
-        """Keep a file that was sent, and open it."""
-        bare = Path(name.replace("\\", "/")).name
-        if not bare.lower().removesuffix(".gz").endswith((*SUFFIXES, ".toml")):
-            raise RecordingError(f"{bare}: this format is not read: give CSV, Parquet or MATLAB")
+    def upload(self, sent: Sequence[tuple[str, bytes]]) -> None:
+        """Keep files that were sent, each with its name, and open them."""
+        names = [Path(name.replace("\\", "/")).name for name, _ in sent]
+        for name in names:
+            if not name.lower().removesuffix(".gz").endswith((*SUFFIXES, ".toml")):
+                raise RecordingError(
+                    f"{name}: this format is not read: give CSV, Parquet or MATLAB"
+                )
         folder = self._made(self.folder / "uploads")
-        path = _free(folder, bare)
-        write_bytes_whole(path, content)
-        self.open(str(path))
+        paths = []
+        for name, (_, content) in zip(names, sent, strict=True):
+            paths.append(_free(folder, name))
+            write_bytes_whole(paths[-1], content)
+        self.open(*map(str, paths))
 
     def choose(self, number: int) -> None:
         """Show another of the joints that were worked on."""
@@ -92,7 +104,7 @@ class Workbench:
         """Read the current file with other options; another joint is work of its own."""
         joint = self.joint
         if joint.project is not None or options.joint != joint.options.joint:
-            joint = Joint(joint.path, options)
+            joint = Joint(joint.files, options, others=joint.others)
             self.state.joints.append(joint)
             self.state.current = joint
         self._look(joint, options)
@@ -106,14 +118,20 @@ class Workbench:
             raise RecordingError("there is no recording yet: complete the page Check first")
         joint.recording.require_consistent()
         if joint.project is not None:
-            joint = Joint(joint.path, joint.options, joint.recording, joint.looked)
+            given = (joint.files, joint.options, joint.recording, joint.looked, joint.others)
+            joint = Joint(*given)
             self.state.joints.append(joint)
-        stem = Path(joint.path).name.split(".")[0]
         of = f"-joint-{joint.options.joint}" if joint.options.joint else ""
-        path = _free(self._made(self.folder), f"{stem}{of}.project.toml")
+        path = _free(self._made(self.folder), f"{joint.stem}{of}.project.toml")
         self._do(
-            actions.begin, (str(path), joint.path, base, joint.options), f"Fitting {base}", joint
+            actions.begin, (str(path), joint.files, base, joint.options), f"Fitting {base}", joint
         )
+
+    def improve_robot(self, described: str) -> None:
+        """Identify all joints of the files together, and add what each lacks."""
+        joint = self.joint
+        given = (joint.files, described, joint.options)
+        self._do(actions.improve_robot, given, "Improving all joints of the robot")
 
     def compare_laws(self, laws: list[str]) -> None:
         """Fit several laws, and compare them."""
@@ -224,17 +242,18 @@ class Workbench:
         with self._changed:
             self._note(Message("error", self.spell(sentence)))
 
-    def _joint(self, path: str) -> Joint:
-        known = [joint for joint in self.state.joints if joint.path == path]
-        if known:
-            return known[-1]
-        return Joint(path)
+    def _joint(self, files: tuple[str, ...]) -> Joint:
+        """What is known of these files or this project, or nothing yet."""
+        for joint in reversed(self.state.joints):
+            project = () if joint.project is None else (str(joint.project.path),)
+            if files in (joint.files, project):
+                return joint
+        return Joint(files)
 
     def _look(self, joint: Joint, options: ReadOptions) -> None:
         joint.options = options
         joint.recording = joint.looked = None
-        title = f"Opening {Path(joint.path).name}"
-        self._do(actions.look, (joint.path, options), title, joint)
+        self._do(actions.look, (joint.files, options), f"Opening {joint.title}", joint)
 
     def _require_idle(self) -> None:
         if self.work is not None:
@@ -282,7 +301,13 @@ class Workbench:
                 joint.recording = result
             case Looked():
                 joint.looked = result
+                # With a joint named, a wide file has that one alone.
+                joint.others = result.joints if len(result.joints) > 1 else joint.others
             case Changed():
+                if joint.files[0].endswith(PROJECT):
+                    source = result.project.source
+                    joint.files = source.named
+                    joint.options = ReadOptions.of(source.reading)
                 joint.project = result.project
                 joint.recording = result.project.recording
                 if result.comparison is not None:
@@ -300,9 +325,9 @@ class Workbench:
             case Export():
                 return self._wrote(*result.files)
             case str():
-                path = self._made(self.folder) / f"{self._stem()}.report.html"
-                write_whole(path, result)
-                return self._wrote(path)
+                return self._save_page(f"{self._stem()}.report.html", result)
+            case RobotPage():
+                return self._save_page(f"{joint.stem}.robot.report.html", result.text)
         return None
 
     def _take(self, project: Project, said: str) -> None:
@@ -317,6 +342,11 @@ class Workbench:
             project.save()
         if project.path not in self.state.written:
             self.state.written.append(project.path)
+
+    def _save_page(self, name: str, text: str) -> Message:
+        path = self._made(self.folder) / name
+        write_whole(path, text)
+        return self._wrote(path)
 
     def _save_motion(self, plan: Plan) -> Message:
         path = self._made(self.folder) / f"{self._stem()}.motion.csv"

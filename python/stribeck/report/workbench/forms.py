@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import shlex
 from collections.abc import Callable, Mapping
 
 from stribeck.base.errors import SpecError, nearest
@@ -61,6 +63,23 @@ def lines(fields: Fields, name: str) -> list[str]:
     return [
         line.strip() for said in fields.get(name, []) for line in said.splitlines() if line.strip()
     ]
+
+
+def paths(said: str) -> list[str]:
+    """The paths of a text: one, or several with spaces between them."""
+    if os.path.exists(said):
+        return [said]
+    try:
+        return shlex.split(said)
+    except ValueError as error:
+        raise SpecError(f"{said}: these paths cannot be told apart: {error}") from None
+
+
+def ticked(fields: Fields, name: str) -> list[str]:
+    """What is ticked."""
+    if not fields.get(name):
+        raise SpecError(f"no {name} is ticked: tick at least one")
+    return list(fields[name])
 
 
 def options_of(fields: Fields) -> ReadOptions:
@@ -124,11 +143,13 @@ def _reject(bench: Workbench, fields: Fields) -> None:
 
 
 ACTIONS: dict[str, Callable[[Workbench, Fields], None]] = {
-    "open": lambda bench, f: bench.open(text(f, "path")),
+    "open": lambda bench, f: bench.open(*paths(text(f, "path"))),
+    "open together": lambda bench, f: bench.open(*ticked(f, "file")),
     "choose": lambda bench, f: bench.choose(int(number(f, "number"))),
     "read": lambda bench, f: bench.read(options_of(f)),
     "apply": _apply,
     "compare laws": lambda bench, f: bench.compare_laws(list(words(f, "law"))),
+    "improve robot": lambda bench, f: bench.improve_robot(text(f, "robot")),
     "start": lambda bench, f: bench.start(text(f, "law")),
     "where": lambda bench, f: bench.where(),
     "diagnose": lambda bench, f: bench.diagnose(),

@@ -123,16 +123,15 @@ class Act(Handler):
 
 
 class Upload(Handler):
-    """A file that is sent."""
+    """Files that are sent."""
 
     def post(self) -> None:
-        """Keep and open it."""
+        """Keep and open them."""
         try:
             files = self.request.files.get("file", [])
             if not files:
                 raise StribeckError("no file is chosen: choose one first")
-            for sent in files:
-                self.bench.upload(sent["filename"], sent["body"])
+            self.bench.upload([(sent["filename"], sent["body"]) for sent in files])
         except StribeckError as error:
             self.bench.fail(str(error))
         self.back()

@@ -13,6 +13,7 @@ from stribeck.projects.project import Project
 from stribeck.projects.sides import Sides
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
+from stribeck.recording.several.paths import text_of
 from stribeck.report.workbench.actions import Looked
 
 
@@ -26,20 +27,25 @@ class Message:
 
 @dataclass
 class Joint:
-    """One joint of a file, and all that was done with it.
+    """One joint, and all that was done with it.
 
     Attributes
     ----------
+    files
+        One, or several that are runs of the joint.
+    others
+        Names of all joints of the files, where there are several.
     comparisons, certificates
         By number of the node.
     laws
         Laws compared on the recording, before or beside the project.
     """
 
-    path: str
+    files: tuple[str, ...]
     options: ReadOptions = field(default_factory=ReadOptions)
     recording: Recording | None = None
     looked: Looked | None = None
+    others: tuple[str, ...] = ()
     project: Project | None = None
     comparisons: dict[int, Comparison] = field(default_factory=dict)
     certificates: dict[int, Certificate] = field(default_factory=dict)
@@ -58,9 +64,16 @@ class Joint:
         return None if self.project is None else self.certificates.get(self.project.current)
 
     @property
+    def stem(self) -> str:
+        """How the names of files begin that are written."""
+        first, more = Path(self.files[0]).name.split(".")[0], len(self.files) - 1
+        return f"{first}-and-{more}-more" if more else first
+
+    @property
     def title(self) -> str:
-        """The file, and the joint where one is named."""
-        name = Path(self.path).name
+        """The files, and the joint where one is named."""
+        names = [Path(file).name for file in self.files]
+        name = text_of(names, names)
         return f"{name}, joint {self.options.joint}" if self.options.joint else name
 
 

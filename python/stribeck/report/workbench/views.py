@@ -27,7 +27,7 @@ from stribeck.report.page import comparison_tables
 from stribeck.report.parameters import parameter_rows
 from stribeck.report.project import branches
 from stribeck.report.recording import scored_sentence
-from stribeck.report.workbench.controller import Workbench
+from stribeck.report.workbench.controller import PROJECT, Workbench
 
 if TYPE_CHECKING:
     from stribeck.diagnosis.result import Finding
@@ -94,7 +94,13 @@ def _data(bench: Workbench, joint: Joint | None) -> Values:
         channels += ["position"] if r.position is not None else []
         channels += ["load"] if r.load_torque is not None else []
         channels += ["temperature"] if r.temperature is not None else []
-    return {"known": known, "figures": channels, "scored": _scored(joint)}
+    recordings = [path for path in known if not path.endswith(PROJECT)]
+    return {
+        "known": known,
+        "recordings": recordings,
+        "figures": channels,
+        "scored": _scored(joint),
+    }
 
 
 def _scored(joint: Joint | None) -> str:

@@ -16,6 +16,7 @@ import pytest
 import stribeck as sb
 from browser import PAGES, artefacts, chromium, done, go, press, workbench
 from stribeck.motion.generate.demo import demo_path
+from synthetic import joint
 
 pytestmark = [pytest.mark.slow, pytest.mark.timeout(600)]
 
@@ -137,6 +138,45 @@ def test_long_work_is_stopped_at_once(opened: tuple[Any, str]) -> None:
     done(page)
     assert "Stopped" in page.inner_text("main")
     assert page.locator("tr.current").count() == 1
+
+
+def test_runs_of_an_arm_by_clicks(tmp_path: Path) -> None:
+    paths = [tmp_path / f"run{k}.csv" for k in (1, 2)]
+    for seed, path in enumerate(paths):
+        arm(seed).write_csv(path)
+    folder = artefacts(tmp_path / "pictures")
+    with workbench(tmp_path) as (_, address), chromium() as page:
+        page.goto(address)
+        page.get_by_label("Drop a recording").set_input_files(paths)
+        page.get_by_role("button", name="Open what is chosen").click()
+        done(page)
+        go(page, "Data")
+        assert "Each file holds 2 joints" in page.inner_text("main")
+        assert [*faults(page), *shoot(page, folder, "joints")] == []
+        press(page, "Joint 2")
+        page.wait_for_selector("body[data-drawn='1']")
+        assert page.get_by_role("checkbox", checked=True).count() == 2
+        assert [*faults(page), *shoot(page, folder, "runs")] == []
+        go(page, "Compare")
+        press(page, "Fit this law")
+        go(page, "Data")
+        page.get_by_role("checkbox").first.uncheck()
+        press(page, "Open the ticked as runs of one joint")
+        assert "run2.csv: no law fitted yet" in page.inner_text("header")
+    project = sb.project(tmp_path / "kept" / "run1-and-1-more-joint-2.project.toml")
+    assert project.recording.run_names == ("run1", "run2")
+    assert project.recording.joint == "2"
+
+
+def arm(seed: int) -> pl.DataFrame:
+    """A file of two joints."""
+    channels = {"position": "q", "velocity": "dq", "torque": "tau"}
+    parts = [joint(rows=1500, seed=2 * seed + k).select("time", *channels) for k in (0, 1)]
+    named = [
+        part.rename({channel: f"{name}_{k}" for channel, name in channels.items()})
+        for k, part in enumerate(parts, 1)
+    ]
+    return pl.concat([named[0], named[1].drop("time")], how="horizontal")
 
 
 def test_ur10e_by_clicks(tmp_path: Path, shared_data: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.base.errors import StribeckError
@@ -126,6 +127,59 @@ def test_a_column_is_read_as_a_channel(tmp_path: Path) -> None:
     assert bench.joint.recording.columns["velocity"].source == "speed of it"
 
 
+def test_several_files_are_runs_of_one_joint(tmp_path: Path) -> None:
+    files = [str(tmp_path / f"run{k}.csv") for k in (1, 2)]
+    for seed, path in enumerate(files):
+        joint(rows=1500, seed=seed).write_csv(path)
+    bench = Workbench(tmp_path / "kept", files)
+    assert bench.wait(WAIT)
+    assert bench.joint.recording is not None
+    assert bench.joint.recording.run_names == ("run1", "run2")
+    assert "runs of one joint" in page(bench, "data", link)
+    do(bench, "start", law="coulomb")
+    assert bench.project.node.kept.rmse == sb.fit("coulomb", sb.read(files)).rmse
+    path = str(bench.project.path)
+    # One of them alone is work of its own; the project opens with both files.
+    do(bench, "open", path=files[1])
+    assert bench.joint.recording.runs == 1
+    again = Workbench(tmp_path / "other", [path])
+    assert again.wait(WAIT)
+    assert again.joint.recording is not None and again.joint.recording.runs == 2
+    do(again, "start", law="coulomb+offset")
+    assert len(again.project.source.files) == 2
+    # By a pattern, by two paths, and ticked.
+    do(bench, "open", path=str(tmp_path / "run*.csv"))
+    assert bench.joint.files == tuple(files)
+    do(bench, "open", path=" ".join(reversed(files)))
+    assert bench.joint.files == tuple(reversed(files))
+    act(bench, "open together", {"file": files})
+    assert bench.wait(WAIT) and bench.joint.files == tuple(files)
+
+
+def test_a_joint_is_chosen_of_a_file_with_several(tmp_path: Path) -> None:
+    path = tmp_path / "arm.csv"
+    parts = [
+        joint(rows=1500, seed=k).select(
+            "time",
+            pl.col("position").alias(f"q_{k}"),
+            pl.col("velocity").alias(f"dq_{k}"),
+            pl.col("torque").alias(f"tau_{k}"),
+        )
+        for k in (1, 2)
+    ]
+    pl.concat([parts[0], parts[1].drop("time")], how="horizontal").write_csv(path)
+    bench = Workbench(tmp_path, [str(path)])
+    assert bench.wait(WAIT)
+    assert bench.joint.others == ("1", "2") and bench.joint.recording is None
+    assert "Joint 2" in page(bench, "data", link) and "stribeck robot" in page(bench, "data", link)
+    do(bench, "apply", option="joint", value="2")
+    assert bench.joint.recording is not None and bench.joint.options.joint == "2"
+    assert bench.joint.others == ("1", "2")
+    act(bench, "improve robot", {"robot": [str(tmp_path / "none.urdf")]})
+    assert bench.wait(WAIT) and bench.state.message is not None
+    assert "none.urdf" in bench.state.message.text and bench.state.message.kind == "error"
+
+
 def test_work_is_stopped_at_once(bench: Workbench) -> None:
     do(bench, "start", law="coulomb")
     act(bench, "improve", {})
@@ -135,14 +189,14 @@ def test_work_is_stopped_at_once(bench: Workbench) -> None:
 
 
 def test_what_is_sent_keeps_its_name_and_stays_in_the_folder(bench: Workbench) -> None:
-    content = Path(bench.joint.path).read_bytes()
+    content = Path(bench.joint.files[0]).read_bytes()
     for _ in range(2):
-        bench.upload("../../outside.csv", content)
+        bench.upload([("../../outside.csv", content)])
         assert bench.wait(WAIT)
     sent = sorted((bench.folder / "uploads").iterdir())
     assert [path.name for path in sent] == ["outside-2.csv", "outside.csv"]
     with pytest.raises(StribeckError, match="format"):
-        bench.upload("run.exe", b"")
+        bench.upload([("run.exe", b"")])
 
 
 def test_options_of_a_form() -> None:
