@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 from tempfile import TemporaryDirectory
 
+import arm
 import fits
 import laws
 import numpy as np
@@ -151,6 +152,7 @@ def main() -> None:
     compare_fits()
     compare_one_start()
     pendulum.compare_pendulums()
+    arm.compare_arms()
     if said.bam is None:
         print(
             "left out: BAM's simulator, because no checkout of Rhoban/bam is given (--bam FOLDER)"

@@ -9,10 +9,11 @@ use pyo3::prelude::*;
 
 use super::ModelError;
 use crate::joint::{Matrix, Number, Vector};
-use crate::robot::{Body, Inertial, LinkState, Movement, PARAMETERS, Pose, Tree};
+use crate::robot::{Body, Inertial, LinkChange, LinkState, Movement, PARAMETERS, Pose, Tree};
 use crate::scalar::Real;
 
 type Columns<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+type Matrices<'py> = Bound<'py, PyArray3<f64>>;
 
 /// A link with its joint, as Python describes it.
 #[derive(FromPyObject)]
@@ -133,6 +134,34 @@ impl RigidBodies {
             }
         });
         matrix.into_pyarray(py).reshape([rows, n, n])
+    }
+
+    /// Derivatives [n, N, N] of the torques by the positions, and by the velocities.
+    #[allow(clippy::needless_pass_by_value)]
+    fn inverse_dynamics_derivatives<'py>(
+        &self,
+        py: Python<'py>,
+        position: Columns<'py>,
+        velocity: Columns<'py>,
+        acceleration: Columns<'py>,
+    ) -> PyResult<(Matrices<'py>, Matrices<'py>)> {
+        let motion = self.motion([&position, &velocity, &acceleration])?;
+        let n = self.bodies.len();
+        let rows = motion[0].len() / n.max(1);
+        let size = n * n;
+        let [mut by_position, mut by_velocity] = [(); 2].map(|()| vec![0.0; rows * size]);
+        py.detach(|| {
+            let (tree, mut states) = self.ready();
+            let mut changes = vec![LinkChange::new(); n];
+            let columns = by_position.chunks_mut(size.max(1));
+            for (k, (p, d)) in columns.zip(by_velocity.chunks_mut(size.max(1))).enumerate() {
+                let [q, v, a] = row(&motion, k, n);
+                tree.inverse_dynamics_derivatives(q, v, a, &mut states, &mut changes, p, d);
+            }
+        });
+        let shape = [rows, n, n];
+        let by_position = by_position.into_pyarray(py).reshape(shape)?;
+        Ok((by_position, by_velocity.into_pyarray(py).reshape(shape)?))
     }
 
     /// Torques [n, N] that hold the robot against gravity at positions [n, N].

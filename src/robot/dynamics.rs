@@ -1,6 +1,7 @@
 //! A robot of a size known at compile time.
 
 use super::body::Body;
+use super::derivatives::LinkChange;
 use super::state::{LinkState, Tree};
 use crate::joint::{MassMatrix, Number};
 
@@ -70,6 +71,30 @@ impl<P: Number, const N: usize> Robot<P, N> {
         let mut matrix = [[P::zero(); N]; N];
         self.tree().mass_matrix(position, &mut links, matrix.as_flattened_mut());
         MassMatrix::from(matrix)
+    }
+
+    /// Derivatives of the torques (N m or N) by the positions and by the velocities: one row a torque,
+    /// one column a joint. Those by the accelerations are the mass matrix.
+    #[must_use]
+    pub fn inverse_dynamics_derivatives(
+        &self,
+        position: &[P; N],
+        velocity: &[P; N],
+        acceleration: &[P; N],
+    ) -> [MassMatrix<P, N>; 2] {
+        let (mut links, mut changes) = ([LinkState::new(); N], [LinkChange::new(); N]);
+        let mut made = [[[P::zero(); N]; N]; 2];
+        let [by_position, by_velocity] = &mut made;
+        self.tree().inverse_dynamics_derivatives(
+            position,
+            velocity,
+            acceleration,
+            &mut links,
+            &mut changes,
+            by_position.as_flattened_mut(),
+            by_velocity.as_flattened_mut(),
+        );
+        made.map(|rows| MassMatrix::from(rows).transpose())
     }
 
     /// Accelerations of the joints that torques (N m or N) cause, by factors of the mass matrix;

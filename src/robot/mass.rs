@@ -101,7 +101,7 @@ impl<P: Number> Inertial<P> {
     }
 
     /// Momentum at a velocity, as a wrench.
-    fn pushed(&self, velocity: &super::body::Twist<P>) -> Wrench<P> {
+    pub(super) fn pushed(&self, velocity: &super::body::Twist<P>) -> Wrench<P> {
         let turned = P::product(&self.matrix(), &velocity.angular);
         Wrench {
             force: velocity.linear * self.mass + velocity.angular.cross(&self.moment),

@@ -10,6 +10,7 @@
 //! compile time. [`ArmFeedforward`] adds the friction of every joint.
 
 mod body;
+mod derivatives;
 mod dynamics;
 mod feedforward;
 mod mass;
@@ -18,6 +19,7 @@ mod regressor;
 mod state;
 
 pub use body::{Body, Inertial, Movement, PARAMETERS};
+pub use derivatives::LinkChange;
 pub use dynamics::Robot;
 pub use feedforward::ArmFeedforward;
 pub use pose::Pose;

@@ -103,6 +103,42 @@ fn mass_matrix_gravity_and_accelerations_agree_with_inverse_dynamics() {
     }
 }
 
+/// Differences of fourth order are near enough to show a wrong term.
+#[test]
+fn derivatives_are_the_slopes_of_the_torques() {
+    let robot = super::Robot { bodies: bodies(), gravity: [0.3, -0.4, -9.7] };
+    for seed in 80..90 {
+        let (q, v, a) = (state(seed), state(seed + 100), state(seed + 200));
+        let [by_position, by_velocity] = robot.inverse_dynamics_derivatives(&q, &v, &a);
+        let largest =
+            robot.inverse_dynamics(&q, &v, &a).iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+        for k in 0..N {
+            let at = |x: &[f64; N], h: f64| {
+                let mut moved = *x;
+                moved[k] += h;
+                moved
+            };
+            let slopes = [
+                slope(|h| robot.inverse_dynamics(&at(&q, h), &v, &a)),
+                slope(|h| robot.inverse_dynamics(&q, &at(&v, h), &a)),
+            ];
+            for (matrix, slope) in [&by_position, &by_velocity].into_iter().zip(slopes) {
+                for (j, slope) in slope.iter().enumerate() {
+                    let error = (matrix[(j, k)] - slope).abs();
+                    assert!(error < 1e-8 * largest.max(1.0), "{j} {k}: {} {slope}", matrix[(j, k)]);
+                }
+            }
+        }
+    }
+}
+
+/// The derivative of torques at 0, by differences of fourth order.
+fn slope(torque: impl Fn(f64) -> [f64; N]) -> [f64; N] {
+    let h = 1e-3;
+    let [up, down, far_up, far_down] = [h, -h, 2.0 * h, -2.0 * h].map(torque);
+    core::array::from_fn(|j| (8.0 * (up[j] - down[j]) - (far_up[j] - far_down[j])) / (12.0 * h))
+}
+
 /// Without gravity and torque, kinetic energy stays: the Coriolis terms do no work.
 #[test]
 fn power_of_the_torques_is_the_change_of_energy() {

@@ -183,6 +183,28 @@ class Robot(Shown):
         """
         return self.core.regressor(position, velocity, acceleration)
 
+    def torque_derivatives(
+        self, position: Array, velocity: Array, acceleration: Array
+    ) -> tuple[Array, Array, Array]:
+        """Derivatives of `torque` by position, velocity and acceleration, arrays [n, N, N].
+
+        One row per torque, one column per joint. The last is the mass matrix. Carpentier and
+        Mansard, Robotics: Science and Systems, 2018.
+
+        Examples
+        --------
+        >>> from stribeck.robot.tables import from_tables
+        >>> arm = from_tables("pendulum", [{"a": 0.5, "alpha": 1.5707963267948966}])
+        >>> arm = arm.with_bodies(np.array([[2.0, 0, 0, -1.0, 0.5, 0, 0.5, 0, 0, 0, 0.1]]))
+        >>> still = np.zeros((1, 1))
+        >>> [part.round(3).item() for part in arm.torque_derivatives(still, still, still)]
+        [0.0, 0.0, 0.1]
+        """
+        by_position, by_velocity = self.core.inverse_dynamics_derivatives(
+            position, velocity, acceleration
+        )
+        return by_position, by_velocity, self.core.mass_matrix(position)
+
     def torque(self, position: Array, velocity: Array, acceleration: Array) -> Array:
         """Torques or forces that the rigid bodies need, array [n, N]: recursive Newton-Euler.
 

@@ -17,7 +17,8 @@ def recorded(name: str) -> dict[str, object]:
     names = list(model.names)[1:]
     q, v, a = arms.states(name, 2)
     made: dict[str, list[object]] = {
-        key: [] for key in ("torque", "mass_matrix", "gravity", "forward")
+        key: []
+        for key in ("torque", "mass_matrix", "gravity", "forward", "by_position", "by_velocity")
     }
     for state in zip(q, v, a, strict=True):
         torque = pin.rnea(model, data, *state).copy()
@@ -26,6 +27,9 @@ def recorded(name: str) -> dict[str, object]:
         made["mass_matrix"].append((upper + np.triu(upper, 1).T).tolist())
         made["gravity"].append(pin.computeGeneralizedGravity(model, data, state[0]).tolist())
         made["forward"].append(pin.aba(model, data, state[0], state[1], torque).tolist())
+        by_position, by_velocity, _ = pin.computeRNEADerivatives(model, data, *state)
+        made["by_position"].append(by_position.tolist())
+        made["by_velocity"].append(by_velocity.tolist())
     motion = {"position": q.tolist(), "velocity": v.tolist(), "acceleration": a.tolist()}
     return {"joints": names, **motion, **made}
 

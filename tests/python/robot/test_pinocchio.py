@@ -39,6 +39,9 @@ def test_recorded_values(name: str, tmp_path: Path) -> None:
     assert apart(made.torque(position, velocity, acceleration), recorded["torque"]) < MOST
     assert apart(made.core.mass_matrix(position), recorded["mass_matrix"]) < MOST
     assert apart(made.core.gravity_torque(position), recorded["gravity"]) < MOST
+    by_position, by_velocity, _ = made.torque_derivatives(position, velocity, acceleration)
+    assert apart(by_position, recorded["by_position"]) < MOST
+    assert apart(by_velocity, recorded["by_velocity"]) < MOST
     torque = np.array(recorded["torque"])
     found = made.core.forward_dynamics(position, velocity, torque)
     assert apart(found, recorded["forward"]) < MOST
@@ -71,6 +74,15 @@ def test_thousand_states(name: str, tmp_path: Path) -> None:
         upper = np.triu(pin.crba(model, data, position))
         mass.append((upper + np.triu(upper, 1).T)[np.ix_(order, order)])
     assert apart(made.core.mass_matrix(q), mass) < MOST
+    slopes = np.array(
+        [
+            [part[np.ix_(order, order)] for part in pin.computeRNEADerivatives(model, data, *state)]
+            for state in zip(*rows, strict=True)
+        ]
+    )
+    by_position, by_velocity, _ = made.torque_derivatives(q, v, a)
+    assert apart(by_position, slopes[:, 0]) < MOST
+    assert apart(by_velocity, slopes[:, 1]) < MOST
     back_torque = torque[:, back]
     forward = np.array(
         [
