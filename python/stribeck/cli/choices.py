@@ -11,10 +11,12 @@ from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON
 from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
 from stribeck.identify.loss import LOSSES
 
+_START = click.option(
+    "--start", multiple=True, metavar="NAME=VALUE", help="Start value of a parameter."
+)
+_FIX = click.option("--fix", multiple=True, metavar="NAME=VALUE", help="Fix a parameter.")
 CHOICE_OPTIONS = [
-    click.option(
-        "--start", multiple=True, metavar="NAME=VALUE", help="Start value of a parameter."
-    ),
+    _START,
     click.option(
         "--bound",
         "bounds",
@@ -22,7 +24,7 @@ CHOICE_OPTIONS = [
         metavar="NAME=LOW:HIGH",
         help="Bounds of a parameter; an omitted end is unbounded.",
     ),
-    click.option("--fix", multiple=True, metavar="NAME=VALUE", help="Fix a parameter."),
+    _FIX,
     click.option(
         "--prior",
         multiple=True,
@@ -71,6 +73,11 @@ def taken_choices(values: Values) -> Choices:
     """Take the values of these options out of all values."""
     taken = {name: values.pop(name, None) for name in CHOICE_NAMES}
     return Choices.of(cast(ChoiceArguments, taken))
+
+
+def value_options(command: Command) -> Command:
+    """Add `--start` and `--fix`; the command receives them as `choices`."""
+    return gathered(command, [_START, _FIX], "choices", taken_choices)
 
 
 def choice_options(command: Command) -> Command:

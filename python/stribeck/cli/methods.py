@@ -20,6 +20,7 @@ from stribeck.cli.data import data_argument
 from stribeck.cli.evaluation import evaluate_option, judged
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.outputs import MODELS_OF_ARM, POINTS, CheckedCommand
+from stribeck.cli.refused import OF_AN_ARM, OF_POINTS, refusing
 from stribeck.fitting.exogenous import ESTIMATORS
 from stribeck.fitting.methods.arm import arm_fit
 from stribeck.fitting.methods.averaging import averaged_points
@@ -199,6 +200,7 @@ _POINTS: dict[str, Callable[[Recording, int, Search], SteadyPoints | BristleStif
 @click.option(
     "--trim", default=Search.trim, show_default=True, help="Share excluded at each end of a pass."
 )
+@refusing(OF_POINTS)
 @recording_options
 @seed_option
 @json_option
@@ -263,6 +265,7 @@ def points(
     metavar="NAME",
     help="Write the friction of both joints to NAME_joint_1.toml and NAME_joint_2.toml.",
 )
+@refusing(OF_AN_ARM)
 @evaluate_option
 @recording_options
 @seed_option

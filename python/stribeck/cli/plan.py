@@ -19,8 +19,9 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.data import arguments_of, is_data, split_one
-from stribeck.cli.formulas import Written, written_fit
+from stribeck.cli.formulas import Written, model_options, written_fit
 from stribeck.cli.outputs import FIGURE, TABLE, CheckedCommand
+from stribeck.cli.refused import OF_A_PLAN, refusing
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -70,12 +71,15 @@ from stribeck.recording.options import ReadOptions
 @click.option(
     "--plot", "picture", type=FIGURE, metavar="FILE", help="Write a figure of the motion (PNG)."
 )
+@model_options
+@refusing(OF_A_PLAN)
 @starts_option
 @recording_options
 @seed_option
 @json_option
 def plan(
     arguments: tuple[str, ...],
+    written: Written,
     separate: tuple[str, ...],
     show: tuple[str, ...],
     position: str,
@@ -96,7 +100,7 @@ def plan(
     Without data: stribeck plan MODEL.toml.
     """
     limits = position_range(position)
-    joint = _joint(arguments, noise, starts=starts, seed=seed, reading=reading)
+    joint = _joint(arguments, written, noise, starts=starts, seed=seed, reading=reading)
     say("note: searching for a motion, some seconds to a minute ...")
     planned = make(
         joint,
@@ -125,6 +129,7 @@ def plan(
 
 def _joint(
     arguments: tuple[str, ...],
+    written: Written,
     noise: float | None,
     *,
     starts: int,
@@ -133,15 +138,20 @@ def _joint(
 ) -> Fit | ModelFile:
     """A fit to DATA, or the model file that stands in its place."""
     if not any(map(is_data, arguments)) and len(arguments) == 1 and is_model_file(arguments[0]):
+        if written != Written():
+            raise SpecError(
+                f"{arguments[0]} is taken as it is: what is stated about a model is for a fit, so "
+                f"name DATA too, or leave it out"
+            )
         return read_model_file(arguments[0])
     data, model = split_one(arguments, "", None)
-    if model is None:
+    if model is None and not written.laws:
         given = " ".join(data)
         raise SpecError(f"no model is given for {given}: write stribeck plan {given} MODEL")
     if noise is not None:
         raise SpecError("--noise is for a model file only: with DATA the noise is estimated")
     recording = read_recording(data, reading)
-    return written_fit(model, Written(), recording, starts=starts, seed=seed)
+    return written_fit(model, written, recording, starts=starts, seed=seed)
 
 
 def _kind(model: Model) -> str:

@@ -9,6 +9,7 @@ import click
 from stribeck.base.errors import ProjectError
 from stribeck.base.lock import one_writer
 from stribeck.base.replaceable import check_folder
+from stribeck.cli.choices import value_options
 from stribeck.cli.common import (
     echo_json,
     echo_result,
@@ -26,6 +27,8 @@ from stribeck.cli.data import data_argument
 from stribeck.cli.formulas import Written, candidate_option, check_candidates
 from stribeck.cli.outputs import MODEL, CheckedCommand
 from stribeck.cli.pages import diagnosis_report
+from stribeck.cli.refused import OF_A_PROJECT, refusing
+from stribeck.identify.choices import Choices
 from stribeck.projects.project import Project
 from stribeck.recording.options import ReadOptions
 
@@ -58,6 +61,8 @@ def _written(made: Project, as_json: bool) -> None:
     show_default=True,
     help="Spec, model file or formula to start from.",
 )
+@value_options
+@refusing(OF_A_PROJECT)
 @starts_option
 @recording_options
 @seed_option
@@ -66,6 +71,7 @@ def new(
     path: str,
     data: tuple[str, ...],
     base: str,
+    choices: Choices,
     starts: int,
     reading: ReadOptions,
     seed: int,
@@ -77,7 +83,9 @@ def new(
         if os.path.lexists(path):
             raise ProjectError(f"{path} is there already: give another name, or remove it first")
         model = Written().model(base)
-        made = Project.new(path, data, model, starts=starts, seed=seed, **reading.given())
+        made = Project.new(
+            path, data, model, starts=starts, seed=seed, choices=choices, **reading.given()
+        )
         for note in made.recording.notes:
             say(f"note: {note}")
         _written(made, as_json)

@@ -34,6 +34,34 @@ OF_A_SPEC = dict.fromkeys(
     (*_CHOICES, "--evaluate"),
     "a spec is fitted with the defaults; give it to `stribeck fit -o M.toml`, and name M.toml here",
 )
+#: What a project does not take.
+OF_A_PROJECT = {
+    **dict.fromkeys(
+        ("--bound", "--prior", "--constraint", "--tie", "--loss", "--algorithm"),
+        "a project's file keeps the values that --fix holds, and no other statement, for the steps "
+        "that follow; `stribeck improve` takes it for all steps",
+    ),
+    "--per-run": SHARED_VALUES,
+    "--evaluate": "a project has one recording; to judge a model of it on another, write it by "
+    "`stribeck project save`, and use `stribeck compare --evaluate`",
+}
+#: What the plan of a motion does not take.
+OF_A_PLAN = {
+    "--per-run": "a motion is planned for one value of each parameter; `stribeck fit` and "
+    "`stribeck compare` take it",
+    "--evaluate": "it gives a motion and no model to judge; use `stribeck fit --evaluate`",
+}
+#: What the reduction to points does not take.
+OF_POINTS = dict.fromkeys(
+    (*_CHOICES, "--evaluate"),
+    "it reduces measurements and fits no model; give it to `stribeck fit` with the points",
+)
+#: What the identification of a planar arm does not take.
+OF_AN_ARM = dict.fromkeys(
+    _CHOICES,
+    "inertia and friction of both joints follow together from one linear least squares, as in the "
+    "paper; `stribeck fit --joint NAME` takes it for one joint",
+)
 #: What a study does not take.
 OF_A_STUDY = {
     "--per-run": "a study fits each law with one value of each parameter; `stribeck fit` and "

@@ -29,6 +29,7 @@ from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
+from stribeck.identify.choices import ChoiceArguments, Choices
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
 from stribeck.projects.findings import Found, Remembered
@@ -86,6 +87,7 @@ class Project(Plotted):
         *,
         starts: int = 20,
         seed: int = 0,
+        choices: Choices | None = None,
         **reading: Unpack[ReadArguments],
     ) -> Project:
         """Make a project of one joint; its first node is the fitted `base`.
@@ -94,6 +96,8 @@ class Project(Plotted):
         ----------
         path, data
             The project file, which is not written yet, and the recording (several are its runs).
+        choices
+            What is stated about parameters of `base`.
         **reading
             Options of `stribeck.read`.
 
@@ -104,7 +108,8 @@ class Project(Plotted):
         """
         target = Path(path)
         source = Source.of(data, target.parent, reading)
-        kept = Kept.of(fit(base, source.recording, starts=starts, seed=seed), source)
+        stated: ChoiceArguments = {} if choices is None else choices.arguments()
+        kept = Kept.of(fit(base, source.recording, starts=starts, seed=seed, **stated), source)
         return cls(target, source, Tree((Node(0, None, "base", None, kept),)), 0)
 
     @classmethod
@@ -241,10 +246,7 @@ class Project(Plotted):
     def reject(self, effect: str, why: str = "") -> Project:
         """Exclude an effect from tests at the current node and its descendants.
 
-        Raises
-        ------
-        SpecError
-            The effect is unknown, or in the model already.
+        Raises `SpecError` if the effect is unknown, or in the model already.
         """
         model = self.node.kept.model
         check_rejected((effect,))
@@ -255,10 +257,7 @@ class Project(Plotted):
     def accept(self, effect: str) -> Project:
         """Revoke the rejection of an effect, at the current node or an ancestor.
 
-        Raises
-        ------
-        ProjectError
-            The effect is not rejected.
+        Raises `ProjectError` if it is not rejected.
         """
         rejected = self.tree.rejected(self.current)
         if effect not in rejected:

@@ -35,6 +35,19 @@ FITTING: dict[str, set[str]] = {
     "fleet": {"--per-run", "--evaluate"},
     "report": ROBOT | {"--evaluate"},
     "validate": ROBOT | {"--evaluate"},
+    "project new": {
+        "--bound",
+        "--prior",
+        "--constraint",
+        "--tie",
+        "--loss",
+        "--algorithm",
+        "--per-run",
+        "--evaluate",
+    },
+    "plan": {"--per-run", "--evaluate"},
+    "points": ROBOT | {"--evaluate"},
+    "arm": ROBOT,
     "robot fit": ROBOT,
     "robot compare": ROBOT,
     "robot diagnose": ROBOT | {"--evaluate"},
@@ -89,6 +102,9 @@ def test_a_refused_option_says_why(run: Run) -> None:
         (["diagnose", "run1.csv", "coulomb", "--per-run", "offset"], "one value of each parameter"),
         (["fleet", "run1.csv", "--evaluate", "other.csv"], "stribeck fit --evaluate"),
         (["robot", "improve", "run1.csv", "--bound", "a1=0:1"], "stribeck fit --joint NAME"),
+        (["project", "new", "p.toml", "run1.csv", "--tie", "a1 = a2"], "--fix holds"),
+        (["points", "run1.csv", "--loss", "huber"], "stribeck fit"),
+        (["arm", "run1.csv", "--prior", "a1=1+-1"], "linear least squares"),
     ):
         code, out, err = run(*words)
         assert (code, out) == (2, "") and "does not take --" in err and said in err
@@ -143,6 +159,24 @@ def test_values_of_each_run_in_a_comparison(run: Run) -> None:
     assert own[0]["rmse"] == shared[0]["rmse"] and own[1]["rmse"] < shared[1]["rmse"]
     code, _, err = run(*words, "--per-run", "t0,ofset")
     assert code == 2 and "--per-run ofset: no model that is fitted has this parameter" in err
+
+
+def test_a_value_that_a_project_holds_is_held_in_later_steps(run: Run) -> None:
+    words = ["project", "new", "p.toml", "run1.csv", "run2.csv", "--fix", "a1=0.25", "--json"]
+    assert json.loads(run(*words)[1])["data"]["path"] == "run1.csv and 1 more"
+    assert run("project", "add", "p.toml", "offset")[0] == 0
+    assert run("project", "save", "p.toml", "-o", "m.toml")[0] == 0
+    held = json.loads(run("fit", "run1.csv", "m.toml", "--json")[1])["parameters"]
+    assert held["viscous_friction"]["value"] == 0.25 and "offset" in held
+
+
+def test_a_plan_takes_what_is_stated_about_parameters(run: Run) -> None:
+    limits = ["--position", "-1:1", "--speed", "1", "--acceleration", "5", "--show", "offset"]
+    code, _, err = run("plan", "run1.csv", "coulomb", "--fix", "a9=1", *limits)
+    assert code == 2 and "has no parameter 'a9'" in err
+    run("fit", "run1.csv", "coulomb", "-o", "m.toml")
+    code, _, err = run("plan", "m.toml", "--fix", "a1=1", *limits)
+    assert code == 2 and "name DATA too" in err
 
 
 def test_a_fleet_takes_what_is_stated_about_parameters(run: Run) -> None:
