@@ -1,0 +1,96 @@
+"""The documentation as it is built: strict, and without a serious fault for axe in Chromium."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[3]
+KEPT = os.environ.get("STRIBECK_ARTEFACTS")
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.timeout(600),
+    pytest.mark.skipif(CHROMIUM is None, reason="Debian's package chromium is not installed"),
+]
+#: A page of each kind, in dark colours as on a phone; in light colours on a desktop all are tried.
+KINDS = (
+    "api/errors",
+    "api/identification",
+    "controller",
+    "effects",
+    "index",
+    "measured/emps",
+    "people/firmware_engineer",
+    "robots",
+    "rust",
+)
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("site")
+    words = [sys.executable, "-m", "mkdocs", "build", "--quiet", "--strict", "--site-dir"]
+    subprocess.run([*words, str(folder)], cwd=ROOT, check=True)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as playing:
+        started = playing.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield started
+        started.close()
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark")])
+def test_no_page_has_a_serious_fault(browser: Any, site: Path, width: int, scheme: str) -> None:
+    import axe_core_python
+
+    axe = (Path(axe_core_python.__file__).parent / "axe.min.js").read_text()
+    context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    tab = context.new_page()
+    wrong: dict[str, list[str]] = {}
+    pages = {path.parent.relative_to(site).as_posix(): path for path in site.rglob("index.html")}
+    pages["index"] = pages.pop(".")
+    assert len(pages) > 40 and set(KINDS) - set(pages) <= {"measured/emps"}
+    for name, path in sorted(pages.items()):
+        if scheme == "light" or name in KINDS or KEPT:
+            tab.goto(path.as_uri())
+            tab.evaluate(axe)
+            found = faults(tab) + wider(tab, width)
+            wrong |= {name: found} if found else {}
+            keep(tab, f"docs-{name.replace('/', '-')}-{width}.png")
+    context.close()
+    assert wrong == {}
+
+
+def faults(tab: Any) -> list[str]:
+    """What axe finds that keeps people from using the page."""
+    return [
+        f"{row['id']}: {row['nodes'][0]['html'][:160]}"
+        for row in tab.evaluate("axe.run({ resultTypes: ['violations'] })")["violations"]
+        if row["impact"] in ("serious", "critical")
+    ]
+
+
+def wider(tab: Any, width: int) -> list[str]:
+    """That the page is wider than the window."""
+    shown = tab.evaluate("document.documentElement.scrollWidth")
+    return [f"{shown} pixels wide, the window has {width}"] if shown > width else []
+
+
+def keep(tab: Any, name: str) -> None:
+    """Keep a screenshot where the variable STRIBECK_ARTEFACTS says; of all pages, then."""
+    if KEPT:
+        Path(KEPT).mkdir(parents=True, exist_ok=True)
+        tab.screenshot(path=str(Path(KEPT) / name), full_page=True)
