@@ -47,6 +47,7 @@ from .recording.several.concat import concat
 from .report.plots.draw import plot
 from .scale.fleet.fleet import fleet
 from .scale.fleet.result import Fleet
+from .scale.robots.stream import RobotStream, stream_robot
 from .scale.streaming.result import StreamedFit
 from .scale.streaming.stream import Stream, stream
 
@@ -76,6 +77,7 @@ __all__ = [
     "PublishedSet",
     "Recording",
     "RecordingError",
+    "RobotStream",
     "Simulation",
     "SpecError",
     "Stream",
@@ -115,5 +117,6 @@ __all__ = [
     "robot",
     "simulate",
     "stream",
+    "stream_robot",
     "teach",
 ]

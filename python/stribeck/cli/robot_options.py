@@ -9,18 +9,16 @@ from stribeck.cli.common import (
     json_option,
     least_fall_option,
     recording_options,
-    say,
     seed_option,
     starts_option,
 )
 from stribeck.cli.options import Command, Values, added, gathered
 from stribeck.cli.outputs import ROBOT
 from stribeck.cli.refused import OF_A_ROBOT, refusing
-from stribeck.recording.options import ReadOptions
+from stribeck.cli.robot_runs import passes_options
 from stribeck.robot.arm import Robot
 from stribeck.robot.describe import read_robot
 from stribeck.robot.fit import ORDINARY
-from stribeck.robot.motion import RobotMotion, read_motion
 
 output_option = click.option(
     "-o",
@@ -73,19 +71,6 @@ def robot_options(command: Command) -> Command:
     return gathered(command, options, "described", build)
 
 
-def read_runs(
-    described: Robot, runs: tuple[str, ...], reading: ReadOptions, cutoff: float | None
-) -> RobotMotion:
-    """Read the recordings of all joints, and refuse channels that contradict each other."""
-    motion = read_motion(described, runs, reading, cutoff)
-    for recording in motion.joints:
-        recording.require_consistent()
-        for check in recording.checks:
-            if not check.ok:
-                say(f"note: joint {recording.joint}: accepted with --trust: {check.said}")
-    return motion
-
-
 def by_joint(given: tuple[str, ...]) -> dict[str, str]:
     """`JOINT=SPEC` texts as a mapping."""
     made = {}
@@ -115,6 +100,7 @@ def loop_options(command: Command) -> Command:
             least_fall_option,
             starts_option,
             recording_options,
+            passes_options,
             seed_option,
             json_option,
         ),

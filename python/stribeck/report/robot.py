@@ -51,10 +51,10 @@ def robot_text(robot: Robot) -> str:
 def robot_fit_text(found: RobotFit) -> str:
     """Errors of each joint, friction, base parameters and what they say of the links."""
     balance = found.solved.balance
-    runs = balance.motion.joints[0].run_names
+    runs = balance.run_names
     from_runs = f"{len(runs)} runs" if len(runs) > 1 else "1 run"
     return joined(
-        f"{balance.base.robot.name}: {len(found.joints)} joints, {balance.motion.rows} samples, "
+        f"{balance.base.robot.name}: {len(found.joints)} joints, {balance.rows} samples, "
         f"{from_runs}; low-pass {balance.motion.cutoff:.3g} Hz on both sides",
         errors_text(found.joints, found.ordinary, balance.held_out),
         friction_text(found.joints),

@@ -87,14 +87,14 @@ def robot_improvement_page(found: RobotImprovement, command: str = "") -> str:
 def _page(found: RobotFit, about: str, sections: Sequence[Section], command: str) -> str:
     balance = found.solved.balance
     motion = balance.motion
-    names = motion.joints[0].run_names
+    names = balance.run_names
     runs = f"runs {', '.join(names)}" if len(names) > 1 else "one run"
     return render(
         "sections.html",
         name=balance.base.robot.name,
         about=about,
         summary=(
-            f"{len(found.joints)} joints, {motion.rows} samples, {runs}. Both sides of the torque "
+            f"{len(found.joints)} joints, {balance.rows} samples, {runs}. Both sides of the torque "
             f"balance pass a low-pass at {motion.cutoff:.3g} Hz."
         ),
         pictures=[(PICTURE, picture_text(robot_figure(found)))],

@@ -92,7 +92,7 @@ def _tried(solved: Solved, cause: Cause, tried: int) -> Found:
     balance = replace(solved.balance, causes=(*solved.balance.causes, cause))
     # Both sides of the comparison leave out the same samples.
     before = _by(balance, solved)
-    extra = np.zeros(cause.columns.shape[2])
+    extra = np.zeros(cause.count)
     start = Values(np.concatenate([solved.values.base, extra]), solved.values.friction)
     after = solve(balance, start, solved.weights, QUICK)
     scores = Scores.of(before, raw=False), Scores.of(after, raw=False)

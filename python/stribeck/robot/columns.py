@@ -39,6 +39,11 @@ class Cause:
     columns: Array
     runs: tuple[str, ...] = ()
 
+    @property
+    def count(self) -> int:
+        """Number of its parameters."""
+        return int(self.columns.shape[2])
+
     @cached_property
     def filtered(self) -> tuple[Array, ...]:
         """The columns of each joint after the low-pass, at its scored samples."""

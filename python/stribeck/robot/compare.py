@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import polars as pl
 
 from stribeck.base.shown import Shown
-from stribeck.robot.fit import ORDINARY, fit_robot
+from stribeck.robot.fit import ORDINARY, InPasses, fit_each
 from stribeck.robot.motion import RobotMotion
 from stribeck.robot.result import RobotFit
 
@@ -50,7 +50,7 @@ class RobotComparison(Shown):
 
 
 def compare_robots(
-    motion: RobotMotion,
+    motion: RobotMotion | InPasses,
     specs: Sequence[str] = (ORDINARY,),
     *,
     of_joints: Mapping[str, str] | None = None,
@@ -60,16 +60,13 @@ def compare_robots(
     seed: int = 0,
 ) -> RobotComparison:
     """Identify the robot with each of `specs` on all joints; arguments as of `fit_robot`."""
-    fits = [
-        fit_robot(
-            motion,
-            spec,
-            of_joints=of_joints,
-            payload=payload,
-            evaluate=evaluate,
-            starts=starts,
-            seed=seed,
-        )
-        for spec in specs
-    ]
-    return RobotComparison(tuple(fits), tuple(specs))
+    fits = fit_each(
+        motion,
+        specs,
+        of_joints=of_joints,
+        payload=payload,
+        evaluate=evaluate,
+        starts=starts,
+        seed=seed,
+    )
+    return RobotComparison(fits, tuple(specs))

@@ -85,7 +85,7 @@ class Scores:
         Without `raw`, those of the torque as recorded are not computed: they are the filtered ones.
         """
         balance = solved.balance
-        rows = np.maximum(balance.motion.scored.sum(axis=0), 1)
+        rows = balance.scored_rows
         steps = solved.held_out_steps()
         figures = []
         as_recorded = balance.factors(solved.values, filtered=False) if raw else solved.factors
@@ -152,7 +152,7 @@ def payload_of(solved: Solved, errors: Errors) -> Payload | None:
     for cause in solved.balance.causes:
         if cause.id == "payload":
             break
-        first += cause.columns.shape[2]
+        first += cause.count
     else:
         return None
     mass, *moment = solved.values.base[first : first + 4]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
+from typing import Protocol
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from stribeck.fitting.fit import fit
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.models.model import Model
 from stribeck.robot.base_parameters import BaseParameters
-from stribeck.robot.columns import Cause, RigidColumns
+from stribeck.robot.columns import RigidColumns
 from stribeck.robot.columns import payload as payload_in
 from stribeck.robot.consistent import consistent_bodies
 from stribeck.robot.estimates import base_estimates, joint_fits, payload_of
@@ -25,8 +26,26 @@ from stribeck.robot.solve import Solved, solve
 ORDINARY = "coulomb+offset"
 
 
+class InPasses(Protocol):
+    """Recordings of a robot that are read in passes: see `stribeck.stream_robot`."""
+
+    @property
+    def motion(self) -> RobotMotion:
+        """The part in memory."""
+        ...
+
+    @property
+    def cutoff(self) -> float:
+        """Of the low-pass that both sides of the torque balance pass, Hz."""
+        ...
+
+    def balance(self, payload: Sequence[str]) -> Balance:
+        """The torque balance of all samples, without friction."""
+        ...
+
+
 def fit_robot(
-    motion: RobotMotion,
+    motion: RobotMotion | InPasses,
     spec: str = ORDINARY,
     *,
     of_joints: Mapping[str, str] | None = None,
@@ -39,6 +58,9 @@ def fit_robot(
 
     Parameters
     ----------
+    motion
+        Of `stribeck.robot.read_motion`, or of `stribeck.stream_robot` for recordings that are
+        larger than memory.
     spec
         ``LAW[+effect...]`` of every joint. The load that effects read is the torque of the rigid
         bodies.
@@ -56,21 +78,57 @@ def fit_robot(
     FitError
         A joint or run that does not exist; a joint that does not move.
     """
+    return fit_each(
+        motion,
+        [spec],
+        of_joints=of_joints,
+        payload=payload,
+        evaluate=evaluate,
+        starts=starts,
+        seed=seed,
+    )[0]
+
+
+def fit_each(
+    motion: RobotMotion | InPasses,
+    specs: Sequence[str],
+    *,
+    of_joints: Mapping[str, str] | None,
+    payload: Sequence[str],
+    evaluate: Sequence[RobotMotion],
+    starts: int,
+    seed: int,
+) -> tuple[RobotFit, ...]:
+    """The robot with each of `specs` on all joints; the ordinary model is identified once."""
     began = time.perf_counter()
-    specs = specs_of(motion, spec, of_joints or {})
+    part = in_memory(motion)
+    of_each = [specs_of(part, spec, of_joints or {}) for spec in specs]
+    ordinary = solve_ordinary(balance_of(motion, payload))
+    made = []
+    for chosen in of_each:
+        solved = solve_specs(ordinary, chosen, starts=starts, seed=seed)
+        made.append(result_of(solved, ordinary, evaluate, time.perf_counter() - began))
+        began = time.perf_counter()
+    return tuple(made)
+
+
+def in_memory(motion: RobotMotion | InPasses) -> RobotMotion:
+    """The motion, or the part of it that is in memory."""
+    return motion if isinstance(motion, RobotMotion) else motion.motion
+
+
+def balance_of(motion: RobotMotion | InPasses, payload: Sequence[str]) -> Balance:
+    """The torque balance of a motion, without friction."""
+    if not isinstance(motion, RobotMotion):
+        return motion.balance(payload)
     check_runs(motion, payload)
     rigid = RigidColumns(motion, BaseParameters.of(motion.robot))
-    causes = (payload_in(motion, tuple(payload)),) if payload else ()
-    ordinary = solve_ordinary(rigid, causes)
-    solved = ordinary
-    if any(chosen != ORDINARY for chosen in specs):
-        solved = solve_laws(motion, specs, ordinary, starts=starts, seed=seed)
-    return result_of(solved, ordinary, evaluate, time.perf_counter() - began)
+    return Balance(rigid, (), (payload_in(motion, tuple(payload)),) if payload else ())
 
 
-def solve_ordinary(rigid: RigidColumns, causes: tuple[Cause, ...]) -> Solved:
+def solve_ordinary(empty: Balance) -> Solved:
     """The ordinary model of every joint, from zero."""
-    motion = rigid.motion
+    motion = empty.motion
     nothing = np.zeros(motion.rows)
     models, friction = [], []
     for joint in range(len(motion.joints)):
@@ -78,14 +136,22 @@ def solve_ordinary(rigid: RigidColumns, causes: tuple[Cause, ...]) -> Solved:
         models.append(model_for(ORDINARY, recording))
         lower, upper, _ = bounds(models[-1], recording)
         friction.append(np.clip(0.0, lower, upper))
-    balance = Balance(rigid, tuple(models), causes)
-    return solve(balance, Values(np.zeros(balance.columns.shape[2]), tuple(friction)))
+    values = Values(np.zeros(empty.unknowns), tuple(friction))
+    return solve(empty.with_models(models), values)
 
 
-def solve_laws(
-    motion: RobotMotion, specs: Sequence[str | Model], near: Solved, *, starts: int, seed: int
+def solve_specs(
+    ordinary: Solved, specs: Sequence[str | Model], *, starts: int, seed: int
 ) -> Solved:
-    """Given laws on all joints: each alone under the load of `near`, then all together."""
+    """Given laws on all joints, from the ordinary ones."""
+    if all(chosen == ORDINARY for chosen in specs):
+        return ordinary
+    return _solve_laws(specs, ordinary, starts=starts, seed=seed)
+
+
+def _solve_laws(specs: Sequence[str | Model], near: Solved, *, starts: int, seed: int) -> Solved:
+    """Each law alone under the load of `near`, then all together."""
+    motion = near.balance.motion
     load = near.balance.load(near.values.base)
     models, friction = [], []
     for joint, spec in enumerate(specs):
@@ -96,8 +162,8 @@ def solve_laws(
         alone = fit(spec, motion.with_load(joint, load[:, joint]), starts=starts, seed=seed)
         models.append(alone.model)
         friction.append(np.asarray(alone.model.values, dtype=np.float64))
-    balance = Balance(near.balance.rigid, tuple(models), near.balance.causes)
-    return solve(balance, Values(near.values.base, tuple(friction)), near.weights)
+    values = Values(near.values.base, tuple(friction))
+    return solve(near.balance.with_models(models), values, near.weights)
 
 
 def result_of(
@@ -119,7 +185,7 @@ def result_of(
 
 def scored_on(solved: Solved, ordinary: Solved, motion: RobotMotion) -> Evaluated:
     """Errors on another motion, on which nothing is fitted."""
-    mine = set(solved.balance.motion.joints[0].hashes)
+    mine = set(solved.balance.hashes)
     if not mine.isdisjoint(motion.joints[0].hashes):
         raise FitError(
             f"{motion.path}: the robot is fitted to it, so that its error there judges nothing: "
@@ -134,7 +200,7 @@ def _errors(solved: Solved, motion: RobotMotion) -> tuple[tuple[float, ...], tup
     base = solved.balance.base
     balance = Balance(RigidColumns(motion, base), solved.balance.models)
     values = Values(solved.values.base[: base.count], solved.values.friction)
-    rows = np.maximum(motion.scored.sum(axis=0), 1)
+    rows = balance.scored_rows
     every = np.ones(balance.group_of_cell.size, dtype=bool)
 
     def sizes(*, filtered: bool) -> list[float]:

@@ -13,15 +13,21 @@ from stribeck.base.shown import Shown
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.fitting.fit import fit
-from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.causes import Found, chance, rigid_causes
-from stribeck.robot.columns import RigidColumns
-from stribeck.robot.columns import payload as payload_in
 from stribeck.robot.consistent import consistent_bodies
 from stribeck.robot.estimates import Scores, base_estimates, joint_fits
-from stribeck.robot.fit import ORDINARY, check_runs, result_of, solve_laws, solve_ordinary, specs_of
+from stribeck.robot.fit import (
+    ORDINARY,
+    InPasses,
+    balance_of,
+    in_memory,
+    result_of,
+    solve_ordinary,
+    solve_specs,
+    specs_of,
+)
 from stribeck.robot.motion import RobotMotion
-from stribeck.robot.problem import Values
+from stribeck.robot.problem import Balance, Values
 from stribeck.robot.result import JointFit, RobotFit
 from stribeck.robot.solve import QUICK, Solved, solve
 
@@ -99,7 +105,7 @@ class RobotImprovement(Shown):
 
 
 def improve_robot(
-    motion: RobotMotion,
+    motion: RobotMotion | InPasses,
     spec: str = ORDINARY,
     *,
     of_joints: Mapping[str, str] | None = None,
@@ -116,7 +122,9 @@ def improve_robot(
     An effect is sought in each joint by `stribeck.diagnose`, under the load torque of the rigid
     bodies just identified. It is added if, with all joints identified again, the held-out error of
     its joint falls by at least `least_fall`, significantly, and that of all joints together falls.
-    A payload in some runs is sought first.
+    A payload in some runs is sought first. In recordings that are read in passes, effects are
+    sought in the part in memory; the models without and with them are then identified on all
+    samples.
 
     Parameters
     ----------
@@ -126,29 +134,38 @@ def improve_robot(
         Called with one sentence at each step.
     """
     began = time.perf_counter()
-    specs = specs_of(motion, spec, of_joints or {})
-    check_runs(motion, payload)
-    rigid = RigidColumns(motion, BaseParameters.of(motion.robot))
-    causes = (payload_in(motion, tuple(payload)),) if payload else ()
+    part = in_memory(motion)
+    specs = specs_of(part, spec, of_joints or {})
+    empty = balance_of(part, payload)
     progress("identifying the rigid bodies")
-    ordinary = solve_ordinary(rigid, causes)
-    start = ordinary
-    if any(chosen != ORDINARY for chosen in specs):
-        start = solve_laws(motion, specs, ordinary, starts=starts, seed=seed)
+    ordinary = solve_ordinary(empty)
+    start = solve_specs(ordinary, specs, starts=starts, seed=seed)
     progress("looking for causes in the rigid bodies")
     found, start = _with_payload(start, least_fall)
     if found and found[0].cause.runs:
-        ordinary = solve_ordinary(rigid, start.balance.causes)
+        ordinary = solve_ordinary(replace(empty, causes=start.balance.causes))
     search = _Search(start, seed, least_fall, most_steps, progress)
     search.run()
+    final = search.solved
+    if not isinstance(motion, RobotMotion):
+        progress("identifying the models on all samples")
+        empty = replace(motion.balance(()), causes=final.balance.causes)
+        anew = {id(solved): solved for solved in (ordinary, start, final)}
+        anew = {key: _again(solved, empty) for key, solved in anew.items()}
+        ordinary, start, final = (anew[id(solved)] for solved in (ordinary, start, final))
     seconds = time.perf_counter() - began
     return RobotImprovement(
         base=result_of(start, ordinary, (), seconds),
-        final=result_of(search.solved, ordinary, evaluate, seconds),
+        final=result_of(final, ordinary, evaluate, seconds),
         steps={name: tuple(steps) for name, steps in search.steps.items()},
         last=search.last,
         rigid_body=tuple(found),
     )
+
+
+def _again(solved: Solved, empty: Balance) -> Solved:
+    """The same models on other samples."""
+    return solve(empty.with_models(solved.balance.models), solved.values, solved.weights)
 
 
 def _with_payload(solved: Solved, least_fall: float) -> tuple[list[Found], Solved]:

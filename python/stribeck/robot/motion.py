@@ -158,7 +158,16 @@ def read_motion(
         Options of `stribeck.read`; in `map`, ``{joint}`` and ``{number}`` stand for the joint.
         Without a column that depends on the joint, the file has a column ``joint``.
     """
-    options = ReadOptions() if reading is None else reading
+    options = joint_options(robot, ReadOptions() if reading is None else reading)
+    made = [
+        replace(read_with(list(files), own), joint=joint.name)
+        for joint, own in zip(robot.joints, options, strict=True)
+    ]
+    return RobotMotion.of(robot, made, cutoff)
+
+
+def joint_options(robot: Robot, options: ReadOptions) -> list[ReadOptions]:
+    """The options with which each joint is read."""
     given = {**dict(robot.columns), **dict(split_pairs("map", options.map))}
     made = []
     for number, joint in enumerate(robot.joints, start=1):
@@ -169,8 +178,8 @@ def read_motion(
         known = options.torque_constant is not None or "torque" in given
         if joint.drive_gain is not None and not known:
             own = replace(own, torque_constant=joint.drive_gain, gear_ratio=1.0)
-        made.append(replace(read_with(list(files), own), joint=joint.name))
-    return RobotMotion.of(robot, made, cutoff)
+        made.append(own)
+    return made
 
 
 def _column(text: str, joint: str, number: int) -> str:
@@ -194,7 +203,11 @@ def _cutoff(path: str, joints: Sequence[Recording], given: float | None) -> floa
                 f"two fifths of the sampling rate"
             )
         return given
-    bands = [recording.motion_band for recording in joints]
+    return default_cutoff([recording.motion_band for recording in joints], rate)
+
+
+def default_cutoff(bands: Sequence[float | None], rate: float) -> float:
+    """The cut-off for joints with these bandwidths of motion, Hz; None: not known."""
     fastest = max((band for band in bands if band is not None), default=0.04 * rate)
     return min(BANDWIDTHS * fastest, 0.39 * rate)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -107,6 +107,35 @@ class Balance:
         """The base parameters."""
         return self.rigid.base
 
+    @property
+    def rows(self) -> int:
+        """Number of samples."""
+        return self.motion.rows
+
+    @property
+    def run_names(self) -> tuple[str, ...]:
+        """Names of the runs."""
+        return self.motion.joints[0].run_names
+
+    @property
+    def hashes(self) -> tuple[str, ...]:
+        """SHA-256 of what is fitted to, and of each of its files."""
+        return self.motion.joints[0].hashes
+
+    @cached_property
+    def scored_rows(self) -> NDArray[np.intp]:
+        """Number of scored samples of each joint, at least 1, int array [N]."""
+        return np.asarray(np.maximum(self.motion.scored.sum(axis=0), 1))
+
+    @property
+    def unknowns(self) -> int:
+        """Number of base parameters and of parameters of the causes."""
+        return self.base.count + sum(cause.count for cause in self.causes)
+
+    def with_models(self, models: Sequence[Model]) -> Balance:
+        """The balance with other friction."""
+        return replace(self, models=tuple(models))
+
     @cached_property
     def columns(self) -> Array:
         """Columns of base parameters and of the causes, array [n, N, b]."""
@@ -138,7 +167,7 @@ class Balance:
     @property
     def held_out(self) -> str:
         """``"runs"`` or ``"blocks"``."""
-        several = len(self.motion.joints[0].run_names) > 1
+        several = len(self.run_names) > 1
         carried = any(cause.runs for cause in self.causes)
         return "runs" if several and not (carried or self.by_block) else "blocks"
 
@@ -177,13 +206,22 @@ class Balance:
         reads_load = "load_torque" in model.core.needs
         return model.memoryless and not reads_load and all(p.linear for p in model.parameters)
 
-    def factors(self, values: Values, *, filtered: bool = True) -> list[Factors]:
-        """The balance of every joint, linearised at `values`."""
-        joints = range(len(self.models))
-        return [self.factors_of(values, joint, filtered=filtered) for joint in joints]
+    def factors(
+        self, values: Values, joints: Sequence[int] | None = None, *, filtered: bool = True
+    ) -> list[Factors]:
+        """The balance of some joints, by default of every joint, linearised at `values`."""
+        cells = int(self.cell.max()) + 1
+        made = []
+        for joint in range(len(self.models)) if joints is None else joints:
+            jacobian, residual = self.linearised(values, joint, filtered=filtered)
+            cell = self.cell[self.motion.scored[:, joint]]
+            made.append(Factors(_core.triangle(jacobian, residual, cell, cells)))
+        return made
 
-    def factors_of(self, values: Values, joint: int, *, filtered: bool = True) -> Factors:
-        """The balance of one joint, linearised at `values`."""
+    def linearised(
+        self, values: Values, joint: int, *, filtered: bool = True
+    ) -> tuple[Array, Array]:
+        """``J`` [m, b + p_j] and ``r`` [m] of one joint at its m scored samples."""
         load = np.asarray(self.columns[:, joint] @ values.base)
         friction = values.friction[joint]
         residual, by_friction = self.problem(joint, load).linearise(friction)
@@ -201,9 +239,7 @@ class Balance:
             grown = 1.0 if slope is None else 1.0 + slope[scored, None]
             by_friction, residual = by_friction[scored], residual[scored]
             by_base = self.columns[scored, joint] * grown
-        jacobian = np.ascontiguousarray(np.concatenate([by_base, by_friction], axis=1))
-        cells = int(self.cell.max()) + 1
-        return Factors(_core.triangle(jacobian, residual, self.cell[scored], cells))
+        return np.ascontiguousarray(np.concatenate([by_base, by_friction], axis=1)), residual
 
     def _by_load(self, joint: int, load: Array, friction: Array) -> Array | None:
         """Derivative of friction by the load, array [n]; None where it does not depend on it."""
@@ -216,7 +252,7 @@ class Balance:
 
     def bounds(self) -> tuple[Array, Array]:
         """Bounds of all values, arrays [b + sum p_j]; base parameters have none."""
-        free = np.full(self.columns.shape[2], np.inf)
+        free = np.full(self.unknowns, np.inf)
         low, high = [-free], [free]
         for joint, model in enumerate(self.models):
             lower, upper, _ = bounds(model, self.motion.joints[joint])

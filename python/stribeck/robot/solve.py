@@ -94,8 +94,7 @@ def solve(
     weights : array [N], optional
         Of the first step; by default, joints count by the size of their torque.
     """
-    motion = balance.motion
-    count = np.maximum(motion.scored.sum(axis=0), 1)
+    count = balance.scored_rows
     if weights is None:
         weights = 1.0 / np.array([balance.torque_size(j) for j in range(len(count))])
     low, high = balance.bounds()
@@ -109,7 +108,7 @@ def solve(
         before = made.weights
         left = np.array([f.square(made.every) for f in made.factors])
         if not np.all(np.isfinite(left)):
-            raise FitError(f"{motion.path}: the torques of the robot are not finite")
+            raise FitError(f"{balance.motion.path}: the torques of the robot are not finite")
         weights = 1.0 / np.sqrt(np.maximum(left / count, 1e-30))
         made = Solved(balance, made.values, weights, made.factors, made.converged)
         settled = np.allclose(before, weights, rtol=np.sqrt(effort.tolerance))
@@ -120,15 +119,14 @@ def solve(
 
 def _stepped(made: Solved, step: Array, square: float, halvings: int) -> Solved:
     """The values after a step, halved until the weighted sum of squares does not rise."""
-    share = 1.0
+    balance, share = made.balance, 1.0
+    curved = [joint for joint in range(len(made.factors)) if not balance.is_linear(joint)]
     for _ in range(halvings):
         values = made.values.moved(step, share)
-        factors = [
-            part.after(share * step[place])
-            if made.balance.is_linear(joint)
-            else made.balance.factors_of(values, joint)
-            for joint, (part, place) in enumerate(zip(made.factors, made.places(), strict=True))
-        ]
+        parts = zip(made.factors, made.places(), strict=True)
+        factors = [part.after(share * step[place]) for part, place in parts]
+        for joint, part in zip(curved, balance.factors(values, curved), strict=True):
+            factors[joint] = part
         moved = replace(made, values=values, factors=factors)
         if _weighted_square(factors, made.weights, made.every) <= square * (1.0 + 1e-9):
             return moved

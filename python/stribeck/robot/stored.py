@@ -58,7 +58,7 @@ def robot_toml(found: RobotFit) -> str:
     first = balance.motion.joints[0]
     fitted_on = {
         "path": first.path,
-        "hashes": list(first.hashes),
+        "hashes": list(balance.hashes),
         "cutoff_hz": balance.motion.cutoff,
     }
     document.add("fitted_on", tomlkit.item(fitted_on))

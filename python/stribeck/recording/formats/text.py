@@ -15,9 +15,10 @@ from stribeck.recording.formats.door import MOST_COLUMNS, Asked, Entered
 from stribeck.recording.formats.lines import LONGEST_CELL, LONGEST_LINE, Lines, look
 from stribeck.recording.formats.part import Read
 
-__all__ = ["Layout", "decoded", "layout_of", "read_layout"]
+__all__ = ["NULLS", "Layout", "decoded", "layout_of", "read_layout"]
 
-_NULLS = ["", "NA", "N/A", "n/a", "null", "NULL", "None"]
+#: Cells that hold nothing.
+NULLS = ["", "NA", "N/A", "n/a", "null", "NULL", "None"]
 #: Rows from which the types of the columns are taken at first.
 _TYPED_ROWS = 1000
 #: Bytes in which the first lines are looked for, and how many of these decide.
@@ -247,7 +248,7 @@ def _parsed(body: bytes, layout: Layout, separator: str) -> pl.DataFrame | None:
         "new_columns": layout.names,
         "separator": separator,
         "decimal_comma": layout.decimal_comma,
-        "null_values": _NULLS,
+        "null_values": NULLS,
         "raise_if_empty": False,
     }
     # The types of the first rows are nearly always those of all.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import glob
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -37,6 +38,10 @@ class DataSet:
         Columns and their types, the same in every file.
     origin
         First value of each column of dates, from which seconds are counted.
+    runs
+        Run of which each file is a part; empty: runs follow from the times or a column.
+    sources
+        File that each of `files` was made from, as sentences name it; empty: they are the files.
     """
 
     path: str
@@ -44,6 +49,8 @@ class DataSet:
     first: NDArray[np.int64]
     schema: pl.Schema
     origin: dict[str, object]
+    runs: tuple[str, ...] = ()
+    sources: tuple[str, ...] = ()
 
     @classmethod
     def open(cls, path: str | Path) -> DataSet:
@@ -59,7 +66,18 @@ class DataSet:
         RecordingError
             No files, a damaged one, or files with different columns.
         """
-        files = _found(path)
+        return cls.of_files(str(path), _found(path))
+
+    @classmethod
+    def of_files(
+        cls,
+        path: str,
+        files: Sequence[str],
+        *,
+        runs: Sequence[str] = (),
+        sources: Sequence[str] = (),
+    ) -> DataSet:
+        """The samples of some Parquet files, in this order; `path` is what sentences name."""
         schema = _schema(files[0])
         counts = []
         for file in files:
@@ -78,7 +96,7 @@ class DataSet:
         head = files[int(np.argmax(np.array(counts) > 0))]
         row = pl.scan_parquet(head).select(dates).head(1).collect()
         origin = {name: row[name][0] for name in dates}
-        return cls(str(path), tuple(files), first, schema, origin)
+        return cls(path, tuple(files), first, schema, origin, tuple(runs), tuple(sources))
 
     @property
     def rows(self) -> int:
@@ -108,15 +126,28 @@ class DataSet:
     def place(self, row: int) -> str:
         """Name a row (counted from 0) by its file and its row there."""
         k = int(np.searchsorted(self.first, row, side="right")) - 1
-        return f"row {row - int(self.first[k]) + 1} of {Path(self.files[k]).name}"
+        named = self.sources or self.files
+        # A file may have been made into several parts.
+        first = int(self.first[named.index(named[k])])
+        return f"row {row - first + 1} of {Path(named[k]).name}"
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """The files that were given, in order."""
+        return tuple(dict.fromkeys(self.sources or self.files))
+
+    @cached_property
+    def hashes(self) -> tuple[str, ...]:
+        """Hash of the bytes of each file that was given."""
+        return tuple(_hash(file) for file in self.named)
 
     @cached_property
     def sha256(self) -> str:
         """Hash of the file's bytes; of several files, of their names and hashes, in order."""
-        hashes = [_hash(file) for file in self.files]
-        if len(hashes) == 1:
-            return hashes[0]
-        lines = (f"{h}  {Path(f).name}\n" for h, f in zip(hashes, self.files, strict=True))
+        if len(self.hashes) == 1:
+            return self.hashes[0]
+        pairs = zip(self.hashes, self.named, strict=True)
+        lines = (f"{h}  {Path(f).name}\n" for h, f in pairs)
         return hashlib.sha256("".join(lines).encode()).hexdigest()
 
 

@@ -26,6 +26,10 @@ class Margin:
     before: int
     after: int
 
+    def at_least(self, other: Margin) -> Margin:
+        """The wider of both on each side."""
+        return Margin(max(self.before, other.before), max(self.after, other.after))
+
     @classmethod
     def of(cls, model: Model, sample: Recording) -> Margin:
         """Return the margin that `model` needs on data like `sample`.

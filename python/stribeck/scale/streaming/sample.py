@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -82,7 +83,7 @@ def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
     prepared = prepared_table(_Rows(data, table), settings)
     starts = _starts(data, prepared)
     row = number[prepared.row]
-    prepared = _with_runs(replace(prepared, row=row), row, starts)
+    prepared = _with_runs(replace(prepared, row=row), row, starts, tuple(dict.fromkeys(data.runs)))
     joint, own = joint_rows(prepared, settings.joint)
     recording = build(prepared, joint, own, mend=False)
     recording.require_consistent()
@@ -99,6 +100,11 @@ def _refuse(data: DataSet, settings: Settings) -> None:
                 f"{data.path}: {option(name, value)} needs all samples in memory: leave it out, or "
                 "read one file into memory, without streaming"
             )
+    if settings.weights is not None:
+        raise RecordingError(
+            f"{data.path}: weights need all samples in memory: leave out {option('weights')}, or "
+            "give one file that is not read in passes"
+        )
     if settings.unwrap:
         raise RecordingError(
             f"{data.path}: {option('unwrap')} needs all samples in memory: write the position "
@@ -116,15 +122,20 @@ def _starts(data: DataSet, prepared: Prepared) -> Ints:
             )
     if time is None:
         return np.zeros(1, dtype=np.int64)
+    if run is None and data.runs:
+        return data.first[[data.runs.index(name) for name in dict.fromkeys(data.runs)]]
     return run_starts(data, None if run is None else run.source, time.source)
 
 
-def _with_runs(prepared: Prepared, row: Ints, starts: Ints) -> Prepared:
-    """Number the runs if there are several and no column numbers them."""
+def _with_runs(prepared: Prepared, row: Ints, starts: Ints, names: Sequence[str] = ()) -> Prepared:
+    """Number or name the runs if there are several and no column numbers them."""
     if "run" in prepared.choices or starts.size < 2:
         return prepared
     number = pl.Series(CLOCK_RUN, np.searchsorted(starts, row, side="right"))
     choices = {**prepared.choices, "run": Choice("run", CLOCK_RUN, None, "name")}
+    if names:
+        named = pl.Series(CLOCK_RUN, [names[k - 1] for k in number])
+        return replace(prepared, table=prepared.table.with_columns(named), choices=choices)
     note = f"the clock starts again in {starts.size - 1} files: each of them begins a run"
     return replace(
         prepared,

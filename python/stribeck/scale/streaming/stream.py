@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from stribeck.base.arguments import door
-from stribeck.base.errors import RecordingError, option
+from stribeck.base.errors import RecordingError
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.diagnose import diagnose as diagnose_in_memory
 from stribeck.diagnosis.loop.improve import improve as improve_in_memory
@@ -215,10 +215,5 @@ def stream(
         fitted = sb.stream("logs/", map=["velocity=dq_3"]).fit("coulomb+load")
     """
     settings = gather(path, ReadOptions.of(reading))
-    if settings.weights is not None:
-        raise RecordingError(
-            f"{path}: weights need all samples in memory: leave out {option('weights')}, or give "
-            "one file that is not read in passes"
-        )
     data = DataSet.open(path)
     return Stream(data, take(data, settings, sample_rows, seed), window_rows)

@@ -48,6 +48,8 @@ class Window:
         The samples of the window and of the margins around it.
     rows
         Indices in `recording` of the moving samples of the window without margins, array [m].
+    own
+        Which samples of `recording` are the window without margins, bool array [n].
     row
         Index in the data set of each sample of `recording`, array [n].
     end
@@ -58,6 +60,7 @@ class Window:
 
     recording: Recording
     rows: Ints
+    own: NDArray[np.bool_]
     row: Ints
     end: int
     count: int
@@ -111,16 +114,21 @@ class Windows:
     ----------
     model
         The model to fit, which decides which channels are read.
+    least
+        Least margin, for filters that the caller applies; gaps are then found for every model.
     """
 
     data: DataSet
     sample: Sample
     model: Model
     size: int = WINDOW_ROWS
+    least: Margin | None = None
     margin: Margin = field(init=False)
 
     def __post_init__(self) -> None:
         self.margin = Margin.of(self.model, self.sample.recording)
+        if self.least is not None:
+            self.margin = self.margin.at_least(self.least)
         self._smoothed = smoothed(self.model, self.sample.recording)
         self._band = acceleration_band(self.sample.recording) if self._smoothed else None
         self._columns = self._read()
@@ -172,7 +180,7 @@ class Windows:
         settle_units(data)
         recording = self._recording(data, row, anchor)
         rows = np.flatnonzero(recording.moving & own)
-        return Window(recording, rows, row, stop, int(np.count_nonzero(own)), dropped)
+        return Window(recording, rows, own, row, stop, int(np.count_nonzero(own)), dropped)
 
     def _channels(self, frame: pl.DataFrame, begin: int) -> Channels:
         """The channels of the rows of `frame`, the first of which is row `begin`."""
@@ -202,7 +210,7 @@ class Windows:
         run = numbered(row, self.sample.starts)
         self._check_time(time, run, row)
         segment, dt = run, np.zeros_like(time)
-        if self._smoothed:
+        if self._smoothed or self.least is not None:
             segment, dt, _ = segment_rows(time, run, row)
         if self._smoothed:
             motion = MotionChannels.filtered(

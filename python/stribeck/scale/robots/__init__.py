@@ -1,0 +1,1 @@
+"""Recordings of whole robots that are larger than memory."""
