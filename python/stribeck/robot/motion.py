@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import psutil
 import scipy
 from numpy.typing import NDArray
 
@@ -27,6 +28,8 @@ BEFORE = 3.0
 FASTEST = 0.4
 #: Samples whose regressor is computed at once.
 STRETCH = 20_000
+#: Memory for a sample, over the square of the number of joints: each has columns of all links.
+BYTES = 190
 #: Segments of so many samples are too short to be filtered.
 SHORTEST = 30
 
@@ -159,11 +162,22 @@ def read_motion(
         Without a column that depends on the joint, the file has a column ``joint``.
     """
     options = joint_options(robot, ReadOptions() if reading is None else reading)
-    made = [
-        replace(read_with(list(files), own), joint=joint.name)
-        for joint, own in zip(robot.joints, options, strict=True)
-    ]
+    made = []
+    for joint, own in zip(robot.joints, options, strict=True):
+        made.append(replace(read_with(list(files), own), joint=joint.name))
+        _refuse_too_many(made[0], len(robot.joints))
     return RobotMotion.of(robot, made, cutoff)
+
+
+def _refuse_too_many(recording: Recording, joints: int) -> None:
+    """Refuse samples whose columns would not fit into the memory that is free."""
+    needed, free = BYTES * joints**2 * recording.rows, psutil.virtual_memory().available
+    if needed > free:
+        raise RecordingError(
+            f"{recording.path}: {recording.rows} samples of {joints} joints need about "
+            f"{needed / 1e9:.2g} GB of memory, {free / 1e9:.2g} GB are free: read them in passes, "
+            f"with {option('stream')} (in Python `sb.stream_robot`)"
+        )
 
 
 def joint_options(robot: Robot, options: ReadOptions) -> list[ReadOptions]:

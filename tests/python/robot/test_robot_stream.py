@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import arms
@@ -109,6 +111,23 @@ def test_files_are_runs_and_a_payload_is_found(arm: Robot, runs: list[str]) -> N
     assert fit_robot(opened(arm, runs)).solved.balance.held_out == "runs"
 
 
+def test_currents_become_torques(arm: Robot, runs: list[str], tmp_path: Path) -> None:
+    gains = {name: 2.0 + k for k, name in enumerate(arm.names)}
+    driven = replace(
+        arm, joints=tuple(replace(joint, drive_gain=gains[joint.name]) for joint in arm.joints)
+    )
+    frame = pl.read_parquet(runs[0])
+    effort = dict(COLUMNS)["torque"]
+    for name, gain in gains.items():
+        column = effort.format(joint=name)
+        frame = frame.with_columns((pl.col(column) / gain).alias(f"i_{name}")).drop(column)
+    path = str(tmp_path / "run_1.parquet")
+    frame.write_parquet(path)
+    mapped = [pair for pair in MAP if not pair.startswith("torque=")] + ["current=i_{joint}"]
+    stream = stream_robot(driven, [path], cutoff=CUTOFF, map=mapped)
+    assert_alike(fit_robot(stream), in_memory(arm, runs[:1], "coulomb+offset"))
+
+
 def test_a_part_in_memory_is_enough(arm: Robot, runs: list[str]) -> None:
     stream = opened(arm, runs[:1], sample_rows=1000)
     assert stream.motion.rows == 1000
@@ -152,6 +171,10 @@ def test_what_cannot_be_read_in_passes_is_refused(
     np.savez(other, t=np.arange(10.0))
     with pytest.raises(RecordingError, match=r"only Parquet, CSV and TSV files are read in passes"):
         opened(arm, [str(other)])
+    copied = shutil.copy(runs[1], tmp_path)
+    Path(f"{copied}.sidecar.toml").write_text('kind = "recording"\ntorque_constant = 2.0\n')
+    with pytest.raises(RecordingError, match="its sidecar says something else than that of"):
+        opened(arm, [runs[0], copied])
     with pytest.raises(RecordingError, match="weights need all samples in memory"):
         stream_robot(arm, runs[:1], map=MAP, weights="1")
     with pytest.raises(FitError, match="has no run 'run_9'"):
@@ -159,6 +182,14 @@ def test_what_cannot_be_read_in_passes_is_refused(
     judged = read_motion(arm, runs[:1], ReadOptions(map=MAP), CUTOFF)
     with pytest.raises(FitError, match="judges nothing"):
         fit_robot(opened(arm, runs), evaluate=[judged])
+
+
+def test_more_than_the_memory_holds_is_refused(
+    arm: Robot, runs: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("stribeck.robot.motion.BYTES", 1e12)
+    with pytest.raises(RecordingError, match=r"3000 samples of 4 joints need about .* in passes"):
+        read_motion(arm, runs[:1], ReadOptions(map=MAP), CUTOFF)
 
 
 def test_the_command_reads_in_passes(arm: Robot, runs: list[str], tmp_path: Path) -> None:

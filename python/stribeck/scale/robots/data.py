@@ -119,7 +119,7 @@ class RobotData:
         """
         listed = listed_files(list(files))
         options = joint_options(robot, reading)
-        settings = [gather(listed[0], own) for own in options]
+        settings = [_shared(listed, own) for own in options]
         scratch = TemporaryDirectory(prefix="stribeck-") if _has_text(listed) else None
         data = _opened(listed, settings[0], scratch)
         joints = tuple(take(data, own, sample_rows, seed) for own in settings)
@@ -205,6 +205,18 @@ class RobotData:
             scored += mine.sum(axis=0)
             square += np.einsum("ij,ij->j", torque * mine, torque)
         return Totals(scored, square)
+
+
+def _shared(files: Sequence[str], reading: ReadOptions) -> Settings:
+    """What is known of all files; windows may lie in several, so that they cannot differ."""
+    first, *others = (gather(file, reading) for file in files)
+    for file, other in zip(files[1:], others, strict=True):
+        if replace(other, sidecar=first.sidecar) != first:
+            raise RecordingError(
+                f"{file}: its sidecar says something else than that of {files[0]}: files read in "
+                f"passes share one, given with {option('sidecar')}"
+            )
+    return first
 
 
 def _has_text(files: Sequence[str]) -> bool:

@@ -85,7 +85,8 @@ def take(data: DataSet, settings: Settings, most: int, seed: int) -> Sample:
     row = number[prepared.row]
     prepared = _with_runs(replace(prepared, row=row), row, starts, tuple(dict.fromkeys(data.runs)))
     joint, own = joint_rows(prepared, settings.joint)
-    recording = build(prepared, joint, own, mend=False)
+    # To build a recording makes a current the torque, which each window does again.
+    recording = build(replace(prepared, choices=dict(prepared.choices)), joint, own, mend=False)
     recording.require_consistent()
     edges = block_edges(data.rows, starts)
     return Sample(recording, prepared, joint, starts, edges)

@@ -48,6 +48,17 @@ def test_a_linear_model_takes_one_pass_and_is_the_same_as_in_memory(tmp_path: Pa
     assert one == pytest.approx(other, abs=0.2)
 
 
+def test_a_current_is_a_torque_in_every_window(tmp_path: Path) -> None:
+    frame = joint(rows=6000)
+    driven = frame.with_columns(current_A=pl.col("torque") / 20.0).drop("torque")
+    drive = {"torque_constant": 2.0, "gear_ratio": 10.0, "map": ["load_torque=none"]}
+    folder = written(tmp_path / "set", driven)
+    streamed = sb.stream(folder, window_rows=1001, **drive).fit("coulomb")
+    whole = in_memory(tmp_path, driven, "coulomb", **drive)
+    for name, estimate in whole.estimates.items():
+        assert streamed.estimates[name].value == pytest.approx(estimate.value, rel=1e-9)
+
+
 def test_in_one_direction_the_sum_with_an_offset_is_determined(tmp_path: Path) -> None:
     frame = joint(rows=6000)
     forward = frame.with_columns(
