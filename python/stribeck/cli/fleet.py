@@ -17,6 +17,7 @@ from stribeck.cli.common import (
     starts_option,
 )
 from stribeck.cli.data import split_one
+from stribeck.cli.flags import with_flags
 from stribeck.cli.outputs import FIGURE, PAGE, CheckedCommand
 from stribeck.cli.progress import Progress, stop_with
 from stribeck.cli.refused import OF_A_FLEET, refusing
@@ -191,4 +192,4 @@ def _write_pictures(result: Fleet, picture: str | None, report: str | None) -> N
         from stribeck.cli.pages import command_line, save_page
         from stribeck.report.fleet_page import fleet_page
 
-        save_page(fleet_page(result, command_line()), report)
+        save_page(fleet_page(result, command_line(), with_flags), report)

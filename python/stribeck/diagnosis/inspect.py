@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, RecordingError, option
+from stribeck.base.shown import Shown
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.fitting.fit import fit
 from stribeck.fitting.protocols.found import Protocol, found_protocols
@@ -35,8 +36,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Inspection:
+@dataclass(frozen=True, repr=False)
+class Inspection(Shown):
     """The columns of a file, and what each of its joints can show.
 
     Attributes

@@ -10,6 +10,7 @@ from typing import Literal, get_args
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, option
+from stribeck.base.shown import Shown
 from stribeck.exporters.about import About
 from stribeck.exporters.c.files import c_files, identifier
 from stribeck.exporters.document import json_files
@@ -27,8 +28,8 @@ from stribeck.models.model_file import WITH_MODEL, ModelFile
 Language = Literal["c", "rust", "json"]
 
 
-@dataclass(frozen=True)
-class Export:
+@dataclass(frozen=True, repr=False)
+class Export(Shown):
     """What was written.
 
     Attributes
@@ -56,11 +57,6 @@ class Export:
             "passive": self.passive,
             "files": [str(path) for path in self.files],
         }
-
-    def __repr__(self) -> str:
-        """The model, then one line a file."""
-        head = f"{self.model.spec} in {self.language}, {self.precision}"
-        return "\n".join([head, *(f"  {path}" for path in self.files)])
 
 
 @door(ModelFileError, model=WITH_MODEL)

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from stribeck import _core
 from stribeck.base.arguments import door
 from stribeck.base.errors import ModelFileError, SpecError, listed
+from stribeck.base.shown import Shown
 from stribeck.models import evaluate
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
 from stribeck.models.channels import columns, constant, split_columns
@@ -34,8 +35,8 @@ Array = NDArray[np.float64]
 RIGID_BODY_EFFECTS = ("inertia", "gravity")
 
 
-@dataclass(frozen=True)
-class Model:
+@dataclass(frozen=True, repr=False)
+class Model(Shown):
     """A friction law with effects, and the values of its parameters.
 
     Parameters

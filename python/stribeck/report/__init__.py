@@ -13,39 +13,71 @@ RENDERERS: dict[str, dict[str, str]] = {
         "figure": "recording_figure:recording_figure",
         "notebook": "notebook:picture_view",
     },
+    "stribeck.diagnosis.inspect:Inspection": {
+        "text": "inspection:inspection_text",
+        "notebook": "notebook_tables:inspection_view",
+    },
+    "stribeck.models.model:Model": {
+        "text": "model:model_text",
+        "notebook": "notebook_tables:model_view",
+    },
+    "stribeck.exporters.export:Export": {
+        "text": "model:export_text",
+        "notebook": "notebook_tables:words_view",
+    },
     "stribeck.fitting.result:Fit": {
         "text": "fit:fit_text",
         "figure": "fit:fit_figure",
         "notebook": "notebook:fit_view",
     },
-    "stribeck.robot.arm:Robot": {"text": "robot:robot_text"},
+    "stribeck.robot.arm:Robot": {
+        "text": "robot:robot_text",
+        "notebook": "notebook_tables:words_view",
+    },
     "stribeck.robot.result:RobotFit": {
         "text": "robot:robot_fit_text",
-        "notebook": "notebook:frame_view",
+        "notebook": "notebook_tables:robot_fit_view",
     },
-    "stribeck.robot.follow:RobotTracking": {"text": "robot:robot_tracking_text"},
-    "stribeck.robot.plan:RobotPlan": {"text": "robot:robot_plan_text"},
+    "stribeck.robot.follow:RobotTracking": {
+        "text": "robot:robot_tracking_text",
+        "notebook": "notebook_tables:robot_tracking_view",
+    },
+    "stribeck.robot.plan:RobotPlan": {
+        "text": "robot:robot_plan_text",
+        "notebook": "notebook_tables:robot_plan_view",
+    },
     "stribeck.robot.compare:RobotComparison": {
         "text": "robot:robot_comparison_text",
         "notebook": "notebook:frame_view",
     },
-    "stribeck.robot.diagnosis:RobotDiagnosis": {"text": "robot:robot_diagnosis_text"},
-    "stribeck.robot.improve:RobotImprovement": {"text": "robot:robot_improvement_text"},
+    "stribeck.robot.diagnosis:RobotDiagnosis": {
+        "text": "robot:robot_diagnosis_text",
+        "notebook": "notebook_tables:robot_diagnosis_view",
+    },
+    "stribeck.robot.improve:RobotImprovement": {
+        "text": "robot:robot_improvement_text",
+        "notebook": "notebook_tables:robot_improvement_view",
+    },
     "stribeck.fitting.methods.arm:ArmFit": {
         "text": "methods:arm_text",
         "notebook": "notebook:frame_view",
     },
     "stribeck.fitting.protocols.points:BristleStiffness": {
         "text": "methods:stiffness_text",
+        "notebook": "notebook_tables:words_view",
     },
     "stribeck.fitting.transmission.measure:Transmission": {
         "text": "transmission:transmission_text",
+        "notebook": "notebook_tables:words_view",
     },
     "stribeck.fitting.methods.steady:SteadyPoints": {
         "text": "methods:points_text",
         "notebook": "notebook:frame_view",
     },
-    "stribeck.passivity.certificate:Certificate": {"text": "certificate:certificate_text"},
+    "stribeck.passivity.certificate:Certificate": {
+        "text": "certificate:certificate_text",
+        "notebook": "notebook_tables:certificate_view",
+    },
     "stribeck.diagnosis.compare:Comparison": {
         "text": "comparison:comparison_text",
         "figure": "comparison:comparison_figure",
@@ -85,8 +117,14 @@ RENDERERS: dict[str, dict[str, str]] = {
         "figure": "compensation:tracking_figure",
         "notebook": "notebook:picture_view",
     },
-    "stribeck.motion.compensate.factor:Factor": {"text": "compensation:factor_text"},
-    "stribeck.motion.compensate.teaching:Teaching": {"text": "compensation:teaching_text"},
+    "stribeck.motion.compensate.factor:Factor": {
+        "text": "compensation:factor_text",
+        "notebook": "notebook_tables:words_view",
+    },
+    "stribeck.motion.compensate.teaching:Teaching": {
+        "text": "compensation:teaching_text",
+        "notebook": "notebook_tables:words_view",
+    },
     "stribeck.motion.design.result:Plan": {
         "text": "design:plan_text",
         "figure": "design:plan_figure",
@@ -97,10 +135,12 @@ RENDERERS: dict[str, dict[str, str]] = {
         "notebook": "notebook:frame_view",
     },
     "stribeck.scale.streaming.diagnosis:StreamedDiagnosis": {
-        "text": "streaming:streamed_diagnosis_text"
+        "text": "streaming:streamed_diagnosis_text",
+        "notebook": "notebook_tables:words_view",
     },
     "stribeck.scale.streaming.improvement:StreamedImprovement": {
         "text": "streaming:streamed_improvement_text",
+        "notebook": "notebook_tables:words_view",
     },
     "stribeck.scale.study.result:Study": {
         "text": "study:study_text",
@@ -116,6 +156,7 @@ RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.projects.project:Project": {
         "text": "project:project_text",
         "figure": "project:project_figure",
+        "notebook": "notebook_tables:project_view",
     },
     "stribeck.projects.sides:Sides": {
         "text": "project:sides_text",

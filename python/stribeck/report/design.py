@@ -31,7 +31,7 @@ def plan_text(plan: Plan) -> str:
     return joined(
         paragraph(motion, 0),
         paragraph(smallest, 0),
-        table(_rows(plan), right=(2, 3, 4)),
+        table(_rows(plan), right=(2, 3, 4), whole=(0, 1)),
         _cosines(plan),
         bullets("What this motion cannot do:", _advice(plan)),
         notes_text(plan.notes),

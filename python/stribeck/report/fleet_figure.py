@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from stribeck.scale.fleet.changes import Changes
+    from stribeck.scale.fleet.changes import Change, Changes, JointChange
     from stribeck.scale.fleet.effects import Effects, JointEffect
     from stribeck.scale.fleet.result import Fleet
 
@@ -36,11 +36,21 @@ def fleet_figure(fleet: Fleet) -> Figure:
     return figure
 
 
+def shows_anything(fleet: Fleet) -> bool:
+    """Whether the figure has more than a sentence."""
+    return bool(fleet.effects.shares or _with_friction(fleet.changes))
+
+
+def _with_friction(changes: Changes) -> list[tuple[JointChange, Change]]:
+    """The joints with their change of mean friction, where it is known."""
+    return [(j, c) for j in changes.joints if (c := j.friction) is not None and c.before]
+
+
 def _draw_changes(axes: Axes, changes: Changes) -> None:
     """Every joint by the change of its mean friction, with a 95 % interval."""
     style(axes)
     title(axes, "Change of mean friction, every joint")
-    drawn = [(j, c) for j in changes.joints if (c := j.friction) is not None and c.before]
+    drawn = _with_friction(changes)
     if not drawn:
         axes.set_axis_off()
         axes.text(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from stribeck.report.fleet import (
@@ -17,7 +19,7 @@ from stribeck.report.fleet import (
     share_rows,
     shift_sentences,
 )
-from stribeck.report.fleet_figure import fleet_figure
+from stribeck.report.fleet_figure import fleet_figure, shows_anything
 from stribeck.report.page import picture_text, render
 from stribeck.report.page_figures import NO_FIGURES
 from stribeck.report.sections import Section
@@ -30,13 +32,15 @@ if TYPE_CHECKING:
 PICTURE = "Change of mean friction of every joint, and the share of joints that have each effect"
 
 
-def fleet_page(fleet: Fleet, command: str = "") -> str:
+def fleet_page(fleet: Fleet, command: str = "", spell: Callable[[str], str] = str) -> str:
     """The whole answer as a page; no table is shortened.
 
     Parameters
     ----------
     command
         The command that made it.
+    spell
+        Writes the options in its sentences.
     """
     changes, effects = fleet.changes, fleet.effects
     changed = change_rows(changes.changed)
@@ -61,9 +65,9 @@ def fleet_page(fleet: Fleet, command: str = "") -> str:
         name=f"Fleet {fleet.folder.name}",
         about="changed joints and unusual effects",
         summary=heading(fleet),
-        pictures=[(PICTURE, picture_text(fleet_figure(fleet)))],
+        pictures=[(PICTURE, picture_text(fleet_figure(fleet)))] if shows_anything(fleet) else [],
         figures=NO_FIGURES,
-        sections=sections,
+        sections=[replace(one, sentences=[*map(spell, one.sentences)]) for one in sections],
         command=command,
         versions=versions(),
     )

@@ -90,20 +90,20 @@ def finding_view(finding: Finding) -> str:
     """One finding: where the data shows it."""
     plots = {finding.where: finding_residual(finding.effect, finding.before, finding.fit)}
     said = f"{finding.effect}: {confidence_words(finding.confidence)}"
-    return _view(said, text=repr(finding), figures=_figures(plots))
+    return view(said, text=repr(finding), figures=_figures(plots))
 
 
 def picture_view(result: Plotted) -> str:
     """Any other result with a figure: the figure, and all in words."""
     picture = picture_text(result.plot())
-    return _view(type(result).__name__, text=repr(result), picture=picture)
+    return view(type(result).__name__, text=repr(result), picture=picture)
 
 
 def frame_view(result: Tabular) -> str:
     """A result that is a table: the table, and all in words."""
     frame = result.to_frame()
-    rows = [frame.columns, *([_cell(value) for value in row] for row in frame.rows())]
-    return _view(type(result).__name__, [rows], text=repr(result))
+    rows = [frame.columns, *([cell(value) for value in row] for row in frame.rows())]
+    return view(type(result).__name__, [rows], text=repr(result))
 
 
 def _account_view(
@@ -116,12 +116,12 @@ def _account_view(
     shown = {caption: plots[name] for name, caption in SHOWN.items() if name in plots}
     heading = ["parameter", "symbol", "value", "standard error", "95 % interval", "unit"]
     parameters = [heading, *(row[:6] for row in parameter_table(account.final))]
-    return _view(
+    return view(
         account.summary, [*tables, parameters], account.left, text=text, figures=_figures(shown)
     )
 
 
-def _view(
+def view(
     summary: str,
     tables: Sequence[Sequence[Sequence[str]]] = (),
     sentences: Iterable[str] = (),
@@ -177,5 +177,5 @@ def _steps(account: Account) -> list[list[list[str]]]:
     return [rows] if account.steps else []
 
 
-def _cell(value: object) -> str:
+def cell(value: object) -> str:
     return plain(value, 5) if isinstance(value, float) else "" if value is None else str(value)

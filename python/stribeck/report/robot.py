@@ -183,6 +183,16 @@ def robot_comparison_text(compared: RobotComparison) -> str:
 
 def robot_diagnosis_text(found: RobotDiagnosis) -> str:
     """What each joint lacks, and causes in the rigid bodies."""
+    return joined(
+        table(lacking_rows(found), right=[3]),
+        *_doubts_of_joints(found),
+        causes_text(found.rigid_body),
+        "" if found.fit.payload is None else paragraph(payload_sentence(found.fit.payload), 0),
+    )
+
+
+def lacking_rows(found: RobotDiagnosis) -> list[list[str]]:
+    """What each joint lacks; the heading first."""
     rows = [["joint", "model", "lacks", "RMSE held out", "", "confidence"]]
     for name, joint in found.joints.items():
         first = joint.findings[0] if joint.findings else None
@@ -196,12 +206,7 @@ def robot_diagnosis_text(found: RobotDiagnosis) -> str:
         lacks = f"{first.effect}{others}"
         spec, sure = joint.fit.model.spec, confidence_text(first.confidence)
         rows.append([name, spec, lacks, f"{before} → {after}", unit, sure])
-    return joined(
-        table(rows, right=[3]),
-        *_doubts_of_joints(found),
-        causes_text(found.rigid_body),
-        "" if found.fit.payload is None else paragraph(payload_sentence(found.fit.payload), 0),
-    )
+    return rows
 
 
 def _doubts_of_joints(found: RobotDiagnosis) -> list[str]:
@@ -273,6 +278,20 @@ def robot_improvement_text(found: RobotImprovement) -> str:
 
 def robot_plan_text(plan: RobotPlan) -> str:
     """The extent of a planned motion, and what it gains."""
+    return joined(
+        plan_sentence(plan),
+        table(plan_rows(plan), right=[1, 2, 4, 5, 6, 7]),
+        paragraph(gain_sentence(plan), 0),
+    )
+
+
+def plan_sentence(plan: RobotPlan) -> str:
+    """The robot, and how long the motion is."""
+    return f"{plan.robot.name}: {plan.time[-1]:.3g} s, {len(plan.time)} samples"
+
+
+def plan_rows(plan: RobotPlan) -> list[list[str]]:
+    """The extent of each joint's motion; the heading first."""
     rows = [["joint", "from", "to", "", "speed", "acceleration", "torque", "limit"]]
     for k, joint in enumerate(plan.robot.joints):
         q, v, a = (x[:, k] for x in (plan.position, plan.velocity, plan.acceleration))
@@ -285,11 +304,12 @@ def robot_plan_text(plan: RobotPlan) -> str:
         largest = plain(joint.torque_limit) if joint.torque_limit else ""
         moves = [f"{speed} {unit}/s", f"{bend} {unit}/s2"]
         rows.append([joint.name, low, high, unit, *moves, torque, largest])
-    return joined(
-        f"{plan.robot.name}: {plan.time[-1]:.3g} s, {len(plan.time)} samples",
-        table(rows, right=[1, 2, 4, 5, 6, 7]),
-        paragraph(f"{_gain(plan)} {_checked(plan)}", 0),
-    )
+    return rows
+
+
+def gain_sentence(plan: RobotPlan) -> str:
+    """What the motion gains, and what is known of torques and collisions."""
+    return f"{_gain(plan)} {_checked(plan)}"
 
 
 def _gain(plan: RobotPlan) -> str:
@@ -320,19 +340,33 @@ def _checked(plan: RobotPlan) -> str:
 
 def robot_tracking_text(tracked: RobotTracking) -> str:
     """RMS error of every joint in closed loop, one column a compensation."""
+    return joined(
+        tracking_sentence(tracked),
+        table(tracking_rows(tracked), right=range(2, 3 + len(tracked.runs))),
+        paragraph(TRACKED, 2),
+    )
+
+
+#: What the columns of `tracking_rows` are.
+TRACKED = (
+    "RMS of the desired minus the actual position, without compensation of friction and "
+    "with the friction of each file at the desired motion. sticks: share of the time at "
+    "rest, with the last one."
+)
+
+
+def tracking_sentence(tracked: RobotTracking) -> str:
+    """The robot, and how long it moved."""
+    seconds, steps = tracked.time[-1], len(tracked.time)
+    return f"{tracked.robot.name} in closed loop: {seconds:.3g} s, {steps} steps"
+
+
+def tracking_rows(tracked: RobotTracking) -> list[list[str]]:
+    """RMS error of every joint; the heading first."""
     rows = [["joint", "", *(run.name or "without" for run in tracked.runs), "sticks"]]
     last = tracked.runs[-1]
     for k, joint in enumerate(tracked.robot.joints):
         unit = "mrad" if joint.movement == "revolute" else "mm"
         errors = [plain(1000.0 * float(run.error[k])) for run in tracked.runs]
         rows.append([joint.name, unit, *errors, percent(float(last.sticking[k]))])
-    return joined(
-        f"{tracked.robot.name} in closed loop: {tracked.time[-1]:.3g} s, {len(tracked.time)} steps",
-        table(rows, right=range(2, 3 + len(tracked.runs))),
-        paragraph(
-            "RMS of the desired minus the actual position, without compensation of friction and "
-            "with the friction of each file at the desired motion. sticks: share of the time at "
-            "rest, with the last one.",
-            2,
-        ),
-    )
+    return rows

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import subprocess
 import sys
@@ -11,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from in_chromium import KEPT, faults, keep, wider
 
 ROOT = Path(__file__).resolve().parents[3]
-KEPT = os.environ.get("STRIBECK_ARTEFACTS")
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 pytestmark = [
     pytest.mark.slow,
@@ -54,9 +53,6 @@ def browser() -> Iterator[Any]:
 
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark")])
 def test_no_page_has_a_serious_fault(browser: Any, site: Path, width: int, scheme: str) -> None:
-    import axe_core_python
-
-    axe = (Path(axe_core_python.__file__).parent / "axe.min.js").read_text()
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
     tab = context.new_page()
     wrong: dict[str, list[str]] = {}
@@ -66,31 +62,8 @@ def test_no_page_has_a_serious_fault(browser: Any, site: Path, width: int, schem
     for name, path in sorted(pages.items()):
         if scheme == "light" or name in KINDS or KEPT:
             tab.goto(path.as_uri())
-            tab.evaluate(axe)
-            found = faults(tab) + wider(tab, width)
+            found = faults(tab) + wider(tab)
             wrong |= {name: found} if found else {}
             keep(tab, f"docs-{name.replace('/', '-')}-{width}.png")
     context.close()
     assert wrong == {}
-
-
-def faults(tab: Any) -> list[str]:
-    """What axe finds that keeps people from using the page."""
-    return [
-        f"{row['id']}: {row['nodes'][0]['html'][:160]}"
-        for row in tab.evaluate("axe.run({ resultTypes: ['violations'] })")["violations"]
-        if row["impact"] in ("serious", "critical")
-    ]
-
-
-def wider(tab: Any, width: int) -> list[str]:
-    """That the page is wider than the window."""
-    shown = tab.evaluate("document.documentElement.scrollWidth")
-    return [f"{shown} pixels wide, the window has {width}"] if shown > width else []
-
-
-def keep(tab: Any, name: str) -> None:
-    """Keep a screenshot where the variable STRIBECK_ARTEFACTS says; of all pages, then."""
-    if KEPT:
-        Path(KEPT).mkdir(parents=True, exist_ok=True)
-        tab.screenshot(path=str(Path(KEPT) / name), full_page=True)

@@ -9,8 +9,14 @@ from typing import Any
 
 import pytest
 import stribeck as sb
+from in_chromium import faults, keep, wider
+from stribeck.cli.main import main
 from stribeck.report.account import of_improvement
 from stribeck.report.page import account_page
+from stribeck.report.robot_page import robot_improvement_page
+from stribeck.robot.improve import improve_robot
+from stribeck.robot.motion import RobotMotion
+from synthetic import joint
 
 CHROMIUM = shutil.which("chromium")
 pytestmark = [
@@ -47,8 +53,6 @@ def browser() -> Iterator[Any]:
 
 @pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (390, "dark"), (1600, "dark")])
 def test_the_page_is_whole(browser: Any, page: Path, width: int, scheme: str) -> None:
-    import axe_core_python
-
     context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
     tab = context.new_page()
     asked, errors = [], []
@@ -59,11 +63,48 @@ def test_the_page_is_whole(browser: Any, page: Path, width: int, scheme: str) ->
     tab.wait_for_function(DRAWN, timeout=60_000)
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
     assert errors == []
-    assert tab.evaluate("document.documentElement.scrollWidth") <= width
-    tab.evaluate((Path(axe_core_python.__file__).parent / "axe.min.js").read_text())
-    found = tab.evaluate("axe.run()")["violations"]
-    assert [row["id"] for row in found if row["impact"] in ("serious", "critical")] == []
+    assert wider(tab) + faults(tab) == []
+    keep(tab, f"report-improve-{width}.png")
     context.close()
+
+
+@pytest.fixture(scope="module")
+def reports(tmp_path_factory: pytest.TempPathFactory, motion: RobotMotion) -> Path:
+    """A folder with one page of each other kind."""
+    folder: Path = tmp_path_factory.mktemp("reports")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        for day in (1, 2):
+            joint(rows=1200, seed=day).write_csv(f"arm-2024-01-0{day}.csv")
+        run, days = "arm-2024-01-01.csv", "arm-*.csv"
+        made = ("--workers", "1")
+        for words in (
+            ("fit", run, "lugre"),
+            ("compare", run, "coulomb", "coulomb+offset"),
+            ("diagnose", run, "coulomb"),
+            ("study", run, "--law", "coulomb", "--law", "dahl", *made, "-o", "study"),
+            ("fleet", days, "coulomb", *made, "-o", "fleet", "--name", "{robot}-{day}.csv"),
+        ):
+            main([*words, "--report", f"{words[0]}.html"])
+    found = improve_robot(motion, most_steps=0)
+    (folder / "robot-improve.html").write_text(robot_improvement_page(found), encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+def test_pages_of_every_kind(browser: Any, reports: Path, width: int) -> None:
+    tab = browser.new_page(viewport={"width": width, "height": 900})
+    wrong = {}
+    for page in sorted(reports.glob("*.html")):
+        tab.goto(page.as_uri())
+        if tab.evaluate("() => typeof window.Bokeh !== 'undefined'"):
+            tab.wait_for_function(DRAWN, timeout=60_000)
+        found = wider(tab) + faults(tab)
+        wrong |= {page.stem: found} if found else {}
+        keep(tab, f"report-{page.stem}-{width}.png")
+    assert len(list(reports.glob("*.html"))) == 6
+    assert wrong == {}
+    tab.close()
 
 
 def test_a_drag_over_time_selects_samples_in_all_figures(browser: Any, page: Path) -> None:

@@ -4,11 +4,16 @@ import importlib
 import inspect
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 import stribeck as sb
 from stribeck.base.shown import Plotted, Shown, register
+from stribeck.diagnosis.inspect import inspect as inspect_files
 from stribeck.report import RENDERERS
+from stribeck.robot.diagnosis import RobotDiagnosis
+from stribeck.robot.improve import improve_robot
+from stribeck.robot.motion import RobotMotion
 
 
 @pytest.mark.parametrize("shown", RENDERERS)
@@ -76,3 +81,31 @@ def test_notebook_shows_tables_figures_and_text(
     assert sum(len(part) > 1_000_000 for part in scripts) <= 1
     assert all("<table" in shown for shown in views[:-1])
     assert "data:image/png" in improvement.final.recording._repr_html_()
+
+
+def test_every_result_has_a_view_for_notebooks() -> None:
+    assert [shown for shown, renderers in RENDERERS.items() if "notebook" not in renderers] == []
+
+
+def test_views_that_are_tables(
+    improvement: sb.Improvement, motion: RobotMotion, tmp_path: Path
+) -> None:
+    data = Path(improvement.final.recording.path)
+    model = improvement.final.model
+    found = improve_robot(motion, most_steps=0)
+    shown = [
+        (model, "equations"),
+        (sb.check(model), "channel"),
+        (inspect_files(data, joint_kind="revolute"), "cannot be tested"),
+        (sb.Project.new(tmp_path / "p.toml", data, model, starts=1, joint_kind="revolute"), "node"),
+        (found, "base parameters"),
+        (found.final, "held out"),
+        (RobotDiagnosis.of(found), "lacks"),
+    ]
+    for result, words in shown:
+        view = result._repr_html_()
+        assert "<table" in view and words in view and "Markup" not in view
+        assert "<&>" not in view
+    assert "<math" in model._repr_html_() and "load" in repr(model)
+    exported = sb.export(model, "c", tmp_path / "c")
+    assert "coulomb+load in c, f64" in exported._repr_html_()

@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-import pytest
-import stribeck as sb
-from stribeck.recording.options import ReadOptions
 from stribeck.report.robot_page import (
     robot_comparison_page,
     robot_fit_page,
@@ -14,22 +10,7 @@ from stribeck.report.robot_page import (
 from stribeck.robot.compare import compare_robots
 from stribeck.robot.fit import fit_robot
 from stribeck.robot.improve import improve_robot
-from stribeck.robot.motion import RobotMotion, read_motion
-from stribeck.robot.simulate import COLUMNS, simulate_robot
-from stribeck.robot.tables import from_tables
-
-
-@pytest.fixture(scope="module")
-def motion(tmp_path_factory: pytest.TempPathFactory) -> RobotMotion:
-    tip = [2.0, 0.6, 0.0, 0.0, 0.01, 0.0, 0.25, 0.0, 0.0, 0.25, 0.1]
-    bare = from_tables("planar", [{"a": 0.5}, {"a": 0.5}], gravity=(0.0, -9.81, 0.0))
-    arm = bare.with_bodies(np.array([tip, tip]))
-    law = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=1.0)
-    path = tmp_path_factory.mktemp("run") / "run.parquet"
-    made = simulate_robot(arm, dict.fromkeys(arm.names, law), seconds=15.0, rate=50.0, noise=0.01)
-    made.write_parquet(path)
-    reading = ReadOptions(map=[f"{channel}={column}" for channel, column in COLUMNS])
-    return read_motion(arm, [str(path)], reading)
+from stribeck.robot.motion import RobotMotion
 
 
 def test_a_page_of_a_fit(motion: RobotMotion) -> None:

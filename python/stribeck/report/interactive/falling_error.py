@@ -10,7 +10,6 @@ from bokeh.models import ColumnDataSource, Range1d
 
 from stribeck.report.interactive.base import (
     COLOURS,
-    FLOOR,
     hover,
     legend_above,
     name_places,
@@ -71,13 +70,6 @@ def falling_error(
     plot.x_range = Range1d(0.0, 1.06 * max(*errors, noise_floor or 0.0))
     plot.ygrid.visible = False
     if noise_floor is not None:
-        floor_line(plot, noise_floor)
-        named = plot.line(
-            [noise_floor] * 2,
-            [0, 0],
-            color=FLOOR,
-            line_dash="dotted",
-            line_width=2,
-        )
+        named = floor_line(plot, noise_floor)
         legend_above(plot, [(f"noise floor {plain(noise_floor)} {unit}", [named])])
     return plot

@@ -18,6 +18,7 @@ from stribeck.report.interactive.base import (
 from stribeck.report.numbers import change_text, confidence_text, listed, percent, plain
 
 if TYPE_CHECKING:
+    from bokeh.models import GlyphRenderer
     from bokeh.plotting import figure
 
     from stribeck.diagnosis.result import Finding
@@ -69,19 +70,18 @@ def findings(found: Sequence[Finding], noise_floor: float | None = None) -> figu
     plot.x_range = Range1d(0.0, 1.06 * largest)
     plot.ygrid.visible = False
     items = [("without the effect", [before]), ("with the effect", [after])]
-    legend_above(plot, items)
     if noise_floor is not None:
-        floor_line(plot, noise_floor)
+        items.append((f"noise floor {plain(noise_floor)} {unit}", [floor_line(plot, noise_floor)]))
+    legend_above(plot, items)
     return plot
 
 
-def floor_line(plot: figure, floor: float, dimension: str = "height") -> None:
-    """Mark the noise floor."""
-    plot.add_layout(
-        Span(
-            location=floor, dimension=dimension, line_color=FLOOR, line_dash="dotted", line_width=2
-        )
-    )
+def floor_line(plot: figure, floor: float) -> GlyphRenderer:
+    """Mark the noise floor; returns what the legend names."""
+    look = {"line_color": FLOOR, "line_dash": "dotted", "line_width": 2}
+    plot.add_layout(Span(location=floor, dimension="height", **look))
+    named: GlyphRenderer = plot.line([floor] * 2, [0, 0], **look)
+    return named
 
 
 def _columns(found: Sequence[Finding]) -> dict[str, list[object]]:

@@ -15,6 +15,7 @@ import psutil
 import pytest
 import stribeck as sb
 from browser import PAGES, artefacts, chromium, done, go, press, workbench
+from in_chromium import faults, wider
 from stribeck.motion.generate.demo import demo_path
 from synthetic import joint
 
@@ -43,27 +44,9 @@ def shoot(page: Any, folder: Path, name: str) -> list[str]:
         page.set_viewport_size({"width": width, "height": 900})
         page.wait_for_timeout(700)
         page.screenshot(path=str(folder / f"{name}-{width}.png"), full_page=True)
-        wide = page.evaluate("document.documentElement.scrollWidth - window.innerWidth")
-        if wide > 0:
-            found.append(f"{wide} pixels wider than {width}")
+        found += wider(page)
     page.set_viewport_size({"width": 1280, "height": 900})
     return found
-
-
-def faults(page: Any) -> list[str]:
-    """What axe finds that keeps people from using the page."""
-    import axe_core_python
-
-    script = Path(axe_core_python.__file__).parent / "axe.min.js"
-    if not page.evaluate("typeof window.axe !== 'undefined'"):
-        # By the debugger: the policy of the page admits no other script.
-        page.evaluate(script.read_text())
-    found = page.evaluate("axe.run()")
-    return [
-        f"{row['id']}: {row['nodes'][0]['html'][:200]}"
-        for row in found["violations"]
-        if row["impact"] in ("serious", "critical")
-    ]
 
 
 def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> None:
