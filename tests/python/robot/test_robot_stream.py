@@ -49,6 +49,11 @@ def runs(arm: Robot, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
         name: sb.model("coulomb", coulomb_friction=3.0 + k, viscous_friction=2.0)
         for k, name in enumerate(arm.names)
     }
+    # In the first joint it grows with the load, so that all parameters of `load` are determined.
+    law = friction[arm.names[0]].with_effect("load", {"reference_load": 10.0})
+    values = {"coulomb_friction": 3.0, "viscous_friction": 2.0, "load_coulomb": 1.0}
+    values["load_exponent"] = 1.0
+    friction[arm.names[0]] = law.with_values([values.get(name, 0.0) for name in law.names])
     parameters = np.array([[*joint.inertial, joint.rotor] for joint in arm.joints])
     parameters[-1, :10] += np.array([1.5, 0.0, 0.0, 0.15, 0.02, 0.0, 0.02, 0.0, 0.0, 0.01])
     made = []
@@ -91,13 +96,20 @@ def assert_alike(found: RobotFit, expected: RobotFit, apart: float = APART) -> N
         np.testing.assert_allclose(numbers(found)[name], values, rtol=0, atol=apart * size)
 
 
-@pytest.mark.parametrize("spec", ["coulomb+offset", "coulomb+load+offset"])
-def test_passes_give_what_memory_gives(arm: Robot, runs: list[str], spec: str) -> None:
+def test_passes_give_what_memory_gives(arm: Robot, runs: list[str]) -> None:
     stream = opened(arm, runs[:1])
-    found = fit_robot(stream, spec)
-    assert_alike(found, in_memory(arm, runs[:1], spec), 1e-4 if "load" in spec else APART)
-    linear = "load" not in spec
-    assert stream.data.passes == 2 if linear else stream.data.passes > 3
+    found = fit_robot(stream)
+    assert_alike(found, in_memory(arm, runs[:1], "coulomb+offset"))
+    assert stream.data.passes == 2
+
+
+def test_a_law_that_reads_the_load_takes_more_passes(arm: Robot, runs: list[str]) -> None:
+    stream, laws = opened(arm, runs[:1]), {arm.names[0]: "coulomb+load+offset"}
+    found = fit_robot(stream, of_joints=laws)
+    motion = read_motion(arm, runs[:1], ReadOptions(map=MAP), CUTOFF)
+    # Both searches end where a step no longer matters, not at the same bits.
+    assert_alike(found, fit_robot(motion, of_joints=laws), 1e-3)
+    assert stream.data.passes > 3
 
 
 def test_files_are_runs_and_a_payload_is_found(arm: Robot, runs: list[str]) -> None:
