@@ -18,6 +18,8 @@ _TERMS = {
     "inertia": "inertia * acceleration",
     "gravity": "gravity_cos * cos(position) + gravity_sin * sin(position)",
 }
+#: Their parameters.
+_PARAMETERS = {"inertia": ("inertia",), "gravity": ("gravity_cos", "gravity_sin")}
 #: What the load torque is where it was recorded.
 LOAD = "the torque at the joint without its friction: gravity, inertia, contact"
 
@@ -104,6 +106,9 @@ class About:
         if formula is not None:
             yield "The torque of a step is friction plus the torque of the identified rigid body,"
             yield f"  {formula}."
+            *first, last = [name for term in self.model.rigid_body for name in _PARAMETERS[term]]
+            names = f"{', '.join(first)} and {last}" if first else last
+            yield f"With 0 for {names} it is the friction alone."
         if given is not None and formula is not None:
             yield "The friction depends on that torque too: compute it, and give it as load_torque."
         elif given is not None:

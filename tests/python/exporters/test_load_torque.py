@@ -41,6 +41,20 @@ def test_the_header_says_it(identified: sb.Fit, language: str, file: str, tmp_pa
     text = (tmp_path / file).read_text()
     assert "inertia * acceleration + gravity_cos * cos(position)" in text
     assert "compute it, and give it as load_torque" in text
+    assert "With 0 for inertia, gravity_cos and gravity_sin it is the friction alone." in text
+
+
+def test_the_friction_alone_is_the_torque_without_the_rigid_body(identified: sb.Fit) -> None:
+    r, model = identified.recording, identified.model
+    bodies = dict.fromkeys(("inertia", "gravity_cos", "gravity_sin"), 0.0)
+    values = [
+        bodies.get(name, value) for name, value in zip(model.names, model.values, strict=True)
+    ]
+    alone = model.with_values(np.array(values))
+    given = {"position": r.position, "acceleration": r.acceleration, "load_torque": identified.load}
+    assert alone.torque(r.velocity, **given) == pytest.approx(
+        model.torque(r.velocity, **given) - identified.load
+    )
 
 
 def test_a_recorded_load_is_an_input(plain: sb.Recording, tmp_path: Path) -> None:
