@@ -38,6 +38,9 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
     path
         A file, or a table in memory: a polars or pandas frame, a pyarrow table, a mapping from
         names to arrays [n]. Several, a folder or a pattern (``"run*.csv"``) are runs of one joint.
+
+    Other Parameters
+    ----------------
     sidecar
         Sidecar to use instead of ``FILE.EXT.sidecar.toml`` beside the file. An option wins over it.
     columns, memory_limit
@@ -50,14 +53,12 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
         Known inertia [kg m2] or mass [kg]: load torque = inertia * acceleration (+ gravity).
     km, kb, kt
         Motor constant [N m/W^0.5], back-EMF constant [V s/rad] and torque constant [N m/A].
-    unit
-        ``"COLUMN=UNIT"`` texts: the unit of a column of the file.
-    map
-        ``"NAME=COLUMN"`` texts: which column of the file a channel is; ``NAME=none`` leaves it out.
-    derive
-        ``"NAME=FORMULA"`` texts: new columns from those of the file, in the file's own units.
-    where
-        Condition on the columns; rows for which it does not hold become gaps.
+    unit, map
+        ``"COLUMN=UNIT"`` texts: the unit of a column of the file; ``"NAME=COLUMN"`` texts: which
+        column of the file a channel is, where ``NAME=none`` leaves it out.
+    derive, where
+        ``"NAME=FORMULA"`` texts: new columns from those of the file, in the file's own units; a
+        condition on the columns: rows for which it does not hold become gaps.
     average
         ``"run"``: one point per run, its medians. ``"row"``: each row is a point; no time needed.
     drive
@@ -72,10 +73,9 @@ def read(path: Given | Tables, **options: Unpack[ReadArguments]) -> Recording:
         [rad/s or m/s], by default than five times the noise of the velocity. ``"all"``: all are.
     torque_at
         Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``.
-    unwrap, trust
-        Unwrap a position that may wrap; fit channels that contradict each other.
-    standstill
-        Accept a recording in which no sample moves: presliding, or very slow motion.
+    unwrap, trust, standstill
+        Unwrap a position that may wrap; fit channels that contradict each other; accept a recording
+        in which no sample moves: presliding, or very slow motion.
 
     Raises
     ------

@@ -2,6 +2,8 @@
 
 Names are imported when they are first used; `__init__.pyi` says where each of them lives.
 
+Examples
+--------
 >>> from stribeck import robot
 >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}])
 >>> arm.names

@@ -231,7 +231,7 @@ def share(finding: sb.Finding) -> str:
 def picture(figure: object, folder: Path, name: str, alt: str) -> str:
     """Write a figure; returns what shows it."""
     figure.savefig(folder / name, dpi=DPI)  # type: ignore[attr-defined]
-    return f"![{alt}]({name})"
+    return f"[![{alt}]({name})]({name})"
 
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
