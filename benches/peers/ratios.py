@@ -19,6 +19,7 @@ import numpy as np
 import pendulum
 import polars as pl
 import servo
+import static_laws
 import stribeck as sb
 from stribeck.identify.scaling import model_for, scaled_parameters
 from timing import line
@@ -149,6 +150,7 @@ def main() -> None:
     print("| work | stribeck | peer | ratio |")
     print("|---|---|---|---|")
     compare_laws()
+    static_laws.compare_static_laws(velocities(1_000_000))
     compare_fits()
     compare_one_start()
     pendulum.compare_pendulums()

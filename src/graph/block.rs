@@ -48,7 +48,7 @@ const fn mask(yes: bool) -> f64 {
 }
 
 #[inline(always)]
-fn map<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, f: impl Fn(f64) -> f64) {
+pub fn map<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, f: impl Fn(f64) -> f64) {
     match x {
         Operand::Same(x) => out.fill(f(x)),
         Operand::Each(x) => {
@@ -60,7 +60,7 @@ fn map<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, f: impl Fn(f64) ->
 }
 
 #[inline(always)]
-fn zip<const N: usize>(
+pub fn zip<const N: usize>(
     out: &mut [f64; N],
     x: Operand<'_, N>,
     y: Operand<'_, N>,
@@ -77,15 +77,27 @@ fn zip<const N: usize>(
     }
 }
 
+/// Memory for the halves of a function; its content does not matter.
+pub type Halves<const N: usize = BLOCK> = [Buffer<N>; 2];
+
 /// A unary operation on each sample.
 #[inline(always)]
-pub fn unary<const N: usize>(out: &mut [f64; N], operation: Unary, x: Operand<'_, N>) {
+pub fn unary<const N: usize>(
+    out: &mut [f64; N],
+    operation: Unary,
+    x: Operand<'_, N>,
+    halves: &mut Halves<N>,
+) {
     match operation {
         Unary::Negate => map(out, x, |x| -x),
         Unary::Abs => map(out, x, f64::abs),
         Unary::Sign => map(out, x, Real::sign),
-        Unary::Exp => map(out, x, elementary::exp),
-        Unary::Expm1 => map(out, x, elementary::expm1),
+        Unary::Exp => in_halves(out, x, halves, elementary::exp_reduced, |_, n, r| {
+            elementary::exp_of_reduced(n, r)
+        }),
+        Unary::Expm1 => {
+            in_halves(out, x, halves, elementary::expm1_reduced, elementary::expm1_of_reduced);
+        }
         Unary::Ln => map(out, x, elementary::ln),
         Unary::Sqrt => map(out, x, elementary::sqrt),
         Unary::Cbrt => map(out, x, elementary::cbrt),
@@ -96,6 +108,32 @@ pub fn unary<const N: usize>(out: &mut [f64; N], operation: Unary, x: Operand<'_
         Unary::Phi(order) => map(out, x, |x| elementary::phi(order, x)),
         Unary::IsFinite => map(out, x, |x| mask(x.is_finite())),
         Unary::Not => map(out, x, |x| 1.0 - x),
+    }
+}
+
+/// A function in two loops: a processor looks only so many operations ahead, so that shorter ones
+/// keep more independent operations in flight.
+#[inline(always)]
+pub fn in_halves<const N: usize>(
+    out: &mut [f64; N],
+    x: Operand<'_, N>,
+    [large, small]: &mut Halves<N>,
+    first: impl Fn(f64) -> (f64, (f64, f64)),
+    second: impl Fn(f64, f64, (f64, f64)) -> f64,
+) {
+    let Operand::Each(x) = x else {
+        return map(out, x, |x| {
+            let (n, rest) = first(x);
+            second(x, n, rest)
+        });
+    };
+    let parts = large.0.iter_mut().zip(&mut small.0);
+    for ((n, &x), (large, small)) in out.iter_mut().zip(x).zip(parts) {
+        (*n, (*large, *small)) = first(x);
+    }
+    let parts = large.0.iter().zip(&small.0);
+    for ((out, &x), (&large, &small)) in out.iter_mut().zip(x).zip(parts) {
+        *out = second(x, *out, (large, small));
     }
 }
 
@@ -121,13 +159,14 @@ pub fn binary<const N: usize>(
     operation: Binary,
     x: Operand<'_, N>,
     y: Operand<'_, N>,
+    halves: &mut Halves<N>,
 ) {
     match operation {
         Binary::Add => zip(out, x, y, |x, y| x + y),
         Binary::Subtract => zip(out, x, y, |x, y| x - y),
         Binary::Multiply | Binary::And => zip(out, x, y, |x, y| x * y),
         Binary::Divide => zip(out, x, y, |x, y| x / y),
-        Binary::Power => power(out, x, y),
+        Binary::Power => power(out, x, y, halves),
         Binary::Below => zip(out, x, y, |x, y| mask(x < y)),
         Binary::Above => zip(out, x, y, |x, y| mask(x > y)),
         Binary::Equal => zip(out, x, y, |x, y| mask(x == y)),
@@ -138,22 +177,28 @@ pub fn binary<const N: usize>(
 
 /// Powers. For an exponent that all samples share, the special cases are checked once.
 #[inline(always)]
-fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N>) {
+fn power<const N: usize>(
+    out: &mut [f64; N],
+    x: Operand<'_, N>,
+    p: Operand<'_, N>,
+    halves: &mut Halves<N>,
+) {
     let plain = elementary::is_plain_exponent;
     match (x, p) {
         (x, Operand::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
         (x, Operand::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
         (Operand::Each(x), Operand::Same(p)) if plain(p) => {
-            let low = log2_each(x, out);
-            for ((out, &x), &low) in out.iter_mut().zip(x).zip(&low.0) {
-                *out = elementary::powf_fast(x, (*out, low), p);
+            exponent_each(out, x, |_| p, halves);
+            for ((out, &x), &fraction) in out.iter_mut().zip(x).zip(&halves[0].0) {
+                *out = elementary::powf_of_exponent(x, (*out, fraction), p);
             }
             recompute_nan_powers(out, x, |_| p);
         }
         (Operand::Each(x), Operand::Each(p)) => {
-            let low = log2_each(x, out);
-            for ((out, &x), (&p, &low)) in out.iter_mut().zip(x).zip(p.iter().zip(&low.0)) {
-                let power = elementary::powf_fast(x, (*out, low), p);
+            exponent_each(out, x, |row| p[row], halves);
+            let each = p.iter().zip(&halves[0].0);
+            for ((out, &x), (&p, &fraction)) in out.iter_mut().zip(x).zip(each) {
+                let power = elementary::powf_of_exponent(x, (*out, fraction), p);
                 *out = elementary::power_without_logarithm(power, x, p);
             }
             recompute_nan_powers(out, x, |row| p[row]);
@@ -162,18 +207,27 @@ fn power<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>, p: Operand<'_, N
     }
 }
 
-/// Binary logarithms: writes the high parts and returns the low parts. Two loops keep more
-/// independent operations in flight than one.
+/// The powers of two that equal the powers: writes the integer parts and, to the first of `halves`,
+/// the fractions.
 #[inline(always)]
-fn log2_each<const N: usize>(x: &[f64; N], high: &mut [f64; N]) -> Buffer<N> {
-    let mut lows = Buffer::ZERO;
-    for ((&x, high), low) in x.iter().zip(high).zip(&mut lows.0) {
-        (*high, *low) = elementary::log2_fast(x);
+fn exponent_each<const N: usize>(
+    out: &mut [f64; N],
+    x: &[f64; N],
+    p: impl Fn(usize) -> f64,
+    [one, other]: &mut Halves<N>,
+) {
+    for ((k, &x), (s, low)) in out.iter_mut().zip(x).zip(one.0.iter_mut().zip(&mut other.0)) {
+        (*k, (*s, *low)) = elementary::log2_quotient(x);
     }
-    lows
+    for ((out, one), &low) in out.iter_mut().zip(&mut one.0).zip(&other.0) {
+        (*out, *one) = elementary::log2_of_quotient(*out, (*one, low));
+    }
+    for (row, (out, one)) in out.iter_mut().zip(&mut one.0).enumerate() {
+        (*out, *one) = elementary::exponent_fast((*out, *one), p(row));
+    }
 }
 
-/// Recomputes the results that [`elementary::powf_fast`] has left as NaN.
+/// Recomputes the results that are NaN: special cases.
 #[inline(always)]
 fn recompute_nan_powers<const N: usize>(
     out: &mut [f64; N],
@@ -204,13 +258,13 @@ fn chain_each<const N: usize>(out: &mut [f64; N], slope: Operand<'_, N>, by: Ope
 }
 
 #[inline(always)]
-fn any_nan<const N: usize>(numbers: &[f64; N]) -> bool {
+pub fn any_nan<const N: usize>(numbers: &[f64; N]) -> bool {
     numbers.iter().fold(false, |any, x| any | x.is_nan())
 }
 
 /// A slope times a derivative: 0 where either is 0, even if the other is infinite.
 #[inline(always)]
-fn chain(slope: f64, by: f64) -> f64 {
+pub fn chain(slope: f64, by: f64) -> f64 {
     let product = slope * by;
     if slope == 0.0 || by == 0.0 { 0.0 } else { product }
 }
@@ -243,13 +297,13 @@ pub fn choose<const N: usize>(
 /// A unary operation on a single number.
 pub fn unary_once(operation: Unary, x: f64) -> f64 {
     let mut out = [0.0];
-    unary(&mut out, operation, Operand::Same(x));
+    unary(&mut out, operation, Operand::Same(x), &mut [Buffer([0.0]); 2]);
     out[0]
 }
 
 /// A binary operation on single numbers.
 pub fn binary_once(operation: Binary, x: f64, y: f64) -> f64 {
     let mut out = [0.0];
-    binary(&mut out, operation, Operand::Same(x), Operand::Same(y));
+    binary(&mut out, operation, Operand::Same(x), Operand::Same(y), &mut [Buffer([0.0]); 2]);
     out[0]
 }

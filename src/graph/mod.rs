@@ -2,12 +2,15 @@
 //!
 //! A model evaluated with [`Recorded`] numbers leaves its operations in a [`Recorder`]. The graph
 //! is differentiated symbolically ([`derivative`]), so that derivatives that are always 0 cost
-//! nothing, scheduled ([`Schedule`]), and run operation by operation over blocks of samples that
-//! fit into the first-level cache ([`run`]): each operation is a loop that the compiler vectorises.
+//! nothing, scheduled ([`Schedule`]), and run loop by loop over blocks of samples that fit into the
+//! first-level cache ([`run`]): an operation, or a few simple ones whose results stay in registers
+//! (`merge`). The compiler vectorises the loops.
 //! Every number has the bits of a scalar evaluation: nothing is fused or reordered.
 
 mod block;
 mod derivative;
+mod merge;
+mod merged;
 mod model;
 mod numbers;
 mod operation;

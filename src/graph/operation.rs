@@ -112,7 +112,6 @@ impl Operation {
     }
 
     /// The same operation on other nodes and columns.
-    #[cfg(feature = "python")]
     #[must_use]
     pub fn moved(self, node: impl Fn(Id) -> Id, column: impl Fn(usize) -> usize) -> Self {
         match self {
@@ -132,6 +131,12 @@ impl Operation {
             }),
             Self::Before(x, y, start) => Self::Before(node(x), node(y), start),
         }
+    }
+
+    /// Whether its value differs from sample to sample even if its operands do not.
+    #[must_use]
+    pub const fn is_by_row(self) -> bool {
+        matches!(self, Self::Column(_)) || self.has_memory()
     }
 
     /// Whether its value depends on previous samples even if its operands do not.

@@ -8,13 +8,29 @@ use std::vec::Vec;
 
 use pulp::{Arch, Simd, WithSimd};
 
-use super::block::{BLOCK, Buffer, Operand, binary, binary_once, choose, unary, unary_once};
+use super::block::{
+    BLOCK, Buffer, Halves, Operand, binary, binary_once, choose, unary, unary_once,
+};
+use super::merge::Work;
+use super::merged;
 use super::numbers::Numbers;
 use super::operation::{Operation, Relaxing, Start};
 use super::schedule::{MAX_GROUP, Place, Schedule, Task};
 
-/// Buffers for operands of grouped states that are one number for all samples.
-type Scratch = [[Buffer; MAX_GROUP]; 4];
+/// Memory of operations that need some.
+struct Scratch {
+    /// For functions in two loops.
+    halves: Halves,
+    /// For operands of grouped states that are one number for all samples; empty without states.
+    groups: Vec<[Buffer; MAX_GROUP]>,
+}
+
+impl Scratch {
+    fn of(schedule: &Schedule) -> Self {
+        let groups = if schedule.memories > 0 { 4 } else { 0 };
+        Self { halves: [Buffer::ZERO; 2], groups: vec![[Buffer::ZERO; MAX_GROUP]; groups] }
+    }
+}
 
 /// Operand that is 0 for all samples, the most frequent case.
 const ZEROS: &Buffer = &Buffer::ZERO;
@@ -80,7 +96,10 @@ impl<F: FnMut(Range<usize>, &[Numbers<'_>])> Runner<'_, F> {
         let mut spare = buffers.split_off(schedule.buffers);
         let mut memories = vec![0.0; schedule.memories];
         let mut starts = self.inputs.starts;
-        let mut scratch: Scratch = [[Buffer::ZERO; MAX_GROUP]; 4];
+        for &(number, buffer) in &schedule.spread {
+            buffers[buffer].0.fill(uniforms[number]);
+        }
+        let mut scratch = Scratch::of(schedule);
         for first in (0..self.inputs.rows).step_by(BLOCK) {
             let count = BLOCK.min(self.inputs.rows - first);
             let (own, later) = starts.split_at(starts.partition_point(|s| s.0 < first + count));
@@ -141,7 +160,8 @@ fn once(schedule: &Schedule, parameters: &[f64]) -> Vec<f64> {
             Place::Uniform(i) => shared[i],
             Place::Buffer(_) => f64::NAN,
         };
-        shared[task.to] = match task.operation {
+        let Work::Single(operation) = task.work else { continue };
+        shared[task.to] = match operation {
             Operation::Constant(bits) => f64::from_bits(bits),
             Operation::Parameter(index) => parameters[index],
             Operation::Unary(operation, _) => unary_once(operation, at(0)),
@@ -184,9 +204,19 @@ impl Block<'_> {
         scratch: &mut Scratch,
     ) {
         let [a, b, c, d, e] = task.from;
-        match (task.operation, memory) {
-            (Operation::Unary(operation, _), _) => unary(out, operation, rows(a)),
-            (Operation::Binary(operation, _, _), _) => binary(out, operation, rows(a), rows(b)),
+        let operation = match task.work {
+            Work::Single(operation) => operation,
+            work => {
+                return merged::run(out, work, [a, b, c, d].map(rows), &mut scratch.halves);
+            }
+        };
+        match (operation, memory) {
+            (Operation::Unary(operation, _), _) => {
+                unary(out, operation, rows(a), &mut scratch.halves)
+            }
+            (Operation::Binary(operation, _, _), _) => {
+                binary(out, operation, rows(a), rows(b), &mut scratch.halves);
+            }
             (Operation::Column(column), _) => self.column(out, column),
             (Operation::Choose(..), _) => choose(out, rows(a), rows(b), rows(c)),
             (Operation::Previous(_), Some(memory)) => self.previous(out, rows(a), memory),
@@ -271,7 +301,7 @@ impl Block<'_> {
             |rows: &[Operand<'_>; K]| rows.iter().all(|rows| matches!(rows, Operand::Same(0.0)));
         let (no_target, no_extra) = (nothing(&target), nothing(&extra));
         let no_shift = nothing(&shift);
-        let [a, b, c, d] = scratch;
+        let [a, b, c, d] = &mut scratch.groups[..] else { return };
         let share = each(share[0], &mut a[0]);
         let target = each_of(target, b);
         let (extra, shift) = (each_of(extra, c), each_of(shift, d));

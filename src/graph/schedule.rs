@@ -3,6 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
+use super::merge::{Job, Work, each_alone, jobs, without_zeros};
 use super::operation::{Id, Operation, Relaxing, Start};
 
 /// The location of a number during a run.
@@ -14,11 +15,11 @@ pub enum Place {
     Buffer(usize),
 }
 
-/// An operation with the locations of its operands and its result.
+/// One or more operations with the locations of their operands and their result.
 #[derive(Clone, Copy, Debug)]
 pub struct Task {
-    /// The operation.
-    pub operation: Operation,
+    /// What it computes.
+    pub work: Work,
     /// Locations of its operands, in their order.
     pub from: [Place; 5],
     /// Index of the result: a buffer, or a uniform number.
@@ -31,6 +32,9 @@ pub struct Task {
 
 /// Largest number of derivatives of a state that run as a group.
 pub const MAX_GROUP: usize = 8;
+
+/// Number of buffers that fit into a first-level cache of 32 KB.
+const CACHED: usize = 16;
 
 /// The operations that some outputs need.
 #[derive(Clone, Debug)]
@@ -45,6 +49,8 @@ pub struct Schedule {
     pub uniforms: usize,
     /// Number of buffers.
     pub buffers: usize,
+    /// Buffers that hold one number throughout: the index of the number, and that of the buffer.
+    pub spread: Vec<(usize, usize)>,
     /// Number of values kept from block to block.
     pub memories: usize,
 }
@@ -53,13 +59,30 @@ impl Schedule {
     /// The schedule of the operations that the outputs need.
     #[must_use]
     pub fn of(operations: &[Operation], outputs: &[Id]) -> Self {
-        let order = order(operations, outputs);
+        let merged = Self::from_jobs(operations, outputs, jobs);
+        if merged.buffers <= CACHED {
+            return merged;
+        }
+        // Merged loops need more buffers, and loads from the next cache cost more than they save.
+        Self::from_jobs(operations, outputs, |operations, _, _| each_alone(operations))
+    }
+
+    fn from_jobs(
+        operations: &[Operation],
+        outputs: &[Id],
+        jobs: impl Fn(&[Operation], &[Id], &[Id]) -> Vec<Option<Job>>,
+    ) -> Self {
+        let (mut operations, outputs) = without_zeros(operations, outputs);
+        let mut order = order(&operations, &outputs);
+        operations.push(Operation::Constant((-1.0_f64).to_bits()));
+        order.insert(0, operations.len() - 1);
+        let jobs = jobs(&operations, &order, &outputs);
         let mut last_use: Vec<Option<usize>> = vec![None; operations.len()];
         for (place, &id) in order.iter().enumerate() {
             // The operands of a group stay in use until all of the group is computed.
             let group = order[place..].iter().take_while(|&&id| is_slope(operations[id]));
             let done = place + group.count().max(1) - 1;
-            for operand in operations[id].operands() {
+            for &operand in jobs[id].iter().flat_map(|job| &job.operands) {
                 last_use[operand] = last_use[operand].max(Some(done));
             }
         }
@@ -76,19 +99,22 @@ impl Schedule {
             outputs: vec![],
             uniforms: 0,
             buffers: 0,
+            spread: vec![],
             memories: 0,
         };
         let mut places: Vec<Option<Place>> = vec![None; operations.len()];
         for (now, &id) in order.iter().enumerate() {
+            let Some(Job { work, operands }) = &jobs[id] else { continue };
             let operation = operations[id];
-            let operands = operation.operands();
-            let from: Vec<Place> = operands.iter().filter_map(|&own| places[own]).collect();
+            let mut from: Vec<Place> = operands.iter().filter_map(|&own| places[own]).collect();
             let shared = from.iter().all(|place| matches!(place, Place::Uniform(_)));
-            let by_row = matches!(operation, Operation::Column(_)) || operation.has_memory();
-            let place = if shared && !by_row {
+            let place = if shared && !operation.is_by_row() {
                 schedule.uniforms += 1;
                 Place::Uniform(schedule.uniforms - 1)
             } else {
+                if matches!(work, Work::Steps(_)) {
+                    from.iter_mut().for_each(|place| schedule.spread_out(place, &mut layout));
+                }
                 Place::Buffer(layout.take())
             };
             places[id] = Some(place);
@@ -96,7 +122,7 @@ impl Schedule {
             five[..from.len()].copy_from_slice(&from);
             let memory = schedule.memories;
             schedule.memories += usize::from(operation.has_memory());
-            let task = |to| Task { operation, from: five, to, memory, group: 1 };
+            let task = |to| Task { work: *work, from: five, to, memory, group: 1 };
             match place {
                 Place::Uniform(to) => schedule.once.push(task(to)),
                 Place::Buffer(to) => {
@@ -115,6 +141,17 @@ impl Schedule {
             schedule.each[first].group = group_size(&schedule.each[first..]);
         }
         schedule
+    }
+
+    /// Replaces a number that is the same for all samples by a buffer that holds nothing else.
+    fn spread_out(&mut self, place: &mut Place, layout: &mut Layout) {
+        let Place::Uniform(number) = *place else { return };
+        let known = self.spread.iter().find(|&&(own, _)| own == number);
+        let buffer = known.map(|&(_, buffer)| buffer).unwrap_or_else(|| layout.fresh());
+        if known.is_none() {
+            self.spread.push((number, buffer));
+        }
+        *place = Place::Buffer(buffer);
     }
 }
 
@@ -151,8 +188,8 @@ fn is_slope(operation: Operation) -> bool {
 
 /// How many tasks from the first on are derivatives of one state and run as a group.
 fn group_size(tasks: &[Task]) -> usize {
-    let alike = |task: &&Task| match (tasks[0].operation, task.operation) {
-        (Operation::Relax(first), Operation::Relax(own)) => {
+    let alike = |task: &&Task| match (tasks[0].work, task.work) {
+        (Work::Single(Operation::Relax(first)), Work::Single(Operation::Relax(own))) => {
             first.start == Start::Zero && own.start == Start::Zero && first.share == own.share
         }
         _ => false,
@@ -169,10 +206,13 @@ struct Layout {
 
 impl Layout {
     fn take(&mut self) -> usize {
-        self.free.pop().unwrap_or_else(|| {
-            self.count += 1;
-            self.count - 1
-        })
+        self.free.pop().unwrap_or_else(|| self.fresh())
+    }
+
+    /// A buffer that has not been used.
+    fn fresh(&mut self) -> usize {
+        self.count += 1;
+        self.count - 1
     }
 
     fn release(&mut self, buffer: usize) {

@@ -16,19 +16,62 @@ pub fn exp<F: Format>(x: F) -> F {
 /// `m` and `n` of `e^x = 2^n m` with `m` near 1, for `x` in `EXP_RANGE`.
 #[inline(always)]
 pub fn exp_parts<F: Format>(x: F) -> (F, F::Integer) {
+    let (_, bits, r) = reduced(x);
+    (exp_of(r), bits)
+}
+
+/// `n`, as a float and in the lowest bits, and both parts of `r = large - small`.
+#[inline(always)]
+fn reduced<F: Format>(x: F) -> (F, F::Integer, (F, F)) {
     let (n, bits) = (x * F::LOG2_E).nearest();
-    let (large, small) = (x - n * F::LN_2[0], n * F::LN_2[1]);
-    let r = large - small;
-    (F::of(1.0) + (large + F::exp_beyond(-small, r)), bits)
+    (n, bits, (x - n * F::LN_2[0], n * F::LN_2[1]))
+}
+
+/// `e^r` for `|r| <= ln(2) / 2`.
+#[inline(always)]
+fn exp_of<F: Format>((large, small): (F, F)) -> F {
+    F::of(1.0) + (large + F::exp_beyond(-small, large - small))
+}
+
+/// `n` and both parts of `r`: the first half of [`exp`].
+#[inline(always)]
+pub fn exp_reduced<F: Format>(x: F) -> (F, (F, F)) {
+    let (lowest, highest) = F::EXP_RANGE;
+    let (n, _, r) = reduced(within(x, lowest, highest));
+    (n, r)
+}
+
+/// The second half of [`exp`].
+#[inline(always)]
+pub fn exp_of_reduced<F: Format>(n: F, r: (F, F)) -> F {
+    exp_of(r).times_power_of_two(n.nearest().1)
 }
 
 /// `e^x - 1`.
 #[inline(always)]
 pub fn expm1<F: Format>(x: F) -> F {
-    let (high, low) = half_expm1(x);
+    expm1_of(x, half_expm1(x))
+}
+
+#[inline(always)]
+fn expm1_of<F: Format>(x: F, (high, low): (F, F)) -> F {
     let value = F::of(2.0) * (high + low);
     // Keeps the sign of zero and the last digit of a subnormal number.
     if x.abs() < F::EXPM1_LINEAR { x } else { value }
+}
+
+/// `n` and both parts of `r`: the first half of [`expm1`].
+#[inline(always)]
+pub fn expm1_reduced<F: Format>(x: F) -> (F, (F, F)) {
+    let (lowest, highest) = F::EXPM1_RANGE;
+    let (n, _, r) = reduced(within(x, lowest, highest));
+    (n, r)
+}
+
+/// The second half of [`expm1`].
+#[inline(always)]
+pub fn expm1_of_reduced<F: Format>(x: F, n: F, r: (F, F)) -> F {
+    expm1_of(x, half_expm1_of(n.nearest().1, r))
 }
 
 /// `(e^x - 1) / 2` as a number and its rounding error. Half of it, because `2^n` itself may
@@ -45,8 +88,12 @@ pub fn half_expm1<F: Format>(x: F) -> (F, F) {
 /// The same for `x` in `EXPM1_RANGE`.
 #[inline(always)]
 pub fn half_expm1_within<F: Format>(x: F) -> (F, F) {
-    let (n, bits) = (x * F::LOG2_E).nearest();
-    let (large, small) = (x - n * F::LN_2[0], n * F::LN_2[1]);
+    let (_, bits, r) = reduced(x);
+    half_expm1_of(bits, r)
+}
+
+#[inline(always)]
+fn half_expm1_of<F: Format>(bits: F::Integer, (large, small): (F, F)) -> (F, F) {
     let beyond = F::expm1_beyond(-small, large - small);
     let scale = F::half_power_of_two(bits);
 

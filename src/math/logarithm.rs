@@ -30,8 +30,13 @@ pub fn ln<F: Format>(x: F) -> F {
 /// errors are added to the low parts: this shortens the chain of dependent operations.
 #[inline(always)]
 pub fn log2_pair<F: Format>((k, m): (F, F)) -> (F, F) {
-    let (one, three) = (F::of(1.0), F::of(3.0));
+    log2_of_quotient(k, quotient(m))
+}
 
+/// `s` and its rounding error: the first half of [`log2_pair`].
+#[inline(always)]
+pub fn quotient<F: Format>(m: F) -> (F, F) {
+    let one = F::of(1.0);
     let numerator = m - one;
     let denominator = m + one;
     let reciprocal = one / denominator;
@@ -40,8 +45,14 @@ pub fn log2_pair<F: Format>((k, m): (F, F)) -> (F, F) {
     let denominator_high = denominator.high_half();
     let denominator_low = m - (denominator_high - one);
     let residual = (numerator - s_high * denominator_high) - s_high * denominator_low;
-    let s_low = residual * reciprocal;
+    (s, residual * reciprocal)
+}
 
+/// The second half of [`log2_pair`].
+#[inline(always)]
+pub fn log2_of_quotient<F: Format>(k: F, (s, s_low): (F, F)) -> (F, F) {
+    let three = F::of(3.0);
+    let s_high = s.high_half();
     let z = s * s;
     let square = z * z;
     let tail = square * F::log_tail(z) + s_low * (s_high + s);

@@ -10,6 +10,9 @@
 //! in such a loop use [`sin_cos_fast`](f64::sin_cos_fast), and recompute with `sin_cos` where
 //! [`needs_exact_reduction`](f64::needs_exact_reduction) is true: the bits are the same.
 //!
+//! Some functions also come in two halves, with the same bits: two loops over a block keep more
+//! independent operations in flight than one.
+//!
 //! | file | content |
 //! |---|---|
 //! | `exponential`, `phi`, `logarithm`, `power`, `hyperbolic`, `arctangent`, `trigonometric` | the functions, generic over both formats |
@@ -58,7 +61,18 @@ macro_rules! elementary {
             }
 
             elementary!(@ "`e^x`.", exp(x: $float) -> $float, exponential::exp(x));
+            elementary!(@ "The first half of [`exp`]: a power of two, and the rest in two parts.",
+                exp_reduced(x: $float) -> ($float, ($float, $float)), exponential::exp_reduced(x));
+            elementary!(@ "The second half of [`exp`].",
+                exp_of_reduced(n: $float, rest: ($float, $float)) -> $float,
+                exponential::exp_of_reduced(n, rest));
             elementary!(@ "`e^x - 1`.", expm1(x: $float) -> $float, exponential::expm1(x));
+            elementary!(@ "The first half of [`expm1`]: a power of two, and the rest in two parts.",
+                expm1_reduced(x: $float) -> ($float, ($float, $float)),
+                exponential::expm1_reduced(x));
+            elementary!(@ "The second half of [`expm1`].",
+                expm1_of_reduced(x: $float, n: $float, rest: ($float, $float)) -> $float,
+                exponential::expm1_of_reduced(x, n, rest));
             elementary!(@ "`phi_k(x) = sum_j x^j / (j + k)!`, the weights of an exponential integrator.",
                 phi(order: u8, x: $float) -> $float, phi::phi(order, x));
             elementary!(@ "Natural logarithm.", ln(x: $float) -> $float, logarithm::ln(x));
@@ -66,9 +80,20 @@ macro_rules! elementary {
                 powf(x: $float, p: $float) -> $float, power::powf(x, p));
             elementary!(@ "Binary logarithm of a normal, positive number in two parts, for [`powf_fast`].",
                 log2_fast(x: $float) -> ($float, $float), power::log2_fast(x));
+            elementary!(@ "The first half of [`log2_fast`]: the exponent, and a quotient in two parts.",
+                log2_quotient(x: $float) -> ($float, ($float, $float)), power::log2_quotient(x));
+            elementary!(@ "The second half of [`log2_fast`].",
+                log2_of_quotient(k: $float, quotient: ($float, $float)) -> ($float, $float),
+                logarithm::log2_of_quotient(k, quotient));
             elementary!(@ "The power from the [logarithm](log2_fast), or NaN where [`powf`] must be used.",
                 powf_fast(x: $float, logarithm: ($float, $float), p: $float) -> $float,
                 power::powf_fast(x, logarithm, p));
+            elementary!(@ "The first half of [`powf_fast`]: the power of two as an integer and a fraction.",
+                exponent_fast(logarithm: ($float, $float), p: $float) -> ($float, $float),
+                power::exponent_fast(logarithm, p));
+            elementary!(@ "The second half of [`powf_fast`].",
+                powf_of_exponent(x: $float, exponent: ($float, $float), p: $float) -> $float,
+                power::powf_of_exponent(x, exponent, p));
             elementary!(@ "The power for an exponent of 0, 1 or 2, which [`powf_fast`] does not support; else `value`.",
                 power_without_logarithm(value: $float, x: $float, p: $float) -> $float,
                 power::without_logarithm(value, x, p));

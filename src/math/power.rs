@@ -1,7 +1,7 @@
 //! The power `x^p`.
 
 use super::format::{Format, within};
-use super::logarithm::log2_pair;
+use super::logarithm::{log2_pair, quotient};
 
 /// `x` to the power `p`, with the special cases of IEEE 754's `pow`.
 ///
@@ -36,10 +36,17 @@ pub fn without_logarithm<F: Format>(value: F, x: F, p: F) -> F {
 }
 
 /// The binary logarithm of a normal, positive number, high and low part: the first half of
-/// [`powf`]. Two loops of half the length keep more independent operations in flight than one.
+/// [`powf`].
 #[inline(always)]
 pub fn log2_fast<F: Format>(x: F) -> (F, F) {
     log2_pair(x.exponent_and_significand_of_normal())
+}
+
+/// The first half of [`log2_fast`]: the exponent, and a quotient with its rounding error.
+#[inline(always)]
+pub fn log2_quotient<F: Format>(x: F) -> (F, (F, F)) {
+    let (k, m) = x.exponent_and_significand_of_normal();
+    (k, quotient(m))
 }
 
 /// `x` to the power `p` from its [logarithm](log2_fast), without branches and without most special
@@ -47,12 +54,23 @@ pub fn log2_fast<F: Format>(x: F) -> (F, F) {
 /// are the same. `p` must pass [`is_plain_exponent`].
 #[inline(always)]
 pub fn powf_fast<F: Format>(x: F, logarithm: (F, F), p: F) -> F {
-    let zero = F::of(0.0);
-    let (product, rest) = product(p, logarithm);
-    let (n, bits) = (product + rest).nearest();
-    let value = exp2_of_fraction((product - n) + rest).times_power_of_two_in_range(bits);
+    powf_of_exponent(x, exponent_fast(logarithm, p), p)
+}
 
-    let in_range = x.is_normal_and_positive() & (product.abs() < F::EXP2_NORMAL);
+/// The first half of [`powf_fast`]: `n` and `f` of `x^p = 2^(n + f)` with `|f| <= 1/2`.
+#[inline(always)]
+pub fn exponent_fast<F: Format>(logarithm: (F, F), p: F) -> (F, F) {
+    let (product, rest) = product(p, logarithm);
+    let (n, _) = (product + rest).nearest();
+    (n, (product - n) + rest)
+}
+
+/// The second half of [`powf_fast`].
+#[inline(always)]
+pub fn powf_of_exponent<F: Format>(x: F, (n, fraction): (F, F), p: F) -> F {
+    let zero = F::of(0.0);
+    let value = exp2_of_fraction(fraction).times_power_of_two_in_range(n.nearest().1);
+    let in_range = x.is_normal_and_positive() & (n.abs() < F::EXP2_NORMAL);
     let value = if in_range { value } else { F::NAN };
     if (x == zero) & (p > zero) { zero } else { value }
 }

@@ -77,10 +77,11 @@ def columns(
         external = -load
     step: float | Array | None = None
     if dt is not None:
-        steps = column(dt, speed.shape)
+        alone = np.ndim(dt) == 0 and speed.size > 0
+        steps = column(dt, None if alone else speed.shape)
         if not np.isfinite(steps).all() or (steps < 0.0).any():
             raise SpecError("dt is not finite, or negative: give the steps in s")
-        step = float(steps[0]) if np.ndim(dt) == 0 and steps.size else steps
+        step = float(steps[0]) if alone else steps
     return {
         "dt": step,
         "velocity": speed,
