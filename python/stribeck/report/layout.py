@@ -102,10 +102,14 @@ def table(
         )
     for row in rows[1:]:
         made.add_row(*row)
+    # Names and numbers are never cut: a terminal that is too narrow for them breaks the lines.
+    unbroken = {*right, *whole}
+    fewest = _fewest(rows, unbroken)
+    most = WIDTH - indent if len(unbroken) < len(rows[0]) else max(WIDTH - indent, fewest)
     out = io.StringIO()
     console = Console(
         file=out,
-        width=WIDTH - indent,
+        width=most,
         color_system=None,
         force_terminal=False,
         force_jupyter=False,
@@ -114,9 +118,7 @@ def table(
         emoji=False,
         highlight=False,
     )
-    # Names and numbers are never cut: a terminal that is too narrow for them breaks the lines.
-    fewest = _fewest(rows, {*right, *whole})
-    console.print(made, width=min(WIDTH - indent, max(line_width() - indent, fewest)))
+    console.print(made, width=min(most, max(line_width() - indent, fewest)))
     return "\n".join((" " * indent + line).rstrip() for line in out.getvalue().splitlines())
 
 

@@ -78,6 +78,12 @@ def test_wide_tables_are_broken_not_cut() -> None:
     assert lines[-1].split() == ["beta", "b", "2.0"]
 
 
+def test_a_table_of_names_and_numbers_alone_is_neither_cut_nor_broken() -> None:
+    rows = [["effect", "parameter", "here"], ["e" * 40, "p" * 40, "1" * 40]]
+    lines = layout.table(rows, right=(2,), whole=(0, 1)).splitlines()
+    assert [row.split() for row in lines if "e" * 40 in row] == [rows[1]]
+
+
 def test_number_and_unit_stay_together() -> None:
     for length in range(60, 100):
         assert "0.5 N m" in layout.paragraph("a" * length + " 0.5 N m of torque")
