@@ -91,17 +91,18 @@ def reports(tmp_path_factory: pytest.TempPathFactory, motion: RobotMotion) -> Pa
     return folder
 
 
-@pytest.mark.parametrize("width", [1280, 390])
-def test_pages_of_every_kind(browser: Any, reports: Path, width: int) -> None:
-    tab = browser.new_page(viewport={"width": width, "height": 900})
+def test_pages_of_every_kind(browser: Any, reports: Path) -> None:
+    tab = browser.new_page()
     wrong = {}
     for page in sorted(reports.glob("*.html")):
-        tab.goto(page.as_uri())
-        if tab.evaluate("() => typeof window.Bokeh !== 'undefined'"):
-            tab.wait_for_function(DRAWN, timeout=60_000)
-        found = wider(tab) + faults(tab)
-        wrong |= {page.stem: found} if found else {}
-        keep(tab, f"report-{page.stem}-{width}.png")
+        for width in (1280, 390):
+            tab.set_viewport_size({"width": width, "height": 900})
+            tab.goto(page.as_uri())
+            if tab.evaluate("() => typeof window.Bokeh !== 'undefined'"):
+                tab.wait_for_function(DRAWN, timeout=60_000)
+            found = wider(tab) + faults(tab)
+            wrong |= {f"{page.stem} at {width}": found} if found else {}
+            keep(tab, f"report-{page.stem}-{width}.png")
     assert len(list(reports.glob("*.html"))) == 6
     assert wrong == {}
     tab.close()

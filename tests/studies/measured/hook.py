@@ -10,6 +10,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from mkdocs.config.defaults import MkDocsConfig
@@ -51,11 +52,18 @@ def made() -> Path:
     """The folder with the pages, made now where it is out of date."""
     folder = KEPT / state()
     if not folder.is_dir():
-        shutil.rmtree(KEPT, ignore_errors=True)
-        new = KEPT / "new"
+        KEPT.mkdir(parents=True, exist_ok=True)
+        new = Path(tempfile.mkdtemp(dir=KEPT, prefix="new-"))
         words = [sys.executable, str(HERE / "pages.py"), str(DATA), str(new)]
         subprocess.run(words, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
-        new.rename(folder)
+        for old in KEPT.iterdir():
+            if not old.name.startswith("new-") and old != folder:
+                shutil.rmtree(old, ignore_errors=True)
+        try:
+            new.rename(folder)
+        except OSError:
+            # Another process has made the same pages by now.
+            shutil.rmtree(new)
     return folder
 
 
