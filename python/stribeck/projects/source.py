@@ -120,9 +120,14 @@ class Source:
     def recording(self) -> Recording:
         """The data, read with the options of the project."""
         self.check()
+        return read(self.named, **self.options)
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """The options of `stribeck.read`, with the sidecar from the working directory."""
         named = self.reading.get("sidecar")
-        given = {} if named is None else {"sidecar": self.folder / str(named)}
-        return read([self._place(one) for one in self.files], **{**self.reading, **given})
+        given = {} if named is None else {"sidecar": str(self.folder / str(named))}
+        return {**self.reading, **given}
 
     def to_dict(self) -> dict[str, object]:
         """As JSON."""

@@ -57,6 +57,7 @@ def test_how_the_file_was_read_is_kept_as_it_was_said(folder: Path, tmp_path: Pa
     }
     assert again.source.path == "sub/joint.csv" and len(again.source.files) == 1
     assert len(again.recording) == len(made.recording)
+    assert again.source.options["sidecar"] == str(sidecar)
     sidecar.write_text(sidecar.read_text() + "gear_ratio = 2.0\n")
     with pytest.raises(ProjectError, match="sidecar"):
         sb.project(tmp_path / "p.toml")

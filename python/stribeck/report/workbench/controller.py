@@ -307,7 +307,7 @@ class Workbench:
                 if joint.files[0].endswith(PROJECT):
                     source = result.project.source
                     joint.files = source.named
-                    joint.options = ReadOptions.of(source.reading)
+                    joint.options = ReadOptions.of(source.options)
                 joint.project = result.project
                 joint.recording = result.project.recording
                 if result.comparison is not None:
