@@ -156,7 +156,7 @@ def test_tables_and_text_hold_the_tree(branched: sb.Project) -> None:
     assert "├ + offset" in text and "▸ 2  └ + load" in text and "'guess'" in text
     assert 'inertia, at node 2 and below it: known "from CAD"' in text
     assert all(len(line) <= 100 for line in text.splitlines())
-    assert "&quot;from CAD" in branched._repr_html_()
+    assert "&#34;from CAD" in branched._repr_html_()
 
 
 def test_what_is_drawn_is_the_base_and_the_current_model(branched: sb.Project) -> None:
