@@ -12,6 +12,7 @@ from stribeck.benchmark.cases import Case
 from stribeck.benchmark.coverage import Interval, intervals
 from stribeck.benchmark.oracle import detection, held_out_rmse
 from stribeck.benchmark.sample import Sample
+from stribeck.benchmark.ties import apart
 
 if TYPE_CHECKING:
     from stribeck.diagnosis.loop.improve import Improvement
@@ -40,6 +41,9 @@ class CaseAnswer:
         Actual size of each hidden effect relative to the noise.
     detectable
         Size of each hidden effect over its standard error in the generator's own model.
+    apart
+        The same beside the most similar of the effects that are reported as indistinguishable from
+        it; None where it is not reported so.
     verdict
         Verdict of the last diagnosis.
     rmse_held_out, oracle_rmse
@@ -56,6 +60,7 @@ class CaseAnswer:
     cannot_show: tuple[str, ...] = ()
     sizes: tuple[float, ...] = ()
     detectable: tuple[float, ...] = ()
+    apart: tuple[float | None, ...] = ()
     steps: tuple[NamedEffect, ...] = ()
     verdict: str = ""
     untestable: tuple[str, ...] = ()
@@ -93,6 +98,7 @@ class CaseAnswer:
         case = fields["case"]
         tuples = {key: tuple(case.get(key, ())) for key in ("effects", "nuisances")}
         fields["case"] = Case(**{**case, **tuples})
+        fields["apart"] = tuple(fields.get("apart", ()))
         fields["steps"] = tuple(
             NamedEffect(s["effect"], s["confidence"], tuple(s["indistinguishable_from"]))
             for s in fields["steps"]
@@ -124,7 +130,8 @@ def _diagnosed(case: Case) -> CaseAnswer:
     with tempfile.TemporaryDirectory(prefix="stribeck-benchmark-") as folder:
         path = Path(folder) / "recording.parquet"
         sample.frame.write_parquet(path)
-        recording = read(path)
+        # What the joint is, a user states.
+        recording = read(path, joint_kind=sample.truth.get("kind"))
     return _compared(case, sample, recording, improve("coulomb", recording))
 
 
@@ -133,6 +140,7 @@ def _compared(
 ) -> CaseAnswer:
     truth = sample.truth
     hidden = tuple(e for e in truth["hidden"] if e != "none")
+    known = [e for e in hidden if e in sample.oracle.effects]
     return CaseAnswer(
         case,
         hidden=hidden,
@@ -140,10 +148,9 @@ def _compared(
         cannot_show=tuple(truth["cannot_show"]),
         sizes=tuple(truth["sizes"].values()),
         detectable=tuple(
-            detection(sample.oracle, e, recording.torque, recording.moving)
-            for e in hidden
-            if e in sample.oracle.effects
+            detection(sample.oracle, e, recording.torque, recording.moving) for e in known
         ),
+        apart=tuple(apart(improvement, sample.oracle, e) for e in known),
         steps=tuple(
             NamedEffect(s.finding.effect, s.finding.confidence, s.finding.indistinguishable_from)
             for s in improvement.steps

@@ -48,7 +48,13 @@ def held_out_rmse(
     return root_mean_square(left)
 
 
-def detection(oracle: Oracle, effect: str, torque: Array, scored: NDArray[np.bool_]) -> float:
+def detection(
+    oracle: Oracle,
+    effect: str,
+    torque: Array,
+    scored: NDArray[np.bool_],
+    beside: Array | None = None,
+) -> float:
     """Size of a hidden effect over its standard error, in the generator's own model.
 
     All other parameters of the model, the simpler effects that the hidden ones contain, and the
@@ -64,6 +70,8 @@ def detection(oracle: Oracle, effect: str, torque: Array, scored: NDArray[np.boo
         Recorded torque.
     scored : bool array [n]
         Scored samples.
+    beside : array [m, k]
+        Further columns, on the scored samples, that may replace the effect: those of another model.
     """
     others = [
         column
@@ -72,6 +80,8 @@ def detection(oracle: Oracle, effect: str, torque: Array, scored: NDArray[np.boo
     ]
     others += [*oracle.contained.values(), *oracle.nuisances]
     columns = np.column_stack(others)[scored]
+    if beside is not None:
+        columns = np.column_stack([columns, beside])
     columns = columns / np.maximum(np.sqrt(np.mean(columns**2, axis=0)), 1e-300)
     whole = oracle.effects[effect][scored]
     part = whole - columns @ linear.least_norm(columns, whole)

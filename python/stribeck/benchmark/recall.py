@@ -12,6 +12,8 @@ from stribeck.benchmark.share import Share
 DETECTABLE = 5.0
 #: Confidence above which a finding counts.
 CONFIDENT = 0.9
+#: Effects that a tie may name.
+MOST_NAMES = 3
 #: Smallest share of the detectable effects that must be named.
 RECALL_BAR = 0.85
 #: Groups with hidden effects of the library.
@@ -25,7 +27,10 @@ class Recall:
     Attributes
     ----------
     named
-        Named with a confidence above `CONFIDENT`; a tie does not count.
+        Named with a confidence above `CONFIDENT`, or one of at most `MOST_NAMES` effects between
+        which the recording does not decide.
+    ties
+        Number of the latter.
     found
         Named with any confidence, or reported as indistinguishable from what is named.
     too_small
@@ -34,6 +39,7 @@ class Recall:
 
     title: str
     named: Share
+    ties: int
     found: Share
     too_small: int
 
@@ -49,6 +55,7 @@ class Recall:
             "standard_errors": DETECTABLE,
             "confidence": CONFIDENT,
             **self.named.to_dict(),
+            "of_them_ties": self.ties,
             "with_any_confidence": self.found.count,
             "too_small": self.too_small,
             "bar": RECALL_BAR,
@@ -72,13 +79,24 @@ def recalls(answers: Sequence[CaseAnswer]) -> Iterator[Recall]:
 
 
 def _recall(title: str, answers: Sequence[CaseAnswer]) -> Recall:
-    named = found = detectable = effects = 0
+    named = ties = found = detectable = effects = 0
     for a in answers:
-        for effect, z in zip(a.hidden, a.detectable, strict=False):
+        apart = a.apart or (None,) * len(a.detectable)
+        for effect, z, told in zip(a.hidden, a.detectable, apart, strict=False):
             effects += 1
             if z < DETECTABLE:
                 continue
             detectable += 1
-            named += any(s.effect == effect and s.confidence > CONFIDENT for s in a.steps)
+            sure = any(s.effect == effect and s.confidence > CONFIDENT for s in a.steps)
+            tie = not sure and told is not None and told < DETECTABLE and _is_tie(a, effect)
+            named += sure or tie
+            ties += tie
             found += any(effect in (s.effect, *s.indistinguishable_from) for s in a.steps)
-    return Recall(title, Share(named, detectable), Share(found, detectable), effects - detectable)
+    share = Share(named, detectable)
+    return Recall(title, share, ties, Share(found, detectable), effects - detectable)
+
+
+def _is_tie(answer: CaseAnswer, effect: str) -> bool:
+    """Whether an effect is one of at most `MOST_NAMES` that a step names together."""
+    every = [{s.effect, *s.indistinguishable_from} for s in answer.steps]
+    return any(effect in names and len(names) <= MOST_NAMES for names in every)

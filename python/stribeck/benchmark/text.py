@@ -186,13 +186,14 @@ def _left_out(rows_of: Sequence[LeftOut]) -> str:
 def _recall(rows_of: Sequence[Recall]) -> str:
     if not rows_of:
         return ""
-    rows = [["hidden", "too small", "detectable", "named", "share", "with any", "bar", "reached"]]
+    rows = [["hidden", "too small", "detectable", "named", "tied", "share", "any", "bar", "reached"]]
     rows += [
         [
             r.title,
             str(r.too_small),
             str(r.named.total),
             str(r.named.count),
+            str(r.ties),
             _percent(r.named.value),
             str(r.found.count),
             _percent(RECALL_BAR),
@@ -200,7 +201,7 @@ def _recall(rows_of: Sequence[Recall]) -> str:
         ]
         for r in rows_of
     ]
-    return table(rows, right=range(1, 7))
+    return table(rows, right=range(1, 8))
 
 
 def _ratios(ratios: Sequence[Ratio]) -> str:

@@ -26,6 +26,12 @@ class Finding(Plotted):
 
     Attributes
     ----------
+    weight
+        Probability that it is this effect, and neither noise nor one of those it is
+        indistinguishable from, 0..1.
+    certainty
+        Probability that the model predicts new samples better with it, 0..1, by the differences of
+        the held-out errors.
     where
         One sentence: where the data shows it.
     fit, before
@@ -35,7 +41,8 @@ class Finding(Plotted):
     """
 
     effect: str
-    confidence: float
+    weight: float
+    certainty: float
     rmse_held_out_before: float
     rmse_held_out_after: float
     share_of_unexplained: float | None
@@ -44,6 +51,11 @@ class Finding(Plotted):
     fit: Fit
     before: Fit
     demoted: str | None = None
+
+    @property
+    def confidence(self) -> float:
+        """The smaller of weight and certainty, 0..1."""
+        return min(self.weight, self.certainty)
 
     @cached_property
     def carried(self) -> Carried:

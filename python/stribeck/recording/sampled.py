@@ -11,6 +11,7 @@ from stribeck.recording.derive import Smoother, choose_cutoff
 from stribeck.recording.derived_motion import acceleration_cutoff, filter_text, slope
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
+from stribeck.recording.mend.late_velocity import is_late
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.rows import (
     held_out_blocks,
@@ -48,7 +49,9 @@ def _motion(
     """Position, velocity and acceleration, derived where they were not recorded."""
     time = data.values["time"]
     position, velocity = data.values.get("position"), data.values.get("velocity")
-    if velocity is not None:
+    acceleration = data.values.get("acceleration")
+    late = is_late(data, segment, typical)
+    if velocity is not None and not late:
         sigma = noise_level(time, velocity, segment)
         cutoff = choose_cutoff(time, velocity, segment, 1)
         smoother = Smoother(time, segment, cutoff)
@@ -57,7 +60,11 @@ def _motion(
     else:
         assert position is not None
         step = typical if typical > 0.0 else float(np.median(np.diff(time)))
-        sigma = slope_noise(time, position, segment, step)
+        if velocity is None:
+            sigma = slope_noise(time, position, segment, step)
+        else:
+            # Scored are the samples that the recorded velocity shows moving.
+            sigma, acceleration = noise_level(time, velocity, segment), None
         velocity, cutoff = slope(time, position, segment)
         velocity_smooth = velocity
         smoother = Smoother(time, segment, cutoff)
@@ -65,7 +72,6 @@ def _motion(
         unit = f"{layout.position_unit}/s"
         data.columns["velocity"] = Column.of("velocity", "position", unit, True, velocity)
         data.notes.append(_derived_note("velocity", "position", cutoff))
-    acceleration = data.values.get("acceleration")
     if acceleration is None:
         highest = acceleration_cutoff(time, velocity, segment, typical, cutoff)
         acceleration = Smoother(time, segment, highest).smooth(source, derivative)

@@ -60,9 +60,16 @@ def test_a_wrong_scale_of_the_load_hides_a_wrong_torque_constant(wrong_gain: Sam
     assert z(distorted(wrong_gain, ("load_scale",), 11)) < 5.0
 
 
-def answered(z: float, *steps: NamedEffect, nuisances: tuple[str, ...] = ()) -> CaseAnswer:
+def answered(
+    z: float,
+    *steps: NamedEffect,
+    nuisances: tuple[str, ...] = (),
+    apart: float | None = None,
+) -> CaseAnswer:
     case = Case("one", "open_loop", ("load",), int(10 * z), 1.0, nuisances=nuisances)
-    return CaseAnswer(case, hidden=("load",), detectable=(z,), steps=steps, verdict="none")
+    return CaseAnswer(
+        case, hidden=("load",), detectable=(z,), apart=(apart,), steps=steps, verdict="none"
+    )
 
 
 def test_recall_counts_what_is_detectable_and_surely_named() -> None:
@@ -84,3 +91,28 @@ def test_recall_counts_what_is_detectable_and_surely_named() -> None:
     said = score(with_others)
     assert "one effect, with nuisances" in score_text(said)
     assert said.to_dict()["recall"][0]["right"] == 1
+
+
+def test_a_tie_counts_where_the_recording_decides_nothing() -> None:
+    tie = NamedEffect("gain", 0.5, ("load",))
+    many = NamedEffect("gain", 0.2, ("load", "offset", "gravity"))
+    answers = [
+        answered(10.0, tie, apart=1.2),
+        answered(11.0, tie, apart=8.0),
+        answered(12.0, many, apart=1.2),
+        answered(13.0, NamedEffect("load", 0.95, ("gain",)), apart=1.2),
+    ]
+    (recall,) = recalls(answers)
+    assert (recall.named, recall.ties) == (Share(2, 4), 1)
+
+
+def test_what_another_model_replaces_is_not_told_apart() -> None:
+    rng = np.random.default_rng(3)
+    shapes = {"coulomb": np.sign(rng.standard_normal(5000)), "load": rng.standard_normal(5000)}
+    oracle = linear_oracle(shapes)
+    torque = oracle.prediction + 0.1 * rng.standard_normal(5000)
+    rows = np.ones(5000, bool)
+    rival = shapes["load"][:, None] + 0.001 * rng.standard_normal((5000, 1))
+    assert detection(oracle, "load", torque, rows, rival) < 5.0
+    other = rng.standard_normal((5000, 1))
+    assert detection(oracle, "load", torque, rows, other) > 100.0

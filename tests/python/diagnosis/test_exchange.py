@@ -26,7 +26,8 @@ def detour(folder: Path, extra: Array, *effects: str, rivals: tuple[str, ...]) -
             effect=effect,
             before=current,
             fit=after,
-            confidence=1.0,
+            weight=1.0,
+            certainty=1.0,
             indistinguishable_from=(),
         )
         steps.append(ImprovementStep(finding, current, after, rivals))

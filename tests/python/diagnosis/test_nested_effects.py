@@ -49,7 +49,7 @@ def test_a_wider_effect_gives_way_to_what_remains_of_it(tmp_path: Path) -> None:
     recording = record(tmp_path, joint(friction + 0.2))
     before = sb.fit("coulomb", recording)
     wider = sb.fit("coulomb+load+quadrant", recording, starts=2)
-    finding = Finding("quadrant", 1.0, 2.0, 1.0, None, "", (), wider, before)
+    finding = Finding("quadrant", 1.0, 1.0, 2.0, 1.0, None, "", (), wider, before)
     whole = sb.fit("coulomb+load+quadrant+offset", recording, starts=2)
     best = exchanges([finding], [()], whole, (), 0).best
     assert best is not None and best.by.effect == "load"

@@ -50,6 +50,7 @@ def test_the_figure_shows_the_effect_and_that_it_is_gone(effect: str, tmp_path: 
     finding = sb.Finding(
         effect,
         0.9,
+        1.0,
         before.rmse_held_out or 0.0,
         after.rmse_held_out or 0.0,
         None,

@@ -150,10 +150,10 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
 
 
 def tied(finding: Finding, others: Mapping[str, float]) -> tuple[float, tuple[str, ...]]:
-    """Confidence and names of the ties of a finding once `others` predict as well."""
+    """Weight and names of the ties of a finding once `others` predict as well."""
     new = {name: w for name, w in others.items() if name not in finding.indistinguishable_from}
     names = (*finding.indistinguishable_from, *new)
-    return finding.confidence / (1.0 + sum(new.values())), names
+    return finding.weight / (1.0 + sum(new.values())), names
 
 
 def ties_of(exchange: Exchange) -> dict[str, float]:

@@ -10,7 +10,7 @@ import numpy as np
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
-from stribeck.diagnosis.loop.superfluous import brought_by, superfluous, without_effects
+from stribeck.diagnosis.loop.superfluous import brought_by, needed, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
@@ -137,8 +137,8 @@ class ImprovementPath:
             before=exchange.without,
             fit=by.fit,
         )
-        confidence, names = tied(finding, ties_of(exchange))
-        finding = replace(finding, confidence=confidence, indistinguishable_from=names)
+        weight, names = tied(finding, ties_of(exchange))
+        finding = replace(finding, weight=weight, indistinguishable_from=names)
         step = replace(dropped, finding=finding)
         later = [step, *self.steps[place + 1 :]]
         steps = self._refitted(dropped.before, later, by.fit.model, seed)
@@ -151,8 +151,17 @@ class ImprovementPath:
         """The path whose findings also name effects that predict as well in their place."""
         steps = []
         for step in self.steps:
-            confidence, names = tied(step.finding, ties.get(step.finding.effect, {}))
-            finding = replace(step.finding, confidence=confidence, indistinguishable_from=names)
+            weight, names = tied(step.finding, ties.get(step.finding.effect, {}))
+            finding = replace(step.finding, weight=weight, indistinguishable_from=names)
+            steps.append(replace(step, finding=finding))
+        return replace(self, steps=tuple(steps))
+
+    def with_certainty(self, certainty: Mapping[str, float]) -> ImprovementPath:
+        """The path with the certainty, 0..1, that its last model needs some of its effects."""
+        steps = []
+        for step in self.steps:
+            of_last = certainty.get(step.finding.effect, step.finding.certainty)
+            finding = replace(step.finding, certainty=of_last)
             steps.append(replace(step, finding=finding))
         return replace(self, steps=tuple(steps))
 
@@ -218,7 +227,9 @@ def improvement_paths(
             progress(f"adding {found.findings[0].effect}{_error_of(path.current)}")
             yield path
         findings = [step.finding for step in path.steps]
-        shorter = _shortened(path, findings if ends else findings[:-1], least_fall, seed, progress)
+        shorter, path = _shortened(
+            path, findings if ends else findings[:-1], least_fall, seed, progress
+        )
         if shorter is None and ends:
             shorter, path = _exchanged(path, rejected, seed, progress)
             if shorter is None:
@@ -241,18 +252,22 @@ def _shortened(
     least_fall: float,
     seed: int,
     progress: Callable[[str], None],
-) -> ImprovementPath | None:
-    """The path without one of some findings, if one is superfluous; None where it must stay."""
-    idle = superfluous(findings, path.current, least_fall, seed)
-    if idle is None:
-        return None
-    progress(f"{idle} is superfluous: refitting the later effects without it")
+) -> tuple[ImprovementPath | None, ImprovementPath]:
+    """The path without one of some findings, or None where all stay; and the path as it is.
+
+    Each of these findings then has the certainty that the last model needs it.
+    """
+    found = needed(findings, path.current, least_fall, seed)
+    path = path.with_certainty(found.certainty)
+    if found.idle is None:
+        return None, path
+    progress(f"{found.idle} is superfluous: refitting the later effects without it")
     try:
-        return path.without(idle, seed)
+        return path.without(found.idle, seed), path
     except FitError as error:
         # For example a bristle whose dry friction is positive only with this effect.
-        progress(f"{idle} stays: {error}")
-        return None
+        progress(f"{found.idle} stays: {error}")
+        return None, path
 
 
 def _exchanged(

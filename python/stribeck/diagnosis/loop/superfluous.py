@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.result import Finding
@@ -45,14 +46,32 @@ def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
         return None
 
 
-def superfluous(findings: Sequence[Finding], current: Fit, least: float, seed: int) -> str | None:
-    """The effect of a finding without which the model predicts as well, if there is one.
+@dataclass(frozen=True)
+class Needed:
+    """How much each effect of a model is needed beside the others.
 
-    Without it the error rises by less than half of `least`, by no more than noise explains, or the
-    held-out error by no more than one standard error where it is not significant among all effects.
-    Of several the one that is needed least.
+    Attributes
+    ----------
+    idle
+        The effect without which the model predicts as well, if there is one; of several the one
+        that is needed least.
+    certainty
+        For each effect the probability that the model predicts worse without it, 0..1.
+    """
+
+    idle: str | None
+    certainty: Mapping[str, float]
+
+
+def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -> Needed:
+    """What the effects of some findings bring to a model that has all of them.
+
+    One is idle where the error rises without it by less than half of `least`, by no more than noise
+    explains, or the held-out error by no more than one standard error where it is not significant
+    among all effects.
     """
     rises: dict[str, float] = {}
+    certainty: dict[str, float] = {}
     for finding in findings:
         without = fit_without(current, finding, seed)
         if without is None:
@@ -60,10 +79,11 @@ def superfluous(findings: Sequence[Finding], current: Fit, least: float, seed: i
         rows = current.rows
         level = rms(current.weighted(current.residual[rows]))
         rise = rms(current.weighted(without.residual[rows])) / level - 1.0
-        statistic = difference(without, current).statistic
+        lost = difference(without, current)
+        certainty[finding.effect] = lost.certainty
         chance = evidence(without, current).p_value
         # Among all effects a finding must be significant; there, it needs no further proof.
         doubtful = chance * len(effect_ids()) > SIGNIFICANCE
-        if rise < least / 2 or chance > SIGNIFICANCE or (doubtful and statistic <= SIMPLEST):
-            rises[finding.effect] = statistic
-    return min(rises, key=lambda effect: rises[effect]) if rises else None
+        if rise < least / 2 or chance > SIGNIFICANCE or (doubtful and lost.statistic <= SIMPLEST):
+            rises[finding.effect] = lost.statistic
+    return Needed(min(rises, key=lambda e: rises[e]) if rises else None, certainty)

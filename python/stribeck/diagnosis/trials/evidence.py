@@ -120,6 +120,12 @@ class Difference:
             return 0.0
         return self.total / self.error if self.error > 0 else np.inf
 
+    @property
+    def certainty(self) -> float:
+        """Probability that the first model is worse on new samples of this kind, 0..1."""
+        z = self.total / self.error if self.error > 0 else np.inf * np.sign(self.total)
+        return float(scipy.special.ndtr(z))
+
     @classmethod
     def of(cls, change: Array) -> Difference:
         """From the differences of the squared errors of each sample [m]."""

@@ -10,7 +10,7 @@ import numpy as np
 from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
-from stribeck.diagnosis.trials.evidence import held_out_square
+from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import (
@@ -86,11 +86,11 @@ def ranked(
         is_tied = t.effect in alike
         share = weights[t.effect] / (total if is_tied else total + weights[t.effect])
         others = tuple(o for o in named if o != t.effect) if is_tied else ()
-        confidence = float((1.0 - chance) * share)
+        weight = float((1.0 - chance) * share)
         # Little remains for an effect whose simpler part is a tie, and measuring may cause that.
         if simpler_effect(t.effect) in others:
-            confidence = min(confidence, DEMOTED)
-        made.append(_finding(before, t, confidence, others, floor))
+            weight = min(weight, DEMOTED)
+        made.append(_finding(before, t, weight, others, floor))
     besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))
 
@@ -117,8 +117,8 @@ def _none_but_demoted(
             continue
         weight = 1.0 if best is None else tie_weight(tie_statistic(best, trial))
         chance = min(1.0, trial.evidence.p_value * tried)
-        confidence = min(DEMOTED, (1.0 - chance) * weight / (total + weight))
-        made.append(replace(_finding(before, trial, confidence, (), floor), demoted=reason))
+        most = min(DEMOTED, (1.0 - chance) * weight / (total + weight))
+        made.append(replace(_finding(before, trial, most, (), floor), demoted=reason))
     refused = tuple(NotClaimed(row.trial.effect, row.reason) for row in sift.refused)
     return Ranked((), tuple(made), refused)
 
@@ -177,13 +177,14 @@ def _doubtful_ties(
 
 
 def _finding(
-    before: Fit, trial: Trial, confidence: float, others: tuple[str, ...], floor: NoiseFloor
+    before: Fit, trial: Trial, weight: float, others: tuple[str, ...], floor: NoiseFloor
 ) -> Finding:
     known = find(trial.effect)
     alike = () if known is None else known.alike(before.recording)
     return Finding(
         effect=trial.effect,
-        confidence=confidence / (1 + len(alike)),
+        weight=weight / (1 + len(alike)),
+        certainty=difference(before, trial.fit).certainty,
         rmse_held_out_before=float(before.rmse_held_out or np.nan),
         rmse_held_out_after=float(trial.fit.rmse_held_out or np.nan),
         share_of_unexplained=share_of_unexplained(before, trial.fit, floor),

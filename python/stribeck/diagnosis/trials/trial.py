@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
 
 from stribeck.base.errors import StribeckError
-from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence
+from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence, held_out_square
 from stribeck.diagnosis.trials.screening import STARTS, Screened, extended_model, screened
 from stribeck.diagnosis.visibility.model_space import MOST_ROWS
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
@@ -127,22 +128,56 @@ def try_beyond(
 
 
 def simpler_substitute(
-    beyond: Trial, simpler: Trial, others: list[Trial], before: Fit, least: float, seed: int
-) -> Trial | None:
-    """One of `others` that, together with `simpler`, replaces `beyond`, which contains `simpler`.
+    beyond: Trial,
+    simpler: Trial,
+    others: list[Trial],
+    possible: Collection[str],
+    before: Fit,
+    least: float,
+    seed: int,
+) -> tuple[Trial, ...] | None:
+    """What replaces `beyond`, which contains `simpler`: that and another effect, with less.
 
-    It has fewer parameters and a held-out error within one standard error. Example: a load
-    dependence that differs between motoring and generating, against one that does not differ and a
-    wrong torque constant.
+    Both together have fewer parameters. Their held-out error is within one standard error, or
+    exceeds that of `beyond` by less than a finding must bring. Example: a load dependence that
+    differs between motoring and generating, against one that does not differ and a wrong torque
+    constant.
+
+    Parameters
+    ----------
+    others
+        Trials that pass beside `before`; the one whose torque is most similar is tried.
+    possible
+        Effects; the one that explains most beside `simpler` is tried.
+
+    Returns
+    -------
+    The trials of both beside `before`, or that of `simpler` alone where the other shows only beside
+    it; None where nothing replaces `beyond`.
     """
-    other = _most_similar(beyond, simpler, others, before)
-    if other is None:
-        return None
-    effect = other.fit.model.written(other.effect)
-    if len(extended_model(simpler.fit, effect).names) >= beyond.parameters:
-        return None
-    both = _try_if_promising(simpler.fit, effect, least, seed)
-    return other if both is not None and tie_statistic(beyond, both) <= SIMPLEST else None
+    similar = _most_similar(beyond, simpler, others, before)
+    if similar is not None:
+        effect = similar.fit.model.written(similar.effect)
+        if _is_replaced(beyond, simpler, screened(simpler.fit, effect, seed=seed), least):
+            return simpler, similar
+    tried = {beyond.effect, simpler.effect, *(() if similar is None else (similar.effect,))}
+    screenings = (screened(simpler.fit, e, seed=seed) for e in possible if e not in tried)
+    best = max((s for s in screenings if s is not None), key=lambda s: s.fall, default=None)
+    return (simpler,) if _is_replaced(beyond, simpler, best, least) else None
+
+
+def _is_replaced(beyond: Trial, simpler: Trial, other: Screened | None, least: float) -> bool:
+    """Whether an effect, screened beside `simpler`, replaces `beyond` together with that."""
+    if other is None or len(other.model.names) >= beyond.parameters:
+        return False
+    if not is_promising(other, least):
+        return False
+    both = try_effect(simpler.fit, other)
+    if both is None:
+        return False
+    rows = simpler.fit
+    lost = held_out_square(beyond.fit, rows) / held_out_square(both.fit, rows)
+    return tie_statistic(beyond, both) <= SIMPLEST or 1.0 - lost**0.5 < least
 
 
 def _most_similar(beyond: Trial, simpler: Trial, others: list[Trial], before: Fit) -> Trial | None:
