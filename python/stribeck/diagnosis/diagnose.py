@@ -109,7 +109,7 @@ def _diagnosed(
     sift = Sifted.of(fitted, passed, least_fall)
     sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
     stood = sift
-    sift = without_imitations(fitted, stood, tried, least_fall)
+    sift = without_imitations(fitted, stood, passed, tried, least_fall)
     sift = without_outshone(stood, sift, tried, least_fall, seed)
     best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)

@@ -28,5 +28,6 @@ def least_factors(columns: Mapping[str, Array]) -> Array:
     made = []
     for what, of_cause in columns.items():
         count = of_cause.shape[1]
-        made.append(np.where(np.arange(count) < count - rising[what], -np.inf, 0.0))
+        free = count - rising.get(what, 0)
+        made.append(np.where(np.arange(count) < free, -np.inf, 0.0))
     return np.concatenate(made)

@@ -105,9 +105,9 @@ def passing_trials(
         if beyond is None or not passes(beyond[0], tried, least):
             continue
         others = [t for t in good if t is not simpler]
-        pair = simpler_substitute(beyond[1], simpler, others, alone, fitted, least, seed)
-        if pair is not None:
-            pairs.append(_Pair(beyond[1], min(pair, key=lambda trial: trial.rank)))
+        instead = simpler_substitute(beyond[1], simpler, others, alone, fitted, least, seed)
+        if instead is not None:
+            pairs.append(_Pair(beyond[1], min(instead, key=lambda trial: trial.rank)))
         elif passes(beyond[1], tried, least):
             good.append(beyond[1])
     good = [t for t in good if falls_on_all_samples(fitted, t)]

@@ -8,55 +8,108 @@ demoted where both do equally well.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
 from stribeck.diagnosis.measurement.table import least_factors, measurement_columns
 from stribeck.diagnosis.trials.evidence import Difference
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
-from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
+from stribeck.models.catalog import simpler_effect
+
+#: A constant torque, as a cause in the measurement.
+ZERO = "a zero of the torque that is off"
+#: The highest confidence of an effect that predicts better than the causes in the measurement by no
+#: more than one standard error: about as often it is right on simulated recordings.
+NARROW = 0.95
 
 
-def without_imitations(before: Fit, sift: Sifted, tried: int, least: float) -> Sifted:
-    """The same without friction effects that causes in the measurement explain as well."""
+@dataclass(frozen=True)
+class _Rivals:
+    """The causes in the measurement beside a fit: each alone, and all together."""
+
+    before: Fit
+    alone: Mapping[str, FlexibleRefit]
+    together: FlexibleRefit
+
+    @classmethod
+    def beside(cls, before: Fit, columns: Mapping[str, Array]) -> _Rivals:
+        """The causes with their `columns` [m, k], by name."""
+        alone = {
+            what: FlexibleRefit.beside(before, made, least_factors({what: made}))
+            for what, made in columns.items()
+        }
+        every = np.column_stack(list(columns.values()))
+        return cls(before, alone, FlexibleRefit.beside(before, every, least_factors(columns)))
+
+    def leave(self, trial: Trial, tried: int, needed: float) -> bool:
+        """Whether a trial lowers the error beside all of them, by at least the share `needed`."""
+        fall, p_value = self.together.beside_columns(trial)
+        return fall >= needed and p_value * tried <= SIGNIFICANCE
+
+    def advantage(self, trial: Trial) -> float:
+        """Standard errors by which they leave a larger held-out error than a trial."""
+        own: Array = self.before.weighted(trial.fit.held_out_residual[self.before.rows]) ** 2
+        found = Difference.of(self.together.held_out**2 - own)
+        return found.total / found.error if found.error > 0 else 0.0
+
+    @property
+    def largest(self) -> str:
+        """The cause that alone leaves the smallest held-out error."""
+        return min(self.alone, key=lambda what: float(np.sum(self.alone[what].held_out ** 2)))
+
+
+def without_imitations(
+    before: Fit, sift: Sifted, passed: Sequence[Trial], tried: int, least: float
+) -> Sifted:
+    """The same without friction effects that causes in the measurement explain as well.
+
+    Parameters
+    ----------
+    passed
+        Trials that passed the test of evidence: of an effect that contains a simpler one among
+        them, what it adds to that must stand too.
+    """
     suspects = [t for t in sift.stand if is_friction(t.effect)]
     columns = measurement_columns(before) if suspects else {}
     if not columns:
         return sift
-    alone = {
-        what: FlexibleRefit.beside(before, made, least_factors({what: made}))
-        for what, made in columns.items()
-    }
-    every = np.column_stack(list(columns.values()))
-    together = FlexibleRefit.beside(before, every, least_factors(columns))
+    rivals = _Rivals.beside(before, columns)
     for trial in suspects:
-        better = _advantage(before, together, trial)
-        if better < -TIE:
-            continue
-        fall, p_value = together.beside_columns(trial)
+        better = rivals.advantage(trial)
         # An effect that predicts better than all the causes need not add much to them.
-        needed = least / 2 if better > 0 else 0.0
-        if fall >= needed and p_value * tried <= SIGNIFICANCE:
-            continue
-        cause = _largest(alone)
-        if better > TIE:
-            doubted = Doubted(trial, f"{cause} explains more, and what it explains too")
-            sift = sift.instead(trial, Sifted(refused=(doubted,)))
-        else:
-            doubted = Doubted(trial, f"{cause} explains it as well")
-            sift = sift.instead(trial, Sifted(demoted=(doubted,)))
+        needed = 0.0 if better > 0.0 else least / 2
+        if not (better > TIE or rivals.leave(trial, tried, needed)):
+            doubted = Doubted(trial, f"{rivals.largest} explains it as well")
+            judged = Sifted(demoted=(doubted,))
+            if better < -TIE:
+                explained = f"{rivals.largest} explains more, and what it explains too"
+                judged = Sifted(refused=(Doubted(trial, explained),))
+            sift = sift.instead(trial, judged)
+        elif (cause := _explains_addition(trial, passed, tried, least)) is not None:
+            sift = sift.instead(trial, Sifted(demoted=(Doubted(trial, cause),)))
+        elif better <= SIMPLEST:
+            sift = sift.narrowed(trial)
     return sift
 
 
-def _largest(alone: dict[str, FlexibleRefit]) -> str:
-    """The cause that alone leaves the smallest held-out error."""
-    return min(alone, key=lambda what: float(np.sum(alone[what].held_out ** 2)))
+def _explains_addition(
+    trial: Trial, passed: Sequence[Trial], tried: int, least: float
+) -> str | None:
+    """Which cause explains what a trial adds to a simpler one that it contains; None: no cause.
 
-
-def _advantage(before: Fit, columns: FlexibleRefit, trial: Trial) -> float:
-    """Standard errors by which the columns leave a smaller held-out error than a trial."""
-    own: Array = before.weighted(trial.fit.held_out_residual[before.rows]) ** 2
-    found = Difference.of(own - columns.held_out**2)
-    return found.total / found.error if found.error > 0 else 0.0
+    Among the causes is a constant here: the zero of the torque.
+    """
+    simpler = next((t for t in passed if t.effect == simpler_effect(trial.effect)), None)
+    if simpler is None:
+        return None
+    zero = np.ones((simpler.fit.rows.size, 1))
+    rivals = _Rivals.beside(simpler.fit, {**measurement_columns(simpler.fit), ZERO: zero})
+    if rivals.leave(trial, tried, least / 2):
+        return None
+    return f"{rivals.largest} explains what it adds to {simpler.effect}"

@@ -9,6 +9,7 @@ from __future__ import annotations
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import TIE, adds_to, tie_statistic
 from stribeck.effect.describe import is_friction
+from stribeck.models.catalog import simpler_effect
 
 
 def without_outshone(imitated: Sifted, sift: Sifted, tried: int, least: float, seed: int) -> Sifted:
@@ -22,7 +23,13 @@ def without_outshone(imitated: Sifted, sift: Sifted, tried: int, least: float, s
         After it: what stood before and is in doubt now is what these causes explain.
     """
     stood = {trial.effect for trial in imitated.stand}
-    doubted = [row for row in (*sift.demoted, *sift.refused) if row.trial.effect in stood]
+    stand = {trial.effect for trial in sift.stand}
+    # Of an effect whose simpler part stands, only what it adds to that is in doubt.
+    doubted = [
+        row
+        for row in (*sift.demoted, *sift.refused)
+        if row.trial.effect in stood and simpler_effect(row.trial.effect) not in stand
+    ]
     for trial in sift.stand:
         if not is_friction(trial.effect):
             continue

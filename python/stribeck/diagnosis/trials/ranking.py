@@ -11,6 +11,7 @@ from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
+from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import (
@@ -75,6 +76,8 @@ def ranked(
         return _none_but_demoted(before, sift, tried, floor)
     ordered[0] = first
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
+    # What is named as a tie is not excluded, however its error compares.
+    weights.update({t.effect: max(weights[t.effect], tie_weight(TIE)) for t in tied})
     claimed = sum(weights[t.effect] for t in tied)
     doubtful = _doubtful_ties(best, sift, tried, least, seed)
     total = claimed + sum(doubtful.values())
@@ -90,6 +93,8 @@ def ranked(
         # Little remains for an effect whose simpler part is a tie, and measuring may cause that.
         if simpler_effect(t.effect) in others:
             weight = min(weight, DEMOTED)
+        if t.effect in sift.narrow:
+            weight = min(weight, NARROW)
         made.append(_finding(before, t, weight, others, floor))
     besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))

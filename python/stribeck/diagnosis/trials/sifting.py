@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
@@ -31,11 +31,14 @@ class Sifted:
         Those whose evidence is too narrow, or that causes in the measurement explain as well.
     refused
         Those whose values cannot be right, or that causes in the measurement explain better.
+    narrow
+        Those that stand, but predict hardly better than causes in the measurement.
     """
 
     stand: tuple[Trial, ...] = ()
     demoted: tuple[Doubted, ...] = ()
     refused: tuple[Doubted, ...] = ()
+    narrow: frozenset[str] = frozenset()
 
     @classmethod
     def of(cls, before: Fit, trials: Sequence[Trial], least: float) -> Sifted:
@@ -55,7 +58,11 @@ class Sifted:
 
     def with_stand(self, trials: Sequence[Trial]) -> Sifted:
         """The same with other trials that stand."""
-        return Sifted(tuple(trials), self.demoted, self.refused)
+        return replace(self, stand=tuple(trials))
+
+    def narrowed(self, trial: Trial) -> Sifted:
+        """The same with one trial that stands, but by little."""
+        return replace(self, narrow=self.narrow | {trial.effect})
 
     def instead(self, trial: Trial, judged: Sifted) -> Sifted:
         """The same without one trial that stands, and with what was `judged` of it again."""
@@ -63,4 +70,5 @@ class Sifted:
             tuple(t for t in self.stand if t.effect != trial.effect),
             (*self.demoted, *judged.demoted),
             (*self.refused, *judged.refused),
+            self.narrow,
         )
