@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import statistics
-import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +13,7 @@ import polars as pl
 import psutil
 import pytest
 import stribeck as sb
-from browser import PAGES, artefacts, chromium, done, go, press, workbench
+from browser import PAGES, artefacts, check_exported, chromium, done, go, press, workbench
 from in_chromium import faults, wider
 from stribeck.motion.generate.demo import demo_path
 from synthetic import joint
@@ -27,14 +26,6 @@ def opened(tmp_path: Path) -> Iterator[tuple[Any, str]]:
     with workbench(tmp_path, demo_path()) as (_, address), chromium() as page:
         page.goto(address)
         yield page, address
-
-
-@pytest.fixture
-def shared_data() -> Path:
-    folder = Path(__file__).resolve().parents[5] / "shared" / "data"
-    if not folder.is_dir():
-        pytest.skip(f"published measurements are not at {folder}")
-    return folder
 
 
 def shoot(page: Any, folder: Path, name: str) -> list[str]:
@@ -160,38 +151,6 @@ def arm(seed: int) -> pl.DataFrame:
         for k, part in enumerate(parts, 1)
     ]
     return pl.concat([named[0], named[1].drop("time")], how="horizontal")
-
-
-def test_ur10e_by_clicks(tmp_path: Path, shared_data: Path) -> None:
-    path = shared_data / "ur10e" / "ur-20_01_22-joint_2.parquet"
-    with workbench(tmp_path, path) as (_, address), chromium() as page:
-        page.goto(address)
-        page.wait_for_selector("body[data-busy='0']")
-        go(page, "Check")
-        page.get_by_role("button", name="Joint 2", exact=True).click()
-        page.wait_for_selector("body[data-busy='0']")
-        page.get_by_label("derive").fill("torque=i_A_2 * 10.6956")
-        press(page, "Read the file again")
-        go(page, "Compare")
-        press(page, "Fit this law")
-        go(page, "Missing")
-        press(page, "Find what is missing")
-        assert "load" in page.inner_text("article h2")
-        press(page, "Add load")
-        assert "+ load" in page.inner_text("tr.current")
-        go(page, "Export")
-        press(page, "Write the report")
-        press(page, "Export the program")
-    (folder,) = (tmp_path / "kept").glob("*-c")
-    check_exported(folder)
-    assert list((tmp_path / "kept").glob("*.report.html"))
-
-
-def check_exported(folder: Path) -> None:
-    """Compile an exported program and run its own test."""
-    compile = ["cc", "-std=c99", "-o", "try", "friction.c", "friction_test.c"]
-    subprocess.run(compile, cwd=folder, check=True)
-    subprocess.run([str(folder / "try")], check=True)
 
 
 def test_a_million_samples(tmp_path: Path) -> None:
