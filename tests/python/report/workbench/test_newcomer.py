@@ -16,10 +16,10 @@ import pytest
 import stribeck as sb
 from browser import artefacts, check_exported, chromium, done, go, press, workbench
 
-ROOT = Path(__file__).resolve().parents[4]
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "docs"))
+from command_lines import ROOT, lines
+
 SHARED = ROOT.parent / "shared"
-sys.path.insert(0, str(ROOT / "tests/python/docs"))
-from command_lines import lines
 
 pytestmark = [
     pytest.mark.slow,
@@ -69,15 +69,19 @@ def run(clone: Path, line: str) -> str:
     return ended.stdout
 
 
-@pytest.fixture
-def clone(tmp_path: Path) -> Path:
-    made = cloned(tmp_path)
-    where = run(made, "python -c 'import stribeck; print(stribeck.__file__)'")
-    assert Path(where.strip()).is_relative_to(made)
-    return made
+def test_from_a_clone_to_a_compiled_controller(tmp_path: Path) -> None:
+    clone = cloned(tmp_path)
+    where = run(clone, "python -c 'import stribeck; print(stribeck.__file__)'")
+    assert Path(where.strip()).is_relative_to(clone)
+    commands_of_the_readme(clone)
+    if not SHARED.is_dir():
+        pytest.skip("published measurements are not at ../shared: no clicks on them")
+    (tmp_path / "shared").symlink_to(SHARED)
+    a_robot_joint_by_clicks(clone, artefacts(tmp_path / "pictures"))
 
 
-def test_the_commands_of_the_readme(clone: Path) -> None:
+def commands_of_the_readme(clone: Path) -> None:
+    """All of them but the workbench, which the clicks below are for."""
     first = [line.text for line in lines() if line.page == "README.md"]
     assert first[0] == "python3 develop.py demo"
     assert "The same effects were\nfound." in run(clone, first[0])
@@ -91,10 +95,8 @@ def test_the_commands_of_the_readme(clone: Path) -> None:
     assert len(rest) >= 9
 
 
-@pytest.mark.skipif(not SHARED.is_dir(), reason="published measurements are not at ../shared")
-def test_a_robot_joint_from_the_folder_to_the_controller(clone: Path, tmp_path: Path) -> None:
-    (tmp_path / "shared").symlink_to(SHARED)
-    pictures = artefacts(tmp_path / "pictures")
+def a_robot_joint_by_clicks(clone: Path, pictures: Path) -> None:
+    """Find and add the load of a UR10e's joint; save the report; compile and test its program."""
     command = [str(clone / ".venv/bin/stribeck")]
     with workbench(clone, "../shared/data/ur10e", command=command) as (_, address):
         with chromium() as page:
