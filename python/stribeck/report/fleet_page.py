@@ -77,7 +77,9 @@ def fleet_plots(fleet: Fleet) -> dict[str, figure]:
     """The figures of a fleet that have something to show, by their captions."""
     plots: dict[str, figure] = {}
     if with_friction(fleet.changes):
-        plots["Change of mean friction, every joint"] = fleet_changes(fleet.changes)
+        plots["Change of mean friction of every joint, with 95 % intervals"] = fleet_changes(
+            fleet.changes
+        )
     if fleet.effects.shares:
         plots["Share of the joints that have an effect; framed: some robots stand out"] = (
             fleet_effects(fleet.effects)

@@ -59,7 +59,7 @@ def figures_of(plots: Mapping[str, figure]) -> Figures:
     from bokeh.embed import components
     from bokeh.resources import Resources
 
-    resources = Resources(mode="inline", components=["bokeh", "bokeh-gl"])
+    resources = Resources(mode="inline", components=["bokeh"])
     script, places = components(dict(plots))
     return Figures(
         Markup(resources.render()),

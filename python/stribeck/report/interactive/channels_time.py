@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from stribeck.report.channels import clock, torque_name
 from stribeck.report.interactive.base import COLOURS, MEASURED, hover, new_plot
 from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
+from stribeck.report.interactive.dots import selected_dots
 
 if TYPE_CHECKING:
     from bokeh.plotting import figure
@@ -104,17 +105,7 @@ def channels_time(samples: RecordingSamples) -> dict[str, figure]:
         plot.toolbar.active_drag = select
         line = plot.line("time", name, source=source, color=MEASURED, line_width=1.3)
         line.nonselection_glyph = None
-        plot.scatter(
-            "time",
-            name,
-            source=source,
-            size=3.5,
-            color=COLOURS[0],
-            alpha=0.0,
-            line_color=None,
-            selection_alpha=0.9,
-            nonselection_alpha=0.0,
-        )
+        selected_dots(plot, source, "time", name, COLOURS[0])
         hover(plot, [line], [("time", "@time{0.000} s"), (name, f"@{name}{{0.0000}}")])
         made["time" if name == "torque" else name] = plot
     return made

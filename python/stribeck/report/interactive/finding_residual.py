@@ -16,6 +16,7 @@ from stribeck.report.interactive.base import (
     shown_range,
     zero_line,
 )
+from stribeck.report.interactive.dots import selected_dots
 from stribeck.report.style import thin
 
 if TYPE_CHECKING:
@@ -115,7 +116,9 @@ def evidence(
             ]
             limited += [curve.lower, curve.upper]
         if samples is not None:
-            shown.insert(0, _selected(plot, samples, f"{name} at", f"{name} {what}", colour))
+            shown.insert(
+                0, selected_dots(plot, samples.source, f"{name} at", f"{name} {what}", colour)
+            )
         hover(plot, shown[-1:], [(label, f"@mid{{0.0000}} {unit}"), (view.x_label, "@at{0.000}")])
         items.append((label, shown))
     limits = shown_range(limited)
@@ -123,19 +126,3 @@ def evidence(
         plot.y_range = Range1d(*limits)
     legend_above(plot, items)
     return plot
-
-
-def _selected(plot: figure, samples: Samples, x: str, y: str, colour: str) -> GlyphRenderer:
-    """Dots that only a selection shows."""
-    dots: GlyphRenderer = plot.scatter(
-        x,
-        y,
-        source=samples.source,
-        size=4,
-        color=colour,
-        alpha=0.0,
-        line_color=None,
-        selection_alpha=0.9,
-        nonselection_alpha=0.0,
-    )
-    return dots

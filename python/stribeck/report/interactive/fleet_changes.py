@@ -39,7 +39,7 @@ def fleet_changes(changes: Changes) -> figure:
     """
     drawn = sorted(with_friction(changes), key=lambda pair: pair[1].relative)
     plot = new_plot(
-        f"change of mean friction since {changes.since} [%], 95 % intervals",
+        f"change since {changes.since} [%]",
         "" if len(drawn) <= MOST_NAMED else "joints, by their change",
         tools="pan,box_zoom,reset,save",
         active=None,

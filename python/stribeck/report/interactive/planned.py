@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bokeh.models import ColumnDataSource, Span
+from bokeh.models import ColumnDataSource, Range1d, Span
 
 from stribeck.report.interactive.base import COLOURS, hover, new_plot
 
@@ -50,6 +50,8 @@ def planned(plan: Plan) -> dict[str, figure]:
             x_range=next(iter(made.values())).x_range if made else None,
         )
         line = plot.line("time", name, source=source, color=COLOURS[1], line_width=1.4)
+        room = 0.06 * (ends[1] - ends[0])
+        plot.y_range = Range1d(ends[0] - room, ends[1] + room)
         for end in ends:
             plot.add_layout(
                 Span(location=end, dimension="width", line_color=COLOURS[0], line_dash="dashed")

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 #: Longest that an action may take on a busy computer, ms.
-PATIENCE = 45_000
+PATIENCE = 90_000
 #: The command of this environment.
 COMMAND = (sys.executable, "-m", "stribeck")
 PAGES = ("Data", "Check", "Compare", "Where", "Missing", "Add", "Prove", "Export")

@@ -93,6 +93,8 @@ async function draw() {
   const known = Bokeh.documents.length;
   await Bokeh.embed.embed_items(made.docs, [made.item]);
   if (Bokeh.documents.length > known) followZoom(Bokeh.documents[known]);
+  // The first picture of every figure is made; two frames later it is painted.
+  requestAnimationFrame(() => requestAnimationFrame(paintWhatIsSeen));
   page.drawn = "1";
 }
 window.addEventListener("load", draw);
