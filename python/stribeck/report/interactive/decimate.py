@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-#: Samples drawn of one recording: a line has one bucket a pixel of the widest page, and the dots of
-#: all figures in sight are painted in a few hundredths of a second without a graphics card.
-MOST_DRAWN = 6_000
+#: Samples drawn of one recording: a line has more than one for every pixel of the widest page, and
+#: the figures in sight answer a selection in about a tenth of a second without a graphics card.
+MOST_DRAWN = 4_000
 
 
 def drawn_rows(
