@@ -28,29 +28,7 @@ def fleet_effects(effects: Effects) -> figure:
     """
     rows = list(dict.fromkeys(share.joint for share in effects.shares))
     columns = list(dict.fromkeys(share.effect for share in effects.shares))
-    cells: dict[str, list[object]] = {
-        name: [] for name in ("x", "y", "alpha", "frame", "text", "joint", "said", "odd")
-    }
-    for share in effects.shares:
-        part = share.having / share.joints
-        odd = [
-            each.robot or "unnamed"
-            for each in effects.odd
-            if (each.joint, each.effect) == (share.joint, share.effect)
-        ]
-        row = {
-            "x": columns.index(share.effect),
-            "y": rows.index(share.joint),
-            "alpha": 0.65 * part,
-            "frame": 2.5 if odd else 0.0,
-            "text": percent(part) if share.having else "",
-            "joint": f"{share.joint or 'unnamed'}, {share.effect}",
-            "said": f"{share.having} of {share.joints}",
-            "odd": listed(odd) or "none",
-        }
-        for name, value in row.items():
-            cells[name].append(value)
-    source = ColumnDataSource(cells)
+    source = ColumnDataSource(_cells(effects, rows, columns))
     plot = new_plot("", "", tools="save", active=None, height=150 + 34 * len(rows))
     squares = plot.rect(
         "x",
@@ -85,3 +63,28 @@ def fleet_effects(effects: Effects) -> figure:
     plot.y_range = Range1d(len(rows) - 0.5, -0.5)
     plot.xgrid.visible = plot.ygrid.visible = False
     return plot
+
+
+def _cells(effects: Effects, rows: list[str | None], columns: list[str]) -> dict[str, list[object]]:
+    """What is drawn and said of each square, by column."""
+    made: dict[str, list[object]] = {}
+    for share in effects.shares:
+        part = share.having / share.joints
+        odd = [
+            each.robot or "unnamed"
+            for each in effects.odd
+            if (each.joint, each.effect) == (share.joint, share.effect)
+        ]
+        cell = {
+            "x": columns.index(share.effect),
+            "y": rows.index(share.joint),
+            "alpha": 0.65 * part,
+            "frame": 2.5 if odd else 0.0,
+            "text": percent(part) if share.having else "",
+            "joint": f"{share.joint or 'unnamed'}, {share.effect}",
+            "said": f"{share.having} of {share.joints}",
+            "odd": listed(odd) or "none",
+        }
+        for name, value in cell.items():
+            made.setdefault(name, []).append(value)
+    return made
