@@ -191,6 +191,7 @@ def compare(
 @robot.command(cls=CheckedCommand)
 @loop_options
 @refusing(OF_A_DIAGNOSIS)
+@report_option
 def diagnose(
     runs: tuple[str, ...],
     described: Robot,
@@ -203,6 +204,7 @@ def diagnose(
     reading: ReadOptions,
     passes: Passes,
     seed: int,
+    report: str | None,
     as_json: bool,
 ) -> None:
     """Find which effect each joint lacks, and causes in the rigid bodies, on RUNS."""
@@ -219,7 +221,9 @@ def diagnose(
             most_steps=0,
             progress=lambda sentence: say(f"note: {sentence}"),
         )
-    echo_result(RobotDiagnosis.of(found), as_json)
+    diagnosis = RobotDiagnosis.of(found)
+    robot_report(diagnosis, report)
+    echo_result(diagnosis, as_json)
 
 
 @robot.command(cls=CheckedCommand)

@@ -164,6 +164,7 @@ class Project(Plotted):
         least_fall: float = LEAST_FALL,
         candidates: Collection[str] = (),
         seed: int = 0,
+        progress: Callable[[str], None] = lambda sentence: None,
     ) -> Project:
         """Diagnose the current node, and store the findings.
 
@@ -175,6 +176,7 @@ class Project(Plotted):
             candidates=candidates,
             seed=seed,
             rejected=self.tree.rejected(self.current),
+            progress=progress,
         )
         return self._remembering(self.current, found)
 

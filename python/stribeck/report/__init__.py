@@ -11,7 +11,7 @@ RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.recording.recording:Recording": {
         "text": "recording:recording_text",
         "figure": "recording_figure:recording_figure",
-        "notebook": "notebook:picture_view",
+        "notebook": "notebook:recording_view",
     },
     "stribeck.diagnosis.inspect:Inspection": {
         "text": "inspection:inspection_text",
@@ -128,7 +128,7 @@ RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.motion.design.result:Plan": {
         "text": "design:plan_text",
         "figure": "design:plan_figure",
-        "notebook": "notebook:picture_view",
+        "notebook": "notebook:plan_view",
     },
     "stribeck.scale.streaming.result:StreamedFit": {
         "text": "streaming:streamed_fit_text",
@@ -151,7 +151,7 @@ RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.scale.fleet.result:Fleet": {
         "text": "fleet:fleet_text",
         "figure": "fleet_figure:fleet_figure",
-        "notebook": "notebook:picture_view",
+        "notebook": "notebook:fleet_view",
     },
     "stribeck.projects.project:Project": {
         "text": "project:project_text",

@@ -44,14 +44,17 @@ class FindingView:
 
     Attributes
     ----------
+    rows : array [n] of int
+        The samples that are shown: those that were fitted to.
     x : array [n]
-        The channel at the samples that are shown: those that were fitted to.
+        The channel at these samples.
     log : bool
         Whether the channel is drawn on a logarithmic axis.
     without, with_it : Curve
         The residual of the model without and with the effect.
     """
 
+    rows: NDArray[np.intp]
     x: Array
     x_label: str
     y_label: str
@@ -74,6 +77,7 @@ def finding_view(effect: str, before: Fit, after: Fit) -> FindingView:
         y = (fit.residual * sign)[rows]
         curves.append(Curve(y, *binned_quartiles(x, y, log=view.log)))
     return FindingView(
+        rows,
         x,
         made.label,
         f"residual{ALONG[along]} [{before.model.torque_unit}]",

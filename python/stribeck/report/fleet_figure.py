@@ -36,12 +36,7 @@ def fleet_figure(fleet: Fleet) -> Figure:
     return figure
 
 
-def shows_anything(fleet: Fleet) -> bool:
-    """Whether the figure has more than a sentence."""
-    return bool(fleet.effects.shares or _with_friction(fleet.changes))
-
-
-def _with_friction(changes: Changes) -> list[tuple[JointChange, Change]]:
+def with_friction(changes: Changes) -> list[tuple[JointChange, Change]]:
     """The joints with their change of mean friction, where it is known."""
     return [(j, c) for j in changes.joints if (c := j.friction) is not None and c.before]
 
@@ -50,7 +45,7 @@ def _draw_changes(axes: Axes, changes: Changes) -> None:
     """Every joint by the change of its mean friction, with a 95 % interval."""
     style(axes)
     title(axes, "Change of mean friction, every joint")
-    drawn = _with_friction(changes)
+    drawn = with_friction(changes)
     if not drawn:
         axes.set_axis_off()
         axes.text(

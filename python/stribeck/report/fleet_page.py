@@ -19,17 +19,18 @@ from stribeck.report.fleet import (
     share_rows,
     shift_sentences,
 )
-from stribeck.report.fleet_figure import fleet_figure, shows_anything
-from stribeck.report.page import picture_text, render
-from stribeck.report.page_figures import NO_FIGURES
+from stribeck.report.fleet_figure import with_friction
+from stribeck.report.interactive.fleet_changes import fleet_changes
+from stribeck.report.interactive.fleet_effects import fleet_effects
+from stribeck.report.page import render
+from stribeck.report.page_figures import figures_of
 from stribeck.report.sections import Section
 from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
+    from bokeh.plotting import figure
+
     from stribeck.scale.fleet.result import Fleet
-
-
-PICTURE = "Change of mean friction of every joint, and the share of joints that have each effect"
 
 
 def fleet_page(fleet: Fleet, command: str = "", spell: Callable[[str], str] = str) -> str:
@@ -65,9 +66,22 @@ def fleet_page(fleet: Fleet, command: str = "", spell: Callable[[str], str] = st
         name=f"Fleet {fleet.folder.name}",
         about="changed joints and unusual effects",
         summary=heading(fleet),
-        pictures=[(PICTURE, picture_text(fleet_figure(fleet)))] if shows_anything(fleet) else [],
-        figures=NO_FIGURES,
+        figures=figures_of(fleet_plots(fleet)),
         sections=[replace(one, sentences=[*map(spell, one.sentences)]) for one in sections],
         command=command,
         versions=versions(),
     )
+
+
+def fleet_plots(fleet: Fleet) -> dict[str, figure]:
+    """The figures of a fleet that have something to show, by their captions."""
+    plots: dict[str, figure] = {}
+    if with_friction(fleet.changes):
+        plots["Change of mean friction of every joint, with 95 % intervals"] = fleet_changes(
+            fleet.changes
+        )
+    if fleet.effects.shares:
+        plots["Share of the joints that have an effect; framed: some robots stand out"] = (
+            fleet_effects(fleet.effects)
+        )
+    return plots

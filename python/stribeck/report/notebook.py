@@ -10,10 +10,16 @@ from markupsafe import Markup
 
 from stribeck.base.shown import Plotted
 from stribeck.report.account import Account, of_comparison, of_diagnosis, of_improvement
+from stribeck.report.fleet import heading
+from stribeck.report.fleet_page import fleet_plots
+from stribeck.report.interactive.channels_time import RecordingSamples, channels_time
 from stribeck.report.interactive.finding_residual import finding_residual
+from stribeck.report.interactive.planned import planned
+from stribeck.report.interactive.samples import CHANNELS
 from stribeck.report.numbers import change_text, confidence_words, plain
 from stribeck.report.page import parameter_table, picture_text, render
 from stribeck.report.page_figures import NO_FIGURES, Figures, account_plots, figures_of
+from stribeck.report.recording import scored_sentence
 
 if TYPE_CHECKING:
     import polars as pl
@@ -24,17 +30,24 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.loop.improve import Improvement
     from stribeck.diagnosis.result import Diagnosis, Finding
     from stribeck.fitting.result import Fit
+    from stribeck.motion.design.result import Plan
     from stribeck.projects.sides import Sides
+    from stribeck.recording.recording import Recording
+    from stribeck.scale.fleet.result import Fleet
 
 #: Figures of a view, in their order, with what stands above each.
 SHOWN = {
     "errors": "Error after each step",
     "findings": "Error with each effect added alone, best first",
-    "step 1": "Residual without and with the first effect",
-    "friction": "Friction against velocity",
+    **{f"step {k}": f"Residual without and with effect {k}" for k in range(1, 10)},
     "time": "Torque over time: a drag selects samples in all figures",
-    "against velocity": "Residual against velocity",
+    "residual": "Residual over time",
+    "friction": "Friction against velocity",
+    "loop position": "Friction loop over position",
+    "loop reversal": "Friction after a reversal",
+    **{f"against {name}": f"Residual against {name}" for name in CHANNELS if name != "time"},
     "intervals": "95 % intervals",
+    "correlation": "Correlations of the parameters",
 }
 _loaded: list[bool] = []
 
@@ -90,13 +103,34 @@ def finding_view(finding: Finding) -> str:
     """One finding: where the data shows it."""
     plots = {finding.where: finding_residual(finding.effect, finding.before, finding.fit)}
     said = f"{finding.effect}: {confidence_words(finding.confidence)}"
-    return view(said, text=repr(finding), figures=_figures(plots))
+    return view(said, text=repr(finding), figures=figures(plots))
 
 
 def picture_view(result: Plotted) -> str:
     """Any other result with a figure: the figure, and all in words."""
     picture = picture_text(result.plot())
     return view(type(result).__name__, text=repr(result), picture=picture)
+
+
+def recording_view(recording: Recording) -> str:
+    """What was measured, over time."""
+    plots = channels_time(RecordingSamples.of(recording))
+    names = {name: "torque" if name == "time" else name for name in plots}
+    shown = {f"{names[name].capitalize()} over time": plots[name] for name in plots}
+    return view(scored_sentence(recording), text=repr(recording), figures=figures(shown))
+
+
+def plan_view(plan: Plan) -> str:
+    """A planned motion over time, and what it shows."""
+    plots = {
+        f"{name.capitalize()} over time; limits dashed": p for name, p in planned(plan).items()
+    }
+    return view("Planned motion", text=repr(plan), figures=figures(plots))
+
+
+def fleet_view(fleet: Fleet) -> str:
+    """Which joints of a fleet changed, and which have an effect that their peers lack."""
+    return view(heading(fleet), text=repr(fleet), figures=figures(fleet_plots(fleet)))
 
 
 def frame_view(result: Tabular) -> str:
@@ -117,7 +151,7 @@ def _account_view(
     heading = ["parameter", "symbol", "value", "standard error", "95 % interval", "unit"]
     parameters = [heading, *(row[:6] for row in parameter_table(account.final))]
     return view(
-        account.summary, [*tables, parameters], account.left, text=text, figures=_figures(shown)
+        account.summary, [*tables, parameters], account.left, text=text, figures=figures(shown)
     )
 
 
@@ -143,7 +177,7 @@ def view(
     )
 
 
-def _figures(plots: Mapping[str, figure]) -> Figures:
+def figures(plots: Mapping[str, figure]) -> Figures:
     """The figures; the library with the first ones that this process shows.
 
     A notebook is one page, on which the library is needed once: it is longer than all figures.

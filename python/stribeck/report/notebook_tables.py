@@ -9,9 +9,10 @@ from markupsafe import Markup
 
 from stribeck.report.diagnosis import untestable_rows
 from stribeck.report.equations import equations
-from stribeck.report.notebook import cell, view
+from stribeck.report.notebook import cell, figures, view
 from stribeck.report.numbers import listed, plain, thousands, unit_text
 from stribeck.report.page import picture_text
+from stribeck.report.page_figures import robot_plots
 from stribeck.report.robot import (
     NO_CAUSES,
     TRACKED,
@@ -27,7 +28,6 @@ from stribeck.report.robot import (
     tracking_rows,
     tracking_sentence,
 )
-from stribeck.report.robot_figure import robot_figure
 
 if TYPE_CHECKING:
     from stribeck.base.shown import Shown
@@ -103,8 +103,8 @@ def project_view(project: Project) -> str:
 def robot_fit_view(found: RobotFit) -> str:
     """The errors of each joint, the friction, and what is known of the rigid bodies."""
     name = found.solved.balance.base.robot.name
-    picture = picture_text(robot_figure(found))
-    return view(name, _fitted(found), [bodies_sentence(found)], text=repr(found), picture=picture)
+    shown = figures(robot_plots(found))
+    return view(name, _fitted(found), [bodies_sentence(found)], text=repr(found), figures=shown)
 
 
 def robot_improvement_view(found: RobotImprovement) -> str:
@@ -117,7 +117,7 @@ def robot_improvement_view(found: RobotImprovement) -> str:
         [rows for rows in (added, causes) if len(rows) > 1] + _fitted(found.final),
         [*sentences, bodies_sentence(found.final)],
         text=repr(found),
-        picture=picture_text(robot_figure(found.final)),
+        figures=figures(robot_plots(found.final)),
     )
 
 

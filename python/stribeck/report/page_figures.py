@@ -8,21 +8,26 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
+from stribeck.report.finding_view import finding_view
 from stribeck.report.interactive.correlation import correlation
 from stribeck.report.interactive.falling_error import falling_error
-from stribeck.report.interactive.finding_residual import finding_residual
+from stribeck.report.interactive.finding_residual import evidence, evidence_columns
 from stribeck.report.interactive.findings import findings
 from stribeck.report.interactive.friction_velocity import friction_velocity
 from stribeck.report.interactive.hysteresis import hysteresis
 from stribeck.report.interactive.intervals import intervals
 from stribeck.report.interactive.residual_channel import residual_channel
+from stribeck.report.interactive.robot_joint import joint_friction, joint_residual
+from stribeck.report.interactive.robot_samples import robot_samples
 from stribeck.report.interactive.samples import CHANNELS, Samples, samples_of
 from stribeck.report.interactive.time import residual_time, time
 
 if TYPE_CHECKING:
     from bokeh.plotting import figure
 
+    from stribeck.fitting.result import Fit
     from stribeck.report.account import Account
+    from stribeck.robot.result import RobotFit
 
 #: Correlations of fewer parameters than this are no figure.
 FEWEST_CORRELATED = 2
@@ -49,10 +54,12 @@ def figures_of(plots: Mapping[str, figure]) -> Figures:
     plots : mapping of figures
         By the names under which `places` has them.
     """
+    if not plots:
+        return NO_FIGURES
     from bokeh.embed import components
     from bokeh.resources import Resources
 
-    resources = Resources(mode="inline", components=["bokeh", "bokeh-gl"])
+    resources = Resources(mode="inline", components=["bokeh"])
     script, places = components(dict(plots))
     return Figures(
         Markup(resources.render()),
@@ -63,15 +70,26 @@ def figures_of(plots: Mapping[str, figure]) -> Figures:
 
 def account_plots(account: Account) -> dict[str, figure]:
     """Every figure of a page, by name."""
+    views = {
+        f"step {k}": finding_view(step.effect, step.before, step.after)
+        for k, step in enumerate(account.steps, 1)
+    }
     samples = samples_of(account.models)
+    samples = samples.with_columns(evidence_columns(views, samples.rows))
     plots = sample_plots(samples)
-    for k, step in enumerate(account.steps, 1):
-        plots[f"step {k}"] = finding_residual(step.effect, step.before, step.after)
+    for (name, view), step in zip(views.items(), account.steps, strict=True):
+        plots[name] = evidence(step.effect, view, samples.unit, samples, name)
     plots |= _errors(account)
-    estimates = account.final.estimates.values()
+    return plots | parameter_plots(account.final)
+
+
+def parameter_plots(fit: Fit) -> dict[str, figure]:
+    """Intervals and correlations of the parameters, where they are known."""
+    plots: dict[str, figure] = {}
+    estimates = fit.estimates.values()
     if any(e.ci95 is not None and e.value != 0.0 for e in estimates):
         plots["intervals"] = intervals(estimates)
-    matrix = account.final.correlation
+    matrix = fit.correlation
     if matrix is not None and len(matrix.names) >= FEWEST_CORRELATED:
         plots["correlation"] = correlation(matrix)
     return plots
@@ -112,3 +130,16 @@ def _errors(account: Account) -> dict[str, figure]:
             held_out=len(known) == len(fits),
         )
     }
+
+
+def robot_plots(found: RobotFit) -> dict[str, figure]:
+    """Two figures a joint, by their captions; all joints share their samples and time."""
+    samples = robot_samples(found)
+    plots: dict[str, figure] = {}
+    time_range: object = None
+    for k, joint in enumerate(samples.joints):
+        plots[f"Joint {joint.name}: friction over velocity"] = joint_friction(samples, k)
+        residual = joint_residual(samples, k, x_range=time_range)
+        time_range = residual.x_range
+        plots[f"Joint {joint.name}: residual over time"] = residual
+    return plots

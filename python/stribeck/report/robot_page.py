@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from stribeck.effect.describe import physically
 from stribeck.report.diagnosis import doubts
 from stribeck.report.numbers import confidence_words, percent, plain, unit_text
-from stribeck.report.page import picture_text, render
-from stribeck.report.page_figures import NO_FIGURES
+from stribeck.report.page import render
+from stribeck.report.page_figures import figures_of, robot_plots
 from stribeck.report.parameters import interval_text, parameter_rows
 from stribeck.report.robot import (
     NO_CAUSES,
@@ -20,21 +20,21 @@ from stribeck.report.robot import (
     errors_legend,
     errors_rows,
     evaluated_rows,
+    lacking_rows,
     payload_sentence,
 )
-from stribeck.report.robot_figure import robot_figure
 from stribeck.report.sections import Section
 from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from stribeck.diagnosis.result import Diagnosis
+    from stribeck.diagnosis.result import Diagnosis, Finding
+    from stribeck.models.model import Model
     from stribeck.robot.compare import RobotComparison
+    from stribeck.robot.diagnosis import RobotDiagnosis
     from stribeck.robot.improve import RobotImprovement, RobotStep
     from stribeck.robot.result import JointFit, RobotFit
-
-PICTURE = "Friction of every joint over its velocity, measured and modelled"
 
 
 def robot_fit_page(found: RobotFit, command: str = "") -> str:
@@ -67,6 +67,20 @@ def robot_comparison_page(compared: RobotComparison, command: str = "") -> str:
     return _page(last, "models of all joints side by side", sections, command)
 
 
+def robot_diagnosis_page(found: RobotDiagnosis, command: str = "") -> str:
+    """A page on what every joint lacks, before anything is added."""
+    causes = causes_rows(found.rigid_body)
+    said = [] if found.rigid_body else [NO_CAUSES]
+    tables = [rows for rows in (lacking_rows(found), causes) if len(rows) > 1]
+    sections = [
+        Section("What is missing", said, tables),
+        _errors(found.fit),
+        *_joints(found.fit, {}, found.joints),
+        _bodies(found.fit),
+    ]
+    return _page(found.fit, "what every joint lacks", sections, command)
+
+
 def robot_improvement_page(found: RobotImprovement, command: str = "") -> str:
     """A page on what every joint lacked, and the robot with it."""
     final, added = found.final, added_rows(found)
@@ -97,8 +111,7 @@ def _page(found: RobotFit, about: str, sections: Sequence[Section], command: str
             f"{len(found.joints)} joints, {balance.rows} samples, {runs}. Both sides of the torque "
             f"balance pass a low-pass at {motion.cutoff:.3g} Hz."
         ),
-        pictures=[(PICTURE, picture_text(robot_figure(found)))],
-        figures=NO_FIGURES,
+        figures=figures_of(robot_plots(found)),
         sections=sections,
         command=command,
         versions=versions(),
@@ -142,21 +155,30 @@ def _joints(
 
 
 def _step(step: RobotStep) -> str:
-    finding = step.finding
-    where = f" {finding.where[:1].upper()}{finding.where[1:]}." if finding.where else ""
-    others = finding.indistinguishable_from
+    errors = (step.before.rmse_held_out, step.after.rmse_held_out)
+    return _evidence(step.finding, step.after.model, *errors)
+
+
+def _finding(found: Finding) -> str:
+    errors = (found.rmse_held_out_before, found.rmse_held_out_after)
+    return _evidence(found, found.fit.model, *errors)
+
+
+def _evidence(found: Finding, model: Model, before: float, after: float) -> str:
+    """An effect in words: cause, error without and with it, where it shows, what may be it."""
+    where = f" {found.where[:1].upper()}{found.where[1:]}." if found.where else ""
+    others = found.indistinguishable_from
     ties = f" On this data it cannot be told from {' or '.join(others)}." if others else ""
     return (
-        f"{finding.effect}, {confidence_words(finding.confidence)}: "
-        f"{physically(finding.effect, step.after.model)} Held-out RMSE "
-        f"{plain(step.before.rmse_held_out)} → {plain(step.after.rmse_held_out)} "
-        f"{unit_text(step.after.model.torque_unit)}.{where}{ties}"
+        f"{found.effect}, {confidence_words(found.confidence)}: "
+        f"{physically(found.effect, model)} Held-out RMSE {plain(before)} → {plain(after)} "
+        f"{unit_text(model.torque_unit)}.{where}{ties}"
     )
 
 
 def _verdict(last: Diagnosis) -> list[str]:
-    """What remains of a joint, and what its motion cannot show."""
-    said = []
+    """What a joint lacks, what remains of it, and what its motion cannot show."""
+    said = [_finding(one) for one in last.findings]
     if last.verdict == "unexplained":
         said.append("Structure remains in its residual that no effect explains beyond doubt.")
     said += [f"{heading}: {' '.join(sentences)}" for heading, sentences in doubts(last)]

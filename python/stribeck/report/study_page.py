@@ -53,7 +53,6 @@ def study_page(study: Study, command: str = "") -> str:
         about="errors of many laws",
         summary=heading_sentence(study),
         figures=figures_of(plots),
-        pictures=[],
         sections=sections,
         command=command,
         versions=versions(),

@@ -7,6 +7,7 @@ import pytest
 import stribeck as sb
 from bokeh.models import LinearAxis
 from bokeh.plotting import figure
+from stribeck.report.account import of_improvement
 from stribeck.report.interactive.correlation import correlation
 from stribeck.report.interactive.decimate import drawn_rows
 from stribeck.report.interactive.falling_error import falling_error
@@ -17,6 +18,7 @@ from stribeck.report.interactive.intervals import intervals
 from stribeck.report.interactive.residual_channel import residual_channel
 from stribeck.report.interactive.samples import Samples, samples_of
 from stribeck.report.interactive.time import residual_time, time
+from stribeck.report.page_figures import account_plots
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +43,22 @@ def test_figures_of_samples_share_one_source(samples: Samples) -> None:
         assert any(shown.data_source is samples.source for shown in plot.renderers)
 
 
+def test_a_selection_is_marked_in_the_evidence(improvement: sb.Improvement) -> None:
+    account = of_improvement(improvement)
+    plots = account_plots(account)
+    shared = plots["time"].renderers[0].data_source
+    assert account.steps
+    for k, step in enumerate(account.steps, 1):
+        dots = [r for r in plots[f"step {k}"].renderers if r.data_source is shared]
+        assert [r.glyph.fill_color for r in dots] == [None, None]
+        assert len({r.selection_glyph.fill_color for r in dots} - {None}) == 2
+        drawn, rows = shared.data[f"step {k} without"], shared.data["row"]
+        known = np.isfinite(drawn)
+        assert np.array_equal(np.unique(rows[known]), np.intersect1d(rows, step.before.rows))
+        size = np.abs(step.before.residual[rows[known]])
+        assert np.allclose(np.abs(drawn[known]), size, rtol=1e-5)
+
+
 def test_every_axis_has_a_unit_or_names(samples: Samples, improvement: sb.Improvement) -> None:
     found = [step.finding for step in improvement.steps]
     others = [
@@ -51,7 +69,6 @@ def test_every_axis_has_a_unit_or_names(samples: Samples, improvement: sb.Improv
     for plot in (*of_samples(samples), *others):
         for axis in plot.select(LinearAxis):
             assert "[" in (axis.axis_label or "") or axis.major_label_overrides
-            assert plot.output_backend == "webgl"
     assert improvement.final.correlation is not None
     square = correlation(improvement.final.correlation)
     assert square.yaxis[0].major_label_overrides[0] == "viscous friction"

@@ -80,7 +80,7 @@ def test_notebook_shows_tables_figures_and_text(
     scripts = [part for shown in views for part in shown.split("<script")]
     assert sum(len(part) > 1_000_000 for part in scripts) <= 1
     assert all("<table" in shown for shown in views[:-1])
-    assert "data:image/png" in improvement.final.recording._repr_html_()
+    assert "Velocity over time</figcaption>" in improvement.final.recording._repr_html_()
 
 
 def test_every_result_has_a_view_for_notebooks() -> None:

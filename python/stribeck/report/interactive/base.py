@@ -68,7 +68,6 @@ def new_plot(
         active_scroll=None,
         height=height,
         sizing_mode="stretch_width",
-        output_backend="webgl",
         x_axis_label=x_label,
         y_axis_label=y_label,
         x_axis_type=x_axis_type,

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from bokeh.models import ColumnDataSource
+from bokeh.models import BoxSelectTool, ColumnDataSource
 from numpy.typing import NDArray
 
 from stribeck.report.channels import clock, torque_name
-from stribeck.report.interactive.base import MEASURED, hover, new_plot
+from stribeck.report.interactive.base import COLOURS, MEASURED, hover, new_plot
 from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
+from stribeck.report.interactive.dots import selected_dots
 
 if TYPE_CHECKING:
     from bokeh.plotting import figure
@@ -66,17 +67,20 @@ class RecordingSamples:
         return max(int(first) - 1, 0), min(int(last) + 1, time.size)
 
     def data(self, start: int, stop: int, most: int = MOST_DRAWN) -> dict[str, NDArray[np.generic]]:
-        """The columns of the samples that are drawn from `start` to `stop`."""
+        """The columns of the samples that are drawn from `start` to `stop`, and ``row``."""
         extremes = [values for name, values in self.columns.items() if name != "time"]
         rows = drawn_rows(extremes, start, stop, most)
-        return {
+        made: dict[str, NDArray[np.generic]] = {
             name: values[rows] if name == "time" else values[rows].astype(np.float32)
             for name, values in self.columns.items()
         }
+        return {**made, "row": rows.astype(np.int32)}
 
 
 def channels_time(samples: RecordingSamples) -> dict[str, figure]:
     """One figure a channel, with one range of time; the torque's is ``"time"``.
+
+    A drag selects a stretch of time, which all of them mark.
 
     Parameters
     ----------
@@ -92,11 +96,16 @@ def channels_time(samples: RecordingSamples) -> dict[str, figure]:
             samples.labels["time"],
             label,
             tools="xpan,xbox_zoom,reset,save",
-            active="xbox_zoom",
+            active=None,
             height=230,
             x_range=made["time"].x_range if made else None,
         )
+        select = BoxSelectTool(dimensions="width")
+        plot.add_tools(select)
+        plot.toolbar.active_drag = select
         line = plot.line("time", name, source=source, color=MEASURED, line_width=1.3)
+        line.nonselection_glyph = None
+        selected_dots(plot, source, "time", name, COLOURS[0])
         hover(plot, [line], [("time", "@time{0.000} s"), (name, f"@{name}{{0.0000}}")])
         made["time" if name == "torque" else name] = plot
     return made

@@ -32,7 +32,7 @@ def intervals(estimates: Iterable[Estimate]) -> figure:
     """
     shown = [e for e in estimates if e.ci95 is not None and e.value != 0.0]
     plot = new_plot(
-        "95 % interval relative to the value [%]",
+        "relative 95 % interval [%]",
         "",
         tools="save",
         active=None,

@@ -85,6 +85,10 @@ class Samples:
         rows = self.fits[-1].rows
         return shown_range([self.columns[name][rows] for name in columns])
 
+    def with_columns(self, more: Mapping[str, Array]) -> Samples:
+        """The same with further columns, arrays [n], and a source of its own."""
+        return replace(self, columns={**self.columns, **more}).redrawn()
+
     def redrawn(self) -> Samples:
         """The same with a source of its own: figures of two documents cannot share one."""
         return replace(self, source=ColumnDataSource(self.data(0, self.rows)))

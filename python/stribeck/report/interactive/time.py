@@ -15,7 +15,7 @@ from stribeck.report.interactive.base import (
     new_plot,
     zero_line,
 )
-from stribeck.report.interactive.dots import sample_dots, sample_rows
+from stribeck.report.interactive.dots import sample_dots, sample_rows, selected_dots
 from stribeck.report.interactive.samples import Samples
 
 if TYPE_CHECKING:
@@ -90,4 +90,4 @@ def _drawn(
         nonselection_color=colour,
         nonselection_alpha=0.35,
     )
-    return [line, sample_dots(plot, samples, "time", y, colour, alpha=0.0)]
+    return [line, selected_dots(plot, samples.source, "time", y, colour)]

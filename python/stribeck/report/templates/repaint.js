@@ -8,12 +8,17 @@ function repaint() {
     }
   }
   for (const view of Object.values(Bokeh.index)) {
-    if (view.repaint) view.repaint();
+    if (!view.repaint) continue;
+    const held = view.model.hold_render;
+    view.model.hold_render = false;
+    view.repaint();
+    view.model.hold_render = held;
   }
 }
 function whenDrawn() {
-  if (Bokeh.documents.length === 0) requestAnimationFrame(whenDrawn);
-  else repaint();
+  if (Bokeh.documents.length === 0) { requestAnimationFrame(whenDrawn); return; }
+  repaint();
+  paintWhatIsSeen();
 }
 addEventListener("load", whenDrawn);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);

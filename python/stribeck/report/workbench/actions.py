@@ -114,7 +114,7 @@ def where(tell: Telling, project: Project) -> Changed:
 def diagnose(tell: Telling, project: Project) -> Changed:
     """Find what the current model lacks."""
     tell("said", "Trying every effect that the data can show")
-    return Changed(project.diagnose())
+    return Changed(project.diagnose(progress=lambda sentence: tell("said", sentence.strip())))
 
 
 def add(tell: Telling, project: Project, effect: str) -> Changed:
@@ -184,7 +184,7 @@ def page_of(tell: Telling, project: Project, command: str) -> str:
     """The report of the branch that ends at the current model."""
     if project.diagnosis is None:
         tell("said", "Looking for what is still missing")
-        project = project.diagnose()
+        project = project.diagnose(progress=lambda sentence: tell("said", sentence.strip()))
         tell("known", Changed(project))
     tell("said", "Writing the page")
     fits = [project.fit_of(node) for node in project.tree.path(project.current)]

@@ -6,13 +6,15 @@ import base64
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.report.finding_view import FindingView, finding_view
 from stribeck.report.interactive.channels_time import RecordingSamples, channels_time
 from stribeck.report.interactive.falling_error import falling_error
-from stribeck.report.interactive.finding_residual import finding_residual
+from stribeck.report.interactive.finding_residual import evidence, evidence_columns
 from stribeck.report.interactive.findings import findings
-from stribeck.report.interactive.intervals import intervals
+from stribeck.report.interactive.planned import planned
 from stribeck.report.interactive.samples import Samples, samples_of
-from stribeck.report.page_figures import sample_plots
+from stribeck.report.interactive.time import residual_time
+from stribeck.report.page_figures import parameter_plots, sample_plots
 from stribeck.report.workbench.controller import Workbench
 
 if TYPE_CHECKING:
@@ -32,6 +34,7 @@ class Drawn:
     def __init__(self, bench: Workbench) -> None:
         self._bench = bench
         self._kept: dict[str, tuple[Sequence[object], Samples | RecordingSamples]] = {}
+        self._views: dict[str, FindingView] = {}
 
     def plots(self, page: str) -> dict[str, figure]:
         """The figures of a page, by the names of their places."""
@@ -42,15 +45,14 @@ class Drawn:
             return self._windowed(channels_time(self._channels(joint.recording)))
         if page == "where" and joint.project is not None and joint.comparison is not None:
             made = sample_plots(self._samples(page, [joint.project.fit]))
-            rows = joint.project.fit.estimates.values()
-            if any(e.ci95 is not None and e.value != 0.0 for e in rows):
-                made["intervals"] = intervals(rows)
-            return self._windowed(made)
+            return self._windowed({**made, **parameter_plots(joint.project.fit)})
         if page == "compare" and joint.sides is not None:
             fits = [a.fit for a in joint.sides.comparison.models]
             return self._windowed(sample_plots(self._samples(page, fits)))
         if page == "missing":
-            return _found(joint)
+            return self._found(joint)
+        if page == "prove" and joint.plan is not None:
+            return planned(joint.plan)
         return _errors(joint) if page == "add" else {}
 
     def window(self, page: str, start: float, end: float) -> dict[str, dict[str, str]]:
@@ -66,6 +68,29 @@ class Drawn:
             }
             for name, values in samples.data(*samples.within(start, end)).items()
         }
+
+    def _found(self, joint: Joint) -> dict[str, figure]:
+        """The findings with their evidence, and time, in which samples are selected."""
+        diagnosis = None if joint.project is None else joint.project.diagnosis
+        if diagnosis is None or not diagnosis.findings:
+            return {}
+        known = self._kept.get("missing")
+        if known and isinstance(known[1], Samples) and _same(known[0], diagnosis.findings):
+            views, samples = self._views, known[1].redrawn()
+        else:
+            views = {
+                f"finding {k}": finding_view(found.effect, found.before, found.fit)
+                for k, found in enumerate(diagnosis.findings, 1)
+            }
+            samples = samples_of([diagnosis.fit])
+            samples = samples.with_columns(evidence_columns(views, samples.rows))
+            self._kept["missing"], self._views = (diagnosis.findings, samples), views
+        made = {"findings": findings(diagnosis.findings, diagnosis.noise_floor.value)}
+        for (name, view), found in zip(views.items(), diagnosis.findings, strict=True):
+            made[name] = evidence(found.effect, view, samples.unit, samples, name)
+        if not diagnosis.fit.recording.averaged:
+            made["time"] = residual_time(samples)
+        return self._windowed(made)
 
     def _samples(self, page: str, fits: list[Fit]) -> Samples:
         known = self._kept.get(page)
@@ -101,16 +126,6 @@ def as_json(plots: dict[str, figure]) -> dict[str, object]:
         docs, (item,) = standalone_docs_json_and_render_items(models)
         places = {name: plot.id for name, plot in plots.items()}
     return {"docs": docs, "item": item.to_json(), "places": places}
-
-
-def _found(joint: Joint) -> dict[str, figure]:
-    diagnosis = None if joint.project is None else joint.project.diagnosis
-    if diagnosis is None or not diagnosis.findings:
-        return {}
-    made = {"findings": findings(diagnosis.findings, diagnosis.noise_floor.value)}
-    for number, finding in enumerate(diagnosis.findings, 1):
-        made[f"finding {number}"] = finding_residual(finding.effect, finding.before, finding.fit)
-    return made
 
 
 def _errors(joint: Joint) -> dict[str, figure]:

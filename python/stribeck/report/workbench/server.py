@@ -50,7 +50,7 @@ _BOKEH = Path(bokeh.__file__).parent / "server" / "static" / "js"
 #: Files of the pages, and their types.
 STATIC = {
     "bokeh.min.js": (_BOKEH / "bokeh.min.js", "text/javascript"),
-    "bokeh-gl.min.js": (_BOKEH / "bokeh-gl.min.js", "text/javascript"),
+    "offscreen.js": (_HERE.parent / "templates" / "offscreen.js", "text/javascript"),
     "workbench.js": (_HERE / "static" / "workbench.js", "text/javascript"),
     "workbench.css": (_HERE / "static" / "workbench.css", "text/css"),
     "style.css": (_HERE.parent / "templates" / "style.css", "text/css"),
@@ -75,7 +75,10 @@ class Handler(RequestHandler):
 
     def prepare(self) -> None:
         """Refuse another host, another origin, and a request without the token."""
-        own = {f"{host}:{self.request.connection.stream.socket.getsockname()[1]}" for host in HOSTS}  # type: ignore[union-attr]
+        socket = self.request.connection.stream.socket  # type: ignore[union-attr]
+        if socket is None:
+            raise HTTPError(400, reason="the browser has closed the connection")
+        own = {f"{host}:{socket.getsockname()[1]}" for host in HOSTS}
         origin = self.request.headers.get("Origin")
         if self.request.host not in own:
             raise HTTPError(403, reason="another host")

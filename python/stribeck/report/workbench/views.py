@@ -47,6 +47,8 @@ PAGES = {
 }
 #: Laws that are offered first: what a newcomer compares.
 USUAL = ("coulomb", "stribeck", "lugre", "dahl", "gms")
+#: What is drawn of a planned motion.
+PLANNED = ("position", "velocity", "acceleration")
 #: Options of reading that most files need; the others are folded away.
 FIRST = ("joint", "joint_kind", "map", "unit", "derive", "gear_ratio", "torque_constant", "where")
 Link = Callable[..., str]
@@ -206,7 +208,7 @@ def _where(bench: Workbench, joint: Joint | None) -> Values:
         "shown": comparison_tables(comparison),
         "places": worst_places(comparison.models[0]),
         "parameters": parameter_rows(joint.project.node.kept.estimates.values()),
-        "figures": [*_sample_figures(joint), "intervals"],
+        "figures": [*_sample_figures(joint), "intervals", "correlation"],
     }
 
 
@@ -241,7 +243,7 @@ def _missing(bench: Workbench, joint: Joint | None) -> Values:
         "doubts": doubts(full),
         "untestable": untestable_rows(full.untestable),
         "rejected": rejected,
-        "figures": ["findings"] if full.findings else [],
+        "figures": ["findings", "time"] if full.findings else [],
     }
 
 
@@ -326,7 +328,7 @@ def _prove(bench: Workbench, joint: Joint | None) -> Values:
         "effects": [e for e in effect_ids() if not model.has(e)],
         "unseen": unseen,
         "planned": None if joint.plan is None else bench.spell(repr(joint.plan)),
-        "figures": [],
+        "figures": [] if joint.plan is None else [f"planned {name}" for name in PLANNED],
     }
 
 

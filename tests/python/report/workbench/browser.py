@@ -7,7 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -15,14 +15,18 @@ from typing import Any
 import pytest
 
 #: Longest that an action may take on a busy computer, ms.
-PATIENCE = 45_000
+PATIENCE = 90_000
+#: The command of this environment.
+COMMAND = (sys.executable, "-m", "stribeck")
 PAGES = ("Data", "Check", "Compare", "Where", "Missing", "Add", "Prove", "Export")
 
 
 @contextmanager
-def workbench(folder: Path, *data: str | Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
+def workbench(
+    folder: Path, *data: str | Path, command: Sequence[str] = COMMAND
+) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """The command with its address; it must end with code 0 on Ctrl-C."""
-    words = [sys.executable, "-m", "stribeck", "app", *map(str, data), "--no-browser"]
+    words = [*command, "app", *map(str, data), "--no-browser"]
     process = subprocess.Popen(
         [*words, "--folder", str(folder / "kept")], stdout=subprocess.PIPE, text=True, cwd=folder
     )
@@ -76,3 +80,10 @@ def done(page: Any) -> None:
     page.wait_for_selector("body[data-busy='0']")
     errors = page.locator("p.error")
     assert errors.count() == 0, errors.all_inner_texts()
+
+
+def check_exported(folder: Path) -> None:
+    """Compile an exported program and run its own test."""
+    compile = ["cc", "-std=c99", "-o", "try", "friction.c", "friction_test.c"]
+    subprocess.run(compile, cwd=folder, check=True)
+    subprocess.run([str(folder / "try")], check=True)

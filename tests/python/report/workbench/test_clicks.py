@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import statistics
-import subprocess
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,7 +13,7 @@ import polars as pl
 import psutil
 import pytest
 import stribeck as sb
-from browser import PAGES, artefacts, chromium, done, go, press, workbench
+from browser import PAGES, artefacts, check_exported, chromium, done, go, press, workbench
 from in_chromium import faults, wider
 from stribeck.motion.generate.demo import demo_path
 from synthetic import joint
@@ -27,14 +26,6 @@ def opened(tmp_path: Path) -> Iterator[tuple[Any, str]]:
     with workbench(tmp_path, demo_path()) as (_, address), chromium() as page:
         page.goto(address)
         yield page, address
-
-
-@pytest.fixture
-def shared_data() -> Path:
-    folder = Path(__file__).resolve().parents[5] / "shared" / "data"
-    if not folder.is_dir():
-        pytest.skip(f"published measurements are not at {folder}")
-    return folder
 
 
 def shoot(page: Any, folder: Path, name: str) -> list[str]:
@@ -162,38 +153,6 @@ def arm(seed: int) -> pl.DataFrame:
     return pl.concat([named[0], named[1].drop("time")], how="horizontal")
 
 
-def test_ur10e_by_clicks(tmp_path: Path, shared_data: Path) -> None:
-    path = shared_data / "ur10e" / "ur-20_01_22-joint_2.parquet"
-    with workbench(tmp_path, path) as (_, address), chromium() as page:
-        page.goto(address)
-        page.wait_for_selector("body[data-busy='0']")
-        go(page, "Check")
-        page.get_by_role("button", name="Joint 2", exact=True).click()
-        page.wait_for_selector("body[data-busy='0']")
-        page.get_by_label("derive").fill("torque=i_A_2 * 10.6956")
-        press(page, "Read the file again")
-        go(page, "Compare")
-        press(page, "Fit this law")
-        go(page, "Missing")
-        press(page, "Find what is missing")
-        assert "load" in page.inner_text("article h2")
-        press(page, "Add load")
-        assert "+ load" in page.inner_text("tr.current")
-        go(page, "Export")
-        press(page, "Write the report")
-        press(page, "Export the program")
-    (folder,) = (tmp_path / "kept").glob("*-c")
-    check_exported(folder)
-    assert list((tmp_path / "kept").glob("*.report.html"))
-
-
-def check_exported(folder: Path) -> None:
-    """Compile an exported program and run its own test."""
-    compile = ["cc", "-std=c99", "-o", "try", "friction.c", "friction_test.c"]
-    subprocess.run(compile, cwd=folder, check=True)
-    subprocess.run([str(folder / "try")], check=True)
-
-
 def test_a_million_samples(tmp_path: Path) -> None:
     path = tmp_path / "million.parquet"
     million(path)
@@ -207,12 +166,87 @@ def test_a_million_samples(tmp_path: Path) -> None:
         page.wait_for_selector("body[data-busy='0']")
         page.wait_for_selector("body[data-drawn='1']")
         zooms = [zoomed(page, 10.0 * k, 10.0 * k + 100.0 / (k + 1)) for k in range(15)]
+        go(page, "Compare")
+        press(page, "Fit this law")
+        go(page, "Where")
+        page.wait_for_selector("body[data-drawn='1']")
+        before = processor_seconds()
+        brushes = brushed(page, 15)
+        used = (processor_seconds() - before) / len(brushes)
+        zooms_of_all = [zoomed(page, 10.0 * k, 10.0 * k + 100.0 / (k + 1)) for k in range(15)]
         largest = psutil.Process(process.pid).memory_info().rss / 1e6
-    said = f"open {opened:.2f} s, zoom {statistics.median(zooms):.0f} ms, {largest:.0f} MB"
+    zoom, brush, of_all = map(statistics.median, (zooms, brushes, zooms_of_all))
+    said = (
+        f"open {opened:.2f} s, zoom {zoom:.0f} ms, with a model: brush {brush:.0f} ms "
+        f"({1000.0 * used:.0f} ms of all processors), zoom {of_all:.0f} ms, {largest:.0f} MB"
+    )
     (artefacts(tmp_path / "pictures") / "million.txt").write_text(said)
     assert largest < 1000.0, said
     # Times are those of a computer that does nothing else: here only that none is absurd.
-    assert opened < 60.0 and statistics.median(zooms) < 2000.0, said
+    assert opened < 60.0 and max(zoom, brush, of_all) < 2000.0, said
+
+
+def processor_seconds() -> float:
+    """Processor time of the browser and the workbench so far, s."""
+    times = [process.cpu_times() for process in psutil.Process().children(recursive=True)]
+    return sum(time.user + time.system for time in times)
+
+
+def brushed(page: Any, count: int) -> list[float]:
+    """Drag over time `count` times; the times until all figures have marked the samples, ms."""
+    page.evaluate(
+        """() => {
+            const source = Bokeh.documents[0].get_model_by_name("samples");
+            let released = 0;
+            window.brushes = [];
+            document.addEventListener("pointerup", () => { released = performance.now(); }, true);
+            source.selected.properties.indices.change.connect(() => {
+                const began = released;
+                // One frame asks for the paint of all figures, the next one ends after it.
+                requestAnimationFrame(() => requestAnimationFrame(
+                    () => brushes.push(performance.now() - began)));
+            });
+        }"""
+    )
+    drawn = page.locator("[data-figure='time'] .plot")
+    drawn.scroll_into_view_if_needed()
+    box = drawn.bounding_box()
+    assert box is not None
+    height = box["y"] + 0.6 * box["height"]
+    for k in range(count):
+        left = box["x"] + 150 + 40 * k
+        page.mouse.move(left, height)
+        page.mouse.down()
+        page.mouse.move(left + 30, height, steps=3)
+        page.mouse.up()
+        page.wait_for_function(f"() => brushes.length > {k}")
+        page.wait_for_timeout(150)
+    times: list[float] = page.evaluate("() => brushes")
+    return times
+
+
+def test_a_selection_outlives_a_zoom(opened: tuple[Any, str]) -> None:
+    page, _ = opened
+    page.wait_for_selector("body[data-drawn='1']")
+    done(page)
+    page.wait_for_selector("body[data-drawn='1']")
+    brushed(page, 1)
+    first, last = page.evaluate(CHOSEN)
+    assert last > first
+    zoomed(page, first - 1.0, last + 1.0)
+    again = page.evaluate(CHOSEN)
+    zoomed(page, last + 5.0, last + 6.0)
+    assert page.evaluate(CHOSEN) == []
+    zoomed(page, first - 2.0, last + 2.0)
+    assert again == page.evaluate(CHOSEN) == pytest.approx([first, last])
+
+
+#: First and last time of the samples that are selected.
+CHOSEN = """() => {
+    const source = Bokeh.documents[0].get_model_by_name("samples");
+    const times = source.selected.indices.map((k) => source.data.time[k]);
+    return times.length ? [Math.min(...times), Math.max(...times)] : [];
+}"""
 
 
 def million(path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -15,6 +16,8 @@ from fleet_logs import JOINTS, WEAR, WORN
 from stribeck.models.catalog import effect_ids, law_ids
 from stribeck.motion.generate.motion import GeneratedJoint
 from stribeck.motion.generate.plausible import plausible_values
+from stribeck.report.interactive.fleet_changes import fleet_changes
+from stribeck.report.interactive.fleet_effects import fleet_effects
 from stribeck.scale.fleet.changes import Question, find_changes
 from stribeck.scale.fleet.effects import find_effects
 from stribeck.scale.fleet.friction_at import DayModel, common_conditions, common_speeds
@@ -170,6 +173,15 @@ def test_a_tie_counts_as_what_it_may_be() -> None:
     assert find_effects(found_rows(found)).odd == ()
 
 
+def test_figure_of_effects_frames_what_stands_out() -> None:
+    found = {(f"r{k}", "a"): [[("load", 0.99, [])] if k == 2 else []] for k in range(6)}
+    effects = find_effects(found_rows(found))
+    (source,) = {shown.data_source for shown in fleet_effects(effects).renderers}
+    assert [robot for robot in source.data["odd"] if robot != "none"] == ["r2"]
+    assert [width > 0 for width in source.data["frame"]] == [True]
+    assert source.data["said"] == ["1 of 6"]
+
+
 def test_json_text_picture_and_page(fitted: sb.Fleet) -> None:
     from stribeck.report.fleet_page import fleet_page
 
@@ -182,6 +194,11 @@ def test_json_text_picture_and_page(fitted: sb.Fleet) -> None:
     )
     assert "1 joint of 6 changed" in text and "r2 elbow" in text
     assert all(len(line) <= 98 for line in text.splitlines())
-    assert "r2 elbow" in page and "data:image/png;base64," in page and "http" not in page
+    assert "r2 elbow" in page
+    assert not re.search(r"<(script|img|link|iframe)[^>]*(src|href)=[\"']?(http|//)", page)
+    changes = fleet_changes(fitted.changes)
+    named = changes.yaxis[0].major_label_overrides
+    assert len(named) == 6 and named[5] == "r2 elbow"
+    assert "[%]" in changes.xaxis[0].axis_label
     axes = fitted.plot().axes
     assert [t.get_text() for t in axes[0].texts] == ["r2 elbow"]

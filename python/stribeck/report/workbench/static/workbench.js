@@ -35,18 +35,42 @@ function decoded(column) {
   const bytes = Uint8Array.from(atob(column.content), (c) => c.charCodeAt(0));
   return new TYPES[column.type](bytes.buffer);
 }
+// A selection as stretches of rows of the recording: a zoom draws other samples of the same rows.
+function stretches(rows, indices) {
+  const found = [];
+  for (const k of [...indices].sort((a, b) => a - b)) {
+    const last = found[found.length - 1];
+    if (last && k === last.at + 1) { last.at = k; last.to = rows[k]; } else found.push({ at: k, from: rows[k], to: rows[k] });
+  }
+  return found;
+}
+function within(rows, kept) {
+  const chosen = [];
+  let next = 0;
+  for (let k = 0; k < rows.length; k++) {
+    while (next < kept.length && rows[k] > kept[next].to) next++;
+    if (next < kept.length && rows[k] >= kept[next].from) chosen.push(k);
+  }
+  return chosen;
+}
 function followZoom(bokeh) {
   const range = bokeh.get_model_by_name("window");
   const source = bokeh.get_model_by_name("samples");
   if (!range || !source) return;
-  let waiting = 0, asked = 0;
+  let waiting = 0, asked = 0, kept = [], redrawing = false;
+  source.selected.properties.indices.change.connect(() => {
+    if (!redrawing) kept = stretches(source.data.row, source.selected.indices);
+  });
   async function answer() {
     const number = ++asked, began = performance.now();
     const reply = await fetch(`${page.window}&start=${range.start}&end=${range.end}`);
     const columns = await reply.json();
     if (number !== asked) return;
+    redrawing = true;
     source.selected.indices = [];
     source.data = Object.fromEntries(Object.entries(columns).map(([name, c]) => [name, decoded(c)]));
+    source.selected.indices = within(source.data.row, kept);
+    redrawing = false;
     page.zoomed = String(Math.round(performance.now() - began));
   }
   for (const side of [range.properties.start, range.properties.end]) {
@@ -69,6 +93,8 @@ async function draw() {
   const known = Bokeh.documents.length;
   await Bokeh.embed.embed_items(made.docs, [made.item]);
   if (Bokeh.documents.length > known) followZoom(Bokeh.documents[known]);
+  // The first picture of every figure is made; two frames later it is painted.
+  requestAnimationFrame(() => requestAnimationFrame(paintWhatIsSeen));
   page.drawn = "1";
 }
 window.addEventListener("load", draw);
