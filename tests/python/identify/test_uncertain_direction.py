@@ -25,7 +25,7 @@ def behind_a_filter(frame: pl.DataFrame, lag: float = LAG) -> pl.DataFrame:
 
 
 def test_the_lag_follows_from_position_and_velocity(tmp_path: Path) -> None:
-    late = late_velocity(record(tmp_path, behind_a_filter(joint())))
+    late = late_velocity(record(tmp_path, behind_a_filter(joint()), trust=True))
     # The discrete filter is a sample faster than its time constant.
     assert late is not None and late.lag == pytest.approx(LAG - 0.01, abs=1e-3)
 
@@ -40,7 +40,7 @@ def test_an_ordinary_velocity_is_not_late(tmp_path: Path, plain: sb.Recording) -
 
 
 def test_samples_before_a_late_reversal_are_scored_but_not_fitted_to(tmp_path: Path) -> None:
-    recording = record(tmp_path, behind_a_filter(joint()))
+    recording = record(tmp_path, behind_a_filter(joint()), trust=True)
     marked = uncertain_direction(recording)
     truth = joint()["velocity"].to_numpy()
     wrong = (np.sign(truth) != np.sign(recording.velocity)) & recording.moving
