@@ -20,6 +20,7 @@
 //! | `double`, `single`, `format` | constants and minimax polynomials of each format |
 //! | `phase` | reduction of large arguments of sine and cosine |
 //! | `root` | square roots, correctly rounded |
+//! | `cube_root` | cube roots in loops |
 //! | `bits` | signs, powers of two and integers in the bits of a float |
 //! | `polynomial` | Estrin's scheme |
 //! | `listing` | all constants by name |
@@ -31,6 +32,8 @@
 mod arctangent;
 mod bits;
 mod branching;
+#[cfg(feature = "std")]
+mod cube_root;
 mod double;
 mod exponential;
 mod format;
@@ -139,4 +142,8 @@ macro_rules! elementary {
 }
 
 elementary!(f64: sqrt, cbrt);
+
+/// Cube roots in loops over many numbers.
+#[cfg(feature = "std")]
+pub(crate) use cube_root::cbrt_fast;
 elementary!(f32: sqrtf, cbrtf);
