@@ -90,7 +90,7 @@ impl Compiled {
         Self { schedule, width: purpose.wanted.len() }
     }
 
-    /// Writes torque and derivatives, sample by sample.
+    /// Writes torque and derivatives, sample by sample. `look` sees each block.
     pub(super) fn run(
         &self,
         values: &[f64],
@@ -98,9 +98,11 @@ impl Compiled {
         channels: Channels<'_>,
         columns: &Columns<'_>,
         out: &mut Outputs<'_>,
+        mut look: impl FnMut(&Range<usize>, &[Numbers<'_>]),
     ) {
         let width = self.width;
         self.each_block(values, rows, channels, columns, |block, outputs| {
+            look(&block, outputs);
             outputs[0].copy_to(&mut out.torque[block.clone()]);
             let slopes = &mut out.slopes[block.start * width..block.end * width];
             for (k, slope) in outputs[1..].iter().enumerate() {
