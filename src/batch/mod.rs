@@ -20,6 +20,7 @@ use std::vec::Vec;
 
 use crate::catalog::EffectId;
 use crate::composed::Spec;
+#[cfg(feature = "identify")]
 use crate::graph::Numbers;
 use balance::Balance;
 use columns::Rows;
@@ -193,10 +194,17 @@ pub(crate) fn blocks(
         let (rows, read) = columns.unchecked_rows(spec)?;
         let compiled = Compiled::of(spec, wanted, &rows, columns);
         let mut watch = Watch::new(spec, columns, &read);
-        compiled.each_block(values, &rows, columns.channels, columns, |block, outputs| {
-            watch.look(&block);
-            sink(block, outputs);
-        });
+        compiled.each_block(
+            values,
+            &rows,
+            columns.channels,
+            columns,
+            #[inline(always)]
+            |block, outputs| {
+                watch.look(&block);
+                sink(block, outputs);
+            },
+        );
         return if watch.passed() { Ok(()) } else { columns.check_values(spec, &read) };
     }
     let (torque, slopes) = gradient(spec, values, columns, Some(wanted))?;
@@ -297,10 +305,20 @@ fn in_one_pass(
     check_length(out.slopes, rows.count() * wanted.len())?;
     let compiled = Compiled::of(spec, wanted, &rows, columns);
     let (mut watch, mut finite) = (Watch::new(spec, columns, &read), true);
-    compiled.run(values, &rows, columns.channels, columns, &mut out, |block, outputs| {
-        watch.look(block);
-        finite &= outputs[usize::from(outputs.len() > 1)..].iter().all(Numbers::are_finite);
-    });
+    compiled.run(
+        values,
+        &rows,
+        columns.channels,
+        columns,
+        &mut out,
+        #[inline(always)]
+        |block, outputs| {
+            watch.look(block);
+            for numbers in &outputs[usize::from(outputs.len() > 1)..] {
+                finite &= numbers.are_finite();
+            }
+        },
+    );
     if !watch.passed() {
         columns.check_values(spec, &read)?;
     }

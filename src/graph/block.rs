@@ -103,7 +103,9 @@ pub fn unary<const N: usize>(
         Unary::Cbrt => cube_root(out, x),
         Unary::Sin => sin_or_cos(out, x, |(sin, _)| sin),
         Unary::Cos => sin_or_cos(out, x, |(_, cos)| cos),
-        Unary::Tanh => map(out, x, elementary::tanh),
+        Unary::Tanh => {
+            in_halves(out, x, halves, elementary::tanh_reduced, elementary::tanh_of_reduced);
+        }
         Unary::Atan => map(out, x, elementary::atan),
         Unary::Phi(order) => map(out, x, |x| elementary::phi(order, x)),
         Unary::IsFinite => map(out, x, |x| mask(x.is_finite())),

@@ -104,6 +104,11 @@ macro_rules! elementary {
                 is_plain_exponent(p: $float) -> bool, power::is_plain_exponent(p));
             elementary!(@ "Hyperbolic tangent.", tanh(x: $float) -> $float, hyperbolic::tanh(x));
             elementary!(@ "Arc tangent.", atan(x: $float) -> $float, arctangent::atan(x));
+            elementary!(@ "The first half of [`tanh`]: a power of two, and the rest in two parts.",
+                tanh_reduced(x: $float) -> ($float, ($float, $float)), hyperbolic::tanh_reduced(x));
+            elementary!(@ "The second half of [`tanh`].",
+                tanh_of_reduced(x: $float, n: $float, rest: ($float, $float)) -> $float,
+                hyperbolic::tanh_of_reduced(x, n, rest));
             elementary!(@ "Square root.", sqrt(x: $float) -> $float, root::$sqrt(x));
             elementary!(@ "Cube root, negative for negative `x`.", cbrt(x: $float) -> $float, libm::$cbrt(x));
             elementary!(@ "Sine.", sin(x: $float) -> $float, sin_cos(x).0);
