@@ -159,3 +159,19 @@ def constant(values: ArrayLike, size: int) -> Array:
         copied = np.full(size, np.nan)
     copied.setflags(write=False)
     return copied
+
+
+def finite(result: Array, what: str) -> Array:
+    """The result of a call, if all of it is finite.
+
+    Raises
+    ------
+    SpecError
+        The values lead beyond the range of numbers.
+    """
+    if not np.isfinite(result).all():
+        sample = int(np.argwhere(~np.isfinite(result))[0][0])
+        raise SpecError(
+            f"{what} is not finite at sample {sample}: check the values given and their units"
+        )
+    return result

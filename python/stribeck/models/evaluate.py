@@ -46,9 +46,7 @@ def gradient(
         rows = read["velocity"].size
         check_output(out, (rows, values.size), {**read, "state": state})
         both = np.empty(rows), out
-    _, found = core.gradient(
-        values, **read, state=state, out=both, what=f"the gradient of {spec}"
-    )
+    _, found = core.gradient(values, **read, state=state, out=both, what=f"the gradient of {spec}")
     return found
 
 
