@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn roots_have_the_bits_of_libm_or_are_left_to_it() {
-        let cubes = (1..2000).map(|n| f64::from(n * n * n) * 0.125);
+        let cubes = (1..1200).map(|n| f64::from(n * n * n) * 0.125);
         let mut left = 0;
         for x in numbers().chain(cubes).chain([0.0, -0.0]) {
             let (fast, exact) = (cbrt_fast(x), libm::cbrt(x));
