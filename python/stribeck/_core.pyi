@@ -301,6 +301,7 @@ class Model:
         *,
         single: bool = False,
         out: NDArray[np.float64] | None = None,
+        what: str | None = None,
     ) -> NDArray[np.float64]: ...
     def gradient(
         self,
@@ -322,6 +323,7 @@ class Model:
         *,
         wanted: Sequence[int] | None = None,
         out: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None,
+        what: str | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     def split(
         self,

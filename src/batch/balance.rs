@@ -87,11 +87,11 @@ impl Balance {
         columns: &Columns<'_>,
         channels: &Channels<'_>,
     ) -> Result<Option<Self>, BatchError> {
-        let solve = Self::solves(spec, channels);
-        let own_gravity = is_missing(spec, channels, Channel::ExternalTorque);
-        if !solve && !own_gravity {
+        if !Self::is_needed(spec, channels) {
             return Ok(None);
         }
+        let solve = Self::solves(spec, channels);
+        let own_gravity = is_missing(spec, channels, Channel::ExternalTorque);
         let values: Vec<_> = values.iter().map(|&x| Dual::from_f64(x)).collect();
         let model: Model = spec.with(&values)?;
         let load = channels.load_torque.filter(|_| columns.shift_load);
@@ -121,6 +121,13 @@ impl Balance {
             balance.rows.push(settled);
         }
         Ok(Some(balance))
+    }
+
+    /// Whether loads that the model reads are missing.
+    pub(super) fn is_needed(spec: &Spec, channels: &Channels<'_>) -> bool {
+        [Channel::MotorTorque, Channel::ExternalTorque]
+            .iter()
+            .any(|&channel| is_missing(spec, channels, channel))
     }
 
     /// Whether the motor torque must be solved for.

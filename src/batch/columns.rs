@@ -10,6 +10,7 @@ use pulp::Arch;
 
 use super::BatchError;
 use super::balance::Balance;
+use super::watch::all_finite;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 use crate::dynamics::{Memory, State};
@@ -17,6 +18,9 @@ use crate::graph::Beginning;
 use crate::sample::Sample;
 use crate::scalar::{Real, Scalar};
 use crate::table::Channel;
+
+/// Columns with their names.
+pub(super) type Named<'a> = Vec<(&'static str, &'a [f64])>;
 
 /// Channels of a recording, one value per sample; only the velocity is always required.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -182,29 +186,57 @@ impl<'a> Columns<'a> {
     /// Checks that every column the model reads is present, has the length of the velocity, and is
     /// finite.
     pub(super) fn check(&self, spec: &Spec) -> Result<(), BatchError> {
+        let read = self.check_presence(spec)?;
+        self.check_values(spec, &read)
+    }
+
+    /// Checks that every column the model reads is present and has the length of the velocity.
+    /// Returns the columns by name.
+    fn check_presence(&self, spec: &Spec) -> Result<Named<'a>, BatchError> {
         let rows = self.channels.velocity.len();
         if rows == 0 {
             return Err(BatchError::NoRows);
         }
+        let needed: Vec<Channel> = spec.channels().collect();
         let delayed = spec.effects().contains(EffectId::Delay);
+        let mut read = vec![];
         for channel in Channel::ALL {
-            let read = spec.channels().any(|c| c == channel);
+            let needs = needed.contains(&channel);
             let added = channel == Channel::LoadTorque
                 && self.shift_load
                 && (delayed || Balance::solves(spec, &self.channels));
             match self.channels.get(channel) {
-                Some(column) if read || added => check_column(channel.name(), column, rows)?,
-                None if read && !Balance::provides(spec, channel, self) => {
+                Some(column) if needs || added => read.push((channel.name(), column)),
+                None if needs && !Balance::provides(spec, channel, self) => {
                     return Err(BatchError::Missing(channel));
                 }
                 _ => {}
             }
             if let (true, Some(column)) = (delayed, self.smooth.get(channel)) {
-                check_column(channel.name(), column, rows)?;
+                read.push((channel.name(), column));
             }
         }
         if let (true, Some(column)) = (spec.has_state(), self.mean_velocity) {
-            check_column("mean_velocity", column, rows)?;
+            read.push(("mean_velocity", column));
+        }
+        if let Some(&(column, values)) = read.iter().find(|(_, values)| values.len() != rows) {
+            return Err(BatchError::Length { column, length: values.len(), rows });
+        }
+        let memory = spec.memory();
+        if !self.state.is_empty() && self.state.len() != memory.size() {
+            return Err(BatchError::StateLength { memory, given: self.state.len() });
+        }
+        let finite = self.state.iter().all(|x| x.is_finite());
+        if finite { Ok(read) } else { Err(BatchError::State) }
+    }
+
+    /// Checks that the columns are finite, and that the law has no pole between their temperatures.
+    pub(super) fn check_values(&self, spec: &Spec, read: &Named<'_>) -> Result<(), BatchError> {
+        for &(column, values) in read {
+            if !finite(values) {
+                let row = values.iter().position(|x| !x.is_finite()).unwrap_or(0);
+                return Err(BatchError::NotFinite { column, row });
+            }
         }
         if let (Some(pole), Some(temperature)) = (spec.pole(), self.channels.temperature) {
             let below = temperature.iter().any(|&t| t <= pole);
@@ -212,12 +244,7 @@ impl<'a> Columns<'a> {
                 return Err(BatchError::Pole { law: spec.law().info().id, pole });
             }
         }
-        let memory = spec.memory();
-        if !self.state.is_empty() && self.state.len() != memory.size() {
-            return Err(BatchError::StateLength { memory, given: self.state.len() });
-        }
-        let finite = self.state.iter().all(|x| x.is_finite());
-        if finite { Ok(()) } else { Err(BatchError::State) }
+        Ok(())
     }
 
     /// The state at the start of every segment; the columns must be checked.
@@ -230,9 +257,26 @@ impl<'a> Columns<'a> {
         }
     }
 
+    /// Whether a sample needs no more than its columns: no delay, no loads from a balance.
+    pub(super) fn stand_alone(&self, spec: &Spec) -> bool {
+        !spec.effects().contains(EffectId::Delay) && !Balance::is_needed(spec, &self.channels)
+    }
+
     /// Checks the columns and prepares the time axis.
     pub(super) fn rows(&self, spec: &Spec) -> Result<Rows, BatchError> {
-        self.check(spec)?;
+        let (rows, read) = self.unchecked_rows(spec)?;
+        self.check_values(spec, &read)?;
+        Ok(rows)
+    }
+
+    /// The time axis, and the columns that the model reads, whose values must still be
+    /// [checked](Self::check_values).
+    pub(super) fn unchecked_rows(&self, spec: &Spec) -> Result<(Rows, Named<'a>), BatchError> {
+        let read = self.check_presence(spec)?;
+        Ok((self.time_axis(spec)?, read))
+    }
+
+    fn time_axis(&self, spec: &Spec) -> Result<Rows, BatchError> {
         let count = self.channels.velocity.len();
         let timed = spec.has_state() || spec.effects().contains(EffectId::Delay);
         match self.dt {
@@ -252,20 +296,12 @@ impl<'a> Columns<'a> {
     }
 }
 
-fn check_column(column: &'static str, values: &[f64], rows: usize) -> Result<(), BatchError> {
-    if values.len() != rows {
-        return Err(BatchError::Length { column, length: values.len(), rows });
-    }
-    // No early exit, so that the loop vectorises.
-    let finite = Arch::new().dispatch(
+/// Whether all numbers are finite.
+pub(super) fn finite(values: &[f64]) -> bool {
+    Arch::new().dispatch(
         #[inline(always)]
-        || values.iter().fold(true, |all, x| all & x.is_finite()),
-    );
-    if finite {
-        return Ok(());
-    }
-    let row = values.iter().position(|x| !x.is_finite()).unwrap_or(0);
-    Err(BatchError::NotFinite { column, row })
+        || all_finite(values),
+    )
 }
 
 /// The time axis.

@@ -90,7 +90,7 @@ impl Compiled {
         Self { schedule, width: purpose.wanted.len() }
     }
 
-    /// Writes torque and derivatives, sample by sample.
+    /// Writes torque and derivatives, sample by sample. `look` sees each block.
     pub(super) fn run(
         &self,
         values: &[f64],
@@ -98,19 +98,29 @@ impl Compiled {
         channels: Channels<'_>,
         columns: &Columns<'_>,
         out: &mut Outputs<'_>,
+        mut look: impl FnMut(&Range<usize>, &[Numbers<'_>]),
     ) {
         let width = self.width;
-        self.each_block(values, rows, channels, columns, |block, outputs| {
-            outputs[0].copy_to(&mut out.torque[block.clone()]);
-            let slopes = &mut out.slopes[block.start * width..block.end * width];
-            for (k, slope) in outputs[1..].iter().enumerate() {
-                // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
-                slope.add_to_each(0.0, slopes[k..].iter_mut().step_by(width));
-            }
-        });
+        self.each_block(
+            values,
+            rows,
+            channels,
+            columns,
+            #[inline(always)]
+            |block, outputs| {
+                look(&block, outputs);
+                outputs[0].copy_to(&mut out.torque[block.clone()]);
+                let slopes = &mut out.slopes[block.start * width..block.end * width];
+                for (k, slope) in outputs[1..].iter().enumerate() {
+                    // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
+                    slope.add_to_each(0.0, slopes[k..].iter_mut().step_by(width));
+                }
+            },
+        );
     }
 
-    /// Passes torque and derivatives of each block of samples to `sink`.
+    /// Passes torque and derivatives of each block of samples to `sink`, which has the widest vectors
+    /// only where it is inlined.
     pub(super) fn each_block(
         &self,
         values: &[f64],

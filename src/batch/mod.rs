@@ -6,6 +6,8 @@ mod compiled;
 mod delay;
 mod error;
 mod normal;
+mod samples;
+mod watch;
 
 pub use columns::{Channels, Columns, TimeStep};
 pub use error::BatchError;
@@ -17,18 +19,14 @@ use std::vec;
 use std::vec::Vec;
 
 use crate::catalog::EffectId;
-use crate::composed::{Composed, Spec};
-use crate::dynamics::Interval;
-use crate::graph::Beginning;
+use crate::composed::Spec;
 #[cfg(feature = "identify")]
 use crate::graph::Numbers;
-use crate::scalar::{Dual, Real, Scalar};
 use balance::Balance;
 use columns::Rows;
 use compiled::Compiled;
+use watch::Watch;
 
-/// Number of derivatives per pass over the samples.
-const MAX_DIRECTIONS: usize = 16;
 /// Samples per block passed to a sink.
 #[cfg(feature = "identify")]
 const BLOCK_LENGTH: usize = 256;
@@ -55,12 +53,25 @@ pub fn torque_into(
     columns: &Columns<'_>,
     out: &mut [f64],
 ) -> Result<(), BatchError> {
-    let out = Outputs { torque: out, slopes: &mut [] };
-    if spec.with(values)?.runs_side_by_side() {
-        side_by_side(spec, values, columns, &[], Locked::Refused, out)
+    torque_and_range(spec, values, columns, out).map(|_| ())
+}
+
+/// Like [`torque_into`]; whether all results are finite.
+pub(crate) fn torque_and_range(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    out: &mut [f64],
+) -> Result<bool, BatchError> {
+    let outputs = Outputs { torque: &mut *out, slopes: &mut [] };
+    if !spec.with(values)?.runs_side_by_side() {
+        samples::each::<f64>(spec, values, columns, &[], Locked::Refused, outputs)?;
+    } else if columns.stand_alone(spec) {
+        return in_one_pass(spec, values, columns, &[], outputs);
     } else {
-        sample_by_sample::<f64>(spec, values, columns, &[], Locked::Refused, out)
+        side_by_side(spec, values, columns, &[], Locked::Refused, outputs)?;
     }
+    Ok(columns::finite(out))
 }
 
 /// Like [`torque`], in single precision throughout, as a controller without `f64` computes it. A
@@ -88,8 +99,19 @@ pub fn torque_single_into(
     columns: &Columns<'_>,
     out: &mut [f64],
 ) -> Result<(), BatchError> {
-    let out = Outputs { torque: out, slopes: &mut [] };
-    sample_by_sample::<f32>(spec, values, columns, &[], Locked::Refused, out)
+    torque_single_and_range(spec, values, columns, out).map(|_| ())
+}
+
+/// Like [`torque_single_into`]; whether all results are finite.
+pub(crate) fn torque_single_and_range(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    out: &mut [f64],
+) -> Result<bool, BatchError> {
+    let outputs = Outputs { torque: &mut *out, slopes: &mut [] };
+    samples::each::<f32>(spec, values, columns, &[], Locked::Refused, outputs)?;
+    Ok(columns::finite(out))
 }
 
 /// The friction torque of every sample, and its derivatives with respect to the `wanted` parameters
@@ -130,26 +152,28 @@ pub fn gradient_into(
     torque: &mut [f64],
     slopes: &mut [f64],
 ) -> Result<(), BatchError> {
+    gradient_and_range(spec, values, columns, wanted, torque, slopes).map(|_| ())
+}
+
+/// Like [`gradient_into`]; whether all derivatives are finite.
+pub(crate) fn gradient_and_range(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    wanted: &[usize],
+    torque: &mut [f64],
+    slopes: &mut [f64],
+) -> Result<bool, BatchError> {
     check_wanted(values, wanted)?;
-    if spec.with(values)?.runs_side_by_side() {
-        let out = Outputs { torque, slopes };
-        return side_by_side(spec, values, columns, wanted, Locked::Amplified, out);
+    let out = Outputs { torque: &mut *torque, slopes: &mut *slopes };
+    if !spec.with(values)?.runs_side_by_side() {
+        samples::in_passes(spec, values, columns, wanted, torque, slopes)?;
+    } else if columns.stand_alone(spec) {
+        return in_one_pass(spec, values, columns, wanted, out);
+    } else {
+        side_by_side(spec, values, columns, wanted, Locked::Amplified, out)?;
     }
-    if wanted.len() <= MAX_DIRECTIONS {
-        return gradient_in_one_pass(spec, values, columns, wanted, Outputs { torque, slopes });
-    }
-    check_length(slopes, columns.channels.velocity.len() * wanted.len())?;
-    let mut part = vec![0.0; columns.channels.velocity.len() * MAX_DIRECTIONS];
-    for (pass, some) in wanted.chunks(MAX_DIRECTIONS).enumerate() {
-        let part = &mut part[..columns.channels.velocity.len() * some.len()];
-        let out = Outputs { torque: &mut *torque, slopes: &mut *part };
-        gradient_in_one_pass(spec, values, columns, some, out)?;
-        let rows = slopes.chunks_exact_mut(wanted.len());
-        for (row, part) in rows.zip(part.chunks_exact(some.len())) {
-            row[pass * MAX_DIRECTIONS..][..some.len()].copy_from_slice(part);
-        }
-    }
-    Ok(())
+    Ok(columns::finite(slopes))
 }
 
 /// Like [`gradient`], block by block: `sink` receives the torque and each derivative of a block of
@@ -166,13 +190,22 @@ pub(crate) fn blocks(
     mut sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
 ) -> Result<(), BatchError> {
     check_wanted(values, wanted)?;
-    let rows = columns.rows(spec)?;
-    let alone = !spec.effects().contains(EffectId::Delay)
-        && Balance::of(spec, values, columns, &columns.channels)?.is_none();
-    if alone && spec.with(values)?.runs_side_by_side() {
+    if columns.stand_alone(spec) && spec.with(values)?.runs_side_by_side() {
+        let (rows, read) = columns.unchecked_rows(spec)?;
         let compiled = Compiled::of(spec, wanted, &rows, columns);
-        compiled.each_block(values, &rows, columns.channels, columns, sink);
-        return Ok(());
+        let mut watch = Watch::new(spec, columns, &read);
+        compiled.each_block(
+            values,
+            &rows,
+            columns.channels,
+            columns,
+            #[inline(always)]
+            |block, outputs| {
+                watch.look(&block);
+                sink(block, outputs);
+            },
+        );
+        return if watch.passed() { Ok(()) } else { columns.check_values(spec, &read) };
     }
     let (torque, slopes) = gradient(spec, values, columns, Some(wanted))?;
     let width = wanted.len();
@@ -200,22 +233,6 @@ fn check_wanted(values: &[f64], wanted: &[usize]) -> Result<(), BatchError> {
         }
     }
     Ok(())
-}
-
-fn gradient_in_one_pass(
-    spec: &Spec,
-    values: &[f64],
-    columns: &Columns<'_>,
-    wanted: &[usize],
-    out: Outputs<'_>,
-) -> Result<(), BatchError> {
-    let run = match wanted.len() {
-        0 => sample_by_sample::<f64>,
-        1..=4 => sample_by_sample::<Dual<f64, 4>>,
-        5..=8 => sample_by_sample::<Dual<f64, 8>>,
-        _ => sample_by_sample::<Dual<f64, MAX_DIRECTIONS>>,
-    };
-    run(spec, values, columns, wanted, Locked::Amplified, out)
 }
 
 /// Dry magnitude, rate-dependent part and additive part of every sample (T), in steady sliding.
@@ -273,6 +290,41 @@ fn check_length(out: &[f64], rows: usize) -> Result<(), BatchError> {
     if length == rows { Ok(()) } else { Err(error) }
 }
 
+/// Evaluates blocks of samples in parallel, operation by operation, of a model that needs no more
+/// than the columns of each sample. The columns are checked as they are read. Returns whether the
+/// results, the derivatives if any are wanted, are finite.
+fn in_one_pass(
+    spec: &Spec,
+    values: &[f64],
+    columns: &Columns<'_>,
+    wanted: &[usize],
+    mut out: Outputs<'_>,
+) -> Result<bool, BatchError> {
+    let (rows, read) = columns.unchecked_rows(spec)?;
+    check_length(out.torque, rows.count())?;
+    check_length(out.slopes, rows.count() * wanted.len())?;
+    let compiled = Compiled::of(spec, wanted, &rows, columns);
+    let (mut watch, mut finite) = (Watch::new(spec, columns, &read), true);
+    compiled.run(
+        values,
+        &rows,
+        columns.channels,
+        columns,
+        &mut out,
+        #[inline(always)]
+        |block, outputs| {
+            watch.look(block);
+            for numbers in &outputs[usize::from(outputs.len() > 1)..] {
+                finite &= numbers.are_finite();
+            }
+        },
+    );
+    if !watch.passed() {
+        columns.check_values(spec, &read)?;
+    }
+    Ok(finite)
+}
+
 /// Evaluates blocks of samples in parallel, operation by operation.
 fn side_by_side(
     spec: &Spec,
@@ -283,95 +335,15 @@ fn side_by_side(
     out: Outputs<'_>,
 ) -> Result<(), BatchError> {
     measured(spec, values, columns, wanted, locked, out, |rows, channels, out| {
-        Compiled::of(spec, wanted, rows, columns).run(values, rows, channels, columns, out);
+        Compiled::of(spec, wanted, rows, columns).run(
+            values,
+            rows,
+            channels,
+            columns,
+            out,
+            |_, _| (),
+        );
     })
-}
-
-/// A number type for evaluation sample by sample.
-trait Single: Scalar {
-    /// A parameter, with a derivative of 1 in a direction if one is given.
-    fn parameter(value: f64, direction: Option<usize>) -> Self;
-    /// The derivatives.
-    fn slopes(&self) -> &[f64];
-}
-
-macro_rules! without_derivatives {
-    ($($float:ident),+) => {$(
-        impl Single for $float {
-            fn parameter(value: f64, _: Option<usize>) -> Self {
-                Self::from_f64(value)
-            }
-
-            fn slopes(&self) -> &[f64] {
-                &[]
-            }
-        }
-    )+};
-}
-
-without_derivatives!(f32, f64);
-
-impl<const N: usize> Single for Dual<f64, N> {
-    fn parameter(value: f64, direction: Option<usize>) -> Self {
-        direction.map_or_else(|| Self::constant(value), |index| Self::variable(value, index))
-    }
-
-    fn slopes(&self) -> &[f64] {
-        &self.derivative
-    }
-}
-
-/// Evaluates sample by sample; every segment starts from the initial state.
-fn sample_by_sample<S: Single>(
-    spec: &Spec,
-    values: &[f64],
-    columns: &Columns<'_>,
-    wanted: &[usize],
-    locked: Locked,
-    out: Outputs<'_>,
-) -> Result<(), BatchError> {
-    let direction = |index: usize| wanted.iter().position(|&own| own == index);
-    let parameters: Vec<S> =
-        values.iter().enumerate().map(|(i, &x)| S::parameter(x, direction(i))).collect();
-    let model = spec.with(&parameters)?;
-    let width = wanted.len();
-    measured(spec, values, columns, wanted, locked, out, |rows, channels, out| {
-        evaluate(&model, rows, channels, columns, |row, t: &S| {
-            out.torque[row] = t.value();
-            // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
-            let slopes = &mut out.slopes[row * width..(row + 1) * width];
-            slopes.iter_mut().zip(t.slopes()).for_each(|(slope, d)| *slope = d + 0.0);
-        });
-    })
-}
-
-fn evaluate<S: Scalar>(
-    model: &Composed<S>,
-    rows: &Rows,
-    channels: Channels<'_>,
-    columns: &Columns<'_>,
-    mut sink: impl FnMut(usize, &S),
-) {
-    let fresh = columns.start(model.memory());
-    let mut state = fresh;
-    let mut starts = rows.starts().iter().copied().peekable();
-    for (i, &dt) in rows.steps().iter().enumerate() {
-        let sample = channels.sample(i);
-        let beginning = starts.next_if(|&(row, _)| row == i).map(|(_, beginning)| beginning);
-        match beginning {
-            Some(Beginning::Settled) => state = model.settled(&sample),
-            Some(Beginning::Fresh) => state = fresh,
-            None => {}
-        }
-        let mean_velocity = columns.mean_velocity.and_then(|mean| mean.get(i));
-        let interval = Interval {
-            sample,
-            mean_velocity: mean_velocity.map(|&v| S::Plain::from_f64(v)),
-            dt: S::Plain::from_f64(dt),
-            mean: false,
-        };
-        sink(i, &model.step_over(&mut state, &interval).torque);
-    }
 }
 
 /// The measured torque for the torque that `run` writes: with loads from the balance of torques,

@@ -5,7 +5,7 @@ use core::cell::Cell;
 use core::hint::select_unpredictable;
 
 use super::operation::{Binary, Unary};
-use crate::math::f64 as elementary;
+use crate::math::{cbrt_fast, f64 as elementary};
 use crate::scalar::Real;
 
 /// Numbers per block: the results of all operations fit into the first-level cache.
@@ -100,10 +100,12 @@ pub fn unary<const N: usize>(
         }
         Unary::Ln => map(out, x, elementary::ln),
         Unary::Sqrt => map(out, x, elementary::sqrt),
-        Unary::Cbrt => map(out, x, elementary::cbrt),
+        Unary::Cbrt => cube_root(out, x),
         Unary::Sin => sin_or_cos(out, x, |(sin, _)| sin),
         Unary::Cos => sin_or_cos(out, x, |(_, cos)| cos),
-        Unary::Tanh => map(out, x, elementary::tanh),
+        Unary::Tanh => {
+            in_halves(out, x, halves, elementary::tanh_reduced, elementary::tanh_of_reduced);
+        }
         Unary::Atan => map(out, x, elementary::atan),
         Unary::Phi(order) => map(out, x, |x| elementary::phi(order, x)),
         Unary::IsFinite => map(out, x, |x| mask(x.is_finite())),
@@ -148,6 +150,17 @@ fn sin_or_cos<const N: usize>(
     for (row, out) in out.iter_mut().enumerate() {
         if elementary::needs_exact_reduction(x.at(row)) {
             *out = of(elementary::sin_cos(x.at(row)));
+        }
+    }
+}
+
+/// Cube roots; the few that are not certain are recomputed.
+#[inline(always)]
+fn cube_root<const N: usize>(out: &mut [f64; N], x: Operand<'_, N>) {
+    map(out, x, cbrt_fast);
+    if any_nan(out) {
+        for (row, out) in out.iter_mut().enumerate().filter(|(_, out)| out.is_nan()) {
+            *out = elementary::cbrt(x.at(row));
         }
     }
 }

@@ -18,6 +18,7 @@ mod recorded;
 mod recorder;
 mod run;
 mod schedule;
+mod two_valued;
 
 pub use derivative::derivatives;
 pub use model::model;

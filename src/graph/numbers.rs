@@ -49,6 +49,16 @@ impl Numbers<'_> {
         }
     }
 
+    /// Whether all of them are finite. No early exit, so that the loop vectorises.
+    #[inline(always)]
+    #[must_use]
+    pub fn are_finite(&self) -> bool {
+        match self {
+            Self::Same(x) => x.is_finite(),
+            Self::Each(rows) => rows.iter().fold(true, |all, x| all & x.is_finite()),
+        }
+    }
+
     /// Writes the values.
     #[inline(always)]
     pub fn copy_to(&self, out: &mut [f64]) {

@@ -5,6 +5,7 @@ use std::vec::Vec;
 
 use super::merge::{Job, Work, each_alone, jobs, without_zeros};
 use super::operation::{Id, Operation, Relaxing, Start};
+use super::two_valued::with_two_values;
 
 /// The location of a number during a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +73,8 @@ impl Schedule {
         outputs: &[Id],
         jobs: impl Fn(&[Operation], &[Id], &[Id]) -> Vec<Option<Job>>,
     ) -> Self {
-        let (mut operations, outputs) = without_zeros(operations, outputs);
+        let (operations, outputs) = with_two_values(operations, outputs);
+        let (mut operations, outputs) = without_zeros(&operations, &outputs);
         let mut order = order(&operations, &outputs);
         operations.push(Operation::Constant((-1.0_f64).to_bits()));
         order.insert(0, operations.len() - 1);

@@ -71,7 +71,13 @@ pub fn expm1_reduced<F: Format>(x: F) -> (F, (F, F)) {
 /// The second half of [`expm1`].
 #[inline(always)]
 pub fn expm1_of_reduced<F: Format>(x: F, n: F, r: (F, F)) -> F {
-    expm1_of(x, half_expm1_of(n.nearest().1, r))
+    expm1_of(x, half_expm1_of_reduced(n, r))
+}
+
+/// The second half of [`half_expm1`].
+#[inline(always)]
+pub fn half_expm1_of_reduced<F: Format>(n: F, r: (F, F)) -> (F, F) {
+    half_expm1_of(n.nearest().1, r)
 }
 
 /// `(e^x - 1) / 2` as a number and its rounding error. Half of it, because `2^n` itself may

@@ -20,6 +20,7 @@
 //! | `double`, `single`, `format` | constants and minimax polynomials of each format |
 //! | `phase` | reduction of large arguments of sine and cosine |
 //! | `root` | square roots, correctly rounded |
+//! | `cube_root` | cube roots in loops |
 //! | `bits` | signs, powers of two and integers in the bits of a float |
 //! | `polynomial` | Estrin's scheme |
 //! | `listing` | all constants by name |
@@ -31,6 +32,8 @@
 mod arctangent;
 mod bits;
 mod branching;
+#[cfg(feature = "std")]
+mod cube_root;
 mod double;
 mod exponential;
 mod format;
@@ -101,6 +104,11 @@ macro_rules! elementary {
                 is_plain_exponent(p: $float) -> bool, power::is_plain_exponent(p));
             elementary!(@ "Hyperbolic tangent.", tanh(x: $float) -> $float, hyperbolic::tanh(x));
             elementary!(@ "Arc tangent.", atan(x: $float) -> $float, arctangent::atan(x));
+            elementary!(@ "The first half of [`tanh`]: a power of two, and the rest in two parts.",
+                tanh_reduced(x: $float) -> ($float, ($float, $float)), hyperbolic::tanh_reduced(x));
+            elementary!(@ "The second half of [`tanh`].",
+                tanh_of_reduced(x: $float, n: $float, rest: ($float, $float)) -> $float,
+                hyperbolic::tanh_of_reduced(x, n, rest));
             elementary!(@ "Square root.", sqrt(x: $float) -> $float, root::$sqrt(x));
             elementary!(@ "Cube root, negative for negative `x`.", cbrt(x: $float) -> $float, libm::$cbrt(x));
             elementary!(@ "Sine.", sin(x: $float) -> $float, sin_cos(x).0);
@@ -139,4 +147,8 @@ macro_rules! elementary {
 }
 
 elementary!(f64: sqrt, cbrt);
+
+/// Cube roots in loops over many numbers.
+#[cfg(feature = "std")]
+pub(crate) use cube_root::cbrt_fast;
 elementary!(f32: sqrtf, cbrtf);

@@ -70,8 +70,10 @@ pub fn exponent_fast<F: Format>(logarithm: (F, F), p: F) -> (F, F) {
 pub fn powf_of_exponent<F: Format>(x: F, (n, fraction): (F, F), p: F) -> F {
     let zero = F::of(0.0);
     let value = exp2_of_fraction(fraction).times_power_of_two_in_range(n.nearest().1);
-    let in_range = x.is_normal_and_positive() & (n.abs() < F::EXP2_NORMAL);
-    let value = if in_range { value } else { F::NAN };
+    let limit = if n < zero { zero } else { F::INFINITY };
+    let beyond = if n.abs() >= F::EXP2_RANGE { limit } else { F::NAN };
+    let value = if n.abs() < F::EXP2_NORMAL { value } else { beyond };
+    let value = if x.is_normal_and_positive() { value } else { F::NAN };
     if (x == zero) & (p > zero) { zero } else { value }
 }
 
@@ -102,4 +104,22 @@ fn exp2_of_product<F: Format>(p: F, logarithm: (F, F)) -> F {
     let product = within(product, -F::EXP2_RANGE, F::EXP2_RANGE);
     let (n, bits) = (product + rest).nearest();
     exp2_of_fraction((product - n) + rest).times_power_of_two(bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_out_of_range_have_the_bits_of_the_full_function() {
+        let bases = [1e-300, 3.0e-5, 0.3, 0.999_99, 1.000_01, 1.7, 42.0, 5.0e200];
+        let exponents = [-1e19, -3e4, -366.7, -5.5, 0.58, 5.5, 366.7, 3e4, 1e19, f64::NAN];
+        let mut out_of_range = 0;
+        for (x, p) in bases.iter().flat_map(|&x| exponents.map(|p| (x, p))) {
+            let (fast, full): (f64, f64) = (powf_fast(x, log2_fast(x), p), powf(x, p));
+            assert!(fast.is_nan() || fast.to_bits() == full.to_bits(), "{x:e}^{p:e}: {fast:e}");
+            out_of_range += usize::from(fast == 0.0 || fast.is_infinite());
+        }
+        assert_eq!(out_of_range, 40);
+    }
 }

@@ -139,10 +139,11 @@ impl Model {
     }
 
     /// Friction torque of every sample; with memory, at the end of the sample's step. `single`
-    /// computes in single precision throughout. The result is written to `out` where it is given.
+    /// computes in single precision throughout. The result is written to `out` where it is given. A
+    /// result that is not finite is refused where `what` names it.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
-        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false, out=None))]
+        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false, out=None, what=None))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -164,6 +165,7 @@ impl Model {
         state: Option<Start<'py>>,
         single: bool,
         out: Option<Bound<'py, PyArray1<f64>>>,
+        what: Option<&str>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -186,22 +188,25 @@ impl Model {
             Some(out) => out,
             None => fresh(py, [arguments.rows()])?,
         };
-        let run = if single { batch::torque_single_into } else { batch::torque_into };
+        let run = if single { batch::torque_single_and_range } else { batch::torque_and_range };
         let mut room = writable(&out)?;
         let torque = numbers(&mut room)?;
-        arguments
-            .detached(py, |columns| run(&self.spec, &values, columns, torque))?
+        let finite = arguments
+            .detached(py, |columns| run(&self.spec, &values, columns, &mut *torque))?
             .map_err(refuse)?;
+        if let (false, Some(what)) = (finite, what) {
+            return Err(out_of_range(what, torque, 1));
+        }
         drop(room);
         Ok(out)
     }
 
     /// Friction torque of every sample and its derivatives with respect to the `wanted` parameters
     /// (indices, by default all) in that order, one column each. Both are written to `out` where it
-    /// is given.
+    /// is given. Derivatives that are not finite are refused where `what` names them.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
-        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None, out=None))]
+        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None, out=None, what=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -223,6 +228,7 @@ impl Model {
         state: Option<Start<'py>>,
         wanted: Option<Vec<usize>>,
         out: Option<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)>,
+        what: Option<&str>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>)> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -249,11 +255,14 @@ impl Model {
         };
         let (mut torque_room, mut slopes_room) = (writable(&torque)?, writable(&slopes)?);
         let (all, each) = (numbers(&mut torque_room)?, numbers(&mut slopes_room)?);
-        arguments
+        let finite = arguments
             .detached(py, |columns| {
-                batch::gradient_into(&self.spec, &values, columns, &wanted, all, each)
+                batch::gradient_and_range(&self.spec, &values, columns, &wanted, all, &mut *each)
             })?
             .map_err(refuse)?;
+        if let (false, Some(what)) = (finite, what) {
+            return Err(out_of_range(what, each, wanted.len()));
+        }
         drop((torque_room, slopes_room));
         Ok((torque, slopes))
     }
@@ -307,4 +316,12 @@ impl Model {
     fn __repr__(&self) -> String {
         std::format!("Model({})", self.spec)
     }
+}
+
+/// The refusal of results that are not finite, with `width` numbers per sample.
+fn out_of_range(what: &str, results: &[f64], width: usize) -> PyErr {
+    let sample = results.iter().position(|x| !x.is_finite()).unwrap_or(0) / width;
+    ModelError::new_err(format!(
+        "{what} is not finite at sample {sample}: check the values given and their units"
+    ))
 }

@@ -28,7 +28,7 @@ EXCHANGES = 12
 class Target:
     """What a polynomial approximates: `value(x)` on an interval, errors weighted by `weight(x)`.
 
-    `sizes` is the number of coefficients in double and in single precision.
+    `sizes` is the number of coefficients in double and in single precision; 0 where it is not used.
     """
 
     name: str
@@ -109,6 +109,13 @@ TARGETS = (
         (mp.mpf(0), SINE_END),
         (6, 3),
     ),
+    Target(
+        "cbrt: the cube root, of a small relative error",
+        mp.cbrt,
+        lambda m: 1 / mp.cbrt(m),
+        (mp.sqrt(mp.mpf(1) / 2), mp.sqrt(2)),
+        (6, 0),
+    ),
 )
 
 
@@ -176,7 +183,7 @@ def rounded(target: Target, size: int, kind: type[np.floating]) -> tuple[list[fl
 def main() -> None:
     for position, kind in enumerate((np.float64, np.float32)):
         print(f"{kind.__name__}")
-        for target in TARGETS:
+        for target in (one for one in TARGETS if one.sizes[position] > 0):
             coefficients, error = rounded(target, target.sizes[position], kind)
             print(f"  {target.name}: 2^{float(mp.log(error, 2)):.1f}")
             for coefficient in coefficients:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from stribeck import _core
 from stribeck.base.checks import check_choice, shown
 from stribeck.base.errors import SpecError
-from stribeck.models.channels import Columns, finite
+from stribeck.models.channels import Columns
 
 Array = NDArray[np.float64]
 
@@ -28,8 +28,8 @@ def torque(
     check_choice("precision", precision, ("double", "single"))
     if out is not None:
         check_output(out, read["velocity"].shape, {**read, "state": state})
-    found = core.torque(values, **read, state=state, single=precision == "single", out=out)
-    return finite(found, f"the torque of {spec}")
+    single, what = precision == "single", f"the torque of {spec}"
+    return core.torque(values, **read, state=state, single=single, out=out, what=what)
 
 
 def gradient(
@@ -46,8 +46,8 @@ def gradient(
         rows = read["velocity"].size
         check_output(out, (rows, values.size), {**read, "state": state})
         both = np.empty(rows), out
-    _, found = core.gradient(values, **read, state=state, out=both)
-    return finite(found, f"the gradient of {spec}")
+    _, found = core.gradient(values, **read, state=state, out=both, what=f"the gradient of {spec}")
+    return found
 
 
 def check_output(out: object, shape: tuple[int, ...], read: Mapping[str, object]) -> None:
