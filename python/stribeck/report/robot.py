@@ -39,6 +39,7 @@ def robot_text(robot: Robot) -> str:
     return joined(
         f"{robot.name}: {len(robot.joints)} joints",
         table(rows, right=[4]),
+        coupling_text(robot),
         paragraph(
             f"Torques depend on {base.count} combinations of the links' {10 * len(robot.joints)} "
             f"inertial parameters and {len(robot.joints)} rotor inertias (base parameters).",
@@ -46,6 +47,21 @@ def robot_text(robot: Robot) -> str:
         ),
         paragraph(f"No torque shows: {hidden}.", 0),
     )
+
+
+def coupling_text(robot: Robot) -> str:
+    """How motors turn with several joints; empty where each turns its own."""
+    from stribeck.robot.coupled import coupled
+
+    if not robot.coupling:
+        return ""
+    lines = []
+    for k in coupled(robot.coupling):
+        pairs = zip(robot.names, robot.coupling[k], strict=True)
+        parts = [f"{plain(factor)} x joint {name}" for name, factor in pairs if factor != 0.0]
+        lines.append(f"motor of joint {robot.names[k]}: {' + '.join(parts)}")
+    head = f"Motors turn with several joints; recorded positions are those of the {robot.encoders}:"
+    return bullets(head, lines)
 
 
 def robot_fit_text(found: RobotFit) -> str:

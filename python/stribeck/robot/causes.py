@@ -13,7 +13,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.robot.columns import Cause, coupling, payload, spring, tilt
+from stribeck.robot.columns import Cause, coupling, payload, spring, tilt, transmission
 from stribeck.robot.estimates import Scores
 from stribeck.robot.problem import Balance, Values
 from stribeck.robot.solve import QUICK, Solved, solve
@@ -68,6 +68,14 @@ def possible(solved: Solved, parameters: Array) -> Iterator[Cause]:
     count = len(motion.joints)
     yield from (spring(motion, joint) for joint in range(count))
     yield from (coupling(motion, k, k + 1) for k in range(count - 1))
+    if motion.robot.coupling:
+        load = solved.balance.load(solved.values.base)
+        for motor in range(count):
+            friction = solved.balance.problem(motor, load[:, motor])
+            torque = friction.predict(solved.values.friction[motor])
+            for other in (motor - 1, motor + 1):
+                if 0 <= other < count:
+                    yield transmission(motion, torque, motor, other)
     if motion.robot.gravity[:2] == (0.0, 0.0) and motion.robot.gravity[2] != 0.0:
         yield tilt(motion, parameters)
 
