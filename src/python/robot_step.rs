@@ -87,7 +87,9 @@ pub(super) fn simulate_robot<'py>(
     let n = bodies.count();
     let sizes = [models.len(), values.len(), start.0.len(), start.1.len(), controllers.len()];
     if n == 0 || sizes.iter().any(|size| *size != n) {
-        return Err(ModelError::new_err("a robot needs friction, start and controller of each joint"));
+        return Err(ModelError::new_err(
+            "a robot needs friction, start and controller of each joint",
+        ));
     }
     let friction = models
         .iter()
@@ -104,7 +106,8 @@ pub(super) fn simulate_robot<'py>(
         let rows = flat.len() / n;
         flat.into_pyarray(py).reshape([rows, n])
     };
-    let column = |pick: fn(&JointStep<f64>) -> f64| matrix(motion.result.iter().map(pick).collect());
+    let column =
+        |pick: fn(&JointStep<f64>) -> f64| matrix(motion.result.iter().map(pick).collect());
     answer.set_item("load_torque", column(|result| result.load)?)?;
     answer.set_item("friction_torque", column(|result| result.friction)?)?;
     answer.set_item("motor_work", column(|result| result.motor_work)?)?;
@@ -126,8 +129,7 @@ fn run(
 ) -> PyResult<Motion> {
     let n = axes.len();
     let moving = Moving { tree: bodies.tree(), friction };
-    let (mut links, mut numbers) =
-        (vec![LinkState::new(); n], vec![0.0; Room::<f64>::numbers(n)]);
+    let (mut links, mut numbers) = (vec![LinkState::new(); n], vec![0.0; Room::<f64>::numbers(n)]);
     let mut room = Room { links: &mut links, numbers: &mut numbers };
     let (mut states, mut efforts) = (vec![State::default(); n], vec![Effort::default(); n]);
     let mut motion = Motion::default();

@@ -21,8 +21,8 @@ mod regressor;
 mod state;
 mod step;
 
-pub use coupling::{Coupled, Coupling, invert};
 pub use body::{Body, Inertial, Movement, PARAMETERS};
+pub use coupling::{Coupled, Coupling, invert};
 pub use derivatives::LinkChange;
 pub use dynamics::Robot;
 pub use feedforward::ArmFeedforward;

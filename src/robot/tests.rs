@@ -192,7 +192,11 @@ fn single_precision_is_close_to_double() {
     let bodies = bodies();
     let gravity = [0.3, -0.4, -9.7];
     let double = super::Robot { bodies, gravity, coupling: None };
-    let robot = super::Robot { bodies: single(&bodies), gravity: gravity.map(|x| x as f32), coupling: None };
+    let robot = super::Robot {
+        bodies: single(&bodies),
+        gravity: gravity.map(|x| x as f32),
+        coupling: None,
+    };
     for seed in 0..200 {
         let [q, v, a] = [seed, seed + 300, seed + 600].map(|seed| state(seed).map(|x| x as f32));
         let wide = |x: [f32; N]| x.map(f64::from);

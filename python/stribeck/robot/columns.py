@@ -114,8 +114,12 @@ def coupling(motion: RobotMotion, first: int, second: int) -> Cause:
     return Cause("coupling", text, motion, motion.robot.motor_torque(columns))
 
 
-def transmission(motion: RobotMotion, torque: Array, motor: int, other: int) -> Cause:
-    """A motor that turns with a further joint, whose motor it loads.
+def transmission(
+    motion: RobotMotion, torque: Array, motor: int, other: int, turns: float
+) -> Cause:
+    """A motor that turns with the joint of another one, whose motor it loads.
+
+    Its friction then has another velocity: columns of the dry and the viscous part of that change.
 
     Parameters
     ----------
@@ -123,12 +127,23 @@ def transmission(motion: RobotMotion, torque: Array, motor: int, other: int) -> 
         Modelled torque of the motor.
     motor, other
         Numbers of the motor, and of the motor of the joint.
+    turns
+        About how far it turns with it, in its turns.
     """
-    columns = np.zeros((*motion.position.shape, 1))
+    columns = np.zeros((*motion.position.shape, 3))
     columns[:, other, 0] = -torque
+    columns[:, motor, 1:] = turned_friction(motion, motor, other, turns)
     names = motion.robot.names
-    text = f"the motor of joint {names[motor]} turns with joint {names[other]} otherwise than stated"
+    than = "otherwise than stated" if motion.robot.coupling else "too"
+    text = f"the motor of joint {names[motor]} turns with joint {names[other]} {than}"
     return Cause("transmission", text, motion, columns)
+
+
+def turned_friction(motion: RobotMotion, motor: int, other: int, turns: float) -> Array:
+    """Changes of dry and viscous friction of a motor that turns with another, array [n, 2]."""
+    velocity = motion.robot.motors_of(motion.velocity)
+    own, more = velocity[:, motor], velocity[:, other]
+    return np.column_stack([np.sign(own + turns * more) - np.sign(own), more])
 
 
 def tilt(motion: RobotMotion, parameters: Array) -> Cause:

@@ -46,8 +46,14 @@ pub struct Axis<P> {
     mode: Mode<P>,
     /// What the linear load is about: mean velocity and load of the rigid bodies.
     about: P,
-    /// The step of Newton's method, and what friction adds to the diagonal of its matrix.
+    /// Mean velocity and load before a Newton step, the step, and what friction adds to the diagonal
+    /// of its matrix.
+    kept: [P; 2],
     change: P,
+    /// Magnitude of the terms of its equation then.
+    scale: P,
+    /// What its mean speed does not exceed.
+    reach: P,
     slope: P,
 }
 
@@ -60,8 +66,17 @@ enum Mode<P> {
     Along(P),
     /// At rest, held by friction.
     Held,
+    /// It comes to rest at the end of the piece, by the friction that this takes.
+    Stops,
     /// At rest at the start of the piece; friction cannot hold it in this direction.
     Breaks(P),
+}
+
+impl<P> Mode<P> {
+    /// Whether the mean velocity is given, and friction is what it takes.
+    const fn is_given(&self) -> bool {
+        matches!(self, Self::Held | Self::Stops)
+    }
 }
 
 impl<P: Number> Axis<P> {
@@ -76,7 +91,10 @@ impl<P: Number> Axis<P> {
             load: zero,
             mode: Mode::Any,
             about: zero,
+            kept: [zero; 2],
             change: zero,
+            scale: zero,
+            reach: zero,
             slope: zero,
         }
     }

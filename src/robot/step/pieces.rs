@@ -9,6 +9,9 @@ const EDGE: f64 = 1e-30;
 /// At the end of a piece that ends in rest, a joint below this speed, relative to the start of the
 /// piece, is at rest.
 const STOPPED: f64 = 1e-9;
+/// Friction that grows faster with the load than the load itself stops a joint at once: in this
+/// share of a step.
+const JAMMED: f64 = 1e-9;
 
 impl<P: Number> Step<'_, '_, P> {
     /// A step of `dt` (s), and means over it.
@@ -22,7 +25,7 @@ impl<P: Number> Step<'_, '_, P> {
             }
             self.begin();
             let h = self.piece(left, piece < most);
-            self.advance(result, h, dt, h < left);
+            self.advance(result, h, dt);
             self.elapsed += h;
             if h == left {
                 return;
@@ -53,9 +56,10 @@ impl<P: Number> Step<'_, '_, P> {
         }
         let one = P::one();
         let (start, size) = (P::from_f64(0.5), P::from_f64(0.25));
+        let shortest = P::from_f64(JAMMED);
         let length = |share: P| left * if share < one { share } else { one };
         let mut overshoot = |share: P| {
-            if share <= P::zero() {
+            if share <= shortest {
                 return -one;
             }
             self.solve(length(share));
@@ -63,7 +67,16 @@ impl<P: Number> Step<'_, '_, P> {
         };
         let value = overshoot(start);
         let share = Equation { start, value, slope: one, size }.solve(&mut overshoot);
-        let h = length(share);
+        let h = length(if share > shortest { share } else { shortest });
+        self.solve(h);
+        for axis in self.axes.iter_mut() {
+            if let Mode::Along(direction) = axis.mode {
+                let after = axis.mean + axis.mean - axis.velocity;
+                if after * direction <= P::from_f64(STOPPED) * axis.velocity.abs() {
+                    axis.mode = Mode::Stops;
+                }
+            }
+        }
         self.solve(h);
         h
     }
@@ -83,21 +96,19 @@ impl<P: Number> Step<'_, '_, P> {
         largest
     }
 
-    /// Advances postures, states and results by a piece, at whose end joints may stop.
-    fn advance(&mut self, result: &mut [JointStep<P>], h: P, dt: P, stops: bool) {
+    /// Advances postures, states and results by a piece.
+    fn advance(&mut self, result: &mut [JointStep<P>], h: P, dt: P) {
         for (joint, result) in result.iter_mut().enumerate() {
             let sample = self.sample(joint, self.axes[joint].mean, h);
             advance_state(&self.moving.friction[joint], &mut self.states[joint], &sample, h);
             result.add(&sample, required(&sample), h, dt);
         }
         for axis in self.axes.iter_mut() {
-            let after = axis.mean + axis.mean - axis.velocity;
-            let near = P::from_f64(STOPPED) * axis.velocity.abs();
             axis.position += axis.mean * h;
-            axis.velocity = match axis.mode {
-                Mode::Along(direction) if stops && after * direction <= near => P::zero(),
-                Mode::Held => P::zero(),
-                _ => after,
+            axis.velocity = if axis.mode.is_given() {
+                P::zero()
+            } else {
+                axis.mean + axis.mean - axis.velocity
             };
         }
     }

@@ -22,6 +22,8 @@ const HALVINGS: usize = 4;
 const SLACK: f64 = 16.0;
 /// The least by which the load's own growth counts where friction grows with the load.
 const LEAST_GROWTH: f64 = 0.1;
+/// Bounds of speeds, in speeds that all torques together would give.
+const FARTHEST: f64 = 100.0;
 
 impl<P: Number> Step<'_, '_, P> {
     /// Magnitude of the terms of a joint's equation (N m or N).
@@ -68,7 +70,7 @@ impl<P: Number> Step<'_, '_, P> {
     /// The direction that dry friction acts against.
     fn direction(&self, joint: usize) -> Option<P> {
         match self.axes[joint].mode {
-            Mode::Any | Mode::Held => None,
+            Mode::Any | Mode::Held | Mode::Stops => None,
             Mode::Along(direction) | Mode::Breaks(direction) => Some(direction),
         }
     }
@@ -76,8 +78,11 @@ impl<P: Number> Step<'_, '_, P> {
     /// Mean velocities over a piece of length `h` in which no joint stops.
     pub(super) fn solve(&mut self, h: P) {
         self.weigh(h);
-        for _ in 0..ROUNDS {
-            self.find_load(h);
+        self.bound_speeds(h);
+        for round in 0..ROUNDS {
+            if round > 0 {
+                self.find_load(h);
+            }
             let settled = self.solve_linear(h);
             let moved = (0..self.axes.len()).any(|joint| {
                 let axis = &self.axes[joint];
@@ -121,6 +126,9 @@ impl<P: Number> Step<'_, '_, P> {
     /// at rest is held.
     fn alone(&mut self, joint: usize, h: P) -> P {
         let zero = P::zero();
+        if self.axes[joint].mode == Mode::Stops {
+            return self.axes[joint].velocity * P::from_f64(0.5);
+        }
         if matches!(self.axes[joint].mode, Mode::Held | Mode::Breaks(_)) {
             let one = P::one();
             let breaks = [one, -one].into_iter().find(|direction| {
@@ -140,52 +148,107 @@ impl<P: Number> Step<'_, '_, P> {
             _ => self.axes[joint].mean,
         };
         let excess = |mean| self.excess(joint, mean, h, direction);
-        let (value, slope, size) = (excess(start), self.own(joint), self.size(joint));
-        Equation { start, value, slope, size }.solve(excess)
+        let (slope, size, reach) = (self.own(joint), self.size(joint), self.axes[joint].reach);
+        let value = excess(start);
+        let found = match direction {
+            None => Equation { start, value, slope, size }.solve(excess),
+            Some(d) => {
+                let forward = Equation { start: start * d, value: value * d, slope, size };
+                forward
+                    .solve_above(-reach, |speed| excess(speed * d) * d)
+                    .map_or(-reach * d, |s| s * d)
+            }
+        };
+        if found.abs() <= reach {
+            found
+        } else if found > reach {
+            reach
+        } else {
+            // Also where it is not a number.
+            -reach
+        }
+    }
+
+    /// Finds speeds that the mean velocities do not exceed while friction dissipates: those that all
+    /// torques would give, many times. Friction that grows faster with the load than the load itself
+    /// has no solution, and would lead beyond any speed.
+    fn bound_speeds(&mut self, h: P) {
+        for axis in self.axes.iter_mut() {
+            if !axis.mode.is_given() {
+                axis.mean = axis.velocity;
+            }
+        }
+        self.find_load(h);
+        let mut sum = P::zero();
+        for joint in 0..self.axes.len() {
+            let sample = self.sample(joint, self.axes[joint].mean, h);
+            let friction = self.friction(joint, &sample, h, self.direction(joint));
+            let torques = sample.motor_torque.abs() + sample.load_torque.abs() + friction.abs();
+            let root = self.own(joint).sqrt();
+            sum += root * sample.velocity.abs() + torques / root;
+        }
+        for joint in 0..self.axes.len() {
+            self.axes[joint].reach = sum * P::from_f64(FARTHEST) / self.own(joint).sqrt();
+        }
     }
 
     /// Newton steps for all joints that are not held, while they help.
     fn newton(&mut self, h: P) {
+        for joint in 0..self.axes.len() {
+            self.axes[joint].scale = self.size(joint);
+        }
         let mut left = self.lack(h);
         for _ in 0..STEPS {
             if left <= rounding::<P>() * P::from_f64(4.0) || !self.newton_step(h) {
                 return;
             }
+            for axis in self.axes.iter_mut() {
+                axis.kept = [axis.mean, axis.load];
+            }
             let mut share = P::one();
-            let mut lowered = false;
+            let before = left;
             for _ in 0..HALVINGS {
                 self.shift_all(share);
                 let now = self.lack(h);
                 if now < left {
-                    (left, lowered) = (now, true);
+                    left = now;
                     break;
                 }
-                self.shift_all(-share);
                 share *= P::from_f64(0.5);
             }
-            if !lowered {
+            if left == before {
+                self.shift_all(P::zero());
                 return;
             }
         }
     }
 
+    /// Takes a share of the Newton step.
     fn shift_all(&mut self, share: P) {
+        for axis in self.axes.iter_mut() {
+            [axis.mean, axis.load] = axis.kept;
+        }
+        if share.is_zero() {
+            return;
+        }
         for joint in 0..self.axes.len() {
             let Axis { mean, change, .. } = self.axes[joint];
             self.shift(joint, mean + change * share);
         }
     }
 
-    /// The largest error of an equation of a joint that is not held, as a share of its terms.
+    /// The largest error of an equation of a joint whose mean velocity is sought, as a share of its
+    /// terms at the start.
     fn lack(&self, h: P) -> P {
         let mut largest = P::zero();
         for joint in 0..self.axes.len() {
-            if self.axes[joint].mode == Mode::Held {
+            if self.axes[joint].mode.is_given() {
                 continue;
             }
             let (mean, direction) = (self.axes[joint].mean, self.direction(joint));
-            let lack = self.excess(joint, mean, h, direction).abs() / self.size(joint);
-            if lack > largest {
+            let lack = self.excess(joint, mean, h, direction).abs() / self.axes[joint].scale;
+            // A lack that is not a number is the largest.
+            if !(lack <= largest) {
                 largest = lack;
             }
         }
@@ -206,7 +269,7 @@ impl<P: Number> Step<'_, '_, P> {
         for (k, axis) in self.axes.iter().enumerate() {
             right[k] = axis.change;
             work[k * n + k] += axis.slope;
-            if axis.mode == Mode::Held {
+            if axis.mode.is_given() {
                 for j in 0..n {
                     (work[k * n + j], work[j * n + k]) = (P::zero(), P::zero());
                 }
@@ -219,7 +282,7 @@ impl<P: Number> Step<'_, '_, P> {
         for (axis, change) in self.axes.iter_mut().zip(right.iter()) {
             axis.change = *change;
         }
-        true
+        right.iter().all(|change| change.value().is_finite())
     }
 
     /// What is left of a joint's equation, and the slope of its friction: both over the growth of
