@@ -85,8 +85,8 @@ def export(
     shared = [robot.names[k] for k in coupled(robot.coupling)]
     if shared:
         say(
-            f"note: rotors and friction of joints {listed(shared)} are left out: the file has no place "
-            f"for motors that turn with several joints"
+            f"note: rotors and friction of joints {listed(shared)} are left out: the file has no "
+            f"place for motors that turn with several joints"
         )
     if urdf is not None:
         write_urdf(output, urdf, robot, friction)

@@ -236,8 +236,8 @@ def _doubts_of_joints(found: RobotDiagnosis) -> list[str]:
 
 #: What is said where nothing is found in the rigid bodies.
 NO_CAUSES = (
-    "Rigid bodies: no payload, spring, coupled rotor or tilt of the base lowers the held-out error "
-    "significantly."
+    "Rigid bodies: no payload, spring, coupled rotor or motor, or tilt of the base lowers the "
+    "held-out error significantly."
 )
 
 

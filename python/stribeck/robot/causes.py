@@ -15,7 +15,15 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.base import linear
-from stribeck.robot.columns import Cause, coupling, payload, spring, tilt, transmission, turned_friction
+from stribeck.robot.columns import (
+    Cause,
+    coupling,
+    payload,
+    spring,
+    tilt,
+    transmission,
+    turned_friction,
+)
 from stribeck.robot.estimates import Scores
 from stribeck.robot.problem import Balance, Values
 from stribeck.robot.solve import QUICK, Solved, solve

@@ -114,9 +114,7 @@ def coupling(motion: RobotMotion, first: int, second: int) -> Cause:
     return Cause("coupling", text, motion, motion.robot.motor_torque(columns))
 
 
-def transmission(
-    motion: RobotMotion, torque: Array, motor: int, other: int, turns: float
-) -> Cause:
+def transmission(motion: RobotMotion, torque: Array, motor: int, other: int, turns: float) -> Cause:
     """A motor that turns with the joint of another one, whose motor it loads.
 
     Its friction then has another velocity: columns of the dry and the viscous part of that change.

@@ -114,7 +114,8 @@ def motor_columns(
         The channel has the same column for every joint.
     """
     row = turns[number]
-    named, formulas = {}, {}
+    named: dict[str, str] = {}
+    formulas: dict[str, str] = {}
     if [k for k, factor in enumerate(row) if factor != 0.0] == [number] and row[number] == 1.0:
         return named, formulas
     for channel in ("position", "velocity"):

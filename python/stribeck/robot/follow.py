@@ -39,8 +39,8 @@ class Followed:
     name
         Of the compensation; empty: none.
     position, velocity, torque : arrays [n, N]
-        Of the joints, in rad or m, and torque of the drives; where motors are coupled, those of what
-        encoders measure.
+        In rad or m of what encoders measure, the joints or their motors, and torque of the
+        drives.
     error : array [N]
         RMS of the desired minus the actual position of the joint.
     sticking : array [N]
@@ -152,7 +152,9 @@ def follow_robot(
     runs = []
     for name, known in {"": {}, **compensations}.items():
         feedforward = planned[3] + _known(robot, known, time, planned)
-        runs.append(_run(robot, acting, name, desired[0], planned, feedforward, 1.0 / rate, bandwidth))
+        runs.append(
+            _run(robot, acting, name, desired[0], planned, feedforward, 1.0 / rate, bandwidth)
+        )
     return RobotTracking(robot, time, desired[0], tuple(runs))
 
 
@@ -217,16 +219,16 @@ def _run(
         ) from None
     if unsolved:
         raise SpecError(
-            f"{robot.name}: friction and load have no common solution in {unsolved} steps: friction "
-            f"of a joint grows as fast as its load, or faster"
+            f"{robot.name}: friction and load have no common solution in {unsolved} steps: "
+            f"friction of a joint grows as fast as its load, or faster"
         )
     motors, speeds = made["position"][:-1], made["velocity"][:-1]
     joints = robot.joints_of(motors)
-    error = np.sqrt(np.mean((desired - joints) ** 2, axis=0))
+    missed = np.sqrt(np.mean((desired - joints) ** 2, axis=0))
     sticking = np.mean(speeds == 0.0, axis=0)
     if robot.encoders == "joints":
         motors, speeds = joints, robot.joints_of(speeds)
-    return Followed(name, motors, speeds, made["torque"], error, sticking)
+    return Followed(name, motors, speeds, made["torque"], missed, sticking)
 
 
 def _inertia(robot: Robot, desired: Array) -> Array:

@@ -185,7 +185,7 @@ def _refuse_too_many(recording: Recording, joints: int) -> None:
 def joint_options(robot: Robot, options: ReadOptions) -> list[ReadOptions]:
     """The options with which each joint is read."""
     given = {**dict(robot.columns), **dict(split_pairs("map", options.map))}
-    of_joints = {
+    of_joints: dict[str, list[str]] = {
         channel: [_column(given[channel], n, k) for k, n in enumerate(robot.names, start=1)]
         for channel in ("position", "velocity")
         if channel in given

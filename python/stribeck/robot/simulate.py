@@ -126,9 +126,7 @@ def fourier_motion(
     return q, v, a
 
 
-def _friction(
-    model: Model, time: Array, motors: Sequence[Array], joint: int
-) -> Array:
+def _friction(model: Model, time: Array, motors: Sequence[Array], joint: int) -> Array:
     position, velocity, acceleration, load = motors
     dt = np.full(time.size, time[1] - time[0])
     dt[0] = 0.0

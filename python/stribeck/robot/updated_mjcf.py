@@ -25,9 +25,9 @@ def updated_mjcf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
     """The MJCF `source` with identified inertias, armature, and Coulomb and viscous friction.
 
     Identified inertias replace those of the geoms; the inertia of bodies without a joint is in the
-    body that carries them. Terms of friction other than Coulomb and viscous are left out, and rotors
-    and friction of motors that turn with several joints. Names of meshes are relative to `source`:
-    write the file beside it.
+    body that carries them. Terms of friction other than Coulomb and viscous are left out, and
+    rotors and friction of motors that turn with several joints. Names of meshes are relative to
+    `source`: write the file beside it.
 
     Parameters
     ----------

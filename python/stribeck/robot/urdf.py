@@ -80,8 +80,8 @@ class _Tree:
             joint = self.parsed.joint_map[name]
             if joint.mimic is not None:
                 raise ModelFileError(
-                    f"{self.path}: joint '{name}' mimics '{joint.mimic.joint}': a joint that has no "
-                    f"motor of its own is not read; fix it, and fit the robot without it"
+                    f"{self.path}: joint '{name}' mimics '{joint.mimic.joint}': a joint without a "
+                    f"motor of its own is not read: make it a fixed joint"
                 )
             here = _after(at, _frame(joint.origin))
             if joint.type == "fixed":

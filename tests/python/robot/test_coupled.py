@@ -178,3 +178,17 @@ def test_a_coupled_arm_follows_a_motion_with_its_friction() -> None:
     found = follow_robot(robot, friction(), {"known": friction()}, seconds=4.0, speed=0.5)
     without, known = (run.error for run in found.runs)
     assert np.all(known < 0.1 * without)
+
+
+def test_a_joint_that_mimics_another_is_refused(tmp_path: Path) -> None:
+    pytest.importorskip("urdf_parser_py")
+    path = tmp_path / "gripper.urdf"
+    links = "".join(f'<link name="{name}"/>' for name in ("base", "a", "b"))
+    path.write_text(
+        f'<robot name="gripper">{links}<joint name="left" type="revolute"><parent link="base"/>'
+        '<child link="a"/><limit effort="1" velocity="1" lower="-1" upper="1"/></joint>'
+        '<joint name="right" type="revolute"><parent link="base"/><child link="b"/>'
+        '<limit effort="1" velocity="1" lower="-1" upper="1"/><mimic joint="left"/></joint></robot>'
+    )
+    with pytest.raises(ModelFileError, match="'right' mimics 'left'"):
+        read_robot(path)

@@ -12,9 +12,9 @@ import stribeck as sb
 from click.testing import CliRunner
 from stribeck import _core
 from stribeck.base.errors import SpecError
+from stribeck.cli.main import cli
 from stribeck.motion.simulate.drive import Torque
 from stribeck.motion.simulate.joint import Joint
-from stribeck.cli.main import cli
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.fit import fit_robot
@@ -107,7 +107,9 @@ def test_bristles_hold_and_spring_back() -> None:
     lugre = sb.model("lugre", **LUGRE)
     start = np.array([-1.4, -0.1])
     gravity = arm.core.gravity_torque(start[None])[0]
-    push = np.concatenate([np.linspace(0.0, 1.0, 1000), np.linspace(1.0, 0.0, 1000), np.zeros(2000)])
+    push = np.concatenate(
+        [np.linspace(0.0, 1.0, 1000), np.linspace(1.0, 0.0, 1000), np.zeros(2000)]
+    )
     torque = np.outer(push, [1.0, 0.0]) + gravity
     q = moved(arm, [lugre, lugre], start, torque, 1e-3)["position"][:, 0]
     bent, left = q[1000] - start[0], q[-1] - start[0]
