@@ -39,6 +39,7 @@ __all__ = [
     "search_by",
     "simulate",
     "simulate_arm",
+    "simulate_robot",
     "singular",
     "slides",
     "solve",
@@ -86,7 +87,22 @@ class _Units(TypedDict):
 
 @final
 class RigidBodies:
-    def __new__(cls, links: Sequence[LinkRow], gravity: Sequence[float]) -> RigidBodies: ...
+    def __new__(
+        cls,
+        links: Sequence[LinkRow],
+        gravity: Sequence[float],
+        coupling: Sequence[Sequence[float]] | None = None,
+    ) -> RigidBodies: ...
+    @property
+    def joints_per_motor(self) -> list[list[float]] | None: ...
+    def of_motors(
+        self,
+        position: ArrayLike,
+        velocity: ArrayLike,
+        acceleration: ArrayLike,
+        *,
+        single: bool = False,
+    ) -> list[NDArray[np.float64]]: ...
     def inverse_dynamics(
         self,
         position: ArrayLike,
@@ -195,6 +211,15 @@ def simulate_arm(
     start: tuple[Sequence[float], Sequence[float]],
     controllers: tuple[Mapping[str, float] | None, Mapping[str, float] | None],
 ) -> dict[str, NDArray[np.float64]]: ...
+def simulate_robot(
+    bodies: RigidBodies,
+    models: Sequence[Model],
+    values: Sequence[ArrayLike],
+    acting: Mapping[str, ArrayLike],
+    dt: float,
+    start: tuple[Sequence[float], Sequence[float]],
+    controllers: Sequence[Mapping[str, float] | None],
+) -> tuple[dict[str, NDArray[np.float64]], int]: ...
 def compensate(
     model: Model,
     values: ArrayLike,

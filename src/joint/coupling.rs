@@ -37,7 +37,9 @@ pub struct JointStep<P> {
 }
 
 impl<P: Scalar + PartialOrd> JointStep<P> {
-    pub(super) fn zero() -> Self {
+    /// Nothing has moved.
+    #[must_use]
+    pub fn at_rest() -> Self {
         let zero = P::zero();
         Self {
             friction: zero,
@@ -49,7 +51,7 @@ impl<P: Scalar + PartialOrd> JointStep<P> {
     }
 
     /// Adds a piece of length `h` of a step of length `dt`.
-    pub(super) fn add(&mut self, sample: &Sample<P>, friction: P, h: P, dt: P) {
+    pub(crate) fn add(&mut self, sample: &Sample<P>, friction: P, h: P, dt: P) {
         let (share, way) = (h / dt, sample.velocity * h);
         self.friction += friction * share;
         self.load += sample.load_torque * share;
@@ -67,7 +69,7 @@ pub fn step<P: Scalar<Plain = P> + PartialOrd>(
     body: &mut impl Body<P>,
     dt: P,
 ) -> JointStep<P> {
-    let mut step = StepInProgress { model, state, body, dt, result: JointStep::zero() };
+    let mut step = StepInProgress { model, state, body, dt, result: JointStep::at_rest() };
     if dt <= P::zero() {
         return step.result;
     }
@@ -242,12 +244,12 @@ impl<P: Scalar<Plain = P> + PartialOrd, B: Body<P>> StepInProgress<'_, P, B> {
 }
 
 /// Friction that a motion with these means requires (T).
-pub(super) fn required<P: Scalar + PartialOrd>(sample: &Sample<P>) -> P {
+pub(crate) fn required<P: Scalar + PartialOrd>(sample: &Sample<P>) -> P {
     sample.motor_torque - sample.load_torque
 }
 
 /// Mean friction torque over `h` (s) at this sample; the state is left unchanged.
-pub(super) fn mean_friction<P: Scalar<Plain = P> + PartialOrd>(
+pub(crate) fn mean_friction<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &State<P>,
     sample: &Sample<P>,
@@ -262,7 +264,7 @@ pub(super) fn mean_friction<P: Scalar<Plain = P> + PartialOrd>(
 }
 
 /// Advances the state by `h` (s) at this sample.
-pub(super) fn advance_state<P: Scalar<Plain = P> + PartialOrd>(
+pub(crate) fn advance_state<P: Scalar<Plain = P> + PartialOrd>(
     model: &Composed<P>,
     state: &mut State<P>,
     sample: &Sample<P>,

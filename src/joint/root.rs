@@ -12,13 +12,13 @@ const MAX_NARROWED: usize = 120;
 const SLACK: f64 = 4.0;
 
 /// Unit in the last place of 1.
-fn rounding<P: Scalar + PartialOrd>() -> P {
+pub(crate) fn rounding<P: Scalar + PartialOrd>() -> P {
     let double = P::from_f64(1.0 + f64::EPSILON) > P::one();
     P::from_f64(if double { f64::EPSILON } else { f64::from(f32::EPSILON) })
 }
 
 /// The zero of a function that is expected to grow at least as fast as `slope`.
-pub(super) struct Equation<P> {
+pub(crate) struct Equation<P> {
     /// The initial guess.
     pub start: P,
     /// The function there.

@@ -13,6 +13,7 @@ mod model;
 mod normal;
 mod passivity;
 mod robot;
+mod robot_step;
 mod units;
 
 use std::string::ToString;
@@ -64,6 +65,8 @@ mod _core {
     use super::passivity::{Requirement, margins, missed, passivity, requirements, work};
     #[pymodule_export]
     use super::robot::RigidBodies;
+    #[pymodule_export]
+    use super::robot_step::simulate_robot;
     #[pymodule_export]
     use super::units::units;
 

@@ -58,7 +58,8 @@ pub struct Body<P> {
     pub placement: Pose<P>,
     /// Inertial parameters of the link.
     pub inertial: Inertial<P>,
-    /// Inertia of the rotor through the gear, seen by the joint (kg m2 or kg).
+    /// Inertia of the rotor through the gear, seen by its motor's coordinate (kg m2 or kg): that of
+    /// the joint, unless motors are coupled.
     pub rotor: P,
 }
 

@@ -1,6 +1,7 @@
 //! A robot of a size known at compile time.
 
 use super::body::Body;
+use super::coupling::Coupled;
 use super::derivatives::LinkChange;
 use super::state::{LinkState, Tree};
 use crate::joint::{MassMatrix, Number};
@@ -22,6 +23,7 @@ use crate::joint::{MassMatrix, Number};
 ///         rotor: 0.1,
 ///     }],
 ///     gravity: [0.0, 0.0, -9.81],
+///     coupling: None,
 /// };
 /// let level = [core::f64::consts::FRAC_PI_2];
 /// let [torque] = pendulum.inverse_dynamics(&level, &[3.0], &[0.0]);
@@ -36,11 +38,19 @@ pub struct Robot<P, const N: usize> {
     pub bodies: [Body<P>; N],
     /// Acceleration of gravity in the frame of the base (m/s2).
     pub gravity: [P; 3],
+    /// Motors that turn with several joints; `None`: each turns its own.
+    pub coupling: Option<Coupled<P, N>>,
 }
 
 impl<P: Number, const N: usize> Robot<P, N> {
-    fn tree(&self) -> Tree<'_, P> {
-        Tree { bodies: &self.bodies, gravity: self.gravity }
+    /// The same on slices.
+    #[must_use]
+    pub fn tree(&self) -> Tree<'_, P> {
+        Tree {
+            bodies: &self.bodies,
+            gravity: self.gravity,
+            coupling: self.coupling.as_ref().map(Coupled::on_slices),
+        }
     }
 
     /// Torques (N m or N) of the joints for a motion: recursive Newton-Euler.

@@ -30,6 +30,7 @@ use crate::sample::Sample;
 ///         rotor: 0.1,
 ///     }],
 ///     gravity: [0.0, 0.0, -9.81],
+///     coupling: None,
 /// };
 /// let friction = FixedLaw::new(Coulomb { viscous_friction: 0.5_f32, coulomb_friction: 2.0 });
 /// let mut arm = ArmFeedforward::new(pendulum, [friction]);
@@ -54,17 +55,29 @@ impl<F: Friction<P>, P: Number, const N: usize> ArmFeedforward<F, P, N> {
     /// The torques (N m or N) at the end of a cycle of `dt` (s): gravity, inertia and friction.
     ///
     /// Each joint has a sample with its position, velocity and acceleration, and the channels that
-    /// its law reads. The load torque in it is not read.
+    /// its law reads. The load torque in it is not read. Where motors are coupled, torques and
+    /// friction are those of the motors.
     #[inline]
     pub fn torque(&mut self, planned: &[Sample<P>; N], dt: P) -> [P; N] {
-        let mut torque = self.robot.inverse_dynamics(
-            &planned.each_ref().map(|sample| sample.position),
-            &planned.each_ref().map(|sample| sample.velocity),
-            &planned.each_ref().map(|sample| sample.acceleration),
-        );
-        let joints = self.friction.iter().zip(&mut self.states).zip(planned);
-        for (((friction, state), sample), torque) in joints.zip(&mut torque) {
-            let sample = Sample { load_torque: *torque, ..*sample };
+        let mut position = planned.each_ref().map(|sample| sample.position);
+        let mut velocity = planned.each_ref().map(|sample| sample.velocity);
+        let mut acceleration = planned.each_ref().map(|sample| sample.acceleration);
+        let mut torque = self.robot.inverse_dynamics(&position, &velocity, &acceleration);
+        if let Some(coupled) = &self.robot.coupling {
+            let coupling = coupled.on_slices();
+            for moved in [&mut position, &mut velocity, &mut acceleration] {
+                let joints = *moved;
+                coupling.motors(&joints, moved);
+            }
+            let at_joints = torque;
+            coupling.motor_torque(&at_joints, &mut torque);
+        }
+        let motion = position.into_iter().zip(velocity).zip(acceleration);
+        let joints = self.friction.iter().zip(&mut self.states).zip(planned.iter().zip(motion));
+        for (((friction, state), (sample, motion)), torque) in joints.zip(&mut torque) {
+            let ((position, velocity), acceleration) = motion;
+            let load_torque = *torque;
+            let sample = Sample { position, velocity, acceleration, load_torque, ..*sample };
             *torque += friction.torque(state, &sample, dt);
         }
         torque

@@ -1,6 +1,7 @@
 //! The mass matrix, and accelerations by its factors.
 
 use super::body::{Inertial, Wrench};
+use super::coupling::{Coupling, rows};
 use super::pose::{Pose, diagonal, product};
 use super::state::{LinkState, Tree};
 use crate::joint::{Matrix, Number};
@@ -20,13 +21,25 @@ impl<P: Number> Tree<'_, P> {
                 links[parent].composite.add(&composite.carried(&pose));
             }
             let mut wrench = composite.pushed(&body.twist());
-            matrix[k * n + k] = body.torque(&wrench) + body.rotor;
+            matrix[k * n + k] = body.torque(&wrench);
+            if self.coupling.is_none() {
+                matrix[k * n + k] += body.rotor;
+            }
             let mut at = k;
             while let Some(parent) = self.bodies[at].parent {
                 wrench = wrench.carried(&links[at].pose);
                 at = parent;
                 let entry = self.bodies[at].torque(&wrench);
                 (matrix[k * n + at], matrix[at * n + k]) = (entry, entry);
+            }
+        }
+        if let Some(Coupling { turns, .. }) = self.coupling {
+            for (body, row) in self.bodies.iter().zip(rows(turns, n)) {
+                for (line, first) in matrix.chunks_exact_mut(n).zip(row) {
+                    for (entry, second) in line.iter_mut().zip(row) {
+                        *entry += body.rotor * (*first * *second);
+                    }
+                }
             }
         }
     }
@@ -59,7 +72,7 @@ impl<P: Number> Tree<'_, P> {
 
 /// Solves `M x = b` in place by `M = L' D L`, which fills no zeros of a tree (Featherstone, table
 /// 6.3). `false` unless M is positive definite.
-fn solve_definite<P: Number>(matrix: &mut [P], right: &mut [P]) -> bool {
+pub(super) fn solve_definite<P: Number>(matrix: &mut [P], right: &mut [P]) -> bool {
     let n = right.len();
     for k in (0..n).rev() {
         let pivot = matrix[k * n + k];

@@ -7,9 +7,11 @@
 //! 5(3), 1986.
 //!
 //! [`Tree`] works on slices, for robots known at run time; [`Robot`] on arrays, for those known at
-//! compile time. [`ArmFeedforward`] adds the friction of every joint.
+//! compile time. [`ArmFeedforward`] adds the friction of every joint. All have the coordinates of the
+//! joints; [`Coupling`] leads to those of motors that turn with several joints.
 
 mod body;
+mod coupling;
 mod derivatives;
 mod dynamics;
 mod feedforward;
@@ -17,13 +19,16 @@ mod mass;
 mod pose;
 mod regressor;
 mod state;
+mod step;
 
 pub use body::{Body, Inertial, Movement, PARAMETERS};
+pub use coupling::{Coupled, Coupling, invert};
 pub use derivatives::LinkChange;
 pub use dynamics::Robot;
 pub use feedforward::ArmFeedforward;
 pub use pose::Pose;
 pub use state::{LinkState, Tree};
+pub use step::{Axis, Moving, Pushed, Room};
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,7 @@
 //! Torques as a linear function of the inertial parameters.
 
 use super::body::{PARAMETERS, Twist};
+use super::coupling::{Coupling, dot, rows};
 use super::state::{LinkState, Tree};
 use crate::joint::{Number, Vector};
 
@@ -24,7 +25,9 @@ impl<P: Number> Tree<'_, P> {
         matrix.fill(P::zero());
         for joint in 0..self.bodies.len() {
             let row = &mut matrix[joint * columns..(joint + 1) * columns];
-            row[joint * PARAMETERS + 10] = acceleration[joint];
+            if self.coupling.is_none() {
+                row[joint * PARAMETERS + 10] = acceleration[joint];
+            }
             // Which links this joint moves, and their motion with it.
             for k in joint..self.bodies.len() {
                 let axis = if k == joint {
@@ -42,6 +45,15 @@ impl<P: Number> Tree<'_, P> {
                 (links[k].axis, links[k].moved_by) = (axis, joint);
                 let of_link = &mut row[k * PARAMETERS..k * PARAMETERS + 10];
                 of_link.copy_from_slice(&powers(&axis, &links[k]));
+            }
+        }
+        // A rotor that several joints turn loads all of them.
+        if let Some(Coupling { turns, .. }) = self.coupling {
+            for (k, turns) in rows(turns, self.bodies.len()).enumerate() {
+                let spun = dot(turns, acceleration);
+                for (joint, turn) in turns.iter().enumerate() {
+                    matrix[joint * columns + k * PARAMETERS + 10] = *turn * spun;
+                }
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Motion of all links, and the torques that it takes.
 
 use super::body::{Body, Inertial, Twist, Wrench};
+use super::coupling::{Coupling, dot, rows};
 use super::pose::{Pose, zero};
 use crate::joint::{Number, Vector};
 
@@ -49,6 +50,8 @@ pub struct Tree<'a, P> {
     pub bodies: &'a [Body<P>],
     /// Acceleration of gravity in the frame of the base (m/s2).
     pub gravity: [P; 3],
+    /// Motors that turn with several joints; `None`: each turns its own.
+    pub coupling: Option<Coupling<'a, P>>,
 }
 
 impl<P: Number> Tree<'_, P> {
@@ -109,8 +112,20 @@ impl<P: Number> Tree<'_, P> {
             link.wrench = needed(&body.inertial, link);
         }
         self.sum_wrenches(links, torque);
-        for ((body, torque), a) in self.bodies.iter().zip(torque).zip(acceleration) {
-            *torque += body.rotor * *a;
+        match self.coupling {
+            None => {
+                for ((body, torque), a) in self.bodies.iter().zip(torque).zip(acceleration) {
+                    *torque += body.rotor * *a;
+                }
+            }
+            Some(Coupling { turns, .. }) => {
+                for (body, row) in self.bodies.iter().zip(rows(turns, acceleration.len())) {
+                    let pushed = body.rotor * dot(row, acceleration);
+                    for (torque, turn) in torque.iter_mut().zip(row) {
+                        *torque += *turn * pushed;
+                    }
+                }
+            }
         }
     }
 

@@ -59,7 +59,7 @@ fn state(seed: usize) -> [f64; N] {
 #[test]
 fn regressor_times_parameters_is_the_torque() {
     let bodies = bodies();
-    let tree = Tree { bodies: &bodies, gravity: [0.3, -0.4, -9.7] };
+    let tree = Tree { bodies: &bodies, gravity: [0.3, -0.4, -9.7], coupling: None };
     let (mut states, mut torque) = ([LinkState::new(); N], [0.0; N]);
     let mut matrix = [0.0; N * N * PARAMETERS];
     let values = parameters(&bodies);
@@ -77,7 +77,7 @@ fn regressor_times_parameters_is_the_torque() {
 #[test]
 fn mass_matrix_gravity_and_accelerations_agree_with_inverse_dynamics() {
     let bodies = bodies();
-    let tree = Tree { bodies: &bodies, gravity: [0.3, -0.4, -9.7] };
+    let tree = Tree { bodies: &bodies, gravity: [0.3, -0.4, -9.7], coupling: None };
     let still = Tree { gravity: [0.0; 3], ..tree };
     let (mut states, mut torque) = ([LinkState::new(); N], [0.0; N]);
     let (mut mass, mut held) = ([0.0; N * N], [0.0; N]);
@@ -106,7 +106,7 @@ fn mass_matrix_gravity_and_accelerations_agree_with_inverse_dynamics() {
 /// Differences of fourth order are near enough to show a wrong term.
 #[test]
 fn derivatives_are_the_slopes_of_the_torques() {
-    let robot = super::Robot { bodies: bodies(), gravity: [0.3, -0.4, -9.7] };
+    let robot = super::Robot { bodies: bodies(), gravity: [0.3, -0.4, -9.7], coupling: None };
     for seed in 80..90 {
         let (q, v, a) = (state(seed), state(seed + 100), state(seed + 200));
         let [by_position, by_velocity] = robot.inverse_dynamics_derivatives(&q, &v, &a);
@@ -143,7 +143,7 @@ fn slope(torque: impl Fn(f64) -> [f64; N]) -> [f64; N] {
 #[test]
 fn power_of_the_torques_is_the_change_of_energy() {
     let bodies = bodies();
-    let tree = Tree { bodies: &bodies, gravity: [0.0; 3] };
+    let tree = Tree { bodies: &bodies, gravity: [0.0; 3], coupling: None };
     let (mut states, mut torque, mut mass) = ([LinkState::new(); N], [0.0; N], [0.0; N * N]);
     let (q, v) = (state(50), state(51));
     tree.inverse_dynamics(&q, &v, &[0.0; N], &mut states, &mut torque);
@@ -162,7 +162,7 @@ fn a_robot_without_mass_has_no_acceleration() {
     let mut bodies = bodies();
     bodies[4].inertial = Inertial::from_parameters([0.0; 10]);
     bodies[4].rotor = 0.0;
-    let robot = super::Robot { bodies, gravity: [0.0; 3] };
+    let robot = super::Robot { bodies, gravity: [0.0; 3], coupling: None };
     assert_eq!(robot.forward_dynamics(&state(1), &state(2), &state(3)), None);
 }
 
@@ -191,8 +191,12 @@ fn single(bodies: &[Body<f64>; N]) -> [Body<f32>; N] {
 fn single_precision_is_close_to_double() {
     let bodies = bodies();
     let gravity = [0.3, -0.4, -9.7];
-    let double = super::Robot { bodies, gravity };
-    let robot = super::Robot { bodies: single(&bodies), gravity: gravity.map(|x| x as f32) };
+    let double = super::Robot { bodies, gravity, coupling: None };
+    let robot = super::Robot {
+        bodies: single(&bodies),
+        gravity: gravity.map(|x| x as f32),
+        coupling: None,
+    };
     for seed in 0..200 {
         let [q, v, a] = [seed, seed + 300, seed + 600].map(|seed| state(seed).map(|x| x as f32));
         let wide = |x: [f32; N]| x.map(f64::from);
@@ -217,7 +221,7 @@ fn single_precision_is_close_to_double() {
 fn feedforward_is_the_rigid_bodies_and_the_friction_under_their_load() {
     use crate::{Interval, Sample, Spec, State};
 
-    let robot = super::Robot { bodies: bodies(), gravity: [0.3, -0.4, -9.7] };
+    let robot = super::Robot { bodies: bodies(), gravity: [0.3, -0.4, -9.7], coupling: None };
     let mut spec = Spec::new("lugre", ["load"]).unwrap();
     spec.set_constant("reference_load", 10.0).unwrap();
     let values = [1e3, 1.0, 0.5, 2.0, 2.5, 0.1, 1.7, 0.2, 1.0, 0.1, 1.2];

@@ -82,6 +82,8 @@ def show(described: str, as_json: bool) -> None:
             "robot": found.name,
             "joints": joints,
             "gravity": list(found.gravity),
+            "motor_turns": [list(row) for row in found.coupling] or None,
+            "encoders": found.encoders,
             "base_parameters": combinations,
             "not_identifiable": list(base.not_shown),
         }

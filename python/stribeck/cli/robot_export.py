@@ -6,10 +6,11 @@ from pathlib import Path
 
 import click
 
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import SpecError, listed
 from stribeck.cli.common import echo_result, json_option, say, seed_option
 from stribeck.cli.outputs import DESCRIPTION, CheckedCommand
 from stribeck.exporters.robot.export import export_robot
+from stribeck.robot.coupled import coupled
 from stribeck.robot.describe import read_robot
 from stribeck.robot.stored import read_friction
 from stribeck.robot.updated_mjcf import write_mjcf
@@ -81,6 +82,12 @@ def export(
         echo_result(written, as_json)
         return
     assert output is not None
+    shared = [robot.names[k] for k in coupled(robot.coupling)]
+    if shared:
+        say(
+            f"note: rotors and friction of joints {listed(shared)} are left out: the file has no "
+            f"place for motors that turn with several joints"
+        )
     if urdf is not None:
         write_urdf(output, urdf, robot, friction)
     elif mjcf is not None:

@@ -39,6 +39,7 @@ def robot_text(robot: Robot) -> str:
     return joined(
         f"{robot.name}: {len(robot.joints)} joints",
         table(rows, right=[4]),
+        coupling_text(robot),
         paragraph(
             f"Torques depend on {base.count} combinations of the links' {10 * len(robot.joints)} "
             f"inertial parameters and {len(robot.joints)} rotor inertias (base parameters).",
@@ -46,6 +47,21 @@ def robot_text(robot: Robot) -> str:
         ),
         paragraph(f"No torque shows: {hidden}.", 0),
     )
+
+
+def coupling_text(robot: Robot) -> str:
+    """How motors turn with several joints; empty where each turns its own."""
+    from stribeck.robot.coupled import coupled
+
+    if not robot.coupling:
+        return ""
+    lines = []
+    for k in coupled(robot.coupling):
+        pairs = zip(robot.names, robot.coupling[k], strict=True)
+        parts = [f"{plain(factor)} x joint {name}" for name, factor in pairs if factor != 0.0]
+        lines.append(f"motor of joint {robot.names[k]}: {' + '.join(parts)}")
+    head = f"Motors turn with several joints; recorded positions are those of the {robot.encoders}:"
+    return bullets(head, lines)
 
 
 def robot_fit_text(found: RobotFit) -> str:
@@ -220,8 +236,8 @@ def _doubts_of_joints(found: RobotDiagnosis) -> list[str]:
 
 #: What is said where nothing is found in the rigid bodies.
 NO_CAUSES = (
-    "Rigid bodies: no payload, spring, coupled rotor or tilt of the base lowers the held-out error "
-    "significantly."
+    "Rigid bodies: no payload, spring, coupled rotor or motor, or tilt of the base lowers the "
+    "held-out error significantly."
 )
 
 

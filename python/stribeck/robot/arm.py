@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from stribeck import _core
 from stribeck.base.shown import Shown
+from stribeck.robot.coupled import Turns, mixed
 
 Array = NDArray[np.float64]
 
 Movement = Literal["revolute", "prismatic"]
+Encoders = Literal["joints", "motors"]
 
 #: The inertial parameters of a link in the order of the regressor's columns: symbol and unit.
 PARAMETERS = (
@@ -69,7 +71,8 @@ class RobotJoint:
     rotor
         Inertia of the rotor through the gear, kg m2 or kg.
     drive_gain
-        Torque at the joint per motor current, N m/A or N/A; None: torques are recorded.
+        Torque at the joint per motor current, N m/A or N/A; None: torques are recorded. Of a motor
+        that turns several joints: torque at one that turns as it does, with the others at rest.
     torque_limit
         Largest torque of the drive, N m or N; None: not known.
     """
@@ -139,6 +142,11 @@ class Robot(Shown):
         The file that describes it.
     spheres
         Spheres that the links do not leave, which must not meet.
+    coupling
+        Velocity of each motor (row) per velocity of each joint; empty: each motor turns its own.
+        Torques and friction are then those of the motors.
+    encoders
+        Of what positions and velocities are recorded.
     """
 
     name: str
@@ -147,6 +155,8 @@ class Robot(Shown):
     columns: tuple[tuple[str, str], ...] = ()
     source: str = ""
     spheres: tuple[Sphere, ...] = ()
+    coupling: Turns = ()
+    encoders: Encoders = "joints"
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -161,7 +171,30 @@ class Robot(Shown):
     @cached_property
     def core(self) -> _core.RigidBodies:
         """The rigid bodies, in the compiled core."""
-        return _core.RigidBodies([joint.row() for joint in self.joints], list(self.gravity))
+        rows = [joint.row() for joint in self.joints]
+        return _core.RigidBodies(rows, list(self.gravity), self.coupling or None)
+
+    def joints_of(self, motors: Array) -> Array:
+        """Positions, velocities or accelerations of the joints [n, N] from those of the motors."""
+        inverse = self.core.joints_per_motor
+        return motors if inverse is None else mixed(inverse, motors)
+
+    def motors_of(self, joints: Array) -> Array:
+        """Positions, velocities or accelerations of the motors [n, N] from those of the joints."""
+        return mixed(self.coupling, joints) if self.coupling else joints
+
+    def motor_torque(self, torque: Array) -> Array:
+        """Torques of the motors [n, N, ...] that torques at the joints need.
+
+        Examples
+        --------
+        >>> from stribeck.robot.tables import from_tables
+        >>> wrist = replace(from_tables("wrist", [{}, {}]), coupling=((1.0, 0.0), (1.0, 1.0)))
+        >>> wrist.motor_torque(np.array([[3.0, 1.0]]))
+        array([[2., 1.]])
+        """
+        inverse = self.core.joints_per_motor
+        return torque if inverse is None else mixed(list(zip(*inverse, strict=True)), torque)
 
     def with_bodies(
         self, parameters: Array, gravity: tuple[float, float, float] | None = None
@@ -174,7 +207,7 @@ class Robot(Shown):
         return replace(self, joints=joints, gravity=self.gravity if gravity is None else gravity)
 
     def regressor(self, position: Array, velocity: Array, acceleration: Array) -> Array:
-        """Derivatives of the torques by the inertial parameters, array [n, N, 11 N].
+        """Derivatives of the torques at the joints by the inertial parameters, array [n, N, 11 N].
 
         Parameters
         ----------
@@ -206,7 +239,7 @@ class Robot(Shown):
         return by_position, by_velocity, self.core.mass_matrix(position)
 
     def torque(self, position: Array, velocity: Array, acceleration: Array) -> Array:
-        """Torques or forces that the rigid bodies need, array [n, N]: recursive Newton-Euler.
+        """Torques or forces at the joints for the rigid bodies, [n, N]: recursive Newton-Euler.
 
         Examples
         --------

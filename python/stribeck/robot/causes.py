@@ -6,6 +6,7 @@ they cannot hold: a payload in some runs, springs, a base that is not level, cou
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -13,7 +14,16 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.robot.columns import Cause, coupling, payload, spring, tilt
+from stribeck.base import linear
+from stribeck.robot.columns import (
+    Cause,
+    coupling,
+    payload,
+    spring,
+    tilt,
+    transmission,
+    turned_friction,
+)
 from stribeck.robot.estimates import Scores
 from stribeck.robot.problem import Balance, Values
 from stribeck.robot.solve import QUICK, Solved, solve
@@ -22,6 +32,9 @@ Array = NDArray[np.float64]
 
 #: Largest probability that noise brings the fall, over all that is tried.
 SIGNIFICANCE = 0.01
+#: Turns of a motor with another joint that are tried, and the least fall of what is left of its
+#: torque, as a share, by friction at that velocity.
+TURNS, LEAST_SEEN = (-1.0, -0.5, 0.5, 1.0), 0.1
 
 
 @dataclass(frozen=True)
@@ -68,8 +81,37 @@ def possible(solved: Solved, parameters: Array) -> Iterator[Cause]:
     count = len(motion.joints)
     yield from (spring(motion, joint) for joint in range(count))
     yield from (coupling(motion, k, k + 1) for k in range(count - 1))
+    yield from transmissions(solved)
     if motion.robot.gravity[:2] == (0.0, 0.0) and motion.robot.gravity[2] != 0.0:
         yield tilt(motion, parameters)
+
+
+def transmissions(solved: Solved) -> Iterator[Cause]:
+    """Motors that may turn with other joints than stated: one at most for each motor.
+
+    One is offered where what is left of the motor's torque falls much by friction at the velocity
+    that the motor would then have.
+    """
+    balance, motion = solved.balance, solved.balance.motion
+    count = len(motion.joints)
+    for motor in range(count):
+        scored = motion.scored[:, motor]
+        load = balance.load(solved.values.base)[:, motor]
+        left = balance.problem(motor, load).residual(solved.values.friction[motor])
+        left = motion.filtered(left, motor)[scored]
+        best = (LEAST_SEEN, motor, 0.0)
+        for other, turns in itertools.product(range(count), TURNS):
+            if other != motor:
+                columns = turned_friction(motion, motor, other, turns)
+                columns = motion.filtered(columns, motor)[scored]
+                after = left - columns @ linear.least_norm(columns, left)
+                fall = 1.0 - float(np.sqrt(np.sum(after**2) / np.sum(left**2)))
+                best = max(best, (fall, other, turns))
+        _, other, turns = best
+        if other != motor:
+            friction = balance.problem(motor, load)
+            torque = friction.predict(solved.values.friction[motor])
+            yield transmission(motion, torque, motor, other, turns)
 
 
 def rigid_causes(solved: Solved, parameters: Array, least_fall: float) -> list[Found]:

@@ -24,13 +24,13 @@ class Cause:
     Attributes
     ----------
     id
-        ``"payload"``, ``"spring"``, ``"tilt"`` or ``"coupling"``.
+        ``"payload"``, ``"spring"``, ``"tilt"``, ``"coupling"`` or ``"transmission"``.
     text
         What it is, without full stop.
     runs
         Of a payload: the runs that carry it.
     columns : array [n, N, k]
-        Torques of the joints per unit of each of its parameters.
+        Torques of the motors per unit of each of its parameters.
     """
 
     id: str
@@ -100,7 +100,8 @@ def spring(motion: RobotMotion, joint: int) -> Cause:
     columns = np.zeros((*motion.position.shape, SPRING_TERMS))
     columns[:, joint] = part[:, None] ** np.arange(1, SPRING_TERMS + 1)
     name = motion.robot.names[joint]
-    return Cause("spring", f"a spring, balancer or cable at joint {name}", motion, columns)
+    text = f"a spring, balancer or cable at joint {name}"
+    return Cause("spring", text, motion, motion.robot.motor_torque(columns))
 
 
 def coupling(motion: RobotMotion, first: int, second: int) -> Cause:
@@ -110,7 +111,37 @@ def coupling(motion: RobotMotion, first: int, second: int) -> Cause:
     columns[:, second, 0] = motion.acceleration[:, first]
     names = motion.robot.names
     text = f"a rotor that joints {names[first]} and {names[second]} turn together"
-    return Cause("coupling", text, motion, columns)
+    return Cause("coupling", text, motion, motion.robot.motor_torque(columns))
+
+
+def transmission(motion: RobotMotion, torque: Array, motor: int, other: int, turns: float) -> Cause:
+    """A motor that turns with the joint of another one, whose motor it loads.
+
+    Its friction then has another velocity: columns of the dry and the viscous part of that change.
+
+    Parameters
+    ----------
+    torque : array [n]
+        Modelled torque of the motor.
+    motor, other
+        Numbers of the motor, and of the motor of the joint.
+    turns
+        About how far it turns with it, in its turns.
+    """
+    columns = np.zeros((*motion.position.shape, 3))
+    columns[:, other, 0] = -torque
+    columns[:, motor, 1:] = turned_friction(motion, motor, other, turns)
+    names = motion.robot.names
+    than = "otherwise than stated" if motion.robot.coupling else "too"
+    text = f"the motor of joint {names[motor]} turns with joint {names[other]} {than}"
+    return Cause("transmission", text, motion, columns)
+
+
+def turned_friction(motion: RobotMotion, motor: int, other: int, turns: float) -> Array:
+    """Changes of dry and viscous friction of a motor that turns with another, array [n, 2]."""
+    velocity = motion.robot.motors_of(motion.velocity)
+    own, more = velocity[:, motor], velocity[:, other]
+    return np.column_stack([np.sign(own + turns * more) - np.sign(own), more])
 
 
 def tilt(motion: RobotMotion, parameters: Array) -> Cause:
@@ -125,4 +156,5 @@ def tilt(motion: RobotMotion, parameters: Array) -> Cause:
         motion.robot.with_bodies(parameters, gravity).core.gravity_torque(motion.position)
         for gravity in ((9.81, 0.0, 0.0), (0.0, 9.81, 0.0))
     ]
-    return Cause("tilt", "a base that is not level", motion, np.stack(parts, axis=2))
+    columns = motion.robot.motor_torque(np.stack(parts, axis=2))
+    return Cause("tilt", "a base that is not level", motion, columns)

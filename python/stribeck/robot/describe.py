@@ -9,7 +9,8 @@ from pathlib import Path
 
 from stribeck.base.errors import ModelFileError
 from stribeck.base.toml import TomlText, read_text
-from stribeck.robot.arm import GRAVITY, Movement, Robot, RobotJoint
+from stribeck.robot.arm import GRAVITY, Encoders, Movement, Robot, RobotJoint
+from stribeck.robot.coupled import read_turns
 from stribeck.robot.frames import KEYS, joint_of, torque_limit
 from stribeck.robot.mjcf import is_mjcf, read_mjcf
 from stribeck.robot.spheres import read_spheres
@@ -19,9 +20,20 @@ from stribeck.robot.urdf import read_urdf
 #: Version of the file's layout.
 SCHEMA = 1
 _SOURCES = ("urdf", "mjcf", "convention")
-_KEYS = ("kind", "schema", "name", *_SOURCES, "gravity", "joint", "sphere", "columns", "fitted_on")
+_KEYS = (
+    "kind",
+    "schema",
+    "name",
+    *_SOURCES,
+    "gravity",
+    "encoders",
+    "joint",
+    "sphere",
+    "columns",
+    "fitted_on",
+)
 _NUMBERS = ("a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
-_ROW = ("name", "kind", *_NUMBERS, "torque_limit")
+_ROW = ("name", "kind", *_NUMBERS, "torque_limit", "motor_turns")
 #: Channels of a joint that `[columns]` may name.
 CHANNELS = ("time", "position", "velocity", "acceleration", "torque", "current", "temperature")
 
@@ -55,8 +67,22 @@ def read_robot(path: str | Path) -> Robot:
         made = _with_frames(text, content)
     else:
         made = _with_table(text, content)
-    spheres = read_spheres(text, content.get("sphere", []), made.names)
-    return replace(made, columns=_columns(text, content), source=str(where), spheres=spheres)
+    rows = content.get("joint", [])
+    return replace(
+        made,
+        columns=_columns(text, content),
+        source=str(where),
+        spheres=read_spheres(text, content.get("sphere", []), made.names),
+        coupling=read_turns(text, rows if isinstance(rows, list) else [], made.names),
+        encoders=_encoders(text, content),
+    )
+
+
+def _encoders(text: TomlText, content: Mapping[str, object]) -> Encoders:
+    given = content.get("encoders", "joints")
+    if given not in ("joints", "motors"):
+        raise text.stop(f"encoders are those of joints or motors, not {given!r}", "encoders")
+    return "joints" if given == "joints" else "motors"
 
 
 def _tables(

@@ -1,33 +1,33 @@
 """A robot in closed loop: every joint follows a motion against its friction, with compensation.
 
-Time-stepping after Moreau (1988): velocities after a step solve the equations of motion with dry
-friction at these velocities, for all joints at once. A joint sticks where dry friction can hold
-it. The step is that of a convex function, found joint by joint (Gauss-Seidel).
+Each step is solved for all joints at once, with friction at its mean velocities: dry friction holds
+joints, and laws with a state, such as bristles, are stepped exactly (`src/robot/step`).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 
 import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
+from stribeck import _core
 from stribeck.base.checks import check_number
 from stribeck.base.errors import SpecError
 from stribeck.base.shown import Shown
+from stribeck.models.build import model
 from stribeck.models.model import Model
 from stribeck.motion.simulate.acting import friction_of
+from stribeck.motion.simulate.drive import Controller
 from stribeck.robot.arm import Robot
 from stribeck.robot.simulate import check_friction, fourier_motion
 
 Array = NDArray[np.float64]
 
-#: Most sweeps over the joints in a step, and the change, as a share of the speed, that ends them.
-SWEEPS, SETTLED = 200, 1e-12
-#: The step in speed by which friction is differentiated, as a share of the largest speed.
-SPEED_STEP = 1e-6
+#: Temperature of the joints, degC.
+TEMPERATURE = 25.0
 
 
 @dataclass(frozen=True)
@@ -39,11 +39,12 @@ class Followed:
     name
         Of the compensation; empty: none.
     position, velocity, torque : arrays [n, N]
-        Of the joints, in rad or m, and torque of the drives.
+        In rad or m of what encoders measure, the joints or their motors, and torque of the
+        drives.
     error : array [N]
-        RMS of the desired minus the actual position.
+        RMS of the desired minus the actual position of the joint.
     sticking : array [N]
-        Share of the time at which a joint sticks.
+        Share of the time at which a joint, or its motor where they are coupled, sticks.
     """
 
     name: str
@@ -119,7 +120,7 @@ def follow_robot(
     Parameters
     ----------
     friction : mapping of Model
-        Friction of each joint, with values. One with a state acts by its steady torque.
+        Friction of each joint, with values.
     compensations : mapping
         Friction of each joint as the controller knows it, by a name for tables.
     rate
@@ -146,129 +147,97 @@ def follow_robot(
     time = np.arange(int(seconds * rate)) / rate
     random = np.random.default_rng(seed)
     desired = fourier_motion(time, len(robot.joints), speed, harmonics, random)
-    arm = _Arm(robot, friction, 1.0 / rate, speed)
-    planned = robot.torque(*desired)
+    planned = robot.core.of_motors(*desired)
+    acting = _acting(robot, friction)
     runs = []
     for name, known in {"": {}, **compensations}.items():
-        feedforward = planned + _known(robot, known, time, desired, planned)
-        runs.append(_run(arm, name, desired, feedforward, bandwidth))
+        feedforward = planned[3] + _known(robot, known, time, planned)
+        runs.append(
+            _run(robot, acting, name, desired[0], planned, feedforward, 1.0 / rate, bandwidth)
+        )
     return RobotTracking(robot, time, desired[0], tuple(runs))
 
 
+def _acting(robot: Robot, friction: Mapping[str, Model]) -> list[Model]:
+    """What acts as friction on each motor; nothing where no friction is given."""
+    free = model("coulomb", coulomb_friction=0.0, viscous_friction=0.0)
+    return [friction_of(friction[name])[0] if name in friction else free for name in robot.names]
+
+
 def _known(
-    robot: Robot,
-    known: Mapping[str, Model],
-    time: Array,
-    desired: tuple[Array, Array, Array],
-    planned: Array,
+    robot: Robot, known: Mapping[str, Model], time: Array, planned: Sequence[Array]
 ) -> Array:
-    """Friction at the desired motion, array [n, N]."""
-    made = np.zeros_like(planned)
+    """Friction of the motors at the desired motion, array [n, N]."""
+    position, velocity, acceleration, load = planned
+    made = np.zeros_like(load)
     dt = np.diff(time, prepend=time[0])
-    position, velocity, acceleration = desired
     for k, joint in enumerate(robot.joints):
         if joint.name in known:
             made[:, k] = friction_of(known[joint.name])[0].torque(
                 velocity[:, k],
                 position=position[:, k],
                 acceleration=acceleration[:, k],
-                load_torque=planned[:, k],
+                temperature=TEMPERATURE,
+                load_torque=load[:, k],
                 dt=dt,
             )
     return made
 
 
 def _run(
-    arm: _Arm, name: str, desired: tuple[Array, Array, Array], feedforward: Array, bandwidth: float
+    robot: Robot,
+    acting: Sequence[Model],
+    name: str,
+    desired: Array,
+    planned: Sequence[Array],
+    feedforward: Array,
+    step: float,
+    bandwidth: float,
 ) -> Followed:
-    position, velocity, _ = desired
-    inertia = np.mean(np.diagonal(arm.robot.core.mass_matrix(position), axis1=1, axis2=2), axis=0)
-    stiff, damped = bandwidth**2 * inertia, 2.0 * bandwidth * inertia
-    q, v = position[0], velocity[0]
-    acceleration = np.zeros_like(q)
-    places, speeds, torques = (np.empty_like(position) for _ in range(3))
-    for k in range(len(position)):
-        torque = feedforward[k] + stiff * (position[k] - q) + damped * (velocity[k] - v)
-        places[k], speeds[k], torques[k] = q, v, torque
-        q, v, acceleration = arm.stepped(q, v, acceleration, torque)
-    if not np.all(np.isfinite(places)):
-        raise SpecError(f"{arm.robot.name}: the controlled motion diverges: give a lower bandwidth")
-    error = np.sqrt(np.mean((position - places) ** 2, axis=0))
-    return Followed(name, places, speeds, torques, error, np.mean(speeds == 0.0, axis=0))
+    position, velocity = planned[:2]
+    gains = [_gains(float(inertia), bandwidth) for inertia in _inertia(robot, desired)]
+    columns = {
+        "torque": feedforward,
+        "temperature": np.full_like(feedforward, TEMPERATURE),
+        "desired_position": position,
+        "desired_velocity": velocity,
+    }
+    start = (position[0].tolist(), velocity[0].tolist())
+    try:
+        made, unsolved = _core.simulate_robot(
+            robot.core,
+            [model.core for model in acting],
+            [model.values for model in acting],
+            columns,
+            step,
+            start,
+            gains,
+        )
+    except _core.ModelError as error:
+        raise SpecError(
+            f"{robot.name}: the controlled motion diverges: give a lower bandwidth ({error})"
+        ) from None
+    if unsolved:
+        raise SpecError(
+            f"{robot.name}: friction and load have no common solution in {unsolved} steps: "
+            f"friction of a joint grows as fast as its load, or faster"
+        )
+    motors, speeds = made["position"][:-1], made["velocity"][:-1]
+    joints = robot.joints_of(motors)
+    missed = np.sqrt(np.mean((desired - joints) ** 2, axis=0))
+    sticking = np.mean(speeds == 0.0, axis=0)
+    if robot.encoders == "joints":
+        motors, speeds = joints, robot.joints_of(speeds)
+    return Followed(name, motors, speeds, made["torque"], missed, sticking)
 
 
-class _Arm:
-    """Rigid bodies and friction of all joints, moved step by step."""
-
-    def __init__(
-        self, robot: Robot, friction: Mapping[str, Model], step: float, speed: float
-    ) -> None:
-        self.robot, self.step = robot, step
-        self.models = [
-            friction_of(friction[name])[0] if name in friction else None for name in robot.names
-        ]
-        self.change = SPEED_STEP * speed
-
-    def stepped(
-        self, q: Array, v: Array, acceleration: Array, torque: Array
-    ) -> tuple[Array, Array, Array]:
-        """Position, velocity and acceleration [N] after a step."""
-        h, core = self.step, self.robot.core
-        mass = core.mass_matrix(q[None])[0]
-        bias = core.inverse_dynamics(q[None], v[None], np.zeros((1, q.size)))[0]
-        load = bias + mass @ acceleration
-        dry, other, slope = self._friction(q, v, acceleration, load)
-        matrix = mass + h * np.diag(slope)
-        right = mass @ v + h * (torque - bias - other + slope * v)
-        after = sliding(matrix, right, h * dry, v)
-        return q + h * after, after, (after - v) / h
-
-    def _friction(
-        self, q: Array, v: Array, acceleration: Array, load: Array
-    ) -> tuple[Array, Array, Array]:
-        """Of each joint [N]: dry friction, the rest of it, and the slope of the rest."""
-        dry, other, slope = np.zeros((3, q.size))
-        for k, model in enumerate(self.models):
-            if model is None:
-                continue
-            parts = model.split(
-                [v[k], v[k] + self.change],
-                position=[q[k]] * 2,
-                acceleration=[acceleration[k]] * 2,
-                load_torque=[load[k]] * 2,
-            )
-            rest = parts["rate"] + parts["additive"]
-            dry[k], other[k] = max(float(parts["dry"][0]), 0.0), rest[0]
-            slope[k] = max(float(rest[1] - rest[0]) / self.change, 0.0)
-        return dry, other, slope
+def _inertia(robot: Robot, desired: Array) -> Array:
+    """Mean inertia that each motor sees on a motion [n, N], array [N]."""
+    mass = robot.core.mass_matrix(desired)
+    turned = robot.motor_torque(np.swapaxes(robot.motor_torque(mass), 1, 2))
+    return np.asarray(np.mean(np.diagonal(turned, axis1=1, axis2=2), axis=0))
 
 
-def sliding(matrix: Array, right: Array, dry: Array, start: Array) -> Array:
-    """Velocities [N] that solve ``matrix v + dry sign(v) = right``, with sign(0) in -1 .. 1.
-
-    Parameters
-    ----------
-    matrix : array [N, N]
-        Symmetric, positive definite.
-    dry : array [N]
-        Impulse of dry friction, at least 0.
-    start : array [N]
-        Velocities from which the search starts.
-
-    Examples
-    --------
-    >>> sliding(np.diag([2.0, 1.0]), np.array([3.0, 0.5]), np.array([1.0, 1.0]), np.zeros(2))
-    array([1., 0.])
-    """
-    v = np.array(start)
-    diagonal = np.diag(matrix)
-    for _ in range(SWEEPS):
-        largest = 0.0
-        for k in range(v.size):
-            free = right[k] - matrix[k] @ v + diagonal[k] * v[k]
-            moved = np.sign(free) * max(abs(free) - dry[k], 0.0) / diagonal[k]
-            largest = max(largest, abs(moved - v[k]))
-            v[k] = moved
-        if largest <= SETTLED * max(float(np.max(np.abs(v))), 1.0):
-            break
-    return v
+def _gains(inertia: float, bandwidth: float) -> dict[str, float]:
+    """A critically damped loop around an inertia."""
+    return asdict(Controller(bandwidth**2 * inertia, derivative=2.0 * bandwidth * inertia))

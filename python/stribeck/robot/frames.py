@@ -24,6 +24,7 @@ KEYS = (
     "rotor",
     "drive_gain",
     "torque_limit",
+    "motor_turns",
     "friction",
 )
 _SYMBOLS = [symbol for symbol, _ in PARAMETERS[:10]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,6 +16,7 @@ from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadOptions, split_pairs
 from stribeck.recording.recording import Column, Recording
 from stribeck.robot.arm import Robot
+from stribeck.robot.coupled import motor_columns
 
 Array = NDArray[np.float64]
 
@@ -41,9 +42,10 @@ class RobotMotion:
     Attributes
     ----------
     joints
-        The recording of each joint; all have the same samples.
+        The recording of each joint, of its motor where motors are coupled; all have the same
+        samples.
     position, velocity, acceleration : arrays [n, N]
-        After the zero-phase low-pass; what the rigid bodies see.
+        Of the joints, after the zero-phase low-pass; what the rigid bodies see.
     cutoff
         Of the low-pass that both sides of the torque balance pass, Hz.
     """
@@ -77,9 +79,9 @@ class RobotMotion:
                 )
         chosen = _cutoff(first.path, joints, cutoff)
         order = _Filter(first, min(BEFORE * chosen, FASTEST * first.rate_hz))
-        position = order.smooth(np.stack([np.asarray(r.position) for r in joints], axis=1))
+        motors = order.smooth(np.stack([np.asarray(r.position) for r in joints], axis=1))
         measured = np.stack([r.velocity for r in joints], axis=1)
-        velocity = order.smooth(measured)
+        position, velocity = robot.joints_of(motors), robot.joints_of(order.smooth(measured))
         return cls(robot, tuple(joints), position, velocity, order.slope(velocity), chosen)
 
     @property
@@ -103,7 +105,7 @@ class RobotMotion:
         return np.stack([recording.torque for recording in self.joints], axis=1)
 
     def regressor(self, columns: NDArray[np.intp]) -> Array:
-        """Derivatives of the torques by some inertial parameters, array [n, N, columns].
+        """Derivatives of the motors' torques by some inertial parameters, array [n, N, columns].
 
         By stretches of samples, so that those of all parameters are never in memory together.
         """
@@ -113,7 +115,7 @@ class RobotMotion:
             whole = self.robot.regressor(
                 self.position[part], self.velocity[part], self.acceleration[part]
             )
-            made[part] = whole[:, :, columns]
+            made[part] = self.robot.motor_torque(whole[:, :, columns])
         return made
 
     def filtered(self, values: Array, joint: int | None = None) -> Array:
@@ -183,17 +185,47 @@ def _refuse_too_many(recording: Recording, joints: int) -> None:
 def joint_options(robot: Robot, options: ReadOptions) -> list[ReadOptions]:
     """The options with which each joint is read."""
     given = {**dict(robot.columns), **dict(split_pairs("map", options.map))}
+    of_joints: dict[str, list[str]] = {
+        channel: [_column(given[channel], n, k) for k, n in enumerate(robot.names, start=1)]
+        for channel in ("position", "velocity")
+        if channel in given
+    }
     made = []
     for number, joint in enumerate(robot.joints, start=1):
         names = {c: _column(text, joint.name, number) for c, text in given.items()}
         own = replace(options, map=names, joint_kind=joint.movement)
         if names == given:
             own = replace(own, joint=joint.name)
+        if robot.coupling and robot.encoders == "joints":
+            own = _of_motor(robot, own, number, of_joints)
         known = options.torque_constant is not None or "torque" in given
         if joint.drive_gain is not None and not known:
             own = replace(own, torque_constant=joint.drive_gain, gear_ratio=1.0)
         made.append(own)
     return made
+
+
+def _of_motor(
+    robot: Robot, own: ReadOptions, number: int, of_joints: Mapping[str, Sequence[str]]
+) -> ReadOptions:
+    """The options with which a joint is read, with the position and velocity of its motor."""
+    if "position" not in of_joints:
+        raise RecordingError(
+            f"{robot.name}: motors of coupled joints need a column of each joint: name them with "
+            f"{option('map', 'position=COLUMN')}, with {{joint}} or {{number}} in COLUMN"
+        )
+    named, formulas = motor_columns(robot.name, robot.coupling, number - 1, of_joints)
+    unit = dict(split_pairs("unit", own.unit))
+    for channel, name in named.items():
+        column = of_joints[channel][number - 1]
+        if column in unit:
+            unit[name] = unit[column]
+    return replace(
+        own,
+        map={**dict(split_pairs("map", own.map)), **named},
+        derive={**dict(split_pairs("derive", own.derive)), **formulas},
+        unit=unit,
+    )
 
 
 def _column(text: str, joint: str, number: int) -> str:

@@ -140,7 +140,9 @@ def plan_robot(
     search = _Search(robot, _families(robot, limits, seconds))
     design, usual = search.best(np.random.default_rng(seed), tried)
     time, position, velocity, acceleration = search.sampled(design, rate)
-    torque = robot.torque(position, velocity, acceleration) if robot.has_inertia else None
+    torque = None
+    if robot.has_inertia:
+        torque = robot.motor_torque(robot.torque(position, velocity, acceleration))
     apart = float(clearance(robot, position).min())
     if apart < 0.0 or (torque is not None and _excess(robot, torque) > 1.0):
         raise SpecError(
@@ -243,7 +245,7 @@ class _Search:
             apart = float(clearance(self.robot, motion[0]).min())
             violation = max(0.0, APART - apart)
             if self.robot.has_inertia:
-                share = _excess(self.robot, self.robot.torque(*motion))
+                share = _excess(self.robot, self.robot.motor_torque(self.robot.torque(*motion)))
                 violation += max(0.0, share - TORQUE_SHARE)
         # Designs that are not allowed are compared by their violation alone.
         return violation, self.score(motion) if violation == 0.0 else 0.0
@@ -254,11 +256,11 @@ class _Search:
         The noise of a joint is taken as proportional to the size of its torque, which follows from
         its row of the regressor.
         """
-        rigid = self.robot.regressor(*motion)[:, :, self.base.chosen]
+        rigid = self.robot.motor_torque(self.robot.regressor(*motion)[:, :, self.base.chosen])
         count, joints, size = rigid.shape
         matrix = np.zeros((count, joints, self.parameters))
         matrix[:, :, :size] = rigid
-        velocity = motion[1]
+        velocity = self.robot.motors_of(motion[1])
         for joint in range(joints):
             columns = (np.sign(velocity[:, joint]), velocity[:, joint], np.ones(count))
             for k, column in enumerate(columns):

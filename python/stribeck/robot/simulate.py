@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import polars as pl
@@ -59,14 +59,17 @@ def simulate_robot(
     random = np.random.default_rng(seed)
     time = np.arange(int(seconds * rate)) / rate
     q, v, a = fourier_motion(time, len(robot.joints), speed, harmonics, random)
-    load = robot.torque(q, v, a)
+    motors = robot.core.of_motors(q, v, a)
+    load = motors[3]
+    if robot.encoders == "motors":
+        q, v = motors[:2]
     named = dict(robot.columns) or dict(COLUMNS)
     effort = "torque" if "torque" in named else "current"
     made = {named["time"]: time}
     for k, joint in enumerate(robot.joints):
         torque = load[:, k]
         if joint.name in friction:
-            torque = torque + _friction(friction[joint.name], time, q, v, a, load, k)
+            torque = torque + _friction(friction[joint.name], time, motors, k)
         size = float(np.sqrt(np.mean(torque**2)))
         torque = torque + noise * size * random.normal(size=time.size)
         gain = joint.drive_gain if effort == "current" and joint.drive_gain else 1.0
@@ -123,15 +126,14 @@ def fourier_motion(
     return q, v, a
 
 
-def _friction(
-    model: Model, time: Array, q: Array, v: Array, a: Array, load: Array, joint: int
-) -> Array:
+def _friction(model: Model, time: Array, motors: Sequence[Array], joint: int) -> Array:
+    position, velocity, acceleration, load = motors
     dt = np.full(time.size, time[1] - time[0])
     dt[0] = 0.0
     shifted = model.torque(
-        v[:, joint],
-        position=q[:, joint],
-        acceleration=a[:, joint],
+        velocity[:, joint],
+        position=position[:, joint],
+        acceleration=acceleration[:, joint],
         load_torque=load[:, joint],
         dt=dt,
     )

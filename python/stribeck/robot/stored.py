@@ -29,6 +29,8 @@ def robot_toml(found: RobotFit) -> str:
     document.add("name", tomlkit.item(robot.name))
     document.add("convention", tomlkit.item("frames"))
     document.add("gravity", tomlkit.item([float(x) for x in robot.gravity]))
+    if robot.encoders != "joints":
+        document.add("encoders", tomlkit.item(robot.encoders))
     if robot.columns:
         document.add("columns", tomlkit.item(dict(robot.columns)))
     rows = tomlkit.aot()
@@ -47,6 +49,8 @@ def robot_toml(found: RobotFit) -> str:
             row.add("drive_gain", float(joint.drive_gain))
         if joint.torque_limit is not None:
             row.add("torque_limit", float(joint.torque_limit))
+        if robot.coupling:
+            row.add("motor_turns", _turns(robot, len(rows)))
         friction = tomlkit.table()
         errors = {n: e.stderr for n, e in fitted.estimates.items() if e.stderr is not None}
         ModelFile(fitted.model, errors).write_into(friction)
@@ -75,6 +79,15 @@ def _spheres(robot: Robot) -> tomlkit.items.AoT:
         row.add("radius", sphere.radius)
         rows.append(row)
     return rows
+
+
+def _turns(robot: Robot, number: int) -> tomlkit.items.InlineTable:
+    """The joints with which a motor turns, by name."""
+    table = tomlkit.inline_table()
+    for name, factor in zip(robot.names, robot.coupling[number], strict=True):
+        if factor != 0.0:
+            table.append(name, factor)
+    return table
 
 
 def _inertial(values: Array) -> tomlkit.items.InlineTable:

@@ -15,6 +15,7 @@ from stribeck.base.files import write_whole
 from stribeck.base.replaceable import check_regular
 from stribeck.models.model import Model
 from stribeck.robot.arm import Robot
+from stribeck.robot.coupled import coupled
 from stribeck.robot.mjcf import compiled, robot_of
 
 Array = NDArray[np.float64]
@@ -24,8 +25,9 @@ def updated_mjcf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
     """The MJCF `source` with identified inertias, armature, and Coulomb and viscous friction.
 
     Identified inertias replace those of the geoms; the inertia of bodies without a joint is in the
-    body that carries them. Terms of friction other than Coulomb and viscous are left out. Names of
-    meshes are relative to `source`: write the file beside it.
+    body that carries them. Terms of friction other than Coulomb and viscous are left out, and
+    rotors and friction of motors that turn with several joints. Names of meshes are relative to
+    `source`: write the file beside it.
 
     Parameters
     ----------
@@ -52,10 +54,13 @@ def updated_mjcf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
     for body in bodies:
         for old in body.findall("inertial"):
             body.remove(old)
+    shared = coupled(robot.coupling)
     for k, (joint, (body, element)) in enumerate(zip(robot.joints, moved, strict=True)):
         if joint.inertial is None or not joint.inertial[0] > 0.0:
             raise ModelFileError(f"{robot.name}: the mass on joint {joint.name} is not known")
         body.insert(0, _inertial(joint.inertial, model.jnt_pos[k]))
+        if k in shared:
+            continue
         element.set("armature", repr(float(joint.rotor)))
         if joint.name in friction:
             _set_friction(element, friction[joint.name])

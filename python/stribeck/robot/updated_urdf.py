@@ -15,6 +15,7 @@ from stribeck.base.files import write_whole
 from stribeck.base.replaceable import check_regular
 from stribeck.models.model import Model
 from stribeck.robot.arm import Robot
+from stribeck.robot.coupled import coupled
 
 Array = NDArray[np.float64]
 
@@ -23,7 +24,8 @@ def updated_urdf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
     """The URDF `source` with identified inertias, and the Coulomb and viscous friction of joints.
 
     The inertia of links behind fixed joints is in the link that carries them, and their own is
-    removed. Rotor inertia has no place in URDF; it is left out. Other terms of friction are too.
+    removed. Rotor inertia has no place in URDF; it is left out. Other terms of friction are too,
+    and all friction of motors that turn with several joints.
 
     Parameters
     ----------
@@ -49,13 +51,14 @@ def updated_urdf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
     for element in joints.values():
         if element.get("type") == "fixed":
             _without_inertial(links[_child(element)])
-    for joint in robot.joints:
+    shared = coupled(robot.coupling)
+    for k, joint in enumerate(robot.joints):
         if joint.inertial is None or not joint.inertial[0] > 0.0:
             raise ModelFileError(f"{robot.name}: the mass on joint {joint.name} is not known")
         link = links[_child(joints[joint.name])]
         _without_inertial(link)
         link.insert(0, _inertial(joint.inertial))
-        if joint.name in friction:
+        if joint.name in friction and k not in shared:
             _set_friction(joints[joint.name], friction[joint.name])
     ET.indent(tree)
     return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"

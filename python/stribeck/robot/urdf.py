@@ -78,6 +78,11 @@ class _Tree:
             self._carry(carrier, link, at)
         for name, child in self.parsed.child_map.get(link, []):
             joint = self.parsed.joint_map[name]
+            if joint.mimic is not None:
+                raise ModelFileError(
+                    f"{self.path}: joint '{name}' mimics '{joint.mimic.joint}': a joint without a "
+                    f"motor of its own is not read: make it a fixed joint"
+                )
             here = _after(at, _frame(joint.origin))
             if joint.type == "fixed":
                 self._add(child, carrier, here)

@@ -41,7 +41,7 @@ pub(super) struct ArmStep<'a, P: Number> {
 impl<P: Number> ArmStep<'_, P> {
     /// Means over a step of `dt` (s), and positions and velocities at its end.
     pub(super) fn over(&mut self, dt: P) -> ([JointStep<P>; 2], [Vector<P, 2>; 2]) {
-        let mut result = [JointStep::zero(); 2];
+        let mut result = [JointStep::at_rest(); 2];
         let mut end = [self.from.position, self.from.velocity];
         for piece in 1..=MAX_PIECES {
             let left = dt - self.elapsed;

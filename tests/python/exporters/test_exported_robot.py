@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +22,30 @@ def test_a_robot_gives_the_bits_of_python(precision: str, tmp_path: Path) -> Non
     written = export_robot(robot, friction_of(robot), "c", tmp_path, precision=precision)
     assert [path.name for path in written.files][:2] == ["made_arm.h", "made_arm.c"]
     assert compile_and_run(needs("gcc"), written.files) == 0
+
+
+#: Motors 5 and 6 are a differential that turns with joint 4 too.
+WRIST = tuple(
+    tuple(map(float, row))
+    for row in (
+        (1, 0, 0, 0, 0, 0),
+        (0, 1, 0, 0, 0, 0),
+        (0, 0, 1, 0, 0, 0),
+        (0, 0, 0, 1, 0, 0),
+        (0, 0, 0, 0.5, 1, 1),
+        (0, 0, 0, 0, 1, -1),
+    )
+)
+
+
+@pytest.mark.parametrize("precision", ["f64", "f32"])
+def test_coupled_motors_give_the_bits_of_python(precision: str, tmp_path: Path) -> None:
+    robot = replace(made_robot(), coupling=WRIST)
+    written = export_robot(robot, friction_of(robot), "c", tmp_path, precision=precision)
+    assert compile_and_run(needs("gcc"), written.files) == 0
+    assert "that of the joints; torques and friction are those of the motors" in " ".join(
+        (tmp_path / "made_arm.h").read_text().replace("*", " ").split()
+    )
 
 
 def test_another_mass_or_friction_changes_the_torque(tmp_path: Path) -> None:

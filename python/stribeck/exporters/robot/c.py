@@ -74,6 +74,8 @@ def robot_c_files(joints: Joints, vectors: RobotVectors, *, name: str) -> Mappin
         "numbers": lambda row: ", ".join(form.literal(x) for x in row),
         "joints": joints.robot.joints,
         "gravity": joints.robot.gravity,
+        "turns": joints.robot.coupling,
+        "inverse": joints.robot.core.joints_per_motor,
         "values": [model.values for model in joints.friction],
         "laws": laws,
         "of_joint": list(enumerate(of_joint, start=1)),

@@ -85,6 +85,12 @@ class Joints:
             f"Torques of the {self.count} joints of {self.robot.name}: gravity, inertia and "
             f"friction. Written by stribeck {__version__}."
         )
+        if self.robot.coupling:
+            yield ""
+            yield (
+                "The planned motion is that of the joints; torques and friction are those of the "
+                "motors, which turn with several joints."
+            )
         yield ""
         yield "Rigid bodies: recursive Newton-Euler (Featherstone 2008, section 5.3)."
         if self.robot.source:

@@ -43,6 +43,8 @@ def robot_rust_files(joints: Joints, vectors: RobotVectors, *, name: str) -> Map
         real=joints.precision,
         joints=joints.robot.joints,
         gravity=joints.robot.gravity,
+        turns=joints.robot.coupling,
+        inverse=joints.robot.core.joints_per_motor,
         laws=laws,
         channels=[*OF_MOTION[:3], *joints.given],
         rows=[[number(x) for x in row] for row in vectors.rows],

@@ -63,12 +63,18 @@ def robot_vectors(joints: Joints, rows: int = ROWS, seed: int = 0) -> RobotVecto
         channels["time"][:] = channels["time"][:, :1]
     dt = cycles(rows, random).astype(form).astype(np.float64)
     single = joints.precision == "f32"
-    load = joints.robot.core.inverse_dynamics(
+    position, velocity, acceleration, load = joints.robot.core.of_motors(
         channels["position"], channels["velocity"], channels["acceleration"], single=single
     )
+    moved = {
+        "position": position,
+        "velocity": velocity,
+        "acceleration": acceleration,
+        "load_torque": load,
+    }
     torque = np.empty_like(load)
     for k in range(joints.count):
-        friction = _friction(joints, k, dt, {**channels, "load_torque": load})
+        friction = _friction(joints, k, dt, channels | moved)
         torque[:, k] = load[:, k].astype(form) + friction.astype(form)
     if not np.all(np.isfinite(torque)):
         raise SpecError(f"{joints.robot.name} has no finite torque in a motion up to 2 rad/s")

@@ -108,7 +108,9 @@ class StreamedBalance(Balance):
         parameters = np.zeros(self.base.mapping.shape[1])
         parameters[self.base.chosen] = base[: self.base.count]
         bodies = robot.with_bodies(parameters.reshape(len(robot.joints), -1))
-        torque = bodies.torque(motion.position, motion.velocity, motion.acceleration)
+        torque = robot.motor_torque(
+            bodies.torque(motion.position, motion.velocity, motion.acceleration)
+        )
         first = self.base.count
         for cause in self.causes:
             torque = torque + cause.columns @ base[first : first + cause.count]

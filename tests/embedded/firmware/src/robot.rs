@@ -67,7 +67,7 @@ impl Joints {
                 rotor: 0.5,
             }
         });
-        let robot = Robot { bodies, gravity: [0.0, 0.0, -9.81] };
+        let robot = Robot { bodies, gravity: [0.0, 0.0, -9.81], coupling: None };
         Some(Self { arm: ArmFeedforward::new(robot, [law; JOINTS]) })
     }
 }
