@@ -206,6 +206,11 @@ class Windows:
     def _recording(self, data: Channels, row: Ints, anchor: Anchor) -> Recording:
         """The recording of a window with its margins, after checks."""
         sample = self.sample.recording
+        velocity = sample.columns["velocity"]
+        if velocity.derived and velocity.source == "position":
+            # As in the sample, where a recorded one is late.
+            data.values.pop("velocity", None)
+            data.values.pop("acceleration", None)
         time = data.values["time"]
         run = numbered(row, self.sample.starts)
         self._check_time(time, run, row)

@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from scipy.signal import lfilter
 from synthetic import joint
 
 EVERYTHING = 10**9
@@ -166,3 +167,17 @@ def test_options_of_reading_are_kept(tmp_path: Path) -> None:
         assert estimate.stderr is not None
         assert abs(streamed.estimates[name].value - estimate.value) < 0.05 * estimate.stderr
     assert streamed.rows == pytest.approx(0.7 * 12_000, abs=10)
+
+
+def test_a_late_velocity_is_that_of_the_position_in_every_window(tmp_path: Path) -> None:
+    frame = joint(rows=6000)
+    share = 0.01 / 0.035
+    v = frame["velocity"].to_numpy()
+    late = lfilter([share], [1.0, share - 1.0], v, zi=[(1.0 - share) * v[0]])[0]
+    late_frame = frame.with_columns(velocity=late)
+    folder = written(tmp_path / "set", late_frame)
+    streamed = sb.stream(folder, sample_rows=EVERYTHING, window_rows=1001).fit("coulomb")
+    whole = in_memory(tmp_path, late_frame, "coulomb")
+    assert whole.recording.columns["velocity"].derived
+    for name, estimate in whole.estimates.items():
+        assert streamed.estimates[name].value == pytest.approx(estimate.value, rel=1e-3)
