@@ -11,9 +11,10 @@ from stribeck.recording.derive import Smoother, choose_cutoff
 from stribeck.recording.derived_motion import acceleration_cutoff, filter_text, slope
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
-from stribeck.recording.mend.late_velocity import is_late
+from stribeck.recording.mend.late_velocity import Moved, late, note, torque_follows
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.rows import (
+    SIGMAS,
     held_out_blocks,
     noise_level,
     segment_rows,
@@ -50,9 +51,11 @@ def _motion(
     time = data.values["time"]
     position, velocity = data.values.get("position"), data.values.get("velocity")
     acceleration = data.values.get("acceleration")
-    late = is_late(data, segment, typical)
-    if velocity is not None and not late:
-        sigma = noise_level(time, velocity, segment)
+    sigma = None if velocity is None else noise_level(time, velocity, segment)
+    if velocity is not None and _is_replaced(data, segment, typical, SIGMAS * float(sigma or 0.0)):
+        # Scored are the samples that the recorded velocity shows moving.
+        velocity = acceleration = None
+    if velocity is not None:
         cutoff = choose_cutoff(time, velocity, segment, 1)
         smoother = Smoother(time, segment, cutoff)
         velocity_smooth = smoother.smooth(velocity)
@@ -60,11 +63,7 @@ def _motion(
     else:
         assert position is not None
         step = typical if typical > 0.0 else float(np.median(np.diff(time)))
-        if velocity is None:
-            sigma = slope_noise(time, position, segment, step)
-        else:
-            # Scored are the samples that the recorded velocity shows moving.
-            sigma, acceleration = noise_level(time, velocity, segment), None
+        sigma = slope_noise(time, position, segment, step) if sigma is None else sigma
         velocity, cutoff = slope(time, position, segment)
         velocity_smooth = velocity
         smoother = Smoother(time, segment, cutoff)
@@ -89,10 +88,32 @@ def _motion(
         position_smooth,
         velocity_smooth,
         acceleration_smooth,
-        float(sigma),
+        float(sigma or 0.0),
         cutoff,
     )
     return motion, smoother
+
+
+def _is_replaced(data: Channels, segment: Ints, period: float, threshold: float) -> bool:
+    """Whether the position gives the velocity in place of a recorded one, which is late; noted.
+
+    Parameters
+    ----------
+    period, threshold
+        Median sampling period, s; speed above which samples move.
+    """
+    lag = late(data, segment, period)
+    if lag is None:
+        return False
+    time, position, velocity = (data.values[name] for name in ("time", "position", "velocity"))
+    derived, cutoff = slope(time, position, segment)
+    smoother = Smoother(time, segment, cutoff)
+    by_position = Moved(derived, smoother.smooth(position, 2))
+    recorded = Moved(velocity, smoother.smooth(velocity, 1))
+    if not torque_follows(data, by_position, recorded, np.abs(velocity) > threshold):
+        return False
+    data.notes.append(note(lag, period))
+    return True
 
 
 def _loads(data: Channels, layout: Layout, motion: Motion, smoother: Smoother) -> Loads:

@@ -1,31 +1,47 @@
-"""A recorded velocity that is late: the velocity is then derived from the position.
+"""A recorded velocity that is late: where the torque follows the position, that gives the velocity.
 
 Drives report a velocity behind a low-pass filter. Such a velocity changes its sign after the joint
 does, so that every friction model is wrong by twice the dry friction in between, and what is added
-to it imitates the filter. The position has no such lag.
+to it imitates the filter. The position has no such lag. Where the torque is as late as the
+velocity, as where both were read by the same slow request, the velocity is kept.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import numpy as np
+
+from stribeck.base import linear
 from stribeck.base.errors import option
-from stribeck.recording.arrays import Floats, Ints
+from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.channels import Channels
 from stribeck.recording.consistency.follow import Track, follows
 from stribeck.recording.consistency.remedy import PHASE
 from stribeck.recording.velocity_lag import velocity_lag
 
-__all__ = ["is_late"]
+__all__ = ["Moved", "late", "note", "torque_follows"]
 
 #: Lag in samples below which the velocity is kept.
 _LEAST = 1.0
 #: Largest deviation from one of the ratio of both: beyond it, the units contradict each other.
 _RATIO = 0.05
+#: Channels that a torque may be read from.
+_TORQUES = ("friction_torque", "torque", "current")
 
 
-def is_late(data: Channels, segment: Ints, period: float) -> bool:
-    """Whether the recorded velocity is that of the position, but late by more than a sample.
+@dataclass(frozen=True)
+class Moved:
+    """Velocity and acceleration, [n] each, of one origin."""
 
-    It is noted. With ``trust``, the velocity is used as recorded.
+    velocity: Floats
+    acceleration: Floats
+
+
+def late(data: Channels, segment: Ints, period: float) -> float | None:
+    """How late the recorded velocity is, s; None where it is by less than a sample.
+
+    Nor where both are not the same motion, where there is no position, or with ``trust``.
 
     Parameters
     ----------
@@ -34,16 +50,11 @@ def is_late(data: Channels, segment: Ints, period: float) -> bool:
     """
     position, velocity = data.values.get("position"), data.values.get("velocity")
     if position is None or velocity is None or data.prepared.settings.trust or not period > 0.0:
-        return False
+        return None
     found = velocity_lag(data.values["time"], position, velocity, segment)
     if not found.exceeds(_LEAST * period) or not _agree(data, segment, position, velocity):
-        return False
-    data.notes.append(
-        f"the recorded velocity lags the position by {1e3 * found.lag:.3g} ms "
-        f"({found.lag / period:.2g} samples), as behind a filter, and is not used; to use it as "
-        f"recorded, give {option('trust')}"
-    )
-    return True
+        return None
+    return found.lag
 
 
 def _agree(data: Channels, segment: Ints, position: Floats, velocity: Floats) -> bool:
@@ -51,3 +62,36 @@ def _agree(data: Channels, segment: Ints, position: Floats, velocity: Floats) ->
     pair = follows(Track(data.values["time"], segment), position, velocity)
     same = pair.resolved and all(pair.seen) and pair.agrees
     return same and abs(pair.ratio - 1.0) <= _RATIO and pair.phase <= PHASE
+
+
+def torque_follows(data: Channels, derived: Moved, recorded: Moved, moving: Bools) -> bool:
+    """Whether the torque follows the `derived` motion more closely than the `recorded` one.
+
+    By least squares of Coulomb and viscous friction, inertia, gravity and the load, whose factors
+    are free, over the samples `moving` [n].
+    """
+    torque = next((data.values[name] for name in _TORQUES if name in data.values), None)
+    if torque is None or not moving.any():
+        return False
+    left = [_left(data, torque, motion, moving) for motion in (derived, recorded)]
+    return left[0] < left[1]
+
+
+def _left(data: Channels, torque: Floats, motion: Moved, moving: Bools) -> float:
+    """Sum of squares that the ordinary model of a motion leaves of a torque."""
+    q, v = data.values["position"], motion.velocity
+    columns = [np.sign(v), v, motion.acceleration, np.sin(q), np.cos(q), np.ones_like(v)]
+    if "load_torque" in data.values:
+        columns.append(data.values["load_torque"])
+    matrix = np.column_stack(columns)[moving]
+    rest = torque[moving] - matrix @ linear.least_norm(matrix, torque[moving])
+    return float(rest @ rest)
+
+
+def note(lag: float, period: float) -> str:
+    """What a reader has to know of a velocity that is not used."""
+    return (
+        f"the recorded velocity lags the position by {1e3 * lag:.3g} ms "
+        f"({lag / period:.2g} samples), as behind a filter, and the torque follows the position: "
+        f"the velocity is not used; to use it as recorded, give {option('trust')}"
+    )
