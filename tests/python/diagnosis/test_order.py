@@ -12,6 +12,7 @@ from typing import cast
 import pytest
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.trials import ranking
+from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import ALIKE, MATERIAL, NEGLIGIBLE, Ranked, ranked
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIMPLEST, TIE, Trial, tie_weight
@@ -49,6 +50,13 @@ class Tried:
     evidence: Evident = Evident()
 
 
+@dataclass(frozen=True)
+class Apart:
+    """The difference of two fits by its certainty."""
+
+    certainty: float = 1.0
+
+
 @dataclass
 class World:
     """What the tests and searches say that the ranking asks, by effect."""
@@ -64,6 +72,8 @@ class World:
     of_unknown_size: set[str] = field(default_factory=set)
     #: Effects that no recording like this tells from one of the catalog.
     alike: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    #: How certainly the model predicts better with a finding.
+    certainty: float = 1.0
 
 
 @pytest.fixture
@@ -89,6 +99,7 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
     answers = {
         "tie_statistic": lambda best, other: other.statistic,
         "adds_to": lambda first, other, *rest: (first.effect, other.effect) in made.adds,
+        "difference": lambda before, after: Apart(made.certainty),
         "held_out_square": lambda fit, before: fit.square,
         "refined": lambda trial, before, seed: trial,
         "passes": lambda trial, *rest: trial.effect not in made.failing,
@@ -290,3 +301,23 @@ def test_what_no_recording_tells_apart_halves_the_confidence(world: World) -> No
     assert first.confidence == pytest.approx(0.5 * share)
     assert second.confidence == pytest.approx(tie_weight(0.5) * share)
     assert second.indistinguishable_from == ("best",)
+
+
+def test_no_finding_is_surer_than_that_it_predicts_better(world: World) -> None:
+    world.certainty = 0.8
+    (found,) = order(BEST).findings
+    assert (found.weight, found.certainty, found.confidence) == (1.0, 0.8, 0.8)
+
+
+def test_what_predicts_hardly_better_than_the_measurement_is_not_certain(world: World) -> None:
+    trial = cast("Trial", BEST)
+    sift = Sifted((trial,)).narrowed(trial)
+    found = ranked(cast("Fit", BEFORE), sift, TRIED, LEAST, NoiseFloor(1.0), 0).findings[0]
+    assert found.confidence == NARROW
+
+
+def test_a_named_tie_leaves_a_doubt(world: World) -> None:
+    """It brings nearly the same fall, however far its error is in standard errors."""
+    first, *_ = order(BEST, other(4.0, 3, 8.0)).findings
+    assert first.indistinguishable_from == ("other",)
+    assert first.confidence == pytest.approx(1.0 / (1.0 + tie_weight(TIE)))

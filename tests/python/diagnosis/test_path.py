@@ -66,14 +66,14 @@ def test_an_effect_without_which_nothing_can_be_fitted_stays(
 ) -> None:
     told: list[str] = []
     findings = [step.finding for step in detour.steps]
-    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append) is not None
+    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append)[0] is not None
     assert told == ["direction is superfluous: refitting the later effects without it"]
 
     def refuse(*_: object) -> ImprovementStep:
         raise FitError("the dry friction is negative")
 
     monkeypatch.setattr(loop, "refitted", refuse)
-    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append) is None
+    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append)[0] is None
     assert told[-1] == "direction stays: the dry friction is negative"
 
 
@@ -82,7 +82,7 @@ def test_the_end_of_a_path_is_pruned(detour: ImprovementPath) -> None:
     path, gone = detour, []
     for _ in range(3):
         findings = [step.finding for step in path.steps]
-        shorter = loop._shortened(path, findings, 0.01, 0, lambda sentence: None)
+        shorter, path = loop._shortened(path, findings, 0.01, 0, lambda sentence: None)
         if shorter is None:
             break
         gone.append(shorter.superfluous[-1])
