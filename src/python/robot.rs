@@ -12,7 +12,6 @@ use crate::joint::{Matrix, Number, Vector};
 use crate::robot::{
     Body, Coupling, Inertial, LinkChange, LinkState, Movement, PARAMETERS, Pose, Tree, invert,
 };
-use crate::scalar::Real;
 
 type Columns<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 type Matrices<'py> = Bound<'py, PyArray3<f64>>;

@@ -248,7 +248,7 @@ impl<P: Number> Step<'_, '_, P> {
             let (mean, direction) = (self.axes[joint].mean, self.direction(joint));
             let lack = self.excess(joint, mean, h, direction).abs() / self.axes[joint].scale;
             // A lack that is not a number is the largest.
-            if !(lack <= largest) {
+            if lack > largest || !lack.value().is_finite() {
                 largest = lack;
             }
         }
