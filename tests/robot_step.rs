@@ -1,4 +1,6 @@
 //! Robots in motion with friction in every joint: against single joints, the planar arm, energy.
+// The torques of a test may be of any function.
+#![allow(clippy::disallowed_methods)]
 
 use stribeck::joint::{self, Joint, JointStep, Number, Posture, Push, Vector};
 use stribeck::robot::{
@@ -73,7 +75,7 @@ fn laws() -> Vec<(&'static str, Composed<f64>)> {
 fn a_robot_of_one_joint_moves_as_the_joint_alone() {
     for (name, friction) in laws() {
         let single = Joint::revolute(0.6, 0.0, 9.81);
-        let mut run = Run::new(pendulum(), [friction.clone()], [(0.3, 1.0)]);
+        let mut run = Run::new(pendulum(), [friction], [(0.3, 1.0)]);
         let (mut state, mut posture) = (State::default(), Posture { position: 0.3, velocity: 1.0 });
         let (mut rests, mut apart) = (0, 0.0_f64);
         for k in 0..4000 {
@@ -128,7 +130,7 @@ const SWINGING: [(f64, f64); 2] = [(1.0, 2.0), (-0.7, -4.0)];
 fn drift(dt: f64) -> f64 {
     let free = model("coulomb", &[0.0, 0.0]);
     let robot = double_pendulum(None);
-    let mut run = Run::new(robot, [free.clone(), free], SWINGING);
+    let mut run = Run::new(robot, [free, free], SWINGING);
     let at = |run: &Run<f64, 2>| {
         energy(&robot, run.axes.map(|axis| axis.position), run.axes.map(|axis| axis.velocity))
     };
@@ -174,7 +176,7 @@ fn work_of_motors_is_energy_and_friction() {
 fn a_loaded_bristle_springs_back() {
     let robot = Robot { gravity: [0.0; 3], ..double_pendulum(None) };
     let bristles = model("lugre", &[2000.0, 30.0, 1.5, 2.0, 2.7, 0.08, 1.3]);
-    let mut run = Run::new(robot, [bristles.clone(), bristles], [(0.3, 0.0), (0.6, 0.0)]);
+    let mut run = Run::new(robot, [bristles, bristles], [(0.3, 0.0), (0.6, 0.0)]);
     for k in 0..4000 {
         run.step([0.5 * (f64::from(k) * 2e-3).min(1.0), 0.0], DT);
     }
@@ -216,7 +218,7 @@ fn coupled_motors_move_the_joints_of_the_same_robot() {
     let free = model("coulomb", &[0.0, 0.0]);
     let [(q1, v1), (q2, v2)] = SWINGING;
     let start = [(q1, v1), (q1 + q2, v1 + v2)];
-    let mut run = Run::new(robot, [free.clone(), free], start);
+    let mut run = Run::new(robot, [free, free], start);
     let motor = [3.0, -1.0];
     let expected = robot.forward_dynamics(&[q1, q2], &[v1, v2], &[motor[0] + motor[1], motor[1]]);
     let dt = 1e-6;
