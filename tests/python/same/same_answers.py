@@ -342,7 +342,14 @@ def _equal(expected: Json, now: Json, exact: bool) -> bool:
 
 
 def stored(story: Story) -> Path:
-    """Where a story's reference is kept."""
+    """Where a story's reference is kept.
+
+    Fits that the data hardly determine end elsewhere on processors with wider vectors: such a story
+    has a second reference for these.
+    """
+    wide = EXPECTED / f"{story.name}-avx512.json"
+    if "avx512f" in str(machine()["vectors"]).split() and wide.exists():
+        return wide
     return EXPECTED / f"{story.name}.json"
 
 

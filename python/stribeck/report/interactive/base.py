@@ -5,7 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from bokeh.models import FixedTicker, HoverTool, Legend, LegendItem, Span, WheelZoomTool
+from bokeh.models import (
+    FixedTicker,
+    HoverTool,
+    Legend,
+    LegendItem,
+    Range1d,
+    Span,
+    WheelZoomTool,
+)
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -85,6 +93,14 @@ def new_plot(
         plot.add_tools(WheelZoomTool(modifiers={"ctrl": True}))
     _style(plot)
     return plot
+
+
+def range_over(values: Array) -> Range1d:
+    """A range with some room around `values`, which keeps a zoom when samples are replaced."""
+    known = values[np.isfinite(values)]
+    first, last = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    room = 0.02 * (last - first) or 0.5
+    return Range1d(first - room, last + room)
 
 
 def _style(plot: figure) -> None:

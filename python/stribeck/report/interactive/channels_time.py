@@ -11,7 +11,7 @@ from bokeh.models import BoxSelectTool, ColumnDataSource
 from numpy.typing import NDArray
 
 from stribeck.report.channels import clock, torque_name
-from stribeck.report.interactive.base import COLOURS, MEASURED, hover, new_plot
+from stribeck.report.interactive.base import COLOURS, MEASURED, hover, new_plot, range_over
 from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
 from stribeck.report.interactive.dots import selected_dots
 
@@ -88,6 +88,7 @@ def channels_time(samples: RecordingSamples) -> dict[str, figure]:
         Of one recording.
     """
     source = ColumnDataSource(samples.data(0, samples.columns["time"].size))
+    window = range_over(samples.columns["time"])
     made: dict[str, figure] = {}
     for name, label in samples.labels.items():
         if name == "time":
@@ -98,7 +99,7 @@ def channels_time(samples: RecordingSamples) -> dict[str, figure]:
             tools="xpan,xbox_zoom,reset,save",
             active=None,
             height=230,
-            x_range=made["time"].x_range if made else None,
+            x_range=window,
         )
         select = BoxSelectTool(dimensions="width")
         plot.add_tools(select)

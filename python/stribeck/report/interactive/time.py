@@ -13,6 +13,7 @@ from stribeck.report.interactive.base import (
     hover,
     legend_above,
     new_plot,
+    range_over,
     zero_line,
 )
 from stribeck.report.interactive.dots import sample_dots, sample_rows, selected_dots
@@ -67,7 +68,8 @@ def residual_time(samples: Samples, *, x_range: object = None) -> figure:
 
 
 def _over_time(samples: Samples, x_label: str, y_label: str, x_range: object) -> figure:
-    plot = new_plot(x_label, y_label, tools=TOOLS, active=None, x_range=x_range, height=320)
+    window = x_range or range_over(samples.columns["time"])
+    plot = new_plot(x_label, y_label, tools=TOOLS, active=None, x_range=window, height=320)
     select = BoxSelectTool(dimensions="width")
     plot.add_tools(select)
     plot.toolbar.active_drag = select

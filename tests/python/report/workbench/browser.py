@@ -49,7 +49,7 @@ def chromium(width: int = 1280) -> Iterator[Any]:
         pytest.skip("chromium is not installed (apt-get install chromium)")
     with api.sync_playwright() as tools:
         browser = tools.chromium.launch(
-            executable_path=path, args=["--no-sandbox", "--enable-unsafe-swiftshader"]
+            executable_path=path, args=["--no-sandbox", "--disable-gpu"]
         )
         page = browser.new_page(viewport={"width": width, "height": 900})
         page.set_default_timeout(PATIENCE)
