@@ -23,8 +23,8 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(CHROMIUM is None, reason="Debian's package chromium is not installed"),
 ]
-#: Canvases are painted by the processor: on a computer without a graphics card this takes a third of
-#: the time that an emulated card takes.
+#: Canvases are painted by the processor: without a graphics card this takes a third of the time
+#: that an emulated card takes.
 FLAGS = ["--no-sandbox", "--disable-gpu"]
 #: The samples that are selected, in the source that the figures share.
 SELECTED = """() => [...Bokeh.documents[0].all_models]
