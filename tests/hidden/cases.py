@@ -137,7 +137,8 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
     """Compare the JSON of `improve` with the truth.
 
     Hidden effects must be named, or listed as indistinguishable from what was named; nothing else
-    may be added, but what a motion shows in place of the hidden effect; the held-out error must end
+    may be added, but what the hidden effect contains (friction that differs between quadrants grows
+    with the load) and what a motion shows in place of it; the held-out error must end
     at the noise, not above and not below; what the motion cannot show must be listed as untestable
     and never claimed, and what it leaves in the error must not be called noise.
     """
@@ -153,6 +154,7 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
         return {step["effect"], *step.get("indistinguishable_from", [])}
 
     shown_as = {e for h in hidden for e in SHOWN_AS.get((truth["limit"], h), ())}
+    shown_as |= set(truth["implied"])
     open_effects = list(visible)
     if open_effects and not found:
         problems.append(f"nothing found, hidden: {visible}")
