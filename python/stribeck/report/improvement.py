@@ -160,12 +160,6 @@ def _above_the_floor(fitted: Fit, floor: NoiseFloor) -> str:
     if floor.value is None or fitted.rmse_held_out is None:
         return ""
     spec, unit = fitted.model.spec, fitted.model.torque_unit
-    if not floor.is_reached_by(fitted.rmse):
-        return (
-            f"Repeats of the same state differ by only {plain(floor.value)} {unit}: the residual "
-            f"of {spec} repeats, but it is not a function of the recorded channels (structural "
-            f"vibration, for example)."
-        )
     if fitted.rmse > AT_THE_FLOOR * floor.value or fitted.rmse_held_out < LARGER * fitted.rmse:
         return ""
     return (

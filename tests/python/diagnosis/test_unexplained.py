@@ -7,7 +7,7 @@ import pytest
 from made_fits import Array, Moved, left
 from stribeck.diagnosis.residual import unexplained as module
 from stribeck.diagnosis.residual.explainable import Explainable
-from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.residual.noise_floor import REACHED, NoiseFloor
 from stribeck.diagnosis.residual.unexplained import (
     FEWEST_ROWS,
     STRUCTURE,
@@ -59,7 +59,7 @@ def test_nothing_is_said_without_a_regressor_or_an_error() -> None:
     ("found", "floor", "share"),
     [
         (0.5 * STRUCTURE, None, 0.5 * STRUCTURE),
-        (STRUCTURE, 0.0, STRUCTURE),  # a low floor alone is no structure
+        (STRUCTURE, 0.0, STRUCTURE),  # an extrapolation that ends at zero says nothing
         (2.0 * STRUCTURE, None, 2.0 * STRUCTURE),
         (2.0 * STRUCTURE, 1.0, 0.75),  # the floor is half of the error
         (0.9, 1.0, 0.9),
@@ -73,6 +73,19 @@ def test_the_share_is_what_lies_above_the_floor(
     assert said.is_structure == (found > STRUCTURE)
     assert said.where == ("everywhere" if found > STRUCTURE else None)
     assert said.to_dict() == {"share": said.share, "where": said.where}
+
+
+def test_an_error_far_above_what_repeats_differ_by_is_structure() -> None:
+    """Although no regressor finds it: vibration that a periodic motion excites, for example."""
+    fit = left(Moved(SPEED), FLAT)
+    for floor, structure in ((0.9, True), (2.0 / REACHED, False)):
+        said = unexplained(fit, NoiseFloor(floor), could(0.5 * STRUCTURE))
+        assert said.is_structure == structure
+    said = unexplained(fit, NoiseFloor(0.5), could(0.5 * STRUCTURE))
+    assert said.share == pytest.approx(1.0 - 0.5**2 / 2.0**2)
+    assert (
+        said.where is not None and "repeats of the same state differ by only 0.5 N m" in said.where
+    )
 
 
 def test_the_error_is_that_of_samples_it_was_not_fitted_to() -> None:

@@ -1,9 +1,10 @@
 """Unexplained structure: how much of the error it is, and where it is largest.
 
-Two kinds of structure can be shown without knowing the cause: what a flexible regressor finds in
-the recorded channels on unseen blocks, and friction that varies along the recording in both
-directions alike. If neither shows, the residual counts as noise. The amount of structure follows
-from the noise floor, because a regressor never finds all of it.
+Three kinds of structure can be shown without knowing the cause: what a flexible regressor finds in
+the recorded channels on unseen blocks, friction that varies along the recording in both directions
+alike, and a residual far above the noise floor, which repeats with the motion. If none shows, the
+residual counts as noise. The amount of structure follows from the noise floor, because a regressor
+never finds all of it.
 """
 
 from __future__ import annotations
@@ -85,7 +86,9 @@ def unexplained(
     varying_share = min(varying.rms**2 / total, 1.0)
     share = max(explained.left, varying_share)
     if share <= STRUCTURE:
-        return Unexplained(share, None)
+        if not floor.value or floor.is_reached_by(rms(fit.residual[fit.rows])):
+            return Unexplained(share, None)
+        return Unexplained(above, _repeated(fit, floor.value))
     share = max(share, above)
     is_varying = varying_share > explained.left
     return Unexplained(share, _varying(fit, varying) if is_varying else _place(fit))
@@ -95,6 +98,14 @@ def _varying(fit: Fit, varying: VaryingFriction) -> str:
     return (
         f"friction varies by {varying.rms:.2g} {fit.model.torque_unit} (RMS) during the recording, "
         f"equally in both directions, and no recorded channel explains it"
+    )
+
+
+def _repeated(fit: Fit, floor: float) -> str:
+    return (
+        f"repeats of the same state differ by only {floor:.2g} {fit.model.torque_unit}, so it "
+        f"repeats with the motion, but no function of the recorded channels explains it "
+        f"(structural vibration, for example)"
     )
 
 
