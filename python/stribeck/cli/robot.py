@@ -25,6 +25,7 @@ from stribeck.cli.robot_options import (
     cutoff_option,
     evaluate_option,
     joint_model_option,
+    known_payload_options,
     loop_options,
     output_option,
     payload_option,
@@ -39,6 +40,7 @@ from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.compare import compare_robots
 from stribeck.robot.describe import read_robot
 from stribeck.robot.diagnosis import RobotDiagnosis
+from stribeck.robot.drive_gains import KnownPayload
 from stribeck.robot.fit import ORDINARY, fit_robot
 from stribeck.robot.improve import MOST_STEPS, improve_robot
 from stribeck.robot.result import RobotFit
@@ -102,6 +104,7 @@ def show(described: str, as_json: bool) -> None:
 @refusing(OF_A_ROBOT)
 @joint_model_option
 @payload_option
+@known_payload_options
 @evaluate_option
 @cutoff_option
 @starts_option
@@ -117,6 +120,7 @@ def fit(
     spec: str | None,
     joint_model: tuple[str, ...],
     payload: tuple[str, ...],
+    known_payload: KnownPayload | None,
     evaluate: tuple[str, ...],
     cutoff: float | None,
     starts: int,
@@ -136,6 +140,7 @@ def fit(
             spec or ORDINARY,
             of_joints=by_joint(joint_model),
             payload=payload,
+            known_payload=known_payload,
             evaluate=others,
             starts=starts,
             seed=seed,

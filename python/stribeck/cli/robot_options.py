@@ -18,6 +18,7 @@ from stribeck.cli.refused import OF_A_ROBOT, refusing
 from stribeck.cli.robot_runs import passes_options
 from stribeck.robot.arm import Robot
 from stribeck.robot.describe import read_robot
+from stribeck.robot.drive_gains import KnownPayload
 from stribeck.robot.fit import ORDINARY
 
 output_option = click.option(
@@ -50,6 +51,38 @@ joint_model_option = click.option(
 payload_option = click.option(
     "--payload", multiple=True, metavar="RUN", help="Run in which the last link carries a payload."
 )
+
+
+def known_payload_options(command: Command) -> Command:
+    """Add `--payload-mass` and `--payload-centre`; the command receives `known_payload`."""
+    options = (
+        click.option(
+            "--payload-mass",
+            type=float,
+            default=None,
+            help="Known mass of the payload: the drive gains follow. [kg]",
+        ),
+        click.option(
+            "--payload-centre",
+            default=None,
+            metavar="X,Y,Z",
+            help="Its centre of mass in the frame of the last link. [m]  [default: 0,0,0]",
+        ),
+    )
+
+    def build(values: Values) -> KnownPayload | None:
+        mass, centre = values.pop("payload_mass"), values.pop("payload_centre")
+        if mass is None:
+            if centre is not None:
+                raise SpecError("--payload-centre needs --payload-mass, the mass that is there")
+            return None
+        try:
+            x, y, z = (float(part) for part in (centre or "0,0,0").split(","))
+        except ValueError:
+            raise SpecError(f"--payload-centre {centre}: write X,Y,Z, such as 0,0,0.05") from None
+        return KnownPayload(mass, (x, y, z))
+
+    return gathered(command, options, "known_payload", build)
 
 
 def robot_options(command: Command) -> Command:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from stribeck.robot.causes import Found
     from stribeck.robot.compare import RobotComparison
     from stribeck.robot.diagnosis import RobotDiagnosis
+    from stribeck.robot.drive_gains import DriveGain
     from stribeck.robot.follow import RobotTracking
     from stribeck.robot.improve import RobotImprovement
     from stribeck.robot.plan import RobotPlan
@@ -77,6 +78,7 @@ def robot_fit_text(found: RobotFit) -> str:
         _base_text(found),
         bodies_sentence(found),
         "" if found.payload is None else paragraph(payload_sentence(found.payload), 0),
+        drive_gains_text(found.drive_gains),
         *(evaluated_text(found.joints, row) for row in found.evaluated),
     )
 
@@ -159,6 +161,27 @@ def payload_sentence(payload: Payload) -> str:
         f"Payload in {runs}: {plain(payload.mass, 4)} kg, 95 % interval {plain(low, 4)} to "
         f"{plain(high, 4)} kg. It scales with the drive gains, which are taken as exact."
     )
+
+
+def drive_gains_rows(gains: Sequence[DriveGain]) -> list[list[str]]:
+    """The gain of each drive, from a known payload; the heading first."""
+    rows = [["joint", "drive gain", "", "over that used", "95 % interval"]]
+    for row in gains:
+        if row.ratio is None or row.ci95 is None:
+            rows.append([row.joint, "", "", "", "its torque does not show here"])
+            continue
+        gain, unit = ("", "") if row.gain is None else (plain(row.gain, 4), row.unit)
+        interval = " to ".join(f"{end:.4f}" for end in row.ci95)
+        rows.append([row.joint, gain, unit, f"{row.ratio:.4f}", interval])
+    return rows
+
+
+def drive_gains_text(gains: Sequence[DriveGain]) -> str:
+    """The gain of each drive, from a known payload; empty without one."""
+    if not gains:
+        return ""
+    rows = table(drive_gains_rows(gains), right=[1, 3])
+    return f"Drive gains, from the known payload:\n{rows}"
 
 
 def evaluated_rows(joints: Sequence[JointFit], row: Evaluated) -> list[list[str]]:

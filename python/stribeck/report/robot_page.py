@@ -17,6 +17,7 @@ from stribeck.report.robot import (
     base_rows,
     bodies_sentence,
     causes_rows,
+    drive_gains_rows,
     errors_legend,
     errors_rows,
     evaluated_rows,
@@ -202,4 +203,8 @@ def _bodies(found: RobotFit) -> Section:
     hidden = found.solved.balance.base.not_shown
     if hidden:
         said.append(f"No torque shows: {', '.join(hidden)}.")
-    return Section("Rigid bodies", said, [base_rows(found)])
+    tables = [base_rows(found)]
+    if found.drive_gains:
+        said.append("Drive gains are those that a known payload shows.")
+        tables.append(drive_gains_rows(found.drive_gains))
+    return Section("Rigid bodies", said, tables)

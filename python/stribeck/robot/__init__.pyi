@@ -2,6 +2,7 @@ from .arm import Robot, RobotJoint, Sphere
 from .compare import RobotComparison, compare_robots
 from .describe import read_robot
 from .diagnosis import RobotDiagnosis
+from .drive_gains import DriveGain, KnownPayload
 from .fit import fit_robot
 from .follow import RobotTracking, follow_robot
 from .improve import RobotImprovement, improve_robot
@@ -15,6 +16,8 @@ from .updated_mjcf import write_mjcf
 from .updated_urdf import write_urdf
 
 __all__ = [
+    "DriveGain",
+    "KnownPayload",
     "Robot",
     "RobotComparison",
     "RobotDiagnosis",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
@@ -16,6 +17,7 @@ from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.columns import RigidColumns
 from stribeck.robot.columns import payload as payload_in
 from stribeck.robot.consistent import consistent_bodies
+from stribeck.robot.drive_gains import KnownPayload, drive_gains
 from stribeck.robot.estimates import base_estimates, joint_fits, payload_of
 from stribeck.robot.motion import RobotMotion
 from stribeck.robot.problem import Balance, Values
@@ -50,6 +52,7 @@ def fit_robot(
     *,
     of_joints: Mapping[str, str] | None = None,
     payload: Sequence[str] = (),
+    known_payload: KnownPayload | None = None,
     evaluate: Sequence[RobotMotion] = (),
     starts: int = 20,
     seed: int = 0,
@@ -68,6 +71,8 @@ def fit_robot(
         Other specs, by name of the joint.
     payload : sequence of str
         Runs in which the last link carries one payload of unknown inertia.
+    known_payload : KnownPayload, optional
+        What the payload of these runs was: the gain of each drive follows.
     evaluate : sequence of RobotMotion
         Motions on which the result is scored, and nothing is chosen.
     starts, seed
@@ -76,9 +81,14 @@ def fit_robot(
     Raises
     ------
     FitError
-        A joint or run that does not exist; a joint that does not move.
+        A joint or run that does not exist; a joint that does not move; a known payload without its
+        runs.
     """
-    return fit_each(
+    if known_payload is not None and not payload:
+        raise FitError(
+            f"the known payload is in no run: name the run that carries it with {option('payload')}"
+        )
+    found = fit_each(
         motion,
         [spec],
         of_joints=of_joints,
@@ -87,6 +97,9 @@ def fit_robot(
         starts=starts,
         seed=seed,
     )[0]
+    if known_payload is None:
+        return found
+    return replace(found, drive_gains=drive_gains(found.solved, known_payload))
 
 
 def fit_each(

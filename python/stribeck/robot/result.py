@@ -14,6 +14,7 @@ from stribeck.models.model import Model
 from stribeck.robot.consistent import Bodies
 
 if TYPE_CHECKING:
+    from stribeck.robot.drive_gains import DriveGain
     from stribeck.robot.solve import Solved
 
 
@@ -146,6 +147,8 @@ class RobotFit(Shown):
         Of the runs that carry one.
     evaluated
         Errors on motions that nothing was fitted to.
+    drive_gains
+        Of each joint, where the payload is known.
     """
 
     solved: Solved
@@ -156,6 +159,7 @@ class RobotFit(Shown):
     payload: Payload | None
     evaluated: tuple[Evaluated, ...]
     seconds: float
+    drive_gains: tuple[DriveGain, ...] = ()
 
     @property
     def consistent(self) -> bool:
@@ -177,6 +181,7 @@ class RobotFit(Shown):
             "consistent": self.consistent,
             "links": self.bodies.to_dict(),
             "payload": None if self.payload is None else self.payload.to_dict(),
+            "drive_gains": [row.to_dict() for row in self.drive_gains],
             "cutoff_hz": balance.motion.cutoff,
             "held_out": balance.held_out,
             "converged": self.solved.converged,

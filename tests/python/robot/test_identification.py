@@ -6,15 +6,20 @@ from pathlib import Path
 
 import arms
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
+from click.testing import CliRunner
 from stribeck.base.errors import FitError, ModelFileError, RecordingError, SpecError
+from stribeck.cli.main import cli
 from stribeck.motion.design.motion import Limits, SampledMotion
 from stribeck.recording.options import ReadOptions
+from stribeck.report.robot_page import robot_fit_page
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.consistent import inertial_of, pseudo_inertia
 from stribeck.robot.describe import read_robot
+from stribeck.robot.drive_gains import KnownPayload
 from stribeck.robot.fit import fit_robot
 from stribeck.robot.improve import improve_robot
 from stribeck.robot.motion import RobotMotion, read_motion
@@ -101,6 +106,59 @@ def test_payload_mass_lies_in_its_interval(arm: Robot, tmp_path: Path) -> None:
     low, high = found.payload.mass_ci95
     assert low - 0.01 < 1.5 < high + 0.01
     assert high - low < 0.1
+
+
+def test_a_known_payload_shows_the_drive_gains(arm: Robot, tmp_path: Path) -> None:
+    """Torques computed with gains that are wrong by up to a tenth; one payload, one run without."""
+    known = KnownPayload(4.0, (0.05, 0.0, 0.02))
+    parameters = np.array([[*joint.inertial, joint.rotor] for joint in arm.joints])
+    parameters[-1, :10] += known.parameters
+    options = {"seconds": 15.0, "rate": 100.0, "noise": 0.01}
+    motion_of(arm, friction_of(arm), tmp_path, (1,), **options)
+    motion_of(arm.with_bodies(parameters), friction_of(arm), tmp_path, (2,), **options)
+    ratios = (1.1, 0.92, 1.0, 0.97)
+    files = [str(tmp_path / f"run_{k}.parquet") for k in (1, 2)]
+    factors = dict(zip(arm.names, ratios, strict=True))
+    wrong = [pl.col(f"torque_{name}") / ratio for name, ratio in factors.items()]
+    for path in files:
+        pl.read_parquet(path).with_columns(wrong).write_parquet(path)
+    motion = read_motion(arm, files, ReadOptions(map=MAP["map"]), 10.0)
+    found = fit_robot(motion, payload=["run_2"], known_payload=known)
+    for gain, ratio in zip(found.drive_gains, ratios, strict=True):
+        assert gain.ratio is not None and gain.ci95 is not None
+        low, high = gain.ci95
+        # One interval in twenty misses by a little.
+        assert low - 0.5 * (high - low) < ratio < high + 0.5 * (high - low)
+        assert high - low < 0.05
+    assert found.to_dict()["drive_gains"][0]["ratio"] == found.drive_gains[0].ratio
+    assert "Drive gains, from the known payload:" in repr(found)
+    assert "a known payload shows" in robot_fit_page(found)
+    # A payload that is not there has no torque, and shows nothing.
+    motion_of(arm, friction_of(arm), tmp_path, (2,), **options)
+    pl.read_parquet(files[1]).with_columns(wrong).write_parquet(files[1])
+    empty = read_motion(arm, files, ReadOptions(map=MAP["map"]), 10.0)
+    without = fit_robot(empty, payload=["run_2"], known_payload=known)
+    assert {gain.ratio for gain in without.drive_gains} == {None}
+    assert "its torque does not show here" in repr(without)
+    with pytest.raises(FitError, match="the known payload is in no run: name the run"):
+        fit_robot(motion, known_payload=known)
+    with pytest.raises(FitError, match="its mass must be above zero"):
+        KnownPayload(-1.0)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--payload-centre", "0,0,0.1"], "--payload-centre needs --payload-mass"),
+        (["--payload-mass", "2", "--payload-centre", "1,2"], "--payload-centre 1,2: write X,Y,Z"),
+        (["--payload-mass", "0"], "its mass must be above zero"),
+    ],
+)
+def test_a_payload_that_is_not_stated_well(words: list[str], said: str, tmp_path: Path) -> None:
+    path = tmp_path / "scara.urdf"
+    path.write_text(arms.urdf("scara"))
+    done = CliRunner().invoke(cli, ["robot", "fit", "run.csv", "--urdf", str(path), *words])
+    assert said in str(done.exception)
 
 
 @pytest.mark.slow
