@@ -17,6 +17,7 @@ from stribeck.base.errors import FitError, RecordingError
 from stribeck.cli.main import cli
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
+from stribeck.robot.drive_gains import KnownPayload
 from stribeck.robot.fit import fit_robot
 from stribeck.robot.improve import improve_robot
 from stribeck.robot.motion import read_motion
@@ -101,6 +102,32 @@ def test_passes_give_what_memory_gives(arm: Robot, runs: list[str]) -> None:
     found = fit_robot(stream)
     assert_alike(found, in_memory(arm, runs[:1], "coulomb+offset"))
     assert stream.data.passes == 2
+
+
+def test_coupled_motors_and_drive_gains_in_passes(arm: Robot, runs: list[str]) -> None:
+    """The second run's payload is taken as known; the last motor turns with the joint before."""
+    coupled = replace(arm, coupling=coupling_of(len(arm.names)))
+    found, expected = (
+        fit_robot(data, payload=["run_2"], known_payload=KnownPayload(1.5, (0.0, 0.0, 0.1)))
+        for data in (
+            opened(coupled, runs),
+            read_motion(coupled, runs, ReadOptions(map=MAP), CUTOFF),
+        )
+    )
+    assert_alike(found, expected)
+    ratios = [
+        [np.nan if gain.ratio is None else gain.ratio for gain in fit.drive_gains]
+        for fit in (found, expected)
+    ]
+    np.testing.assert_allclose(ratios[0], ratios[1], rtol=1e-5)
+    assert np.isfinite(ratios[0]).any()
+
+
+def coupling_of(count: int) -> tuple[tuple[float, ...], ...]:
+    """Each motor turns its joint, and the last one with the joint before it."""
+    matrix = np.eye(count)
+    matrix[-1, -2] = 0.5
+    return tuple(map(tuple, matrix.tolist()))
 
 
 def test_a_law_that_reads_the_load_takes_more_passes(arm: Robot, runs: list[str]) -> None:
