@@ -9,6 +9,19 @@ from stribeck.robot.arm import Robot, RobotJoint
 
 LAWS = ("lugre+load", "coulomb", "coulomb+load", "lugre+load", "gms", "coulomb+temperature_viscous")
 
+#: Motors 5 and 6 are a differential that turns with joint 4 too.
+WRIST = tuple(
+    tuple(map(float, row))
+    for row in (
+        (1, 0, 0, 0, 0, 0),
+        (0, 1, 0, 0, 0, 0),
+        (0, 0, 1, 0, 0, 0),
+        (0, 0, 0, 1, 0, 0),
+        (0, 0, 0, 0.5, 1, 1),
+        (0, 0, 0, 0, 1, -1),
+    )
+)
+
 
 def made_robot(seed: int = 0) -> Robot:
     """A tree: joint 3 slides, joints 4 to 6 stand on link 1; axes and frames are askew."""

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from exported_models import CREEP, FLAGS, compile_and_run, needs, valued
-from exported_robots import friction_of, made_robot
+from exported_robots import WRIST, friction_of, made_robot
 from stribeck.base.errors import SpecError
 from stribeck.exporters.robot.export import export_robot
 
@@ -22,20 +22,6 @@ def test_a_robot_gives_the_bits_of_python(precision: str, tmp_path: Path) -> Non
     written = export_robot(robot, friction_of(robot), "c", tmp_path, precision=precision)
     assert [path.name for path in written.files][:2] == ["made_arm.h", "made_arm.c"]
     assert compile_and_run(needs("gcc"), written.files) == 0
-
-
-#: Motors 5 and 6 are a differential that turns with joint 4 too.
-WRIST = tuple(
-    tuple(map(float, row))
-    for row in (
-        (1, 0, 0, 0, 0, 0),
-        (0, 1, 0, 0, 0, 0),
-        (0, 0, 1, 0, 0, 0),
-        (0, 0, 0, 1, 0, 0),
-        (0, 0, 0, 0.5, 1, 1),
-        (0, 0, 0, 0, 1, -1),
-    )
-)
 
 
 @pytest.mark.parametrize("precision", ["f64", "f32"])

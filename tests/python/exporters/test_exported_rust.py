@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stribeck as sb
 from exported_models import CREEP, needs, random_model, valued
-from exported_robots import friction_of, made_robot
+from exported_robots import WRIST, friction_of, made_robot
 from stribeck.exporters.robot.export import export_robot
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -38,12 +40,12 @@ def test_exported_modules_pass_their_own_tests(tmp_path: Path) -> None:
         name = f"joint_{seed}"
         sb.export(random_model(seed), "rust", source, precision=precision, name=name)
         modules.append(f"pub mod {name};")
-    robot = made_robot()
-    for precision in ("f64", "f32"):
+    coupled = replace(made_robot(), coupling=WRIST)
+    for precision, robot in itertools.product(("f64", "f32"), (made_robot(), coupled)):
         friction = friction_of(robot)
         own = sb.law("Fc*sgn(v) + b*cbrt(v)").with_effect(CREEP, {})
         friction["axis 2"] = valued(own, np.random.default_rng(2))
-        name = f"robot_{precision}"
+        name = f"{'coupled' if robot is coupled else 'robot'}_{precision}"
         export_robot(robot, friction, "rust", source, precision=precision, name=name)
         modules.append(f"pub mod {name};")
     (source / "lib.rs").write_text(
@@ -57,4 +59,4 @@ def test_exported_modules_pass_their_own_tests(tmp_path: Path) -> None:
         command, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert "14 passed" in done.stdout
+    assert "16 passed" in done.stdout
