@@ -152,6 +152,16 @@ def compare(
     """Error figures of `fits` over the scored samples of `recording`, all and by regime.
 
     A fit made on another recording is not refitted: its error here is a held-out error.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> fits = [sb.fit(spec, recording, starts=2) for spec in ("coulomb", "coulomb+load")]
+    >>> first, second = sb.compare(fits, recording).models
+    >>> first.rmse > 5.0 * second.rmse
+    True
     """
     if not isinstance(fits, Sequence) or not fits or not all(isinstance(f, Fit) for f in fits):
         raise FitError("there is nothing to compare: give a list of fits")

@@ -78,6 +78,15 @@ def diagnose(
     **choices
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the model, which is then
         fitted again, or of the effects that are tried.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> found = sb.diagnose(sb.fit("coulomb", recording, starts=2), brief=True)
+    >>> found.verdict, found.findings[0].effect
+    ('missing', 'load')
     """
     check_share("least_fall", least_fall)
     fitted = with_choices(

@@ -37,6 +37,16 @@ def evaluate(
     fitted_on : str or collection of str
         SHA-256 of the files that the model was fitted on; on one of these there is no held-out
         figure.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> other = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> model = sb.fit("coulomb+load", recording, starts=2).model
+    >>> sb.evaluate(model, other).rmse < 0.2
+    True
     """
     began = time.perf_counter()
     recording = as_one(recording)

@@ -85,6 +85,17 @@ def fit(
     ------
     SpecError, FitError
         Unknown names; a channel that is missing; too few moving samples; no proof of passivity.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> found = sb.fit("coulomb+load", recording, starts=2)
+    >>> found.model.names[:3]
+    ('viscous_friction', 'coulomb_friction', 'load_coulomb')
+    >>> found.rmse_held_out < 0.2
+    True
     """
     began = time.perf_counter()
     recording = with_weights(as_one(recording), weights)

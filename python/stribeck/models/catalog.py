@@ -18,7 +18,15 @@ if TYPE_CHECKING:
 
 @lru_cache(maxsize=1)
 def catalog() -> Catalog:
-    """The tables of the core: ``{"laws": {id: row}, "effects": {id: row}}``, in catalog order."""
+    """The tables of the core: ``{"laws": {id: row}, "effects": {id: row}}``, in catalog order.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> law = sb.catalog()["laws"]["coulomb"]
+    >>> [row["name"] for row in law["parameters"]]
+    ['viscous_friction', 'coulomb_friction']
+    """
     tables = _core.catalog()
     return {
         "laws": {row["id"]: row for row in tables["laws"]},

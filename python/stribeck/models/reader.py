@@ -66,6 +66,12 @@ def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
         The file cannot be read, or holds something else than a model.
     SpecError
         There is no such published set.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> sb.read_model_file("published:bam/mx64/bam_m1").model.spec
+    'bam_m1'
     """
     target = Path(path)
     if str(path).startswith(PREFIX):
@@ -81,6 +87,12 @@ def load(path: str | os.PathLike[str]) -> Model:
     ------
     ModelFileError
         The file cannot be read, or holds something else than a model.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> sb.load("published:bam/mx64/bam_m1").spec
+    'bam_m1'
     """
     stored = read_model_file(path)
     note_origin(stored.model, stored.origin)

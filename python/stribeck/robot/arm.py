@@ -119,6 +119,12 @@ class Sphere:
         In the frame of the link, m.
     radius
         m.
+
+    Examples
+    --------
+    >>> from stribeck import robot
+    >>> robot.Sphere(None, (0.0, 0.0, 0.2), 0.15).radius
+    0.15
     """
 
     joint: str | None

@@ -59,7 +59,29 @@ def compare_robots(
     starts: int = 20,
     seed: int = 0,
 ) -> RobotComparison:
-    """Identify the robot with each of `specs` on all joints; arguments as of `fit_robot`."""
+    """Identify the robot with each of `specs` on all joints; arguments as of `fit_robot`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from stribeck.recording.options import ReadOptions
+    >>> import numpy as np
+    >>> from stribeck import model, robot
+    >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, -0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]] * 2))
+    >>> friction = {
+    ...     name: model("coulomb", coulomb_friction=2.0, viscous_friction=1.0) for name in arm.names
+    ... }
+    >>> run = robot.simulate_robot(arm, friction, seconds=20.0, rate=100.0, noise=0.01)
+    >>> columns = [f"{what}={what}_{{joint}}" for what in ("position", "velocity", "torque")]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "run.parquet")
+    ...     run.write_parquet(path)
+    ...     motion = robot.read_motion(arm, [str(path)], ReadOptions(map=columns))
+    >>> robot.compare_robots(motion, ["coulomb", "coulomb+offset"]).specs
+    ('coulomb', 'coulomb+offset')
+    """
     fits = fit_each(
         motion,
         specs,

@@ -45,6 +45,19 @@ def read_robot(path: str | Path) -> Robot:
     ------
     ModelFileError
         What is wrong, with the line.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from stribeck import robot
+    >>> lines = ['kind = "robot"', 'name = "planar"', 'convention = "standard"']
+    >>> lines += ["[[joint]]", "a = 0.4", "[[joint]]", "a = 0.3"]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "arm.toml")
+    ...     _ = path.write_text("\\n".join(lines))
+    ...     robot.read_robot(path).names
+    ('1', '2')
     """
     where = Path(path)
     if where.suffix.lower() in (".urdf", ".xml"):

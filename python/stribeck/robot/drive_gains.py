@@ -36,6 +36,11 @@ class KnownPayload:
         kg.
     centre
         Centre of mass in the frame of the last link, m. The payload counts as a point mass there.
+
+    Examples
+    --------
+    >>> KnownPayload(2.0, (0.0, 0.0, 0.1)).parameters[:4]
+    array([2. , 0. , 0. , 0.2])
     """
 
     mass: float

@@ -83,6 +83,28 @@ def fit_robot(
     FitError
         A joint or run that does not exist; a joint that does not move; a known payload without its
         runs.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from stribeck.recording.options import ReadOptions
+    >>> import numpy as np
+    >>> from stribeck import model, robot
+    >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, -0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]] * 2))
+    >>> friction = {
+    ...     name: model("coulomb", coulomb_friction=2.0, viscous_friction=1.0) for name in arm.names
+    ... }
+    >>> run = robot.simulate_robot(arm, friction, seconds=20.0, rate=100.0, noise=0.01)
+    >>> columns = [f"{what}={what}_{{joint}}" for what in ("position", "velocity", "torque")]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "run.parquet")
+    ...     run.write_parquet(path)
+    ...     motion = robot.read_motion(arm, [str(path)], ReadOptions(map=columns))
+    >>> found = robot.fit_robot(motion, "coulomb")
+    >>> [round(joint.model.value("coulomb_friction"), 1) for joint in found.joints]
+    [2.0, 2.0]
     """
     if known_payload is not None and not payload:
         raise FitError(

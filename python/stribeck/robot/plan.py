@@ -128,6 +128,21 @@ def plan_robot(
     SpecError
         A joint has no limits; torques are limited, but inertia is not known; no motion is found
         within the limits.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import model, robot
+    >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, -0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]] * 2))
+    >>> friction = {
+    ...     name: model("coulomb", coulomb_friction=2.0, viscous_friction=1.0) for name in arm.names
+    ... }
+    >>> from stribeck.motion.design.motion import Limits
+    >>> limits = Limits(-1.0, 1.0, 1.5, 6.0)
+    >>> planned = robot.plan_robot(arm, limits, seconds=10.0, rate=50.0, tried=20)
+    >>> bool(abs(planned.velocity).max() <= 1.5)
+    True
     """
     check_number("seconds", seconds, 2.0, 600.0, " s")
     check_number("rate", rate, 10.0, 10_000.0, " Hz")

@@ -54,6 +54,18 @@ def simulate_robot(
     -------
     polars.DataFrame
         Columns `COLUMNS`, or those of the robot, for each joint.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import model, robot
+    >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, -0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]] * 2))
+    >>> friction = {
+    ...     name: model("coulomb", coulomb_friction=2.0, viscous_friction=1.0) for name in arm.names
+    ... }
+    >>> robot.simulate_robot(arm, friction, seconds=5.0, rate=100.0).columns[:4]
+    ['time', 'position_1', 'velocity_1', 'torque_1']
     """
     _check(robot, friction, seconds, rate, speed, noise)
     random = np.random.default_rng(seed)

@@ -71,6 +71,16 @@ def add(
         The effect is unknown or in the model already.
     FitError
         The recording lacks a channel that the effect needs.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> before = sb.fit("coulomb", recording, starts=2)
+    >>> after = sb.add(before, "load", starts=2)
+    >>> after.model.spec, after.rmse_held_out < 0.2 * before.rmse_held_out
+    ('coulomb+load', True)
     """
     if lacks_dry_friction(fitted.model):
         effect = spelled_out(effect)

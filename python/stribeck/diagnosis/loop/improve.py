@@ -158,6 +158,15 @@ def improve(
     **choices
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the base model or of effects
         that may be added. They stay in force throughout.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> found = sb.improve("coulomb", recording, starts=2)
+    >>> [step.finding.effect for step in found.steps], found.final.model.spec
+    (['load'], 'coulomb+load')
     """
     check_rejected(rejected)
     recording = as_one(recording)

@@ -71,6 +71,17 @@ def plan(
     ------
     SpecError, FitError
         An effect is in the model already or cannot be planned for; a limit is invalid.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
+    >>> fitted = sb.fit("coulomb", recording, starts=2)
+    >>> limits = {"position": (-1.0, 1.0), "speed": 2.0, "acceleration": 10.0}
+    >>> planned = sb.plan(fitted, **limits, show=["load"], duration=10.0)
+    >>> bool(abs(planned.motion.velocity).max() <= 2.0)
+    True
     """
     limits = Limits(*map(float, (*position, speed, acceleration)))
     fitted = of if isinstance(of, Fit) else None
