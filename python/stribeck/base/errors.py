@@ -63,6 +63,15 @@ class StribeckError(ValueError):
     """Base of every error a user can cause; the command line turns it into exit code 2.
 
     The sentence is on one line and has at most 500 characters.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> try:
+    ...     sb.model("coulom")
+    ... except sb.StribeckError as error:
+    ...     print(type(error).__name__)
+    SpecError
     """
 
     def __init__(self, sentence: str = "") -> None:

@@ -30,6 +30,12 @@ class ModelFile:
     per_run : dict of dicts of pairs
         Value and standard error in each run, by parameter and run, of parameters that have one
         value in each; `model` has their means.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> sb.read_model_file("published:bam/mx64/bam_m1").model.torque_unit
+    'N m'
     """
 
     model: Model

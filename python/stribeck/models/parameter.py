@@ -22,6 +22,13 @@ class Parameter:
     is scaled to a recording, and multiples of `scale` before. A formula's parameter has no bounds
     unless they are stated. Where no start is stated it follows from the parameter's `dimension`,
     and `start` is NaN.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> first = sb.model("coulomb").parameters[0]
+    >>> first.name, first.symbol
+    ('viscous_friction', 'a1')
     """
 
     name: str

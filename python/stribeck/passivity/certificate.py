@@ -125,6 +125,13 @@ class Certificate(Shown):
         Effects and rigid-body terms that are not friction.
     box
         Operating box of the friction, SI units and degC.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> sb.check(friction, {"velocity": (-3.0, 3.0)}).passive
+    True
     """
 
     model: Model

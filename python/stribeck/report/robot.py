@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING
 from stribeck.report.diagnosis import doubts
 from stribeck.report.layout import bullets, joined, paragraph, table
 from stribeck.report.numbers import DASH, confidence_text, percent, plain, unit_text, with_error
+from stribeck.report.robot_payload import drive_gains_text, payload_sentence
 
 if TYPE_CHECKING:
     from stribeck.robot.arm import Robot
     from stribeck.robot.causes import Found
     from stribeck.robot.compare import RobotComparison
     from stribeck.robot.diagnosis import RobotDiagnosis
-    from stribeck.robot.drive_gains import DriveGain
     from stribeck.robot.follow import RobotTracking
     from stribeck.robot.improve import RobotImprovement
     from stribeck.robot.plan import RobotPlan
-    from stribeck.robot.result import Evaluated, JointFit, Payload, RobotFit
+    from stribeck.robot.result import Evaluated, JointFit, RobotFit
 
 #: Base parameters that a terminal shows; the JSON has all.
 MOST_ROWS = 8
@@ -151,37 +151,6 @@ def _base_text(found: RobotFit) -> str:
     left = len(found.base_parameters) - MOST_ROWS
     more = f"  and {left} more, less certain: --json has all" if left > 0 else ""
     return table([heading, *cut], right=[1]) + (f"\n{more}" if more else "")
-
-
-def payload_sentence(payload: Payload) -> str:
-    """The mass of a payload with its interval."""
-    low, high = payload.mass_ci95
-    runs = ", ".join(payload.runs)
-    return (
-        f"Payload in {runs}: {plain(payload.mass, 4)} kg, 95 % interval {plain(low, 4)} to "
-        f"{plain(high, 4)} kg. It scales with the drive gains, which are taken as exact."
-    )
-
-
-def drive_gains_rows(gains: Sequence[DriveGain]) -> list[list[str]]:
-    """The gain of each drive, from a known payload; the heading first."""
-    rows = [["joint", "drive gain", "", "over that used", "95 % interval"]]
-    for row in gains:
-        if row.ratio is None or row.ci95 is None:
-            rows.append([row.joint, "", "", "", "its torque does not show here"])
-            continue
-        gain, unit = ("", "") if row.gain is None else (plain(row.gain, 4), row.unit)
-        interval = " to ".join(f"{end:.4f}" for end in row.ci95)
-        rows.append([row.joint, gain, unit, f"{row.ratio:.4f}", interval])
-    return rows
-
-
-def drive_gains_text(gains: Sequence[DriveGain]) -> str:
-    """The gain of each drive, from a known payload; empty without one."""
-    if not gains:
-        return ""
-    rows = table(drive_gains_rows(gains), right=[1, 3])
-    return f"Drive gains, from the known payload:\n{rows}"
 
 
 def evaluated_rows(joints: Sequence[JointFit], row: Evaluated) -> list[list[str]]:

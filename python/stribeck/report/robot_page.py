@@ -17,13 +17,12 @@ from stribeck.report.robot import (
     base_rows,
     bodies_sentence,
     causes_rows,
-    drive_gains_rows,
     errors_legend,
     errors_rows,
     evaluated_rows,
     lacking_rows,
-    payload_sentence,
 )
+from stribeck.report.robot_payload import drive_gains_rows, payload_sentence
 from stribeck.report.sections import Section
 from stribeck.report.versions import versions
 

@@ -38,6 +38,13 @@ class Compensator:
         Evaluate the model at the measured velocity; else at the desired one (feedforward).
     name
         Label in tables and figures; default: the spec of the model.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> sb.Compensator(friction, factor=0.8).label
+    'coulomb'
     """
 
     model: Model
