@@ -21,6 +21,8 @@ __all__ = [
     "slope_noise",
 ]
 
+#: Samples whose differences are computed at once.
+STRETCH = 8192
 #: A step longer than this many median steps starts a new segment.
 GAP = 5.0
 #: A sample moves when its speed is above this many standard deviations of the velocity noise.
@@ -112,25 +114,31 @@ def _differences(time: Floats, value: Floats, slices: list[slice], order: int) -
     found: list[Floats] = []
     for part in slices:
         t, x = time[part], value[part]
-        n = len(t) - order
-        if n <= 0:
-            continue
-        lag = {k: t[k:] - t[:-k] for k in range(1, order + 1)}
-        weights = np.empty((order + 1, n))
-        for j in range(order + 1):
-            product = np.full(n, (-1.0) ** (order - j))
-            for m in range(order + 1):
-                if m != j:
-                    first = min(j, m)
-                    product *= lag[abs(j - m)][first : first + n]
-            weights[j] = 1.0 / product
-        weights /= np.sqrt((weights**2).sum(axis=0))
-        windows = np.stack([x[j : j + n] for j in range(order + 1)])
-        # Stretches that are constant (a servo off, a clipped sensor) carry no noise and would pull
-        # the median to zero.
-        alive = (windows != windows[0]).any(axis=0)
-        found.append((weights * windows).sum(axis=0)[alive])
+        # Short stretches stay in the cache of the processor.
+        for first in range(0, len(t) - order, STRETCH):
+            reach = slice(first, first + STRETCH + order)
+            found.append(_differences_of(t[reach], x[reach], order))
     return np.concatenate(found) if found else np.empty(0)
+
+
+def _differences_of(t: Floats, x: Floats, order: int) -> Floats:
+    """The same of one stretch of samples, longer than `order`."""
+    n = len(t) - order
+    lag = {k: t[k:] - t[:-k] for k in range(1, order + 1)}
+    weights = np.empty((order + 1, n))
+    for j in range(order + 1):
+        product = np.full(n, (-1.0) ** (order - j))
+        for m in range(order + 1):
+            if m != j:
+                first = min(j, m)
+                product *= lag[abs(j - m)][first : first + n]
+        weights[j] = 1.0 / product
+    weights /= np.sqrt((weights**2).sum(axis=0))
+    windows = np.stack([x[j : j + n] for j in range(order + 1)])
+    # Stretches that are constant (a servo off, a clipped sensor) carry no noise and would pull the
+    # median to zero.
+    alive = (windows != windows[0]).any(axis=0)
+    return np.asarray((weights * windows).sum(axis=0)[alive])
 
 
 def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | None = None) -> float:
