@@ -154,7 +154,7 @@ def judge(truth: dict[str, Any], answer: dict[str, Any]) -> Verdict:
         return {step["effect"], *step.get("indistinguishable_from", [])}
 
     shown_as = {e for h in hidden for e in SHOWN_AS.get((truth["limit"], h), ())}
-    shown_as |= set(truth["implied"])
+    shown_as |= set(truth.get("implied", ()))
     open_effects = list(visible)
     if open_effects and not found:
         problems.append(f"nothing found, hidden: {visible}")
