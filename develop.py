@@ -5,6 +5,7 @@
     python3 develop.py demo          run `stribeck demo`
     python3 develop.py test          run all Rust tests and the fast Python tests
     python3 develop.py slow          run the slow tests
+    python3 develop.py long          run the tests that take minutes each
     python3 develop.py check         run formatters, linters, type checks, import contracts, docs
     python3 develop.py docs          serve the documentation at http://127.0.0.1:8000
     python3 develop.py lock          update requirements.lock to the newest versions
@@ -106,7 +107,7 @@ def test() -> None:
     run("cargo", "test", "--quiet", "--locked", "--package", "stribeck-c")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
     run(PYTHON, "-m", "pytest", "-q", "--doctest-modules", "python/stribeck")
-    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow", *sys.argv[2:])
+    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow and not long", *sys.argv[2:])
 
 
 def browser() -> None:
@@ -131,6 +132,11 @@ def slow() -> None:
     browser()
     run("cargo", "test", "--quiet", "--locked", "--release", "--test", "soak", "--", "--ignored")
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "slow", *sys.argv[2:])
+
+
+def long() -> None:
+    setup()
+    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "long", *sys.argv[2:])
 
 
 def check() -> None:
@@ -172,7 +178,7 @@ def oldest() -> None:
     run(BIN / "uv", "pip", "install", "--quiet", "--python", python, "--constraint", LOCK,
         "pytest", "pytest-timeout", "hypothesis", "mpmath", "syrupy", "distributed")  # fmt: skip
     os.environ["PYTHONPATH"] = str(ROOT / "python")
-    run(python, "-m", "pytest", "-q", "-m", "not slow", *sys.argv[2:])
+    run(python, "-m", "pytest", "-q", "-m", "not slow and not long", *sys.argv[2:])
 
 
 def audit() -> None:
@@ -237,6 +243,7 @@ TASKS = {
     "demo": demo,
     "test": test,
     "slow": slow,
+    "long": long,
     "check": check,
     "docs": docs,
     "lock": lock,

@@ -116,7 +116,7 @@ def test(sample: Sample, areas: Sequence[str]) -> dict[Mutant, str]:
     results: dict[Mutant, str] = {}
     for area in areas:
         tests = [f"tests/python/{name}" for name in AREAS[area][1]]
-        words = ["-x", "-q", "-p", "no:cacheprovider", "-m", "not slow", *tests]
+        words = ["-x", "-q", "-p", "no:cacheprovider", "-m", "not slow and not long", *tests]
         # Without a change all must pass. This also compiles the modules once for all changes.
         command = [sys.executable, "-m", "pytest", *words]
         done = limited.run(command, root, LONGEST, {"PYTHONDONTWRITEBYTECODE": ""})

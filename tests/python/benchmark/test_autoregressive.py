@@ -34,7 +34,7 @@ def test_both_kinds_of_interval_are_looked_at() -> None:
     assert all(i.covers_profile is not None for i in [*made, *curved])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_intervals_cover_the_truth() -> None:
     """Robust and profile intervals, in 200 recordings for each correlation of the noise."""
     answers, found = run(cases(10, only="coverage"), None)

@@ -65,7 +65,7 @@ def test_the_text_names_every_miss(made: Reproduction) -> None:
 MOST_MISSES = {"gantry": 0, "ur5e_review": 90, "tadese": 5, "indri": 3, "bittencourt": 1}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("paper", PAPERS)
 def test_the_whole_reproduction_misses_no_more_than_it_says(paper: str) -> None:
     whole = reproduce(paper)

@@ -88,7 +88,7 @@ def test_twice_the_stated_size_is_found_and_half_of_it_seldom(tmp_path: Path) ->
     assert sum(count[SMALL] for count in counts) <= 1
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("effect", ["offset", "inertia", "load", "stribeck", "temperature_dry"])
 def test_the_stated_size_is_found_nineteen_times_in_twenty(effect: str, tmp_path: Path) -> None:
     """A binomial of 20 draws at 0.95 lies below 16 once in 400."""

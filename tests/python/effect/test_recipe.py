@@ -72,7 +72,7 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return copy
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.timeout(3600)
 def test_a_new_effect_is_generated_and_found(tree: Path) -> None:
     python = {"PYTHONPATH": str(tree / "python")}

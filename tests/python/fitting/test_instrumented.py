@@ -133,7 +133,7 @@ def test_options_that_exclude_each_other(noisy: sb.Recording) -> None:
         sb.fit("coulomb", noisy, estimator="iv", passive=True)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_intervals_cover_the_true_values(tmp_path: Path) -> None:
     """200 recordings under feedback from a noisy encoder; least squares on the first 50."""
     squares, instrumental, found = [], [], []
@@ -154,7 +154,7 @@ def test_intervals_cover_the_true_values(tmp_path: Path) -> None:
     assert np.mean(found) >= 0.95
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_exact_motion_is_seldom_called_biased(tmp_path: Path) -> None:
     """The test keeps its level: at most 7 % of 200 recordings below p = 0.05."""
     p = []

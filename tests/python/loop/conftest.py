@@ -1,4 +1,4 @@
-"""Slow cases run only when asked for: ``pytest -m "slow or not slow"``."""
+"""Slow and long cases run only when asked for: ``pytest -m "slow or not slow"``."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ from pathlib import Path
 
 import pytest
 
+ASKED = ("slow", "long")
+
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Register the marker, wherever pytest is started from."""
-    config.addinivalue_line("markers", "slow: takes long; runs only with -m")
+    """Register the markers, wherever pytest is started from."""
+    for name in ASKED:
+        config.addinivalue_line("markers", f"{name}: takes long; runs only with -m")
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -18,5 +21,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         return
     skip = pytest.mark.skip(reason='slow: pytest -m "slow or not slow"')
     for item in items:
-        if Path(__file__).parent in item.path.parents and item.get_closest_marker("slow"):
+        asked = any(item.get_closest_marker(name) for name in ASKED)
+        if Path(__file__).parent in item.path.parents and asked:
             item.add_marker(skip)

@@ -90,7 +90,7 @@ def test_a_generated_robot(tmp_path: Path, test: int) -> None:
     assert [a for name in joints for a in _alarms(name, sb.read(path, joint=name))] == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_generators_of_the_benchmark(tmp_path: Path) -> None:
     alarms, count, path = [], 0, tmp_path / "case.parquet"
     for case in cases(1):

@@ -60,7 +60,7 @@ def test_a_few_laws_on_one_joint(tmp_path: Path) -> None:
     check_rankings(study(path, tmp_path / "out", FEW, starts=2, joint="wrist_1"))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_all_laws_on_all_joints(tmp_path: Path) -> None:
     """The 25 laws of the review, six joints, every fifteenth of ninety cycles."""
     path = warm_arm(tmp_path, every=15, rate=100.0)
