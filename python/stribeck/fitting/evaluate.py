@@ -43,10 +43,10 @@ def evaluate(
     >>> import stribeck as sb
     >>> from stribeck.motion.generate.hidden import generate
     >>> recording = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
-    >>> other = sb.read(generate(["load"], seconds=60.0, rate=100.0, seed=1)[0])
-    >>> model = sb.fit("coulomb+load", recording, starts=2).model
-    >>> sb.evaluate(model, other).rmse < 0.2
-    True
+    >>> model = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> found = sb.evaluate(model, recording)
+    >>> found.model.value("coulomb_friction"), found.rmse > 0.2
+    (2.0, True)
     """
     began = time.perf_counter()
     recording = as_one(recording)

@@ -103,8 +103,8 @@ def _varying(fit: Fit, varying: VaryingFriction) -> str:
 
 def _repeated(fit: Fit, floor: float) -> str:
     return (
-        f"repeats of the same state differ by only {floor:.2g} {fit.model.torque_unit}, so it "
-        f"repeats with the motion, but no function of the recorded channels explains it "
+        f"repeats of the same state differ by only {floor:.2g} {fit.model.torque_unit}, so the "
+        f"error repeats with the motion, but no function of the recorded channels explains it "
         f"(structural vibration, for example)"
     )
 
