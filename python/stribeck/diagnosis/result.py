@@ -32,6 +32,9 @@ class Finding(Plotted):
     certainty
         Probability that the model predicts new samples better with it, 0..1, by the differences of
         the held-out errors.
+    part
+        What it explains of the squared error that it and the structure left unexplained make up
+        together, 0..1; known at the end of `improve`.
     where
         One sentence: where the data shows it.
     fit, before
@@ -51,11 +54,12 @@ class Finding(Plotted):
     fit: Fit
     before: Fit
     demoted: str | None = None
+    part: float = 1.0
 
     @property
     def confidence(self) -> float:
-        """The smaller of weight and certainty, 0..1."""
-        return min(self.weight, self.certainty)
+        """The smallest of weight, certainty and part, 0..1."""
+        return min(self.weight, self.certainty, self.part)
 
     @cached_property
     def carried(self) -> Carried:

@@ -362,7 +362,7 @@ class Project(Plotted):
     def _along(self, start: int, way: ImprovementPath) -> Project:
         """Return the project with the nodes of `way` from `start`."""
         project = replace(self, current=start)
-        for gone in way.superfluous:
+        for gone in way.dropped:
             node = project.tree.holding(gone.before)
             if node is not None and gone.effect not in project.tree.rejected(node.number):
                 project = project._rejecting(node.number, gone.effect, gone.reason)

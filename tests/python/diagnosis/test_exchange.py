@@ -44,7 +44,7 @@ def test_inertia_takes_the_place_of_effects_that_imitate_it(tmp_path: Path) -> N
     better = path.exchanged(found.best, seed=0)
     assert "inertia" in better.current.model.effects
     assert better.current.rmse_held_out == pytest.approx(0.03, rel=0.05)
-    assert found.best.finding.effect in {gone.effect for gone in better.superfluous}
+    assert found.best.finding.effect in {gone.effect for gone in better.dropped}
     assert better.steps[-1].after is better.current
     inertia = next(step for step in better.steps if step.finding.effect == "inertia")
     assert inertia.finding.confidence == 1.0 and not inertia.finding.indistinguishable_from

@@ -53,8 +53,8 @@ def test_without_an_effect_those_before_it_stay_as_they_are(detour: ImprovementP
     assert shorter.steps[0] is detour.steps[0]
     assert shorter.current.model.spec == "coulomb+direction+offset"
     assert shorter.steps[1].before is detour.steps[0].after
-    gone = shorter.superfluous[0]
-    assert (gone.effect, gone.because) == ("load", "offset")
+    gone = shorter.dropped[0]
+    assert (gone.effect, gone.reason) == ("load", "superfluous once offset is in the model")
     assert gone.before is detour.steps[0].after
     found = shorter.steps[1].finding
     assert found.before is shorter.steps[1].before and found.fit is shorter.current
@@ -85,8 +85,10 @@ def test_the_end_of_a_path_is_pruned(detour: ImprovementPath) -> None:
         shorter, path = loop._shortened(path, findings, 0.01, 0, lambda sentence: None)
         if shorter is None:
             break
-        gone.append(shorter.superfluous[-1])
+        gone.append(shorter.dropped[-1])
         path = shorter
     assert path.current.model.spec == "coulomb+load"
     assert sorted(row.effect for row in gone) == ["direction", "offset"]
-    assert [row.because for row in gone if row.effect == "offset"] == [""]
+    assert ["no more than one standard error" in row.reason for row in gone] == [
+        row.effect == "offset" for row in gone
+    ]

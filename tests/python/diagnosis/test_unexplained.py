@@ -82,6 +82,7 @@ def test_an_error_far_above_what_repeats_differ_by_is_structure() -> None:
         said = unexplained(fit, NoiseFloor(floor), could(0.5 * STRUCTURE))
         assert said.is_structure == structure
     said = unexplained(fit, NoiseFloor(0.5), could(0.5 * STRUCTURE))
+    assert said.shown == 0.0
     assert said.share == pytest.approx(1.0 - 0.5**2 / 2.0**2)
     assert (
         said.where is not None and "repeats of the same state differ by only 0.5 N m" in said.where
@@ -103,6 +104,9 @@ def test_varying_friction_is_named_where_it_is_the_larger_part(
     assert said.where is not None and said.where.startswith("friction varies by 1.2 N m (RMS)")
     said = unexplained(fit, NO_FLOOR, could(0.4))
     assert said.share == pytest.approx(0.4) and said.where == "everywhere"
+    # What lies above the floor belongs to it, but shows in no channel.
+    above = unexplained(fit, NoiseFloor(1.0), could(0.4))
+    assert (above.share, above.shown) == (pytest.approx(0.75), pytest.approx(0.4))
     # It is a share, whatever its estimate.
     varies(monkeypatch, 5.0)
     assert unexplained(fit, NO_FLOOR, could(0.3)).share == 1.0

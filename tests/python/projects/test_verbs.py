@@ -109,7 +109,7 @@ def test_improve_heeds_what_is_rejected(diagnosed: sb.Project) -> None:
 def test_a_way_that_drops_an_effect_keeps_it_as_a_branch(begun: sb.Project) -> None:
     """The loop finds an effect superfluous: its branch stays, the way goes on beside it."""
     from stribeck.diagnosis.diagnose import diagnose
-    from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep, Superfluous
+    from stribeck.diagnosis.loop.path import Dropped, ImprovementPath, ImprovementStep
 
     said = diagnose(begun.fit, brief=True)
     first = said.findings[0]
@@ -122,7 +122,7 @@ def test_a_way_that_drops_an_effect_keeps_it_as_a_branch(begun: sb.Project) -> N
         begun.fit,
         said,
         (ImprovementStep(other, begun.fit, alone),),
-        (Superfluous("load", begun.fit, "offset"),),
+        (Dropped("load", begun.fit, "superfluous once offset is in the model"),),
     )
     made = begun._along(0, grown)._along(0, pruned)
     assert len(made.tree) == 4 and made.node.kept.holds(alone) and made.node.parent == 0

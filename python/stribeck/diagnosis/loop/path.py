@@ -10,7 +10,8 @@ import numpy as np
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
-from stribeck.diagnosis.loop.superfluous import brought_by, needed, without_effects
+from stribeck.diagnosis.loop.remainder import REASON, imitation, part_explained
+from stribeck.diagnosis.loop.superfluous import Needed, brought_by, needed, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
@@ -58,25 +59,12 @@ class ImprovementStep:
 
 
 @dataclass(frozen=True)
-class Superfluous:
-    """An effect that was dropped, and the model it had been added to.
-
-    Attributes
-    ----------
-    because
-        The effect that made it superfluous; empty where it was the last that was added.
-    """
+class Dropped:
+    """An effect that was dropped, why, and the model it had been added to."""
 
     effect: str
     before: Fit
-    because: str
-
-    @property
-    def reason(self) -> str:
-        """Why it was dropped."""
-        if self.because:
-            return f"superfluous once {self.because} is in the model"
-        return "its removal raises the held-out error by no more than one standard error"
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -87,8 +75,10 @@ class ImprovementPath:
     ----------
     steps
         What was added, in order.
-    superfluous
+    dropped
         What was added and then dropped; these effects are not tried again.
+    demoted
+        Those of them that the recording needs, but that may be another cause.
     last
         The last diagnosis: of `current`, or of the model before the last change.
     """
@@ -96,7 +86,8 @@ class ImprovementPath:
     start: Fit
     last: Diagnosis
     steps: tuple[ImprovementStep, ...] = ()
-    superfluous: tuple[Superfluous, ...] = ()
+    dropped: tuple[Dropped, ...] = ()
+    demoted: tuple[Finding, ...] = ()
 
     @property
     def current(self) -> Fit:
@@ -110,18 +101,28 @@ class ImprovementPath:
         step = ImprovementStep(finding, self.current, finding.fit, rivals)
         return replace(self, steps=(*self.steps, step))
 
-    def without(self, effect: str, seed: int) -> ImprovementPath:
-        """The path without one effect; the steps after it are fitted again, in order."""
+    def without(self, effect: str, seed: int, reason: str | None = None) -> ImprovementPath:
+        """The path without one effect; the steps after it are fitted again, in order.
+
+        Parameters
+        ----------
+        reason
+            Default: it is superfluous.
+        """
         place = self._place(effect)
         dropped = self.steps[place]
         later = self.steps[place + 1 :]
         whole = without_effects(self.current.model, brought_by(dropped.finding))
         steps = self._refitted(dropped.before, later, whole, seed)
-        because = self.steps[-1].finding.effect
-        gone = Superfluous(effect, dropped.before, "" if because == effect else because)
-        return replace(
-            self, steps=(*self.steps[:place], *steps), superfluous=(*self.superfluous, gone)
-        )
+        because = reason or _superfluous(effect, self.steps[-1].finding.effect)
+        gone = Dropped(effect, dropped.before, because)
+        return replace(self, steps=(*self.steps[:place], *steps), dropped=(*self.dropped, gone))
+
+    def demoting(self, effect: str, reason: str, seed: int) -> ImprovementPath:
+        """The path without an effect that the recording needs, but that may be another cause."""
+        finding = self.steps[self._place(effect)].finding
+        shorter = self.without(effect, seed, reason)
+        return replace(shorter, demoted=(*self.demoted, replace(finding, demoted=reason)))
 
     def _place(self, effect: str) -> int:
         return next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
@@ -142,10 +143,9 @@ class ImprovementPath:
         step = replace(dropped, finding=finding)
         later = [step, *self.steps[place + 1 :]]
         steps = self._refitted(dropped.before, later, by.fit.model, seed)
-        gone = Superfluous(dropped.finding.effect, dropped.before, by.effect)
-        return replace(
-            self, steps=(*self.steps[:place], *steps), superfluous=(*self.superfluous, gone)
-        )
+        effect = dropped.finding.effect
+        gone = Dropped(effect, dropped.before, _superfluous(effect, by.effect))
+        return replace(self, steps=(*self.steps[:place], *steps), dropped=(*self.dropped, gone))
 
     def with_ties(self, ties: Mapping[str, Mapping[str, float]]) -> ImprovementPath:
         """The path whose findings also name effects that predict as well in their place."""
@@ -156,12 +156,15 @@ class ImprovementPath:
             steps.append(replace(step, finding=finding))
         return replace(self, steps=tuple(steps))
 
-    def with_certainty(self, certainty: Mapping[str, float]) -> ImprovementPath:
-        """The path with the certainty, 0..1, that its last model needs some of its effects."""
+    def with_needed(self, found: Needed) -> ImprovementPath:
+        """The path with what its last model needs of some of its effects."""
+        remains = self.last.unexplained
         steps = []
         for step in self.steps:
-            of_last = certainty.get(step.finding.effect, step.finding.certainty)
-            finding = replace(step.finding, certainty=of_last)
+            effect = step.finding.effect
+            certainty = found.certainty.get(effect, step.finding.certainty)
+            part = part_explained(found.gain.get(effect), remains)
+            finding = replace(step.finding, certainty=certainty, part=part)
             steps.append(replace(step, finding=finding))
         return replace(self, steps=tuple(steps))
 
@@ -171,7 +174,7 @@ class ImprovementPath:
             tuple(dict.fromkeys(e for step in self.steps[k:] for e in step.rivals))
             for k in range(len(self.steps))
         ]
-        refused = {*rejected, *(gone.effect for gone in self.superfluous)}
+        refused = {*rejected, *(gone.effect for gone in self.dropped)}
         findings = [step.finding for step in self.steps]
         return exchanges(findings, pools, self.current, refused, seed)
 
@@ -208,7 +211,7 @@ def improvement_paths(
     path: ImprovementPath | None = None
     while True:
         current = start if path is None else path.current
-        gone = () if path is None else path.superfluous
+        gone = () if path is None else path.dropped
         progress(f"searching for effects that {current.model.spec} lacks{_error_of(current)}")
         found = diagnose(
             current,
@@ -220,7 +223,7 @@ def improvement_paths(
             brief=True,
             progress=progress,
         )
-        path = ImprovementPath(start, found, () if path is None else path.steps, gone)
+        path = ImprovementPath(start, found) if path is None else replace(path, last=found)
         ends = not found.findings or len(path.steps) >= most_steps
         if not ends:
             path = path.with_best()
@@ -233,7 +236,10 @@ def improvement_paths(
         if shorter is None and ends:
             shorter, path = _exchanged(path, rejected, seed, progress)
             if shorter is None:
-                yield path
+                shorter = _without_imitation(path, seed, progress)
+            if shorter is None:
+                said = replace(found, demoted=(*path.demoted, *found.demoted))
+                yield replace(path, last=said)
                 return
         if shorter is not None:
             path = shorter
@@ -258,7 +264,7 @@ def _shortened(
     Each of these findings then has the certainty that the last model needs it.
     """
     found = needed(findings, path.current, least_fall, seed)
-    path = path.with_certainty(found.certainty)
+    path = path.with_needed(found)
     if found.idle is None:
         return None, path
     progress(f"{found.idle} is superfluous: refitting the later effects without it")
@@ -290,6 +296,28 @@ def _exchanged(
     except FitError as error:
         progress(f"{found.best.finding.effect} stays: {error}")
         return None, path
+
+
+def _without_imitation(
+    path: ImprovementPath, seed: int, progress: Callable[[str], None]
+) -> ImprovementPath | None:
+    """The path without the effect that most likely imitates another cause, or None."""
+    finding = imitation([step.finding for step in path.steps])
+    if finding is None:
+        return None
+    progress(f"{finding.effect} is doubtful: {REASON}")
+    try:
+        return path.demoting(finding.effect, REASON, seed)
+    except FitError as error:
+        progress(f"{finding.effect} stays: {error}")
+        return None
+
+
+def _superfluous(effect: str, because: str) -> str:
+    """Why an effect is superfluous: another one, or, where it is the last one, its own gain."""
+    if because != effect:
+        return f"superfluous once {because} is in the model"
+    return "its removal raises the held-out error by no more than one standard error"
 
 
 def refitted(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.result import Finding
-from stribeck.diagnosis.trials.evidence import difference, evidence
+from stribeck.diagnosis.trials.evidence import difference, evidence, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
@@ -57,10 +57,14 @@ class Needed:
         that is needed least.
     certainty
         For each effect the probability that the model predicts worse without it, 0..1.
+    gain
+        For each effect the rise of the squared held-out error without it, as a multiple of that of
+        the model.
     """
 
     idle: str | None
     certainty: Mapping[str, float]
+    gain: Mapping[str, float]
 
 
 def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -> Needed:
@@ -72,6 +76,8 @@ def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -
     """
     rises: dict[str, float] = {}
     certainty: dict[str, float] = {}
+    gain: dict[str, float] = {}
+    square = held_out_square(current, current)
     for finding in findings:
         without = fit_without(current, finding, seed)
         if without is None:
@@ -81,9 +87,10 @@ def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -
         rise = rms(current.weighted(without.residual[rows])) / level - 1.0
         lost = difference(without, current)
         certainty[finding.effect] = lost.certainty
+        gain[finding.effect] = held_out_square(without, current) / square - 1.0
         chance = evidence(without, current).p_value
         # Among all effects a finding must be significant; there, it needs no further proof.
         doubtful = chance * len(effect_ids()) > SIGNIFICANCE
         if rise < least / 2 or chance > SIGNIFICANCE or (doubtful and lost.statistic <= SIMPLEST):
             rises[finding.effect] = lost.statistic
-    return Needed(min(rises, key=lambda e: rises[e]) if rises else None, certainty)
+    return Needed(min(rises, key=lambda e: rises[e]) if rises else None, certainty, gain)

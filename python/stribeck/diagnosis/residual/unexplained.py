@@ -51,10 +51,14 @@ class Unexplained:
         None where it cannot be estimated.
     where : str
         In words; None where the residual counts as noise.
+    shown : float
+        The share that a function of the recorded channels, or friction that varies along the
+        recording, shows. An effect may imitate its cause.
     """
 
     share: float | None
     where: str | None
+    shown: float = 0.0
 
     @property
     def is_structure(self) -> bool:
@@ -89,9 +93,9 @@ def unexplained(
         if not floor.value or floor.is_reached_by(rms(fit.residual[fit.rows])):
             return Unexplained(share, None)
         return Unexplained(above, _repeated(fit, floor.value))
-    share = max(share, above)
     is_varying = varying_share > explained.left
-    return Unexplained(share, _varying(fit, varying) if is_varying else _place(fit))
+    place = _varying(fit, varying) if is_varying else _place(fit)
+    return Unexplained(max(share, above), place, share)
 
 
 def _varying(fit: Fit, varying: VaryingFriction) -> str:

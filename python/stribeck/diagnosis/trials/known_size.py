@@ -14,7 +14,9 @@ def has_known_size(effect: str, fit: Fit) -> bool:
     Amplitudes are the parameters in which the torque is linear; all parameters, where it is in
     none. Of an effect with several, such as both parts of a ripple, one may be zero.
     """
-    names = _own_names(effect, fit.model)
+    # A model has only those that act on the terms it has: the temperature of dry friction changes a
+    # Stribeck height where there is one.
+    names = [name for name in _own_names(effect, fit.model) if name in fit.estimates]
     linear = {p.name for p in fit.model.parameters if p.linear}
     amplitudes = [name for name in names if name in linear] or names
     poor = set(poorly_determined(fit.estimates.values()))
@@ -23,7 +25,7 @@ def has_known_size(effect: str, fit: Fit) -> bool:
 
 
 def _own_names(effect: str, model: Model) -> list[str]:
-    """Names of the parameters that an effect brings to a model."""
+    """Names of the parameters that an effect may bring to a model."""
     own, row = model.formula(effect), effect_row(effect)
     if own is not None:
         return list(own.names)

@@ -1,0 +1,76 @@
+"""Effects beside structure that no effect explains."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.loop.remainder import LEAST_PART, REASON, part_explained
+from stribeck.diagnosis.residual.unexplained import Unexplained
+from stribeck.diagnosis.trials.known_size import has_known_size
+from synthetic import Array, joint, joint_with_stribeck_curve, motion, record
+
+V = motion()[2]
+
+
+def gap(slowest: float, fastest: float, size: float = 0.3) -> Array:
+    """Friction that is smaller in a band of speeds, which no effect of the catalog has."""
+    speed = np.abs(V)
+    return -size * ((speed > slowest) & (speed < fastest)) * np.sign(V)
+
+
+def load_dependence(share: float) -> Array:
+    """Dry friction in proportion to the load."""
+    return share * np.abs(joint()["load_torque"].to_numpy()) * np.sign(V)
+
+
+@pytest.mark.parametrize(
+    ("gain", "shown", "part"),
+    [(0.3, 0.3, 0.5), (3.0, 1.0, 0.75), (0.0, 0.2, 0.0), (-0.1, 0.2, 0.0), (None, 0.9, 1.0)],
+)
+def test_the_part_is_a_share_of_both(gain: float | None, shown: float, part: float) -> None:
+    assert part_explained(gain, Unexplained(max(shown, 0.2), "everywhere", shown)) == part
+
+
+def test_noise_and_vibration_take_no_part() -> None:
+    """Neither what counts as noise, nor what no recorded channel shows."""
+    assert part_explained(0.1, Unexplained(0.05, None)) == 1.0
+    assert part_explained(0.1, Unexplained(0.8, "vibration")) == 1.0
+    assert part_explained(0.1, Unexplained(None, None)) == 1.0
+
+
+def test_what_explains_less_than_what_remains_is_demoted(tmp_path: Path) -> None:
+    """A Stribeck curve follows a part of a gap at low speed."""
+    extra = gap(0.3, 0.6) + load_dependence(0.15)
+    found = sb.improve("coulomb", record(tmp_path, joint(extra)), starts=2)
+    assert found.final.model.spec == "coulomb+load"
+    assert found.last.verdict == "unexplained" and found.unexplained.shown > 0.3
+    (doubted,) = found.last.demoted
+    assert doubted.effect == "stribeck" and doubted.demoted == REASON
+    assert doubted.confidence < LEAST_PART
+    assert found.to_dict()["demoted"] == [doubted.to_dict()]
+    # The load, which is as large as the gap and no part of it, stays as it is.
+    (step,) = found.steps
+    assert step.finding.effect == "load" and step.finding.confidence > 0.9
+
+
+def test_what_explains_hardly_more_than_what_remains_is_not_certain(tmp_path: Path) -> None:
+    found = sb.improve("coulomb", record(tmp_path, joint(gap(0.6, 0.9))), starts=2)
+    (step,) = found.steps
+    assert step.finding.effect == "stribeck"
+    assert LEAST_PART < step.finding.confidence == step.finding.part < 0.8
+    assert step.finding.weight > 0.99
+
+
+def test_without_structure_nothing_changes(tmp_path: Path) -> None:
+    found = sb.improve("coulomb", record(tmp_path, joint_with_stribeck_curve()), starts=2)
+    assert [(step.finding.effect, step.finding.part) for step in found.steps] == [("stribeck", 1.0)]
+
+
+def test_the_size_of_an_effect_is_of_the_parameters_that_the_model_has(tmp_path: Path) -> None:
+    """The temperature of dry friction has one for the Stribeck height, if there is such a curve."""
+    fitted = sb.fit("coulomb+temperature_dry", record(tmp_path, joint()), starts=1)
+    assert "temperature_dry_height" not in fitted.estimates
+    assert not has_known_size("temperature_dry", fitted)  # no temperature acts on this joint
