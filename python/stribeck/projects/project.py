@@ -16,12 +16,8 @@ from stribeck.base.shown import Plotted
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
 from stribeck.diagnosis.loop.add import add as add_to
-from stribeck.diagnosis.loop.path import (
-    MOST_STEPS,
-    ImprovementPath,
-    ImprovementStep,
-    improvement_paths,
-)
+from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from stribeck.diagnosis.loop.search import MOST_STEPS, improvement_paths
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.trials.dry_friction import check_rejected

@@ -39,7 +39,7 @@ def test_inertia_takes_the_place_of_effects_that_imitate_it(tmp_path: Path) -> N
     """A wrong inertia, of which a spring and a position dependence explain most."""
     path = detour(tmp_path, 0.2 * motion()[3], "spring", "position", rivals=("inertia", "offset"))
     assert path.current.rmse_held_out is not None
-    found = path.exchanges((), seed=0)
+    found = path.exchanges((), 0.01, seed=0)
     assert found.best is not None and found.best.by.effect == "inertia"
     better = path.exchanged(found.best, seed=0)
     assert "inertia" in better.current.model.effects
@@ -48,7 +48,7 @@ def test_inertia_takes_the_place_of_effects_that_imitate_it(tmp_path: Path) -> N
     assert better.steps[-1].after is better.current
     inertia = next(step for step in better.steps if step.finding.effect == "inertia")
     assert inertia.finding.confidence == 1.0 and not inertia.finding.indistinguishable_from
-    assert path.exchanges(("inertia",), seed=0).best is None
+    assert path.exchanges(("inertia",), 0.01, seed=0).best is None
 
 
 def test_a_true_effect_is_not_exchanged(tmp_path: Path) -> None:
@@ -58,7 +58,7 @@ def test_a_true_effect_is_not_exchanged(tmp_path: Path) -> None:
     path = detour(
         tmp_path, extra, "stribeck", "offset", rivals=("nonlinear_viscous", "gravity", "direction")
     )
-    found = path.exchanges((), seed=0)
+    found = path.exchanges((), 0.01, seed=0)
     assert found.best is None and not found.ties
 
 

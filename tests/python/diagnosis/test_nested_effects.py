@@ -51,7 +51,7 @@ def test_a_wider_effect_gives_way_to_what_remains_of_it(tmp_path: Path) -> None:
     wider = sb.fit("coulomb+load+quadrant", recording, starts=2)
     finding = Finding("quadrant", 1.0, 1.0, 2.0, 1.0, None, "", (), wider, before)
     whole = sb.fit("coulomb+load+quadrant+offset", recording, starts=2)
-    best = exchanges([finding], [()], whole, (), 0).best
+    best = exchanges([finding], [()], (), whole, (), 0.01, 0).best
     assert best is not None and best.by.effect == "load"
     # It contains the other, and is no alternative to it.
     assert ties_of(best) == {}

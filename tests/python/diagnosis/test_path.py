@@ -9,8 +9,10 @@ import pytest
 import stribeck as sb
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import diagnose
-from stribeck.diagnosis.loop import path as loop
-from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep, improvement_paths
+from stribeck.diagnosis.loop import path as made
+from stribeck.diagnosis.loop import search as loop
+from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from stribeck.diagnosis.loop.search import improvement_paths
 from synthetic import joint, record
 
 
@@ -72,7 +74,7 @@ def test_an_effect_without_which_nothing_can_be_fitted_stays(
     def refuse(*_: object) -> ImprovementStep:
         raise FitError("the dry friction is negative")
 
-    monkeypatch.setattr(loop, "refitted", refuse)
+    monkeypatch.setattr(made, "refitted", refuse)
     assert loop._shortened(detour, findings[:1], 0.01, 0, told.append)[0] is None
     assert told[-1] == "direction stays: the dry friction is negative"
 

@@ -15,6 +15,7 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
+from stribeck.diagnosis.trials.imitations import standing
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import (
@@ -77,11 +78,22 @@ class Exchanges:
 def exchanges(
     findings: Sequence[Finding],
     rivals: Sequence[Sequence[str]],
+    spoilt: Sequence[str],
     current: Fit,
     refused: Collection[str],
+    least: float,
     seed: int,
 ) -> Exchanges:
-    """Try to exchange the effect of each finding for each of its rivals, ids or formulas."""
+    """Try to exchange the effect of each finding for each of its rivals, ids or formulas.
+
+    Parameters
+    ----------
+    spoilt
+        Effects that explain something beside the others, with values that cannot be right. One that
+        makes an effect impossible, beside which they are, shows that it is not the cause.
+    least
+        The fall that a finding must bring.
+    """
     made: list[Exchange] = []
     ties: dict[str, dict[str, float]] = {}
     for finding, others in zip(findings, rivals, strict=True):
@@ -90,7 +102,7 @@ def exchanges(
         if not possible or (without := fit_without(current, finding, seed)) is None:
             continue
         for effect in possible[:MOST]:
-            by = _in_place(current, without, effect, seed)
+            by = _in_place(finding, current, without, effect, least, seed)
             if by is None:
                 continue
             worse = difference(current, by.fit).statistic
@@ -101,6 +113,7 @@ def exchanges(
                 by.parameters <= len(current.model.names) or worse > SIMPLEST
             ):
                 ties.setdefault(finding.effect, {})[by.effect] = tie_weight(better)
+        made += _given_way(finding, without, spoilt, current, seed)
     best = min(made, key=lambda one: held_out_square(one.by.fit, current), default=None)
     return Exchanges(best, ties)
 
@@ -115,7 +128,33 @@ def _is_in(effect: str, current: Fit) -> bool:
     return model.has(name) or name in (*model.own_effects, *model.rigid_body)
 
 
-def _in_place(current: Fit, without: Fit, effect: str, seed: int) -> Trial | None:
+def _given_way(
+    finding: Finding, without: Fit, spoilt: Sequence[str], current: Fit, seed: int
+) -> list[Exchange]:
+    """The exchange of an effect for the simpler one that it contains, where that is no loss.
+
+    It is none where the simpler one and an effect of `spoilt` together predict better.
+    """
+    for simpler in _simpler(finding):
+        found = screened(without, simpler, seed=seed)
+        alone = None if found is None else try_effect(without, found)
+        for effect in () if alone is None else spoilt[:MOST]:
+            both = screened(alone.fit, effect, seed=seed)
+            trial = None if both is None else try_effect(alone.fit, both)
+            if trial is None or trial.is_implausible or impossible(_claim(trial, alone.fit)):
+                continue
+            if difference(current, trial.fit).statistic > TIE:
+                return [Exchange(finding, without, alone, difference(current, trial.fit).statistic)]
+    return []
+
+
+def _claim(trial: Trial, before: Fit) -> Claim:
+    return Claim(trial.effect, before, trial.fit)
+
+
+def _in_place(
+    finding: Finding, current: Fit, without: Fit, effect: str, least: float, seed: int
+) -> Trial | None:
     """The trial of another effect in place of one; None where it cannot take its place."""
     whole = held_out_square(without, current)
     needed = 1.0 - (held_out_square(current, current) / whole) ** 0.5 if whole > 0.0 else 0.0
@@ -125,8 +164,12 @@ def _in_place(current: Fit, without: Fit, effect: str, seed: int) -> Trial | Non
     trial = try_effect(without, found)
     if trial is None or trial.is_implausible or trial.evidence.p_value > SIGNIFICANCE:
         return None
-    claim = Claim(trial.effect, without, trial.fit)
-    return None if impossible(claim) or weak(claim) else trial
+    claim = _claim(trial, without)
+    if impossible(claim) or weak(claim):
+        return None
+    # What causes in the measurement explain as well may not come in by the back door.
+    exchanged = Trial(finding.effect, current, trial.evidence)
+    return trial if standing(without, trial, (exchanged,), least).stand else None
 
 
 def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, better: float) -> bool:

@@ -17,12 +17,8 @@ from stribeck.diagnosis.all_samples import on_all_samples, with_errors_of, with_
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.loop.determined import known_combinations, undetermined
 from stribeck.diagnosis.loop.passive import MadePassive, cost_of_passivity
-from stribeck.diagnosis.loop.path import (
-    MOST_STEPS,
-    ImprovementPath,
-    ImprovementStep,
-    improvement_paths,
-)
+from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from stribeck.diagnosis.loop.search import MOST_STEPS, improvement_paths
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Diagnosis

@@ -1,29 +1,24 @@
-"""The loop: the best effect is added at each step; superfluous ones are dropped or exchanged."""
+"""What the loop has added to a model, and what it dropped again."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stribeck.base.errors import FitError
-from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
-from stribeck.diagnosis.loop.remainder import REASON, imitation, part_explained
-from stribeck.diagnosis.loop.superfluous import Needed, brought_by, needed, without_effects
+from stribeck.diagnosis.loop.remainder import part_explained
+from stribeck.diagnosis.loop.superfluous import Needed, brought_by, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
-from stribeck.effect.base import number
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import FROM_NEARBY
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
-
-MOST_STEPS = 8
 
 
 @dataclass(frozen=True)
@@ -101,6 +96,22 @@ class ImprovementPath:
         step = ImprovementStep(finding, self.current, finding.fit, rivals)
         return replace(self, steps=(*self.steps, step))
 
+    def with_finding(self, finding: Finding) -> ImprovementPath:
+        """The path with another finding added."""
+        step = ImprovementStep(finding, self.current, finding.fit)
+        return replace(self, steps=(*self.steps, step))
+
+    def holding(self, effect: str) -> Finding | None:
+        """The finding of one effect, None where it was dropped."""
+        found = (step.finding for step in self.steps)
+        return next((finding for finding in found if finding.effect == effect), None)
+
+    def with_instead(self, finding: Finding) -> ImprovementPath:
+        """The path with another statement of the finding of the same effect."""
+        place = self._place(finding.effect)
+        step = replace(self.steps[place], finding=finding)
+        return replace(self, steps=(*self.steps[:place], step, *self.steps[place + 1 :]))
+
     def without(self, effect: str, seed: int, reason: str | None = None) -> ImprovementPath:
         """The path without one effect; the steps after it are fitted again, in order.
 
@@ -168,15 +179,20 @@ class ImprovementPath:
             steps.append(replace(step, finding=finding))
         return replace(self, steps=tuple(steps))
 
-    def exchanges(self, rejected: Collection[str], seed: int) -> Exchanges:
-        """What the exchange of each effect for its rivals, and for those of later ones, shows."""
+    def exchanges(self, rejected: Collection[str], least: float, seed: int) -> Exchanges:
+        """What the exchange of each effect for its rivals, and for those of later ones, shows.
+
+        An effect that may not be claimed beside the others may be right in the place of one.
+        """
+        written = self.current.model.written
+        spoilt = tuple(written(row.effect) for row in self.last.not_claimed)
         pools = [
             tuple(dict.fromkeys(e for step in self.steps[k:] for e in step.rivals))
             for k in range(len(self.steps))
         ]
         refused = {*rejected, *(gone.effect for gone in self.dropped)}
         findings = [step.finding for step in self.steps]
-        return exchanges(findings, pools, self.current, refused, seed)
+        return exchanges(findings, pools, spoilt, self.current, refused, least, seed)
 
     def _refitted(
         self, before: Fit, later: Sequence[ImprovementStep], whole: Model, seed: int
@@ -191,126 +207,6 @@ class ImprovementPath:
             steps.append(made)
             before = made.after
         return steps
-
-
-def improvement_paths(
-    start: Fit,
-    *,
-    seed: int = 0,
-    least_fall: float = LEAST_FALL,
-    most_steps: int = MOST_STEPS,
-    rejected: Collection[str] = (),
-    candidates: Collection[str] = (),
-    progress: Callable[[str], None] = lambda sentence: None,
-) -> Iterator[ImprovementPath]:
-    """The path of the loop after each effect that is added or dropped.
-
-    The loop ends where nothing passes the test, or after `most_steps`. The last diagnosis of the
-    last path is that of its current model. Parameters as in `improve`.
-    """
-    path: ImprovementPath | None = None
-    while True:
-        current = start if path is None else path.current
-        gone = () if path is None else path.dropped
-        progress(f"searching for effects that {current.model.spec} lacks{_error_of(current)}")
-        found = diagnose(
-            current,
-            least_fall=least_fall,
-            rejected={*rejected, *(s.effect for s in gone)},
-            candidates=candidates,
-            seed=seed,
-            sample_rows=start.recording.rows,
-            brief=True,
-            progress=progress,
-        )
-        path = ImprovementPath(start, found) if path is None else replace(path, last=found)
-        ends = not found.findings or len(path.steps) >= most_steps
-        if not ends:
-            path = path.with_best()
-            progress(f"adding {found.findings[0].effect}{_error_of(path.current)}")
-            yield path
-        findings = [step.finding for step in path.steps]
-        shorter, path = _shortened(
-            path, findings if ends else findings[:-1], least_fall, seed, progress
-        )
-        if shorter is None and ends:
-            shorter, path = _exchanged(path, rejected, seed, progress)
-            if shorter is None:
-                shorter = _without_imitation(path, seed, progress)
-            if shorter is None:
-                said = replace(found, demoted=(*path.demoted, *found.demoted))
-                yield replace(path, last=said)
-                return
-        if shorter is not None:
-            path = shorter
-            yield path
-
-
-def _error_of(fitted: Fit) -> str:
-    """The held-out error of a model, for a sentence of progress."""
-    error = fitted.rmse_held_out
-    return "" if error is None else f" (held-out error {number(error)} {fitted.model.torque_unit})"
-
-
-def _shortened(
-    path: ImprovementPath,
-    findings: Sequence[Finding],
-    least_fall: float,
-    seed: int,
-    progress: Callable[[str], None],
-) -> tuple[ImprovementPath | None, ImprovementPath]:
-    """The path without one of some findings, or None where all stay; and the path as it is.
-
-    Each of these findings then has the certainty that the last model needs it.
-    """
-    found = needed(findings, path.current, least_fall, seed)
-    path = path.with_needed(found)
-    if found.idle is None:
-        return None, path
-    progress(f"{found.idle} is superfluous: refitting the later effects without it")
-    try:
-        return path.without(found.idle, seed), path
-    except FitError as error:
-        # For example a bristle whose dry friction is positive only with this effect.
-        progress(f"{found.idle} stays: {error}")
-        return None, path
-
-
-def _exchanged(
-    path: ImprovementPath,
-    rejected: Collection[str],
-    seed: int,
-    progress: Callable[[str], None],
-) -> tuple[ImprovementPath | None, ImprovementPath]:
-    """The path with one effect exchanged, or None; and the path with its ties."""
-    if len(path.steps) < 2:
-        return None, path
-    progress("trying other effects in the place of each of those found")
-    found = path.exchanges(rejected, seed)
-    path = path.with_ties(found.ties)
-    if found.best is None:
-        return None, path
-    progress(f"{found.best.by.effect} takes the place of {found.best.finding.effect}")
-    try:
-        return path.exchanged(found.best, seed), path
-    except FitError as error:
-        progress(f"{found.best.finding.effect} stays: {error}")
-        return None, path
-
-
-def _without_imitation(
-    path: ImprovementPath, seed: int, progress: Callable[[str], None]
-) -> ImprovementPath | None:
-    """The path without the effect that most likely imitates another cause, or None."""
-    finding = imitation([step.finding for step in path.steps])
-    if finding is None:
-        return None
-    progress(f"{finding.effect} is doubtful: {REASON}")
-    try:
-        return path.demoting(finding.effect, REASON, seed)
-    except FitError as error:
-        progress(f"{finding.effect} stays: {error}")
-        return None
 
 
 def _superfluous(effect: str, because: str) -> str:

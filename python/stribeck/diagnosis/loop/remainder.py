@@ -11,8 +11,9 @@ from collections.abc import Sequence
 
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
+from stribeck.effect.describe import is_friction
 
-#: An effect with a smaller part is demoted: it explains less than what remains.
+#: A friction effect with a smaller part is demoted: it explains less than what remains.
 LEAST_PART = 0.5
 REASON = (
     "it explains less than what remains unexplained, so it may imitate a cause that no effect of "
@@ -34,7 +35,7 @@ def part_explained(gain: float | None, remains: Unexplained) -> float:
     return max(gain, 0.0) / (max(gain, 0.0) + remains.shown)
 
 
-def imitation(findings: Sequence[Finding]) -> Finding | None:
-    """The effect that explains least beside what remains, if it is less than that."""
-    doubtful = [finding for finding in findings if finding.part < LEAST_PART]
-    return min(doubtful, key=lambda finding: finding.part, default=None)
+def imitations(findings: Sequence[Finding]) -> list[str]:
+    """The friction effects that explain less than what remains, the smallest part first."""
+    doubtful = [f for f in findings if f.part < LEAST_PART and is_friction(f.effect)]
+    return [finding.effect for finding in sorted(doubtful, key=lambda finding: finding.part)]

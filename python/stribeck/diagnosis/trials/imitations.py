@@ -20,7 +20,7 @@ from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
-from stribeck.models.catalog import simpler_effect
+from stribeck.models.catalog import effect_ids, simpler_effect
 
 #: A constant torque, as a cause in the measurement.
 ZERO = "a zero of the torque that is off"
@@ -96,6 +96,11 @@ def without_imitations(
         elif better <= SIMPLEST:
             sift = sift.narrowed(trial)
     return sift
+
+
+def standing(before: Fit, trial: Trial, passed: Sequence[Trial], least: float) -> Sifted:
+    """What stands of one trial, where every effect of the catalog counts as tried."""
+    return without_imitations(before, Sifted(stand=(trial,)), passed, len(effect_ids()), least)
 
 
 def _explains_addition(

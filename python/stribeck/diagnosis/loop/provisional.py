@@ -1,0 +1,52 @@
+"""An effect that is added on trial, where causes in the measurement explain it as well.
+
+Two causes hide each other: beside one that is not in the model yet, neither predicts much better
+than causes in the measurement. One of them is added on trial, the search goes on, and the effect
+stays if it stands beside the others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import weak
+from stribeck.diagnosis.result import Diagnosis, Finding
+from stribeck.diagnosis.trials.evidence import evidence
+from stribeck.diagnosis.trials.imitations import NARROW, standing
+from stribeck.diagnosis.trials.trial import Trial
+from stribeck.effect.describe import is_friction
+from stribeck.fitting.result import Fit
+
+
+def on_trial(found: Diagnosis) -> Finding | None:
+    """The finding to add on trial: the best of those that causes in the measurement explain too.
+
+    None where there is none, or where nothing else remains to be explained.
+    """
+    if not found.unexplained.is_structure:
+        return None
+    doubtful = [
+        finding
+        for finding in found.demoted
+        if is_friction(finding.effect)
+        and weak(Claim(finding.effect, finding.before, finding.fit)) is None
+    ]
+    best = min(doubtful, key=lambda finding: finding.rmse_held_out_after, default=None)
+    return None if best is None else replace(best, demoted=None)
+
+
+def judged(finding: Finding, current: Fit, least: float, seed: int) -> Finding | None:
+    """The finding as the other effects of the model `current` leave it, None where it falls.
+
+    Its confidence is at most that of an effect which predicts hardly better than causes in the
+    measurement, since alone it does not.
+    """
+    without = fit_without(current, finding, seed)
+    if without is None:
+        return None
+    trial = Trial(finding.effect, current, evidence(without, current))
+    if not standing(without, trial, (), least).stand:
+        return None
+    return replace(finding, weight=NARROW)
