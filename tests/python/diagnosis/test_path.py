@@ -10,9 +10,8 @@ import stribeck as sb
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop import path as made
-from stribeck.diagnosis.loop import search as loop
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
-from stribeck.diagnosis.loop.search import improvement_paths
+from stribeck.diagnosis.loop.search import Search, improvement_paths
 from synthetic import joint, record
 
 
@@ -67,24 +66,26 @@ def test_an_effect_without_which_nothing_can_be_fitted_stays(
     detour: ImprovementPath, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[str] = []
+    search = Search(0, 0.01, 8, (), (), told.append)
     findings = [step.finding for step in detour.steps]
-    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append)[0] is not None
+    assert search._shortened(detour, findings[:1])[0] is not None
     assert told == ["direction is superfluous: refitting the later effects without it"]
 
     def refuse(*_: object) -> ImprovementStep:
         raise FitError("the dry friction is negative")
 
     monkeypatch.setattr(made, "refitted", refuse)
-    assert loop._shortened(detour, findings[:1], 0.01, 0, told.append)[0] is None
+    assert search._shortened(detour, findings[:1])[0] is None
     assert told[-1] == "direction stays: the dry friction is negative"
 
 
 def test_the_end_of_a_path_is_pruned(detour: ImprovementPath) -> None:
     """The recording has a dependence on load alone; the effects needed least go first."""
     path, gone = detour, []
+    search = Search(0, 0.01, 8, (), (), lambda sentence: None)
     for _ in range(3):
         findings = [step.finding for step in path.steps]
-        shorter, path = loop._shortened(path, findings, 0.01, 0, lambda sentence: None)
+        shorter, path = search._shortened(path, findings)
         if shorter is None:
             break
         gone.append(shorter.dropped[-1])

@@ -138,7 +138,9 @@ def _given_way(
     for simpler in _simpler(finding):
         found = screened(without, simpler, seed=seed)
         alone = None if found is None else try_effect(without, found)
-        for effect in () if alone is None else spoilt[:MOST]:
+        if alone is None:
+            continue
+        for effect in spoilt[:MOST]:
             both = screened(alone.fit, effect, seed=seed)
             trial = None if both is None else try_effect(alone.fit, both)
             if trial is None or trial.is_implausible or impossible(_claim(trial, alone.fit)):

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Collection, Generator, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
@@ -11,7 +11,7 @@ from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, on_trial
 from stribeck.diagnosis.loop.remainder import REASON, imitations
 from stribeck.diagnosis.loop.superfluous import needed
-from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
 
@@ -33,140 +33,143 @@ def improvement_paths(
     The loop ends where nothing passes the test, or after `most_steps`. The last diagnosis of the
     last path is that of its current model. Parameters as in `improve`.
     """
-    path: ImprovementPath | None = None
-    before: ImprovementPath | None = None
-    doubtful: str | None = None
-    while True:
-        current = start if path is None else path.current
-        gone = () if path is None else path.dropped
-        progress(f"searching for effects that {current.model.spec} lacks{_error_of(current)}")
-        found = diagnose(
+    search = Search(seed, least_fall, most_steps, rejected, candidates, progress)
+    return search.paths(ImprovementPath(start, search.diagnosis(start)))
+
+
+@dataclass(frozen=True)
+class Search:
+    """A search with its options, which are those of `improve`."""
+
+    seed: int
+    least_fall: float
+    most_steps: int
+    rejected: Collection[str]
+    candidates: Collection[str]
+    progress: Callable[[str], None]
+
+    def paths(self, path: ImprovementPath) -> Iterator[ImprovementPath]:
+        """The path after each change, from one whose last diagnosis is that of its model."""
+        path = yield from self._grown(path)
+        finding = on_trial(path.last)
+        if finding is not None:
+            path = self._tried(path, finding)
+            yield path
+        if (shorter := self._without_imitations(path)) is not None:
+            yield shorter
+            path = yield from self._grown(self._asked(shorter))
+            if finding is None and (finding := on_trial(path.last)) is not None:
+                path = self._tried(path, finding)
+        said = replace(path.last, demoted=(*path.demoted, *path.last.demoted))
+        yield replace(path, last=said)
+
+    def diagnosis(self, current: Fit, dropped: Collection[str] = ()) -> Diagnosis:
+        """What a model lacks; effects that were dropped are not tried again."""
+        self.progress(f"searching for effects that {current.model.spec} lacks{_error_of(current)}")
+        return diagnose(
             current,
-            least_fall=least_fall,
-            rejected={*rejected, *(s.effect for s in gone)},
-            candidates=candidates,
-            seed=seed,
-            sample_rows=start.recording.rows,
+            least_fall=self.least_fall,
+            rejected={*self.rejected, *dropped},
+            candidates=self.candidates,
+            seed=self.seed,
+            sample_rows=current.recording.rows,
             brief=True,
-            progress=progress,
+            progress=self.progress,
         )
-        path = ImprovementPath(start, found) if path is None else replace(path, last=found)
-        ends = not found.findings or len(path.steps) >= most_steps
-        if not ends:
-            path = path.with_best()
-            progress(f"adding {found.findings[0].effect}{_error_of(path.current)}")
-            if before is None:
-                yield path
-        findings = [step.finding for step in path.steps]
-        shorter, path = _shortened(
-            path, findings if ends else findings[:-1], least_fall, seed, progress
-        )
-        if shorter is None and ends:
-            shorter, path = _exchanged(path, rejected, least_fall, seed, progress)
-        if shorter is None and ends and doubtful is None:
-            tried = on_trial(found)
-            if tried is not None:
-                progress(f"adding {tried.effect} on trial{_error_of(tried.fit)}")
-                before, doubtful, shorter = path, tried.effect, path.with_finding(tried)
-        elif shorter is None and ends and before is not None:
-            path = _decided(before, path, doubtful, least_fall, seed, progress)
-            before = None
-        if shorter is None and ends:
-            shorter = _without_imitations(path, seed, progress)
-            if shorter is None:
-                said = replace(path.last, demoted=(*path.demoted, *path.last.demoted))
-                yield replace(path, last=said)
-                return
-        if shorter is not None:
-            path = shorter
-            if before is None:
-                yield path
 
+    def _asked(self, path: ImprovementPath) -> ImprovementPath:
+        """The path with the diagnosis of its model."""
+        return replace(path, last=self.diagnosis(path.current, [s.effect for s in path.dropped]))
 
-def _decided(
-    before: ImprovementPath,
-    path: ImprovementPath,
-    doubtful: str,
-    least: float,
-    seed: int,
-    progress: Callable[[str], None],
-) -> ImprovementPath:
-    """The path with the effect that was added on trial, or the one before it."""
-    finding = path.holding(doubtful)
-    if finding is None:
-        return path
-    finding = judged(finding, path.current, least, seed)
-    if finding is None:
-        progress(f"{doubtful} does not stand beside the others: going back")
-        return before
-    return path.with_instead(finding)
+    def _grown(self, path: ImprovementPath) -> Generator[ImprovementPath, None, ImprovementPath]:
+        """Add, drop and exchange until nothing changes; yields the path after each change."""
+        while True:
+            ends = not path.last.findings or len(path.steps) >= self.most_steps
+            if not ends:
+                path = path.with_best()
+                added = path.steps[-1].finding.effect
+                self.progress(f"adding {added}{_error_of(path.current)}")
+                yield path
+            findings = [step.finding for step in path.steps]
+            shorter, path = self._shortened(path, findings if ends else findings[:-1])
+            if shorter is None and ends:
+                shorter, path = self._exchanged(path)
+                if shorter is None:
+                    return path
+            if shorter is not None:
+                path = shorter
+                yield path
+            path = self._asked(path)
+
+    def _shortened(
+        self, path: ImprovementPath, findings: Sequence[Finding]
+    ) -> tuple[ImprovementPath | None, ImprovementPath]:
+        """The path without one of some findings, or None where all stay; and the path as it is.
+
+        Each of these findings then has the certainty that the last model needs it.
+        """
+        found = needed(findings, path.current, self.least_fall, self.seed)
+        path = path.with_needed(found)
+        if found.idle is None:
+            return None, path
+        self.progress(f"{found.idle} is superfluous: refitting the later effects without it")
+        try:
+            return path.without(found.idle, self.seed), path
+        except FitError as error:
+            # For example a bristle whose dry friction is positive only with this effect.
+            self.progress(f"{found.idle} stays: {error}")
+            return None, path
+
+    def _exchanged(self, path: ImprovementPath) -> tuple[ImprovementPath | None, ImprovementPath]:
+        """The path with one effect exchanged, or None; and the path with its ties."""
+        if len(path.steps) + len(path.last.not_claimed) < 2:
+            return None, path
+        self.progress("trying other effects in the place of each of those found")
+        found = path.exchanges(self.rejected, self.least_fall, self.seed)
+        path = path.with_ties(found.ties)
+        if found.best is None:
+            return None, path
+        self.progress(f"{found.best.by.effect} takes the place of {found.best.finding.effect}")
+        try:
+            return path.exchanged(found.best, self.seed), path
+        except FitError as error:
+            self.progress(f"{found.best.finding.effect} stays: {error}")
+            return None, path
+
+    def _tried(self, path: ImprovementPath, finding: Finding) -> ImprovementPath:
+        """The path grown beyond a finding on trial, or as it is where that does not stand then."""
+        self.progress(f"adding {finding.effect} on trial{_error_of(finding.fit)}")
+        *_, grown = self._ends(path.with_finding(finding))
+        kept = grown.holding(finding.effect)
+        if kept is None:
+            return grown
+        stands = judged(kept, grown.current, self.least_fall, self.seed)
+        if stands is None:
+            self.progress(f"{finding.effect} does not stand beside the others: going back")
+            return path
+        return grown.with_instead(stands)
+
+    def _ends(self, path: ImprovementPath) -> Iterator[ImprovementPath]:
+        """The path after each change of its growth, and at the end."""
+        path = yield from self._grown(self._asked(path))
+        yield path
+
+    def _without_imitations(self, path: ImprovementPath) -> ImprovementPath | None:
+        """The path without effects that may imitate another cause, or None where there are none.
+
+        Once: without them more remains, beside which another effect would explain less.
+        """
+        shorter = None
+        for effect in imitations([step.finding for step in path.steps]):
+            self.progress(f"{effect} is doubtful: {REASON}")
+            try:
+                path = shorter = path.demoting(effect, REASON, self.seed)
+            except FitError as error:
+                self.progress(f"{effect} stays: {error}")
+        return shorter
 
 
 def _error_of(fitted: Fit) -> str:
     """The held-out error of a model, for a sentence of progress."""
     error = fitted.rmse_held_out
     return "" if error is None else f" (held-out error {number(error)} {fitted.model.torque_unit})"
-
-
-def _shortened(
-    path: ImprovementPath,
-    findings: Sequence[Finding],
-    least_fall: float,
-    seed: int,
-    progress: Callable[[str], None],
-) -> tuple[ImprovementPath | None, ImprovementPath]:
-    """The path without one of some findings, or None where all stay; and the path as it is.
-
-    Each of these findings then has the certainty that the last model needs it.
-    """
-    found = needed(findings, path.current, least_fall, seed)
-    path = path.with_needed(found)
-    if found.idle is None:
-        return None, path
-    progress(f"{found.idle} is superfluous: refitting the later effects without it")
-    try:
-        return path.without(found.idle, seed), path
-    except FitError as error:
-        # For example a bristle whose dry friction is positive only with this effect.
-        progress(f"{found.idle} stays: {error}")
-        return None, path
-
-
-def _exchanged(
-    path: ImprovementPath,
-    rejected: Collection[str],
-    least: float,
-    seed: int,
-    progress: Callable[[str], None],
-) -> tuple[ImprovementPath | None, ImprovementPath]:
-    """The path with one effect exchanged, or None; and the path with its ties."""
-    if len(path.steps) + len(path.last.not_claimed) < 2:
-        return None, path
-    progress("trying other effects in the place of each of those found")
-    found = path.exchanges(rejected, least, seed)
-    path = path.with_ties(found.ties)
-    if found.best is None:
-        return None, path
-    progress(f"{found.best.by.effect} takes the place of {found.best.finding.effect}")
-    try:
-        return path.exchanged(found.best, seed), path
-    except FitError as error:
-        progress(f"{found.best.finding.effect} stays: {error}")
-        return None, path
-
-
-def _without_imitations(
-    path: ImprovementPath, seed: int, progress: Callable[[str], None]
-) -> ImprovementPath | None:
-    """The path without effects that may imitate another cause, or None where there are none.
-
-    Once: without them more remains, beside which another effect would explain less.
-    """
-    shorter = None
-    for effect in [] if path.demoted else imitations([step.finding for step in path.steps]):
-        progress(f"{effect} is doubtful: {REASON}")
-        try:
-            path = shorter = path.demoting(effect, REASON, seed)
-        except FitError as error:
-            progress(f"{effect} stays: {error}")
-    return shorter
