@@ -7,7 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.loop.remainder import LEAST_PART, REASON, part_explained
+from stribeck.diagnosis.loop.remainder import (
+    LEAST_PART,
+    REASON,
+    part_explained,
+    unknown_structure,
+)
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.trials.known_size import has_known_size
 from synthetic import Array, joint, joint_with_stribeck_curve, motion, record
@@ -27,18 +32,38 @@ def load_dependence(share: float) -> Array:
 
 
 @pytest.mark.parametrize(
-    ("gain", "shown", "part"),
+    ("gain", "unknown", "part"),
     [(0.3, 0.3, 0.5), (3.0, 1.0, 0.75), (0.0, 0.2, 0.0), (-0.1, 0.2, 0.0), (None, 0.9, 1.0)],
 )
-def test_the_part_is_a_share_of_both(gain: float | None, shown: float, part: float) -> None:
-    assert part_explained(gain, Unexplained(max(shown, 0.2), "everywhere", shown)) == part
+def test_the_part_is_a_share_of_both(gain: float | None, unknown: float, part: float) -> None:
+    assert part_explained(gain, unknown) == part
 
 
-def test_noise_and_vibration_take_no_part() -> None:
+@pytest.fixture(scope="module")
+def fitted(tmp_path_factory: pytest.TempPathFactory) -> sb.Fit:
+    """A model beside a gap in the friction curve."""
+    recording = record(tmp_path_factory.mktemp("remainder"), joint(gap(0.3, 0.6)))
+    return sb.fit("coulomb", recording, starts=1)
+
+
+def test_noise_and_vibration_are_no_unknown_structure(fitted: sb.Fit) -> None:
     """Neither what counts as noise, nor what no recorded channel shows."""
-    assert part_explained(0.1, Unexplained(0.05, None)) == 1.0
-    assert part_explained(0.1, Unexplained(0.8, "vibration")) == 1.0
-    assert part_explained(0.1, Unexplained(None, None)) == 1.0
+    for remains in (
+        Unexplained(0.05, None, 0.05),
+        Unexplained(0.8, "vibration"),
+        Unexplained(None, None),
+    ):
+        assert unknown_structure(fitted, remains) == 0.0
+
+
+def test_what_the_measurement_explains_is_not_unknown(fitted: sb.Fit, tmp_path: Path) -> None:
+    """A gap is; what a torque leaves that is read two samples late is not."""
+    remains = Unexplained(0.5, "everywhere", 0.5)
+    assert unknown_structure(fitted, remains) > 0.3
+    frame = joint()
+    late = frame.with_columns(torque=np.roll(frame["torque"].to_numpy(), 2))
+    read_late = sb.fit("coulomb", record(tmp_path, late), starts=1)
+    assert unknown_structure(read_late, remains) == 0.0
 
 
 def test_what_explains_less_than_what_remains_is_demoted(tmp_path: Path) -> None:

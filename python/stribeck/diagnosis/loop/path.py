@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
-from stribeck.diagnosis.loop.remainder import part_explained
+from stribeck.diagnosis.loop.remainder import part_explained, unknown_structure
 from stribeck.diagnosis.loop.superfluous import Needed, brought_by, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
@@ -169,12 +169,12 @@ class ImprovementPath:
 
     def with_needed(self, found: Needed) -> ImprovementPath:
         """The path with what its last model needs of some of its effects."""
-        remains = self.last.unexplained
+        unknown = unknown_structure(self.current, self.last.unexplained) if found.gain else 0.0
         steps = []
         for step in self.steps:
             effect = step.finding.effect
             certainty = found.certainty.get(effect, step.finding.certainty)
-            part = part_explained(found.gain.get(effect), remains)
+            part = part_explained(found.gain.get(effect), unknown)
             finding = replace(step.finding, certainty=certainty, part=part)
             steps.append(replace(step, finding=finding))
         return replace(self, steps=tuple(steps))

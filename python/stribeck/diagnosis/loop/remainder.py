@@ -3,15 +3,23 @@
 A cause that the catalog lacks can often be imitated in part: a gap in the friction curve by a
 Stribeck curve, for example. The rest of its torque then remains as structure. An effect that
 explains much more than what remains is not such an imitation; one that explains less may be.
+What causes in the measurement leave behind is structure too, but imitated by no friction that
+stands beside them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from stribeck.diagnosis.measurement.table import least_factors, measurement_columns
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.evidence import held_out_square
+from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
 from stribeck.effect.describe import is_friction
+from stribeck.fitting.result import Fit
 
 #: A friction effect with a smaller part is demoted: it explains less than what remains.
 LEAST_PART = 0.5
@@ -21,18 +29,37 @@ REASON = (
 )
 
 
-def part_explained(gain: float | None, remains: Unexplained) -> float:
-    """The share that an effect explains of what it and the remaining structure make up, 0..1.
+def unknown_structure(current: Fit, remains: Unexplained) -> float:
+    """The share of a model's squared held-out error that an unknown cause leaves, 0..1.
+
+    That is the structure which the recorded channels or varying friction show, less what causes in
+    the measurement explain of the error.
+    """
+    if not remains.is_structure or remains.shown <= 0.0:
+        return 0.0
+    columns = measurement_columns(current)
+    if not columns:
+        return remains.shown
+    every = np.column_stack(list(columns.values()))
+    along = FlexibleRefit.beside(current, every, least_factors(columns))
+    left = float(np.sum(along.held_out**2)) / held_out_square(current, current)
+    return max(remains.shown - max(1.0 - left, 0.0), 0.0)
+
+
+def part_explained(gain: float | None, unknown: float) -> float:
+    """The share that an effect explains of what it and the unknown structure make up, 0..1.
 
     Parameters
     ----------
     gain
         Rise of the squared held-out error without the effect, as a multiple of that of the model;
         None where it is not known.
+    unknown
+        `unknown_structure`, of the same error.
     """
-    if gain is None or not remains.is_structure or remains.shown <= 0.0:
+    if gain is None or unknown <= 0.0:
         return 1.0
-    return max(gain, 0.0) / (max(gain, 0.0) + remains.shown)
+    return max(gain, 0.0) / (max(gain, 0.0) + unknown)
 
 
 def imitations(findings: Sequence[Finding]) -> list[str]:

@@ -137,13 +137,17 @@ class Search:
             return None, path
 
     def _tried(self, path: ImprovementPath, finding: Finding) -> ImprovementPath:
-        """The path grown beyond a finding on trial, or as it is where that does not stand then."""
+        """The path grown beyond a finding on trial, or as it is where that does not stand then.
+
+        It does not either where it displaces an effect that was found without doubt.
+        """
         self.progress(f"adding {finding.effect} on trial{_error_of(finding.fit)}")
         *_, grown = self._ends(path.with_finding(finding))
+        found = [step.finding.effect for step in path.steps]
         kept = grown.holding(finding.effect)
-        if kept is None:
-            return grown
-        stands = judged(kept, grown.current, self.least_fall, self.seed)
+        stands = None
+        if kept is not None and all(map(grown.holding, found)):
+            stands = judged(kept, grown.current, self.least_fall, self.seed)
         if stands is None:
             self.progress(f"{finding.effect} does not stand beside the others: going back")
             return path

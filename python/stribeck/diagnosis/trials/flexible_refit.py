@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.flexible_shape import flexible_columns
-from stribeck.diagnosis.trials.evidence import added_torque_test
-from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial
+from stribeck.diagnosis.trials.evidence import Difference, added_torque_test
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial
 from stribeck.fitting.result import Fit
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
@@ -52,9 +52,20 @@ class FlexibleRefit:
         return cls(before, columns, least, *_linear_refit(before, columns, before, least))
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
-        """Whether a trial among `tried`, which must bring the fall `least`, no longer passes."""
+        """Whether a trial among `tried`, which must bring the fall `least`, no longer passes.
+
+        One that predicts better than the flexible form by two standard errors is not explained.
+        """
+        if self.advantage(trial) > TIE:
+            return False
         fall, p_value = self.beside_columns(trial)
         return fall < least / 2 or p_value * tried > SIGNIFICANCE
+
+    def advantage(self, trial: Trial) -> float:
+        """Standard errors by which the columns leave a larger held-out error than a trial."""
+        own: Array = self.before.weighted(trial.fit.held_out_residual[self.before.rows]) ** 2
+        found = Difference.of(self.held_out**2 - own)
+        return found.total / found.error if found.error > 0 else 0.0
 
     def beside_columns(self, trial: Trial) -> tuple[float, float]:
         """What a trial adds to the columns: relative fall of the held-out RMSE, and p-value."""

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.diagnosis.measurement.table import least_factors, measurement_columns
-from stribeck.diagnosis.trials.evidence import Difference
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
@@ -54,9 +53,7 @@ class _Rivals:
 
     def advantage(self, trial: Trial) -> float:
         """Standard errors by which they leave a larger held-out error than a trial."""
-        own: Array = self.before.weighted(trial.fit.held_out_residual[self.before.rows]) ** 2
-        found = Difference.of(self.together.held_out**2 - own)
-        return found.total / found.error if found.error > 0 else 0.0
+        return self.together.advantage(trial)
 
     @property
     def largest(self) -> str:
