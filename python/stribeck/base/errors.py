@@ -79,23 +79,76 @@ class StribeckError(ValueError):
 
 
 class RecordingError(StribeckError):
-    """A recording, its sidecar or the options that read it cannot be used."""
+    """A recording, its sidecar or the options that read it cannot be used.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(500) / 100.0
+    >>> try:
+    ...     sb.read({"t": t, "qd": np.sin(t), "tau": np.sin(t)}, where="qd > 9")
+    ... except sb.RecordingError as error:
+    ...     print(error)
+    the given table: `where="qd > 9"` keeps none of 500 rows
+    """
 
 
 class ModelFileError(StribeckError):
-    """A model file cannot be used."""
+    """A model file cannot be used.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> try:
+    ...     sb.read_model_file("missing.toml")
+    ... except sb.ModelFileError as error:
+    ...     print(error)
+    cannot read the model file missing.toml: No such file or directory
+    """
 
 
 class ProjectError(StribeckError):
-    """A project file, or the data it is about, cannot be used."""
+    """A project file, or the data it is about, cannot be used.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> try:
+    ...     sb.project("missing.toml")
+    ... except sb.ProjectError as error:
+    ...     print(error)
+    cannot read the project missing.toml: No such file or directory
+    """
 
 
 class SpecError(StribeckError):
-    """A model spec (``LAW[+effect...]``) names something that does not exist or does not fit."""
+    """A model spec (``LAW[+effect...]``) names something that does not exist or does not fit.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> try:
+    ...     sb.model("coulomb", coulomb=2.0)
+    ... except sb.SpecError as error:
+    ...     print(str(error).partition("?")[0])
+    coulomb has no parameter 'coulomb'; did you mean 'coulomb_friction'
+    """
 
 
 class FitError(StribeckError):
-    """A model cannot be identified from a recording."""
+    """A model cannot be identified from a recording.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(500) / 100.0
+    >>> r = sb.Recording.from_columns(time=t, velocity=np.sin(t), torque=np.sign(np.sin(t)))
+    >>> try:
+    ...     sb.fit("coulomb", r.where("time < 0.05"))
+    ... except sb.FitError as error:
+    ...     print(error)
+    the given table has 4 moving samples, coulomb needs at least 5: record more motion
+    """
 
 
 def nearest(name: str, options: Iterable[str]) -> str:
