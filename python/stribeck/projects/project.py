@@ -210,10 +210,7 @@ class Project(Plotted):
     def drop(self, effect: str, *, starts: int = 20, seed: int = 0) -> Project:
         """Drop an effect of the current model: a new node, or the existing one.
 
-        Raises
-        ------
-        SpecError
-            The model has no such effect, or the effect is part of its law.
+        Raises `SpecError` if the model has no such effect, or the effect is part of its law.
         """
         model = self.node.kept.model
         has = (*model.own_effects, *model.effects)
@@ -270,10 +267,7 @@ class Project(Plotted):
     def back(self, node: str | int | None = None) -> Project:
         """Make another node the current one, by number or name; default: the parent.
 
-        Raises
-        ------
-        ProjectError
-            There is no such node, or the current one has no parent.
+        Raises `ProjectError` if there is no such node, or the current one has no parent.
         """
         if node is not None:
             return replace(self, current=self.tree.find(node).number)
@@ -284,10 +278,7 @@ class Project(Plotted):
     def named(self, name: str) -> Project:
         """Name the branch that begins at the current node; an empty text removes the name.
 
-        Raises
-        ------
-        ProjectError
-            The name is a number, or that of another node.
+        Raises `ProjectError` if the name is a number, or that of another node.
         """
         word = name.strip()
         if word.isdecimal():
@@ -392,5 +383,17 @@ class Project(Plotted):
 
 @door(ProjectError)
 def project(path: str | os.PathLike[str]) -> Project:
-    """Open a project file, and check that its data have not changed; see `Project`."""
+    """Open a project file, and check that its data have not changed; see `Project`.
+
+    Examples
+    --------
+    >>> import numpy as np, polars as pl, stribeck as sb, tempfile
+    >>> v = np.sin(np.arange(900) / 50.0)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     frame = pl.DataFrame({"t": np.arange(900) / 100.0, "qd": v, "tau": v + np.sign(v)})
+    ...     frame.write_csv(f"{folder}/joint.csv")
+    ...     sb.Project.new(f"{folder}/p.toml", f"{folder}/joint.csv", starts=1).save()
+    ...     sb.project(f"{folder}/p.toml").fit.model.spec
+    'coulomb'
+    """
     return Project.open(path)

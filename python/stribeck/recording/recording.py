@@ -29,14 +29,10 @@ class Column:
 
     Attributes
     ----------
-    name
-        Channel, e.g. ``velocity``.
-    source
-        Column of the file, or what it was computed from.
-    unit
-        SI unit of the channel.
-    derived
-        True when it was computed and not read.
+    name, unit
+        Channel, e.g. ``velocity``, and its SI unit.
+    source, derived
+        Column of the file, or what it was computed from; whether it was computed and not read.
     minimum, maximum
         Range in that unit.
     """
@@ -117,6 +113,14 @@ class Recording(Plotted):
         Of a second encoder on the motor's shaft, divided by the gear ratio; None: not recorded.
     origin
         What it was made from, so that it can be joined with others; None: it cannot.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(500) / 100.0
+    >>> r = sb.read({"t": t, "qd_rpm": np.sin(t), "tau": np.sign(np.sin(t))})
+    >>> r.rows, r.torque_unit, r.to_frame().columns[:4]
+    (500, 'N m', ['time', 'velocity', 'acceleration', 'torque'])
     """
 
     path: str
@@ -241,10 +245,7 @@ class Recording(Plotted):
     def require_consistent(self) -> None:
         """Refuse channels that contradict each other, unless the recording was read with trust.
 
-        Raises
-        ------
-        RecordingError
-            The first contradiction and its likeliest remedy.
+        Raises `RecordingError` with the first contradiction and its likeliest remedy.
         """
         wrong = [check for check in self.checks if not check.ok]
         if not wrong or self.trusted:
