@@ -40,6 +40,15 @@ class Export(Shown):
         Whether it is passive over its operating box; None where that is unknown.
     files
         The files that were written.
+
+    Examples
+    --------
+    >>> import stribeck as sb, tempfile
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     written = sb.export(friction, "rust", folder, box={"velocity": (-3.0, 3.0)})
+    >>> [path.name for path in written.files], written.passive
+    (['coulomb.rs'], True)
     """
 
     model: Model

@@ -80,6 +80,18 @@ class Fit(Plotted):
     per_run : mapping of mappings of Estimate
         The values of a parameter in each run, by parameter and run, where they were asked for;
         `model` and `estimates` have their mean.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(2000) / 100.0
+    >>> v = np.sin(3.0 * t)
+    >>> r = sb.Recording.from_columns(time=t, velocity=v, torque=0.5 * v + 2.0 * np.sign(v))
+    >>> found = sb.fit("coulomb", r, starts=1)
+    >>> round(found.estimates["coulomb_friction"].value, 3), found.rmse_held_out < 1e-6
+    (2.0, True)
+    >>> found.predict(r)[100:103].round(3)
+    array([2.071, 2.056, 2.041])
     """
 
     model: Model

@@ -50,6 +50,20 @@ class Estimate:
     parameter that is not `identifiable` which others have the same effect. `open` lists the ends of
     the interval, ``"lower"`` or ``"upper"``, that the data does not determine: they are at a bound
     of the parameter, or infinite.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(2000) / 100.0
+    >>> v = np.sin(3.0 * t)
+    >>> tau = 0.5 * v + 2.0 * np.sign(v) + np.random.default_rng(1).normal(0.0, 0.1, t.size)
+    >>> r = sb.Recording.from_columns(time=t, velocity=v, torque=tau)
+    >>> found = sb.fit("coulomb", r, starts=1).estimates["coulomb_friction"]
+    >>> round(found.value, 1), found.unit, found.stderr < 0.02
+    (2.0, 'N m', True)
+    >>> low, high = found.ci95
+    >>> low < 2.0 < high
+    True
     """
 
     name: str

@@ -36,6 +36,19 @@ class Protocol:
         What it shows, in one line.
     method
         Of `stribeck points`, which turns it into points.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(4000) / 100.0
+    >>> v = np.array([0.2, -0.2, 0.5, -0.5, 1.0, -1.0, 0.1, -0.1]).repeat(500)
+    >>> torque, position = v + 2.0 * np.sign(v), np.cumsum(v) / 100.0
+    >>> r = sb.Recording.from_columns(time=t, position=position, velocity=v, torque=torque)
+    >>> (found,) = sb.found_protocols(r)
+    >>> found.protocol, found.count, found.method
+    ('plateau', 8, 'segments')
+    >>> found.says
+    'passes at constant speed, 4 forward and 4 backward, 0.1 to 1 rad/s'
     """
 
     protocol: str

@@ -78,6 +78,18 @@ class Transmission(Shown):
     lag
         Time by which the encoder of the joint is at least behind that of the motor, s; None where
         none is seen. Viscous friction of the motor has the opposite sign.
+
+    Examples
+    --------
+    >>> import numpy as np, stribeck as sb
+    >>> t = np.arange(2000) / 100.0
+    >>> q, tau = np.sin(3.0 * t), 10.0 * np.sin(t)
+    >>> columns = {"time": t, "position": q, "torque": tau, "motor_position": q + tau / 5000.0}
+    >>> found = sb.measure_transmission(sb.Recording.from_columns(**columns, gear_ratio=1.0))
+    >>> round(found.stiffness.value), found.stiffness.unit
+    (5000, 'N m/rad')
+    >>> found.backlash.value, found.backlash.why
+    (None, 'no gap is seen')
     """
 
     windup: float

@@ -71,6 +71,15 @@ class PublishedSet:
         How printed names and signs became those of the law.
     note
         What the source does not print, or prints wrongly; empty if there is nothing.
+
+    Examples
+    --------
+    >>> from stribeck.models.published.sets import published_set
+    >>> one = published_set("ur5e_review/table_7/joint_1/coulomb")
+    >>> one.where, dict(one.printed), one.missing
+    ('table 7, Coulomb', {'a1': 12.35, 'a2': 10.3}, ())
+    >>> one.model.value("coulomb_friction")
+    10.3
     """
 
     id: str
