@@ -106,7 +106,20 @@ class Assessment:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Plotted):
-    """Several models on the same samples of one recording."""
+    """Several models on the same samples of one recording.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=20.0, rate=50.0, seed=1)[0])
+    >>> fits = [sb.fit(spec, recording, starts=1) for spec in ("coulomb", "coulomb+load")]
+    >>> found = sb.compare(fits, recording)
+    >>> min(found.models, key=lambda one: one.rmse_held_out).model
+    'coulomb+load'
+    >>> found.to_frame().columns
+    ['model', 'regime', 'share', 'rmse', 'bias']
+    """
 
     recording: Recording
     models: tuple[Assessment, ...]

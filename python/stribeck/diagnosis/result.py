@@ -41,6 +41,17 @@ class Finding(Plotted):
         The models with and without it.
     demoted
         Why the recording cannot show it, where it is demoted.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=20.0, rate=50.0, seed=1)[0])
+    >>> best = sb.diagnose(sb.fit("coulomb", recording, starts=1), recording).findings[0]
+    >>> best.effect, best.confidence > 0.9, best.fit.model.spec
+    ('load', True, 'coulomb+load')
+    >>> best.rmse_held_out_after < 0.2 * best.rmse_held_out_before
+    True
     """
 
     effect: str
@@ -112,6 +123,15 @@ class Diagnosis(Plotted):
         Effects that are indistinguishable on this recording.
     explainable
         The share of the explainable torque that the model explains.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=20.0, rate=50.0, seed=1)[0])
+    >>> found = sb.diagnose(sb.fit("coulomb", recording, starts=1), recording)
+    >>> found.verdict, found.findings[0].effect
+    ('missing', 'load')
     """
 
     fit: Fit

@@ -23,7 +23,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Addition(Shown):
-    """One effect added: the model before and after, on the same samples."""
+    """One effect added: the model before and after, on the same samples.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=20.0, rate=50.0, seed=1)[0])
+    >>> before = sb.fit("coulomb", recording, starts=1)
+    >>> added = sb.Addition("load", before, sb.add(before, "load", starts=1))
+    >>> added.after.rmse_held_out < 0.2 * added.before.rmse_held_out
+    True
+    """
 
     effect: str
     before: Fit

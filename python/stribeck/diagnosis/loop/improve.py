@@ -50,6 +50,17 @@ class Improvement(Plotted):
     ----------
     made_passive
         What it costs to make the final model passive, where it is not.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.generate.hidden import generate
+    >>> recording = sb.read(generate(["load"], seconds=20.0, rate=50.0, seed=1)[0])
+    >>> found = sb.improve("coulomb", recording, starts=1)
+    >>> found.to_frame()["model"].to_list()
+    ['coulomb', 'coulomb+load']
+    >>> found.final.rmse_held_out < 0.2 * found.base.rmse_held_out
+    True
     """
 
     base: Fit
