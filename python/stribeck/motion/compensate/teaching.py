@@ -136,6 +136,17 @@ def teach(
     ------
     SpecError
         An argument is missing or invalid, or a compensator uses feedforward.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.compensate.teaching import Guidance
+    >>> from stribeck.motion.simulate.trajectory import Quintic
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> hand = Guidance.with_bandwidth(Quintic(0.0, 1.0, move=0.5), inertia=0.1)
+    >>> taught = sb.teach(friction, sb.Joint.revolute(0.1), hand, [sb.Compensator(friction, 0.8)])
+    >>> [round(taught.interaction(motion)[0], 1) for motion in taught.motions]
+    [2.4, 1.4]
     """
     for compensator in compensators:
         if not compensator.feedback:

@@ -37,6 +37,17 @@ class Tracking(Plotted):
         rad or m, array [steps].
     observer
         Bandwidth of the friction observer, Hz; None: none.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.simulate.trajectory import Quintic
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> half, whole = sb.Compensator(friction, factor=0.5), sb.Compensator(friction)
+    >>> joint, motion = sb.Joint.revolute(0.1), Quintic(0.0, 1.0, move=0.5)
+    >>> tracked = sb.compensate(friction, joint, motion, [half, whole])
+    >>> [round(tracked.reduction(one), 1) for one in tracked.motions]
+    [0.0, 0.5, 0.9]
     """
 
     friction: Model
@@ -122,6 +133,16 @@ def compensate(
     ------
     SpecError
         An argument is missing or invalid.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.simulate.trajectory import Quintic
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> joint, motion = sb.Joint.revolute(0.1), Quintic(0.0, 1.0, move=0.5)
+    >>> without, known = sb.compensate(friction, joint, motion, [sb.Compensator(friction)]).motions
+    >>> known.rmse < 0.2 * without.rmse
+    True
     """
     bench = Bench.of(friction, joint, trajectory, seconds, step, temperature, encoder)
     inertia = bench.acting.joint.inertia

@@ -90,6 +90,18 @@ class Plan(Plotted):
     cosines
         Similarity of each pair of effects to distinguish, 0 to 1: in the present data (None without
         data) and in the planned motion.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> limits = {"position": (-1.0, 1.0), "speed": 2.0, "acceleration": 10.0}
+    >>> file, asked = sb.ModelFile(friction), {"show": ["stribeck"], "duration": 10.0}
+    >>> planned = sb.plan(file, **limits, **asked, rate=50.0, noise=0.1)
+    >>> planned.prospects[0].effect, planned.prospects[0].after.rms < 0.1
+    ('stribeck', True)
+    >>> planned.to_frame().columns
+    ['time', 'position', 'velocity', 'acceleration']
     """
 
     model: Model

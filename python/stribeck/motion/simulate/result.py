@@ -40,6 +40,17 @@ class Simulation(Plotted):
         degC, array [steps].
     left_out
         Effects of the measurement, which are not simulated.
+
+    Examples
+    --------
+    >>> import stribeck as sb
+    >>> from stribeck.motion.simulate.drive import Torque
+    >>> friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    >>> pushed = sb.simulate(friction, sb.Joint.revolute(0.1), Torque(3.0), seconds=2.0)
+    >>> round(float(pushed.velocity[-1]), 2), abs(pushed.energy["imbalance"]) < 1e-9
+    (2.0, True)
+    >>> sb.read(pushed.to_frame()).rows
+    2000
     """
 
     model: Model
