@@ -92,6 +92,20 @@ def fleet(
         No file, an argument or the folder cannot be used.
     Stopped
         On Ctrl-C; finished tasks are saved.
+
+    Examples
+    --------
+    >>> import numpy as np, polars as pl, stribeck as sb, tempfile
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> v = np.sin(np.arange(900) / 50.0)
+    >>> run = pl.DataFrame({"t": np.arange(900) / 100.0, "qd": v, "tau": v + np.sign(v)})
+    >>> with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(1) as executor:
+    ...     for robot in ("left", "right"):
+    ...         run.write_csv(f"{folder}/{robot}.csv")
+    ...     given = {"name": "{robot}.csv", "executor": executor, "starts": 1}
+    ...     found = sb.fleet([f"{folder}/*.csv"], f"{folder}/results", "coulomb", **given)
+    >>> found.rows["robot"].to_list(), found.new
+    (['left', 'right'], 2)
     """
     work = _work(model, base, name, day, starts, seed, options)
     naming, paths = Naming(name), expand(files)

@@ -40,6 +40,20 @@ class Fleet(Plotted):
         Number of rows added by this run.
     incidents
         Failures of workers during the run.
+
+    Examples
+    --------
+    >>> import numpy as np, polars as pl, stribeck as sb, tempfile
+    >>> from concurrent.futures import ThreadPoolExecutor
+    >>> v = np.sin(np.arange(900) / 50.0)
+    >>> run = pl.DataFrame({"t": np.arange(900) / 100.0, "qd": v, "tau": v + np.sign(v)})
+    >>> with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(1) as executor:
+    ...     run.write_csv(f"{folder}/one.csv")
+    ...     run.drop("tau").write_csv(f"{folder}/other.csv")
+    ...     given = {"executor": executor, "starts": 1}
+    ...     found = sb.fleet([f"{folder}/*.csv"], f"{folder}/results", "coulomb", **given)
+    >>> found.done.height, ["no torque column" in one.reason for one in found.failures]
+    (1, [True])
     """
 
     folder: Path

@@ -36,6 +36,20 @@ class RobotStream:
     ----------
     data
         The files, and contiguous parts of them.
+
+    Examples
+    --------
+    >>> import numpy as np, tempfile
+    >>> from stribeck import robot, stream_robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> columns = [f"{what}={what}_{{joint}}" for what in ("position", "velocity", "torque")]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     run = robot.simulate_robot(arm, {}, seconds=20.0, rate=100.0)
+    ...     run.write_parquet(f"{folder}/run.parquet")
+    ...     opened = stream_robot(arm, [f"{folder}/run.parquet"], map=columns, sample_rows=400)
+    ...     run.height, opened.motion.rows
+    (2000, 400)
     """
 
     data: RobotData
@@ -93,10 +107,18 @@ def stream_robot(
 
     Examples
     --------
-    ::
-
-        arm = sb.robot.read_robot("arm.toml")
-        found = sb.robot.fit_robot(sb.stream_robot(arm, ["hour.parquet"]), "coulomb+load+offset")
+    >>> import numpy as np, tempfile
+    >>> from stribeck import model, robot, stream_robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> friction = {"1": model("coulomb", coulomb_friction=2.0, viscous_friction=1.0)}
+    >>> columns = [f"{what}={what}_{{joint}}" for what in ("position", "velocity", "torque")]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     run = robot.simulate_robot(arm, friction, seconds=20.0, rate=100.0, noise=0.01)
+    ...     run.write_parquet(f"{folder}/run.parquet")
+    ...     opened = stream_robot(arm, [f"{folder}/run.parquet"], map=columns)
+    ...     robot.fit_robot(opened, "coulomb").joints[0].model.values.round(1)
+    array([1., 2.])
     """
     data = RobotData.open(
         robot,

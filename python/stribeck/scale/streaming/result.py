@@ -39,6 +39,18 @@ class StreamedFit(Shown):
         As of `Fit`.
     seconds, pass_seconds
         Total time, and time of the passes.
+
+    Examples
+    --------
+    >>> import numpy as np, polars as pl, stribeck as sb, tempfile
+    >>> v = np.sin(np.arange(900) / 50.0)
+    >>> frame = pl.DataFrame({"t": np.arange(900) / 100.0, "qd": v, "tau": v + np.sign(v)})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     frame.write_parquet(f"{folder}/log.parquet")
+    ...     found = sb.stream(folder).fit("coulomb", starts=1)
+    ...     found.model_file().write(f"{folder}/joint.toml")
+    >>> found.rows, found.moving, round(found.model.value("coulomb_friction"), 3)
+    (900, 899, 1.0)
     """
 
     model: Model

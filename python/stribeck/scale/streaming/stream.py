@@ -58,6 +58,17 @@ class Stream:
         Contiguous parts of them.
     window_rows
         Number of rows in memory at a time, in addition to the sample.
+
+    Examples
+    --------
+    >>> import numpy as np, polars as pl, stribeck as sb, tempfile
+    >>> v = np.sin(np.arange(900) / 50.0)
+    >>> frame = pl.DataFrame({"t": np.arange(900) / 100.0, "qd": v, "tau": v + np.sign(v)})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     frame.write_parquet(f"{folder}/log.parquet")
+    ...     opened = sb.stream(folder, sample_rows=400)
+    ...     opened.sample.recording.rows, opened.fit("coulomb", starts=1).rows
+    (400, 900)
     """
 
     data: DataSet
@@ -210,9 +221,14 @@ def stream(
 
     Examples
     --------
-    ::
-
-        fitted = sb.stream("logs/", map=["velocity=dq_3"]).fit("coulomb+load")
+    >>> import numpy as np, polars as pl, stribeck as sb, tempfile
+    >>> v = np.sin(np.arange(900) / 50.0)
+    >>> frame = pl.DataFrame({"t": np.arange(900) / 100.0, "speed": v, "tau": v + np.sign(v)})
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     frame.write_parquet(f"{folder}/log.parquet")
+    ...     found = sb.stream(folder, map=["velocity=speed"]).fit("coulomb", starts=1)
+    >>> round(found.estimates["coulomb_friction"].value, 3)
+    1.0
     """
     settings = gather(path, ReadOptions.of(reading))
     data = DataSet.open(path)
