@@ -75,6 +75,14 @@ class RobotJoint:
         that turns several joints: torque at one that turns as it does, with the others at rest.
     torque_limit
         Largest torque of the drive, N m or N; None: not known.
+
+    Examples
+    --------
+    >>> from stribeck import robot
+    >>> rows, movements = [{"d": 0.5}, {"a": 0.3}], ["prismatic", "revolute"]
+    >>> joints = robot.from_tables("crane", rows, movements=movements).joints
+    >>> [(joint.name, joint.parent, joint.torque_unit) for joint in joints]
+    [('1', None, 'N'), ('2', 0, 'N m')]
     """
 
     name: str
@@ -153,6 +161,16 @@ class Robot(Shown):
         Torques and friction are then those of the motors.
     encoders
         Of what positions and velocities are recorded.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> still = np.zeros((1, 1))
+    >>> arm.names, arm.has_inertia, arm.torque(still, still, still).round(3)
+    (('1',), True, array([[5.886]]))
     """
 
     name: str

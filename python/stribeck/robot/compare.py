@@ -15,7 +15,22 @@ from stribeck.robot.result import RobotFit
 
 @dataclass(frozen=True, repr=False)
 class RobotComparison(Shown):
-    """The errors of several models of all joints, in the order given."""
+    """The errors of several models of all joints, in the order given.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import model, read, robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> law = {"coulomb_friction": 2.0, "viscous_friction": 1.0, "offset": 0.5}
+    >>> friction = {"1": model("coulomb+offset", **law)}
+    >>> run = robot.simulate_robot(arm, friction, seconds=20.0, rate=100.0, noise=0.01)
+    >>> motion = robot.RobotMotion.of(arm, [read(run)])
+    >>> found = robot.compare_robots(motion, ["coulomb", "coulomb+offset"]).to_frame()
+    >>> found.sort("rmse_held_out")["model"][0]
+    'coulomb+offset'
+    """
 
     fits: tuple[RobotFit, ...]
     specs: tuple[str, ...]

@@ -22,6 +22,21 @@ class RobotDiagnosis(Shown):
         The diagnosis of each joint, by name.
     rigid_body
         Causes in the rigid bodies.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import model, read, robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> law = {"stribeck_height": 1.0, "stribeck_velocity": 0.2, "stribeck_exponent": 1.0}
+    >>> law = model("coulomb+stribeck", coulomb_friction=2.0, viscous_friction=1.0, **law)
+    >>> run = robot.simulate_robot(arm, {"1": law}, seconds=10.0, rate=50.0, noise=0.01)
+    >>> motion = robot.RobotMotion.of(arm, [read(run)])
+    >>> searched = robot.improve_robot(motion, "coulomb", starts=1, most_steps=0)
+    >>> found = robot.RobotDiagnosis.of(searched).joints["1"]
+    >>> found.verdict, found.findings[0].effect
+    ('missing', 'stribeck')
     """
 
     fit: RobotFit

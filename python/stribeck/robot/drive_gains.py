@@ -74,6 +74,22 @@ class DriveGain:
         Torque per current; None where the recording holds torques.
     unit
         Of `gain`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import concat, read, robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> link, known = robot.KnownPayload(3.0, (0.2, 0, 0)), robot.KnownPayload(2.0, (0.4, 0, 0))
+    >>> runs = []
+    >>> for own in (link.parameters, link.parameters + known.parameters):
+    ...     carrying = arm.with_bodies(np.array([[*own, 0.0]]))
+    ...     run = robot.simulate_robot(carrying, {}, seconds=10.0, rate=100.0)
+    ...     runs.append(read(run.with_columns(run["torque_1"] / 1.1)))  # by a gain that is wrong
+    >>> motion = robot.RobotMotion.of(arm, [concat(runs, names=["empty", "loaded"])])
+    >>> found = robot.fit_robot(motion, payload=["loaded"], known_payload=known)
+    >>> [round(gain.ratio, 3) for gain in found.drive_gains]
+    [1.1]
     """
 
     joint: str

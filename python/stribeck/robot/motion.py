@@ -48,6 +48,18 @@ class RobotMotion:
         Of the joints, after the zero-phase low-pass; what the rigid bodies see.
     cutoff
         Of the low-pass that both sides of the torque balance pass, Hz.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import read, robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> run = robot.simulate_robot(arm, {}, seconds=10.0, rate=100.0)
+    >>> motion = robot.RobotMotion.of(arm, [read(run)])
+    >>> bodies = arm.torque(motion.position, motion.velocity, motion.acceleration)
+    >>> bool(abs(motion.torque - bodies).max() < 0.01 * abs(bodies).max())
+    True
     """
 
     robot: Robot

@@ -56,6 +56,17 @@ class RobotPlan(Shown):
         Largest torque of the rigid bodies by joint, N m or N; None: inertia is not known.
     clearance
         Smallest distance between spheres of links, m; infinite without spheres.
+
+    Examples
+    --------
+    >>> from stribeck import robot
+    >>> from stribeck.motion.design.motion import Limits
+    >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}], gravity=(0.0, -9.81, 0.0))
+    >>> planned = robot.plan_robot(arm, Limits(-1.0, 1.0, 1.5, 6.0), seconds=10.0, tried=50)
+    >>> planned.gain > 1.0, planned.parameters
+    (True, 13)
+    >>> planned.to_frame().columns[:4]
+    ['time', 'position_1', 'velocity_1', 'acceleration_1']
     """
 
     robot: Robot

@@ -149,6 +149,20 @@ class RobotFit(Shown):
         Errors on motions that nothing was fitted to.
     drive_gains
         Of each joint, where the payload is known.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stribeck import model, read, robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> friction = {"1": model("coulomb", coulomb_friction=2.0, viscous_friction=1.0)}
+    >>> run = robot.simulate_robot(arm, friction, seconds=20.0, rate=100.0, noise=0.01)
+    >>> found = robot.fit_robot(robot.RobotMotion.of(arm, [read(run)]), "coulomb")
+    >>> found.joints[0].model.values.round(1)
+    array([1., 2.])
+    >>> [one.combination for one in found.base_parameters]
+    ['mx_1', 'my_1', 'Izz_1 + Ir_1']
     """
 
     solved: Solved

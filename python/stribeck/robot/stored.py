@@ -99,7 +99,21 @@ def _inertial(values: Array) -> tomlkit.items.InlineTable:
 
 
 def write_robot(found: RobotFit, path: str | os.PathLike[str]) -> None:
-    """Write a robot file, whole or not at all."""
+    """Write a robot file, whole or not at all.
+
+    Examples
+    --------
+    >>> import numpy as np, tempfile
+    >>> from stribeck import read, robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> run = robot.simulate_robot(arm, {}, seconds=20.0, rate=100.0, noise=0.01)
+    >>> found = robot.fit_robot(robot.RobotMotion.of(arm, [read(run)]), "coulomb")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     robot.write_robot(found, f"{folder}/arm.toml")
+    ...     robot.read_robot(f"{folder}/arm.toml").has_inertia
+    True
+    """
     write_whole(path, robot_toml(found), ModelFileError)
 
 
@@ -110,6 +124,20 @@ def read_friction(path: str | Path) -> dict[str, Model]:
     ------
     ModelFileError
         A joint has no friction.
+
+    Examples
+    --------
+    >>> import numpy as np, tempfile
+    >>> from stribeck import model, read, robot
+    >>> arm = robot.from_tables("arm", [{}], gravity=(0.0, -9.81, 0.0))
+    >>> arm = arm.with_bodies(np.array([[3.0, 0.6, 0, 0, 0, 0, 0.2, 0, 0, 0.2, 0.1]]))
+    >>> friction = {"1": model("coulomb", coulomb_friction=2.0, viscous_friction=1.0)}
+    >>> run = robot.simulate_robot(arm, friction, seconds=20.0, rate=100.0, noise=0.01)
+    >>> found = robot.fit_robot(robot.RobotMotion.of(arm, [read(run)]), "coulomb")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     robot.write_robot(found, f"{folder}/arm.toml")
+    ...     robot.read_friction(f"{folder}/arm.toml")["1"].values.round(1)
+    array([1., 2.])
     """
     where = Path(path)
     if where.suffix.lower() in (".urdf", ".xml"):

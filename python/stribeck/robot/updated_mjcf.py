@@ -71,7 +71,22 @@ def updated_mjcf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
 def write_mjcf(
     path: str | os.PathLike[str], source: str | Path, robot: Robot, friction: Mapping[str, Model]
 ) -> None:
-    """Write an updated MJCF, whole or not at all."""
+    """Write an updated MJCF, whole or not at all.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from stribeck import model, robot
+    >>> body = '<body><joint name="hip"/><geom type="sphere" size="0.1" mass="2"/></body>'
+    >>> friction = {"hip": model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     old, new = Path(folder, "old.xml"), Path(folder, "new.xml")
+    ...     _ = old.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    ...     robot.write_mjcf(new, old, robot.read_robot(old), friction)
+    ...     'damping="0.5" frictionloss="2.0"' in new.read_text()
+    True
+    """
     write_whole(path, updated_mjcf(source, robot, friction), ModelFileError)
 
 

@@ -67,7 +67,24 @@ def updated_urdf(source: str | Path, robot: Robot, friction: Mapping[str, Model]
 def write_urdf(
     path: str | os.PathLike[str], source: str | Path, robot: Robot, friction: Mapping[str, Model]
 ) -> None:
-    """Write an updated URDF, whole or not at all."""
+    """Write an updated URDF, whole or not at all.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from stribeck import model, robot
+    >>> inertia = '<mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    >>> link = f'<link name="base"/><link name="arm"><inertial>{inertia}</inertial></link>'
+    >>> joint = '<joint name="hip" type="revolute"><parent link="base"/><child link="arm"/></joint>'
+    >>> friction = {"hip": model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     old, new = Path(folder, "old.urdf"), Path(folder, "new.urdf")
+    ...     _ = old.write_text(f'<robot name="one">{link}{joint}</robot>')
+    ...     robot.write_urdf(new, old, robot.read_robot(old), friction)
+    ...     '<dynamics damping="0.5" friction="2.0" />' in new.read_text()
+    True
+    """
     write_whole(path, updated_urdf(source, robot, friction), ModelFileError)
 
 
