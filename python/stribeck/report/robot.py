@@ -77,7 +77,9 @@ def robot_fit_text(found: RobotFit) -> str:
         friction_text(found.joints),
         _base_text(found),
         bodies_sentence(found),
-        "" if found.payload is None else paragraph(payload_sentence(found.payload), 0),
+        ""
+        if found.payload is None
+        else paragraph(payload_sentence(found.payload, found.drive_gains), 0),
         drive_gains_text(found.drive_gains),
         *(evaluated_text(found.joints, row) for row in found.evaluated),
     )
@@ -195,7 +197,9 @@ def robot_diagnosis_text(found: RobotDiagnosis) -> str:
         table(lacking_rows(found), right=[3]),
         *_doubts_of_joints(found),
         causes_text(found.rigid_body),
-        "" if found.fit.payload is None else paragraph(payload_sentence(found.fit.payload), 0),
+        ""
+        if found.fit.payload is None
+        else paragraph(payload_sentence(found.fit.payload, found.fit.drive_gains), 0),
     )
 
 

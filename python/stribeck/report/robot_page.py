@@ -198,7 +198,7 @@ def _parameters(joint: JointFit) -> list[list[str]]:
 def _bodies(found: RobotFit) -> Section:
     said = [bodies_sentence(found)]
     if found.payload is not None:
-        said.append(payload_sentence(found.payload))
+        said.append(payload_sentence(found.payload, found.drive_gains))
     hidden = found.solved.balance.base.not_shown
     if hidden:
         said.append(f"No torque shows: {', '.join(hidden)}.")

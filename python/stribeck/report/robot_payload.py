@@ -13,13 +13,16 @@ if TYPE_CHECKING:
     from stribeck.robot.result import Payload
 
 
-def payload_sentence(payload: Payload) -> str:
-    """The mass of a payload with its interval."""
+def payload_sentence(payload: Payload, gains: Sequence[DriveGain] = ()) -> str:
+    """The mass of a payload with its interval, and what it rests on."""
     low, high = payload.mass_ci95
+    rests = "which are taken as exact."
+    if gains:
+        rests = "here those that were used; the table of drive gains has those that it shows."
     runs = ", ".join(payload.runs)
     return (
         f"Payload in {runs}: {plain(payload.mass, 4)} kg, 95 % interval {plain(low, 4)} to "
-        f"{plain(high, 4)} kg. It scales with the drive gains, which are taken as exact."
+        f"{plain(high, 4)} kg. It scales with the drive gains, {rests}"
     )
 
 
