@@ -35,7 +35,7 @@ BYTES = 190
 SHORTEST = 30
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RobotMotion:
     """A motion of all joints, and their torques.
 
@@ -95,6 +95,12 @@ class RobotMotion:
         measured = np.stack([r.velocity for r in joints], axis=1)
         position, velocity = robot.joints_of(motors), robot.joints_of(order.smooth(measured))
         return cls(robot, tuple(joints), position, velocity, order.slope(velocity), chosen)
+
+    def __repr__(self) -> str:
+        return (
+            f"<RobotMotion {self.path}: {self.rows} samples of {len(self.joints)} joints, "
+            f"low-pass at {self.cutoff:.3g} Hz>"
+        )
 
     @property
     def path(self) -> str:

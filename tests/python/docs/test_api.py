@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import pytest
 import stribeck as sb
+from stribeck import robot
 
 API = Path(__file__).resolve().parents[3] / "docs/api"
 
@@ -16,5 +18,10 @@ def test_every_public_name_is_described_once():
     assert sorted(described) == sorted(set(sb.__all__) - {"__version__"})
 
 
-def test_every_public_name_has_a_docstring():
-    assert [name for name in sb.__all__ if not getattr(sb, name).__doc__] == []
+@pytest.mark.parametrize("package", [sb, robot])
+def test_every_public_name_has_an_example(package):
+    """`pytest --doctest-modules` runs them."""
+    named = [name for name in package.__all__ if name != "__version__"]
+    public = [getattr(package, name) for name in named]
+    lacking = [one.__name__ for one in public if callable(one) and ">>>" not in (one.__doc__ or "")]
+    assert len(public) > 20 and lacking == []

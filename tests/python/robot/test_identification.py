@@ -72,6 +72,7 @@ def test_parameters_lie_in_their_intervals(arm: Robot, tmp_path: Path) -> None:
     friction = friction_of(arm)
     options = {"seconds": 20.0, "rate": 100.0, "noise": 0.01}
     motion = motion_of(arm, friction, tmp_path, (1, 2), **options)
+    assert len(repr(motion)) < 300 and f"{motion.rows} samples of" in repr(motion)
     found = fit_robot(motion)
     true = np.array([[*joint.inertial, joint.rotor] for joint in arm.joints]).ravel()
     base = BaseParameters.of(arm)

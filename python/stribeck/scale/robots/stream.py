@@ -26,7 +26,7 @@ def _silent(done: int, total: int, number: int) -> None:
     """Report no progress."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RobotStream:
     """Recordings of all joints of a robot, of which only a part is in memory.
 
@@ -53,6 +53,9 @@ class RobotStream:
     """
 
     data: RobotData
+
+    def __repr__(self) -> str:
+        return f"<RobotStream with {self.motion!r} in memory>"
 
     @property
     def motion(self) -> RobotMotion:
