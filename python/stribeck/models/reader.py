@@ -254,8 +254,12 @@ class _Reader:
                 )
         for p in made.parameters:
             row, header = rows.get(p.name), f"parameters.{p.name}"
-            if not isinstance(row, dict) or "value" not in row:
+            if row is None:
                 raise self.stop(f"parameter {p.name} of {made.spec} is missing")
+            if not isinstance(row, dict) or "value" not in row:
+                raise self.stop(
+                    f"{p.name} is {row!r}: write {p.name} = {{ value = ... }}", "parameters", p.name
+                )
             self.source.check_keys(row, PARAMETER_KEYS, "parameters", p.name)
             values.append(self._number(row["value"], "parameters", header, "value"))
             if row.get("unit", p.unit) != p.unit:
