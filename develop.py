@@ -106,7 +106,7 @@ def test() -> None:
     run("cargo", "test", "--quiet", "--locked", "--features", "identify")
     run("cargo", "test", "--quiet", "--locked", "--package", "stribeck-c")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
-    run(PYTHON, "-m", "pytest", "-q", "--doctest-modules", "python/stribeck")
+    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "--doctest-modules", "python/stribeck")
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow and not long", *sys.argv[2:])
 
 
