@@ -131,9 +131,9 @@ def _is_in(effect: str, current: Fit) -> bool:
 def _given_way(
     finding: Finding, without: Fit, spoilt: Sequence[str], current: Fit, seed: int
 ) -> list[Exchange]:
-    """The exchange of an effect for the simpler one that it contains, where that is no loss.
+    """The exchange of an effect for the simpler one that it contains.
 
-    It is none where the simpler one and an effect of `spoilt` together predict better.
+    It is made where the simpler one and an effect of `spoilt` together predict better.
     """
     for simpler in _simpler(finding):
         found = screened(without, simpler, seed=seed)
@@ -145,8 +145,9 @@ def _given_way(
             trial = None if both is None else try_effect(alone.fit, both)
             if trial is None or trial.is_implausible or impossible(_claim(trial, alone.fit)):
                 continue
-            if difference(current, trial.fit).statistic > TIE:
-                return [Exchange(finding, without, alone, difference(current, trial.fit).statistic)]
+            worse = difference(current, trial.fit).statistic
+            if worse > TIE:
+                return [Exchange(finding, without, alone, worse)]
     return []
 
 

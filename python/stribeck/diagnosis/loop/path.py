@@ -93,12 +93,11 @@ class ImprovementPath:
         """The path with the best finding of the last diagnosis added."""
         finding = self.last.findings[0]
         rivals = tuple(e for e in self.last.passed if effect_name(e) != finding.effect)
-        step = ImprovementStep(finding, self.current, finding.fit, rivals)
-        return replace(self, steps=(*self.steps, step))
+        return self.with_finding(finding, rivals)
 
-    def with_finding(self, finding: Finding) -> ImprovementPath:
-        """The path with another finding added."""
-        step = ImprovementStep(finding, self.current, finding.fit)
+    def with_finding(self, finding: Finding, rivals: tuple[str, ...] = ()) -> ImprovementPath:
+        """The path with a finding added."""
+        step = ImprovementStep(finding, self.current, finding.fit, rivals)
         return replace(self, steps=(*self.steps, step))
 
     def holding(self, effect: str) -> Finding | None:

@@ -13,11 +13,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from stribeck.diagnosis.measurement.table import least_factors, measurement_columns
+from stribeck.diagnosis.measurement.table import measurement_columns
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import held_out_square
-from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
+from stribeck.diagnosis.trials.imitations import beside_causes
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
 
@@ -40,8 +40,7 @@ def unknown_structure(current: Fit, remains: Unexplained) -> float:
     columns = measurement_columns(current)
     if not columns:
         return remains.shown
-    every = np.column_stack(list(columns.values()))
-    along = FlexibleRefit.beside(current, every, least_factors(columns))
+    along = beside_causes(current, columns)
     left = float(np.sum(along.held_out**2)) / held_out_square(current, current)
     return max(remains.shown - max(1.0 - left, 0.0), 0.0)
 

@@ -28,6 +28,12 @@ ZERO = "a zero of the torque that is off"
 NARROW = 0.95
 
 
+def beside_causes(before: Fit, columns: Mapping[str, Array]) -> FlexibleRefit:
+    """A fit with the `columns` [m, k] of several causes in the measurement, by name."""
+    every = np.column_stack(list(columns.values()))
+    return FlexibleRefit.beside(before, every, least_factors(columns))
+
+
 @dataclass(frozen=True)
 class _Rivals:
     """The causes in the measurement beside a fit: each alone, and all together."""
@@ -43,8 +49,7 @@ class _Rivals:
             what: FlexibleRefit.beside(before, made, least_factors({what: made}))
             for what, made in columns.items()
         }
-        every = np.column_stack(list(columns.values()))
-        return cls(before, alone, FlexibleRefit.beside(before, every, least_factors(columns)))
+        return cls(before, alone, beside_causes(before, columns))
 
     def leave(self, trial: Trial, tried: int, needed: float) -> bool:
         """Whether a trial lowers the error beside all of them, by at least the share `needed`."""
