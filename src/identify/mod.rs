@@ -3,9 +3,13 @@
 //! [`Problem`] is a model and a measured torque. It reduces its linearisation to a [`Triangle`]
 //! block by block, without a Jacobian in memory. [`minimise`] takes damped steps in the nonlinear
 //! parameters and solves for the linear ones, for a [`Problem`] or any other [`LeastSquares`].
+//!
+//! [`LowPass`] smooths recorded channels; a [`Forest`] learns from them what no model explains.
 
 mod bounded;
 mod dense;
+mod forest;
+mod low_pass;
 mod problem;
 mod reduced;
 mod separable;
@@ -15,6 +19,8 @@ mod triangle;
 pub use bounded::bounded_least_squares;
 #[cfg(feature = "python")]
 pub(crate) use dense::SingularValues;
+pub use forest::{Forest, ForestError};
+pub use low_pass::LowPass;
 pub use problem::{NOT_SCORED, Problem};
 pub use reduced::{Reduced, reduced};
 pub use separable::{Bounds, LeastSquares, Outcome, Search, Steps, minimise};

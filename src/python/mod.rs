@@ -2,6 +2,7 @@
 
 mod arm;
 mod catalog;
+mod channels;
 mod columns;
 mod compensation;
 mod decompositions;
@@ -41,6 +42,8 @@ mod _core {
     use super::arm::simulate_arm;
     #[pymodule_export]
     use super::catalog::catalog;
+    #[pymodule_export]
+    use super::channels::{learn, low_pass};
     #[pymodule_export]
     use super::compensation::{compensate, largest_factor};
     #[pymodule_export]

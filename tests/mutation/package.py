@@ -51,7 +51,7 @@ LONGEST = 120
 EXTENSION = "python/stribeck/_core.abi3.so"
 #: Libraries that the tests load, loaded once for all of them.
 PRELOADED = ("numpy", "scipy.interpolate", "scipy.optimize", "scipy.signal", "scipy.spatial",
-             "scipy.stats", "polars", "pytest", "sklearn.ensemble", "click", "rich.console",
+             "scipy.stats", "polars", "pytest", "click", "rich.console",
              "tomlkit", "joblib")  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy
+import polars as pl
 
 from stribeck.effect.base import (
     Array,
@@ -25,6 +25,12 @@ SMALL_SPAN = 1.0
 CORRELATED = 0.9
 
 
+def _rank_correlation(one: Array, other: Array) -> float:
+    """Spearman's rank correlation of two arrays [n]."""
+    ranked = pl.DataFrame({"one": one, "other": other})
+    return float(ranked.select(pl.corr("one", "other", method="spearman")).item())
+
+
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     r = facts.recording
     if r.averaged:
@@ -35,7 +41,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     temperature = facts.scored(r.temperature)
     if temperature is None or spread(temperature) < SMALL_SPAN:
         return None
-    correlation = float(scipy.stats.spearmanr(r.elapsed[r.moving], temperature).statistic)
+    correlation = _rank_correlation(r.elapsed[r.moving], temperature)
     if abs(correlation) <= CORRELATED:
         return None
     way = "warms up" if correlation > 0 else "cools down"

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
+from stribeck.base import low_pass
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -37,13 +37,12 @@ def zero_phase(recording: Recording, values: Array) -> Array:
     if cutoff is None:
         return values.copy()
     filtered = values.copy()
-    sos = scipy.signal.butter(4, cutoff, fs=recording.rate_hz, output="sos")
     first = np.flatnonzero(np.diff(recording.segment, prepend=-1))
     length = np.diff(first, append=values.size)
     # Segments of equal length are filtered together.
     for size in np.unique(length[length > SHORTEST]):
         rows = first[length == size][:, None] + np.arange(size)
-        filtered[rows] = scipy.signal.sosfiltfilt(sos, values[rows])
+        filtered[rows] = low_pass.zero_phase(values[rows], cutoff, recording.rate_hz)
     return filtered
 
 

@@ -8,12 +8,12 @@ import numpy as np
 import scipy
 
 from stribeck.base import linear
+from stribeck.base.low_pass import zero_phase
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.rows import segment_slices
 
 __all__ = ["HIGHEST", "Smoother", "choose_cutoff", "jumps", "motion_band"]
 
-_ORDER = 4
 #: Highest cut-off, as a share of the sampling rate: above it, a filter removes next to nothing.
 HIGHEST = 0.4
 #: Cut-off over the frequency where motion meets noise.
@@ -94,7 +94,7 @@ def _difference_spectrum(
     length = int(2 ** np.round(np.log2(np.clip(4.0 * rate, 64, 4096))))
     while length > 32 and length > longest - differences:
         length //= 2
-    window = scipy.signal.get_window("hann", length)
+    window = np.hanning(length + 1)[:-1]
     scale = 1.0 / (rate * float((window**2).sum()))
     spectrum = np.zeros(length // 2 + 1)
     windows = 0
@@ -217,7 +217,6 @@ class Smoother:
         Segments too short for the filter are differentiated without it.
         """
         out = np.empty_like(value)
-        sections: dict[float, Floats] = {}
         for part in segment_slices(self.segment):
             t, x = self.time[part], value[part]
             n = len(t)
@@ -243,11 +242,8 @@ class Smoother:
             raw = y
             if not short:
                 assert self.cutoff is not None
-                key = round(rate, 6)
-                if key not in sections:
-                    sections[key] = scipy.signal.butter(_ORDER, self.cutoff, fs=rate, output="sos")
                 pad = min(len(y) - 1, int(3.0 * rate / self.cutoff))
-                y = scipy.signal.sosfiltfilt(sections[key], y, padlen=pad)
+                y = zero_phase(y, self.cutoff, rate, pad)
             for _ in range(derivative):
                 y = _slope(y, 1.0 / rate)
             if not short:

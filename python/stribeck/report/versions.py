@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from stribeck.base.version import __version__
 
 #: Packages whose version can change a number or a figure.
-PACKAGES = ("numpy", "scipy", "polars", "nlopt", "scikit-learn", "bokeh")
+PACKAGES = ("numpy", "scipy", "polars", "nlopt", "bokeh")
 
 
 def versions() -> list[tuple[str, str]]:

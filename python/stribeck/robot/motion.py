@@ -12,6 +12,7 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError, option
+from stribeck.base.low_pass import zero_phase
 from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadOptions, split_pairs
 from stribeck.recording.recording import Column, Recording
@@ -306,13 +307,13 @@ class _Filter:
             slice(a, b) for a, b in zip(first, [*first[1:], recording.time.size], strict=True)
         ]
         self.time = recording.time
-        self.sections = scipy.signal.butter(4, cutoff, fs=recording.rate_hz, output="sos")
+        self.cutoff, self.rate = cutoff, recording.rate_hz
 
     def smooth(self, values: Array) -> Array:
         made = np.array(values, dtype=np.float64)
         for part in self.parts:
             if part.stop - part.start > SHORTEST:
-                made[part] = scipy.signal.sosfiltfilt(self.sections, values[part], axis=0)
+                made[part] = zero_phase(values[part].T, self.cutoff, self.rate).T
         return made
 
     def slope(self, values: Array) -> Array:

@@ -59,7 +59,7 @@ def model_file(tmp_path_factory: pytest.TempPathFactory, plain_file: Path) -> Pa
 
 
 def test_help_waits_for_no_library_that_it_does_not_use() -> None:
-    slow = {"scipy.special", "scipy.optimize", "scipy.stats", "sklearn", "matplotlib"}
+    slow = {"scipy.special", "scipy.optimize", "scipy.stats", "scipy.signal", "matplotlib"}
     said = subprocess.run(
         [sys.executable, "-X", "importtime", "-m", "stribeck", "--help"],
         capture_output=True,

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.pool import threads
+from stribeck import _core
+from stribeck.base.pool import on_threads
 from stribeck.diagnosis.residual.noise_floor import state_features
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
@@ -81,15 +82,15 @@ def explainable(fitted: Fit, best: Fit | None = None) -> Explainable | None:
 
 def _held_out(features: Array, residual: Array, block: NDArray[np.intp]) -> Array:
     """Prediction of each sample by trees trained without its block, array [m]."""
-    from sklearn.ensemble import ExtraTreesRegressor
-
     predicted = np.zeros_like(residual)
     blocks = np.unique(block)
-    for fold in np.array_split(blocks, min(FOLDS, blocks.size)):
+
+    def learned(fold: NDArray[np.intp]) -> None:
         unseen = np.isin(block, fold)
-        trees = ExtraTreesRegressor(TREES, min_samples_leaf=LEAF, random_state=0, n_jobs=threads())
-        trees.fit(features[~unseen], residual[~unseen])
-        # Several threads would sum the predictions in an arbitrary order.
-        trees.set_params(n_jobs=1)
-        predicted[unseen] = trees.predict(features[unseen])
+        predicted[unseen] = _core.learn(
+            features[~unseen], residual[~unseen], features[unseen], TREES, LEAF
+        )
+
+    with on_threads() as pool:
+        list(pool.map(learned, np.array_split(blocks, min(FOLDS, blocks.size))))
     return predicted

@@ -93,9 +93,9 @@ def _at_zero(gap: Array, gamma: Array) -> float:
     mean = float(gamma.mean())
     if np.ptp(gap) == 0:
         return mean
-    line = scipy.stats.linregress(gap, gamma)
-    if line.slope > 3.0 * line.stderr and line.intercept > 0:
-        return float(line.intercept)
+    (slope, intercept), covariance = np.polyfit(gap, gamma, 1, cov=True)
+    if slope > 3.0 * np.sqrt(covariance[0, 0]) and intercept > 0:
+        return float(intercept)
     return mean
 
 

@@ -60,7 +60,16 @@ def varying_friction(fit: Fit, *, suspected: bool = False) -> VaryingFriction:
     forward, backward = means[0][seen], means[1][seen]
     if forward.size < FEWEST_STRETCHES or np.ptp(forward) == 0.0 or np.ptp(backward) == 0.0:
         return VaryingFriction(0.0)
-    agreement = scipy.stats.pearsonr(forward, backward, alternative="greater")
-    if agreement.pvalue > (SUSPECTED if suspected else SIGNIFICANCE):
+    if _chance(forward, backward) > (SUSPECTED if suspected else SIGNIFICANCE):
         return VaryingFriction(0.0)
     return VaryingFriction(float(np.sqrt(np.cov(forward, backward)[0, 1])))
+
+
+def _chance(forward: Array, backward: Array) -> float:
+    """Probability that independent means correlate at least as much as these, by Student's t."""
+    correlation = float(np.corrcoef(forward, backward)[0, 1])
+    freedom = forward.size - 2
+    if abs(correlation) >= 1.0:
+        return 0.0 if correlation > 0.0 else 1.0
+    t = correlation * np.sqrt(freedom / (1.0 - correlation**2))
+    return float(scipy.special.stdtr(freedom, -t))

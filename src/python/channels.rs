@@ -1,0 +1,61 @@
+//! Python interface: recorded channels smoothed, and learned by trees.
+
+use std::vec::Vec;
+
+use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArrayLike2};
+use pyo3::prelude::*;
+
+use super::columns::{Array, contiguous};
+use super::normal::row_by_row;
+use super::{ModelError, refuse};
+use crate::identify::{Forest, LowPass};
+
+type Matrix<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+
+/// Each row of `signals` `[k, n]` filtered without phase, array `[k, n]`; `cutoff` is a share of the
+/// sampling rate.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn low_pass<'py>(
+    py: Python<'py>,
+    signals: Matrix<'py>,
+    cutoff: f64,
+    padding: usize,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let filter = LowPass::new(cutoff).ok_or_else(|| {
+        ModelError::new_err("the cut-off must be above zero and below half the sampling rate")
+    })?;
+    let mut filtered = signals.as_array().as_standard_layout().into_owned();
+    py.detach(|| {
+        for mut signal in filtered.rows_mut() {
+            if let Some(values) = signal.as_slice_mut() {
+                filter.zero_phase(values, padding);
+            }
+        }
+    });
+    Ok(filtered.into_pyarray(py))
+}
+
+/// What `trees` extremely randomised trees predict for the rows of `unseen` `[k, n]`, array `[k]`,
+/// after learning `values` `[m]` from the rows of `features` `[m, n]`.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn learn<'py>(
+    py: Python<'py>,
+    features: Matrix<'py>,
+    values: Array<'py>,
+    unseen: Matrix<'py>,
+    trees: usize,
+    fewest_in_leaf: usize,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (features, unseen) = (features.as_array(), unseen.as_array());
+    let (learned, predicted) = (row_by_row(&features), row_by_row(&unseen));
+    let values = contiguous(&values);
+    let (own, others) = (features.ncols(), unseen.ncols());
+    let made: Vec<f64> = py
+        .detach(|| {
+            Forest::new(&learned, own, &values, trees, fewest_in_leaf)?.predict(&predicted, others)
+        })
+        .map_err(refuse)?;
+    Ok(made.into_pyarray(py))
+}
