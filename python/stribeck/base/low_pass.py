@@ -30,7 +30,7 @@ def zero_phase(values: Array, cutoff: float, rate: float, padding: int = PADDING
 
     Raises
     ------
-    stribeck.ModelError
+    stribeck._core.ModelError
         Unless the cut-off is above zero and below half the sampling rate.
 
     Examples

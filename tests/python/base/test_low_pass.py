@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import scipy.signal
-import stribeck as sb
+from stribeck._core import ModelError
 from stribeck.base.low_pass import zero_phase
 
 
@@ -20,5 +20,5 @@ def test_is_the_filter_of_scipy(cutoff, padding):
 
 @pytest.mark.parametrize("cutoff", [0.0, 100.0, float("nan")])
 def test_refuses_a_cutoff_out_of_range(cutoff):
-    with pytest.raises(sb.ModelError, match="below half the sampling rate"):
+    with pytest.raises(ModelError, match="below half the sampling rate"):
         zero_phase(np.zeros(40), cutoff, 200.0)
