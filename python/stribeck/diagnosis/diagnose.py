@@ -13,12 +13,12 @@ from stribeck.diagnosis.all_samples import with_errors_on_all_samples
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
-from stribeck.diagnosis.result import Diagnosis
+from stribeck.diagnosis.result import Diagnosis, Tried
 from stribeck.diagnosis.trials.candidates import candidates_for, passing_trials
 from stribeck.diagnosis.trials.imitations import without_imitations
 from stribeck.diagnosis.trials.outshone import without_outshone
 from stribeck.diagnosis.trials.proxies import without_proxies
-from stribeck.diagnosis.trials.ranking import Ranked, ranked
+from stribeck.diagnosis.trials.ranking import ranked
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility.visibility import visibility
@@ -71,8 +71,8 @@ def diagnose(
         A longer recording is searched for effects on this number of samples, in evenly spaced
         stretches; the errors are those of all samples.
     brief : bool
-        Where there are findings, return only those, without the smallest visible effects and the
-        explainable share.
+        Without the smallest visible effects; where there are findings, without the explainable
+        share as well.
     progress : callable
         Called with a sentence after each candidate.
     **choices
@@ -134,6 +134,7 @@ def _diagnosed(
         demoted=order.demoted,
         not_claimed=order.not_claimed,
         passed=tuple(t.fit.model.written(t.effect) for t in passed),
+        tried=Tried(offered.possible, tried, least_fall),
     )
     if brief and found:
         return made
@@ -144,27 +145,31 @@ def _diagnosed(
     # An effect that passes the test of evidence explains more than noise, if only by imitation.
     remains = structure.is_structure or order.demoted or order.not_claimed
     verdict = "missing" if found else ("unexplained" if remains else "none")
+    whole = replace(made, verdict=verdict, unexplained=structure, explainable=explained)
+    return whole if brief else with_visibility(whole)
+
+
+def with_visibility(found: Diagnosis) -> Diagnosis:
+    """A diagnosis with what its recording could have shown of the effects that were tried."""
+    tried = found.tried
     shown = visibility(
-        fitted,
-        [effect for effect in offered.possible if effect in effect_ids()],
-        found=_named(order),
-        tried=tried,
+        found.fit,
+        [effect for effect in tried.effects if effect in effect_ids()],
+        found=_named(found),
+        tried=tried.screened,
         significance=SIGNIFICANCE,
-        least_fall=least_fall,
+        least_fall=tried.least_fall,
     )
     return replace(
-        made,
-        verdict=verdict,
-        untestable=(*offered.untestable, *shown.hidden),
-        unexplained=structure,
+        found,
+        untestable=(*found.untestable, *shown.hidden),
         smallest_visible=shown.smallest,
         groups=shown.groups,
-        explainable=explained,
     )
 
 
-def _named(order: Ranked) -> set[str]:
+def _named(found: Diagnosis) -> set[str]:
     """Effects that a result names."""
-    found = (*order.findings, *order.demoted)
-    named = {e for finding in found for e in (finding.effect, *finding.indistinguishable_from)}
-    return named | {row.effect for row in order.not_claimed}
+    claims = (*found.findings, *found.demoted)
+    named = {e for finding in claims for e in (finding.effect, *finding.indistinguishable_from)}
+    return named | {row.effect for row in found.not_claimed}

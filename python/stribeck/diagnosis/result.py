@@ -99,6 +99,23 @@ class Finding(Plotted):
         }
 
 
+@dataclass(frozen=True)
+class Tried:
+    """The effects that were tried, ids or formulas, and what one had to show to be a finding.
+
+    Attributes
+    ----------
+    screened
+        Number of effects over which a finding must be significant.
+    least_fall
+        The least relative fall of the held-out RMSE.
+    """
+
+    effects: tuple[str, ...] = ()
+    screened: int = 1
+    least_fall: float = 0.0
+
+
 @dataclass(frozen=True, repr=False)
 class Diagnosis(Plotted):
     """What is missing from a model on a recording.
@@ -117,6 +134,8 @@ class Diagnosis(Plotted):
         explain better.
     passed
         All effects that pass the test of evidence alone, ids or formulas, the best first.
+    tried
+        All effects that were tried.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
@@ -146,6 +165,7 @@ class Diagnosis(Plotted):
     demoted: tuple[Finding, ...] = ()
     not_claimed: tuple[NotClaimed, ...] = ()
     passed: tuple[str, ...] = ()
+    tried: Tried = Tried()
 
     @property
     def has_doubts(self) -> bool:

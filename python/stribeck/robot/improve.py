@@ -10,7 +10,7 @@ import numpy as np
 
 from stribeck.base.errors import FitError
 from stribeck.base.shown import Shown
-from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
+from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.fitting.fit import fit
 from stribeck.robot.causes import Found, chance, rigid_causes
@@ -249,9 +249,10 @@ class _Search:
         recording = balance.motion.with_load(joint, load)
         model = balance.models[joint].with_values(self.solved.values.friction[joint])
         alone = fit(model, recording, starts=1, seed=self.seed)
-        return diagnose(
+        found = diagnose(
             alone, least_fall=self.least_fall, seed=self.seed, brief=True, rejected=ABSORBED
         )
+        return found if found.findings else with_visibility(found)
 
     def _added(self, joint: int) -> bool:
         """Add the best finding that holds with the whole robot, if there is one."""

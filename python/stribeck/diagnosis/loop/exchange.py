@@ -8,8 +8,9 @@ parameters and by the kind of the cause.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from stribeck.base.pool import on_threads
 from stribeck.diagnosis.loop.superfluous import brought_by, fit_without
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
@@ -94,28 +95,54 @@ def exchanges(
     least
         The fall that a finding must bring.
     """
-    made: list[Exchange] = []
-    ties: dict[str, dict[str, float]] = {}
-    for finding, others in zip(findings, rivals, strict=True):
-        free = [e for e in others if not _is_in(e, current) and effect_name(e) not in refused]
-        possible = [*_simpler(finding), *free]
-        if not possible or (without := fit_without(current, finding, seed)) is None:
-            continue
-        for effect in possible[:MOST]:
-            by = _in_place(finding, current, without, effect, least, seed)
-            if by is None:
-                continue
-            worse = difference(current, by.fit).statistic
-            better = difference(by.fit, current).statistic
-            if _is_preferred(finding, by, current, worse, better):
-                made.append(Exchange(finding, without, by, worse))
-            elif better <= SIMPLEST and (
-                by.parameters <= len(current.model.names) or worse > SIMPLEST
-            ):
-                ties.setdefault(finding.effect, {})[by.effect] = tie_weight(better)
-        made += _given_way(finding, without, spoilt, current, seed)
+
+    def each(place: int) -> _Tried:
+        finding = findings[place]
+        free = [e for e in rivals[place] if not _is_in(e, current)]
+        allowed = [effect for effect in free if effect_name(effect) not in refused]
+        possible = (*_simpler(finding), *allowed)
+        return _tried(finding, possible, spoilt, current, least, seed)
+
+    with on_threads() as pool:
+        tried = list(pool.map(each, range(len(findings))))
+    made = [exchange for one in tried for exchange in one.exchanges]
+    ties = {f.effect: one.ties for f, one in zip(findings, tried, strict=True) if one.ties}
     best = min(made, key=lambda one: held_out_square(one.by.fit, current), default=None)
     return Exchanges(best, ties)
+
+
+@dataclass(frozen=True)
+class _Tried:
+    """The exchanges to be made of one effect, and the weights of those that predict as well."""
+
+    exchanges: tuple[Exchange, ...] = ()
+    ties: Mapping[str, float] = field(default_factory=dict)
+
+
+def _tried(
+    finding: Finding,
+    possible: Sequence[str],
+    spoilt: Sequence[str],
+    current: Fit,
+    least: float,
+    seed: int,
+) -> _Tried:
+    """Try the exchange of one effect for others."""
+    if not possible or (without := fit_without(current, finding, seed)) is None:
+        return _Tried()
+    made: list[Exchange] = []
+    ties: dict[str, float] = {}
+    for effect in possible[:MOST]:
+        by = _in_place(finding, current, without, effect, least, seed)
+        if by is None:
+            continue
+        worse = difference(current, by.fit).statistic
+        better = difference(by.fit, current).statistic
+        if _is_preferred(finding, by, current, worse, better):
+            made.append(Exchange(finding, without, by, worse))
+        elif better <= SIMPLEST and (by.parameters <= len(current.model.names) or worse > SIMPLEST):
+            ties[by.effect] = tie_weight(better)
+    return _Tried((*made, *_given_way(finding, without, spoilt, current, seed)), ties)
 
 
 def _simpler(finding: Finding) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Generator, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from stribeck.base.errors import FitError
-from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose
+from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, on_trial
 from stribeck.diagnosis.loop.remainder import REASON, imitations
@@ -60,7 +60,8 @@ class Search:
             path = yield from self._grown(self._asked(shorter))
             if finding is None and (finding := on_trial(path.last)) is not None:
                 path = self._tried(path, finding)
-        said = replace(path.last, demoted=(*path.demoted, *path.last.demoted))
+        last = path.last if path.last.findings else with_visibility(path.last)
+        said = replace(last, demoted=(*path.demoted, *last.demoted))
         yield replace(path, last=said)
 
     def diagnosis(self, current: Fit, dropped: Collection[str] = ()) -> Diagnosis:

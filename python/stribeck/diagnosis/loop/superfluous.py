@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.pool import on_threads
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, evidence, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST
@@ -78,8 +79,9 @@ def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -
     certainty: dict[str, float] = {}
     gain: dict[str, float] = {}
     square = held_out_square(current, current)
-    for finding in findings:
-        without = fit_without(current, finding, seed)
+    with on_threads() as pool:
+        fits = list(pool.map(lambda finding: fit_without(current, finding, seed), findings))
+    for finding, without in zip(findings, fits, strict=True):
         if without is None:
             continue
         rows = current.rows

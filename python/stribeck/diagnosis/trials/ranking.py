@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
+from stribeck.base.pool import on_threads
 from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
@@ -173,12 +174,13 @@ def _doubtful_ties(
     They are alternatives all the same: another cause, that the catalog does not hold, may have the
     same torque.
     """
-    found = {}
-    for row in (*sift.demoted, *sift.refused):
-        weight = tie_weight(tie_statistic(best, row.trial))
-        if weight > NEGLIGIBLE and not adds_to(best, row.trial, tried, least, seed):
-            found[row.trial.effect] = weight
-    return found
+    trials = [row.trial for row in (*sift.demoted, *sift.refused)]
+    weights = {trial.effect: tie_weight(tie_statistic(best, trial)) for trial in trials}
+    alike = [trial for trial in trials if weights[trial.effect] > NEGLIGIBLE]
+    with on_threads() as pool:
+        adds = pool.map(lambda trial: adds_to(best, trial, tried, least, seed), alike)
+        apart = [trial.effect for trial, more in zip(alike, adds, strict=True) if more]
+    return {t.effect: weights[t.effect] for t in alike if t.effect not in apart}
 
 
 def _finding(
