@@ -16,7 +16,7 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
-from stribeck.diagnosis.trials.imitations import standing
+from stribeck.diagnosis.trials.imitations import NARROW, standing
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import (
@@ -51,12 +51,15 @@ class Exchange:
         The other effect added to that.
     apart
         Standard errors by which the held-out errors of both models differ.
+    most
+        The highest confidence that the other effect may have.
     """
 
     finding: Finding
     without: Fit
     by: Trial
     apart: float
+    most: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -133,13 +136,13 @@ def _tried(
     made: list[Exchange] = []
     ties: dict[str, float] = {}
     for effect in possible[:MOST]:
-        by = _in_place(finding, current, without, effect, least, seed)
+        by, most = _in_place(finding, current, without, effect, least, seed)
         if by is None:
             continue
         worse = difference(current, by.fit).statistic
         better = difference(by.fit, current).statistic
         if _is_preferred(finding, by, current, worse, better):
-            made.append(Exchange(finding, without, by, worse))
+            made.append(Exchange(finding, without, by, worse, most))
         elif better <= SIMPLEST and (by.parameters <= len(current.model.names) or worse > SIMPLEST):
             ties[by.effect] = tie_weight(better)
     return _Tried((*made, *_given_way(finding, without, spoilt, current, seed)), ties)
@@ -184,22 +187,28 @@ def _claim(trial: Trial, before: Fit) -> Claim:
 
 def _in_place(
     finding: Finding, current: Fit, without: Fit, effect: str, least: float, seed: int
-) -> Trial | None:
-    """The trial of another effect in place of one; None where it cannot take its place."""
+) -> tuple[Trial | None, float]:
+    """The trial of another effect in place of one, and its highest confidence.
+
+    None and 0 where it cannot take its place.
+    """
     whole = held_out_square(without, current)
     needed = 1.0 - (held_out_square(current, current) / whole) ** 0.5 if whole > 0.0 else 0.0
     found = screened(without, effect, seed=seed)
     if found is None or found.fall < PROMISE * needed:
-        return None
+        return None, 0.0
     trial = try_effect(without, found)
     if trial is None or trial.is_implausible or trial.evidence.p_value > SIGNIFICANCE:
-        return None
+        return None, 0.0
     claim = _claim(trial, without)
     if impossible(claim) or weak(claim):
-        return None
+        return None, 0.0
     # What causes in the measurement explain as well may not come in by the back door.
     exchanged = Trial(finding.effect, current, trial.evidence)
-    return trial if standing(without, trial, (exchanged,), least).stand else None
+    judged = standing(without, trial, (exchanged,), least)
+    if not judged.stand:
+        return None, 0.0
+    return trial, NARROW if judged.narrow else 1.0
 
 
 def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, better: float) -> bool:

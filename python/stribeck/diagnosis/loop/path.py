@@ -149,7 +149,7 @@ class ImprovementPath:
             fit=by.fit,
         )
         weight, names = tied(finding, ties_of(exchange))
-        finding = replace(finding, weight=weight, indistinguishable_from=names)
+        finding = replace(finding, weight=min(weight, exchange.most), indistinguishable_from=names)
         step = replace(dropped, finding=finding)
         later = [step, *self.steps[place + 1 :]]
         steps = self._refitted(dropped.before, later, by.fit.model, seed)

@@ -93,9 +93,12 @@ def without_imitations(
                 explained = f"{rivals.largest} explains more, and what it explains too"
                 judged = Sifted(refused=(Doubted(trial, explained),))
             sift = sift.instead(trial, judged)
-        elif (cause := _explains_addition(trial, passed, tried, least)) is not None:
-            sift = sift.instead(trial, Sifted(demoted=(Doubted(trial, cause),)))
-        elif better <= SIMPLEST:
+            continue
+        addition = _beside_simpler(trial, passed)
+        if addition is not None and not addition.leave(trial, tried, least / 2):
+            reason = f"{addition.largest} explains what it adds to {simpler_effect(trial.effect)}"
+            sift = sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
+        elif min(r.advantage(trial) for r in (rivals, addition) if r is not None) <= SIMPLEST:
             sift = sift.narrowed(trial)
     return sift
 
@@ -105,18 +108,13 @@ def standing(before: Fit, trial: Trial, passed: Sequence[Trial], least: float) -
     return without_imitations(before, Sifted(stand=(trial,)), passed, len(effect_ids()), least)
 
 
-def _explains_addition(
-    trial: Trial, passed: Sequence[Trial], tried: int, least: float
-) -> str | None:
-    """Which cause explains what a trial adds to a simpler one that it contains; None: no cause.
+def _beside_simpler(trial: Trial, passed: Sequence[Trial]) -> _Rivals | None:
+    """The causes beside a simpler effect that a trial contains; None where that has not passed.
 
-    Among the causes is a constant here: the zero of the torque.
+    Among them is a constant here: the zero of the torque.
     """
     simpler = next((t for t in passed if t.effect == simpler_effect(trial.effect)), None)
     if simpler is None:
         return None
     zero = np.ones((simpler.fit.rows.size, 1))
-    rivals = _Rivals.beside(simpler.fit, {**measurement_columns(simpler.fit), ZERO: zero})
-    if rivals.leave(trial, tried, least / 2):
-        return None
-    return f"{rivals.largest} explains what it adds to {simpler.effect}"
+    return _Rivals.beside(simpler.fit, {**measurement_columns(simpler.fit), ZERO: zero})
