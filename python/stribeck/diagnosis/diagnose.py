@@ -10,15 +10,17 @@ from stribeck.base.arguments import door
 from stribeck.base.checks import check_share
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.all_samples import with_errors_on_all_samples
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
 from stribeck.diagnosis.result import Diagnosis, Tried
-from stribeck.diagnosis.trials.candidates import candidates_for, passing_trials
-from stribeck.diagnosis.trials.imitations import without_imitations
+from stribeck.diagnosis.trials.candidates import candidates_for, tested
+from stribeck.diagnosis.trials.imitations import NARROW, without_imitations
 from stribeck.diagnosis.trials.outshone import without_outshone
 from stribeck.diagnosis.trials.proxies import without_proxies
-from stribeck.diagnosis.trials.ranking import ranked
+from stribeck.diagnosis.trials.ranking import finding_of, ranked
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility.visibility import visibility
@@ -114,7 +116,8 @@ def _diagnosed(
 ) -> Diagnosis:
     """A diagnosis on all samples of the fit's recording."""
     offered = candidates_for(fitted, rejected, candidates)
-    passed, tried = passing_trials(fitted, offered.possible, least_fall, seed, progress)
+    found = tested(fitted, offered.possible, least_fall, seed, progress)
+    passed, tried = found.passing, found.screened
     sift = Sifted.of(fitted, passed, least_fall)
     sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
     stood = sift
@@ -123,28 +126,32 @@ def _diagnosed(
     best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)
     order = ranked(fitted, sift, tried, least_fall, floor, seed)
-    found = order.findings
     made = Diagnosis(
         fitted,
         floor,
         "missing",
-        found,
+        order.findings,
         offered.untestable,
         NOT_ASKED,
         demoted=order.demoted,
         not_claimed=order.not_claimed,
         passed=tuple(t.fit.model.written(t.effect) for t in passed),
         tried=Tried(offered.possible, tried, least_fall),
+        in_one_block=tuple(
+            finding_of(fitted, trial, NARROW, (), floor)
+            for trial in found.in_one_block
+            if impossible(Claim(trial.effect, fitted, trial.fit)) is None
+        ),
     )
-    if brief and found:
+    if brief and order.findings:
         return made
     # Without repeated states a regressor learns nothing that holds on other blocks.
-    after = found[0].fit if found else fitted
+    after = order.findings[0].fit if order.findings else fitted
     explained = None if floor.value is None else explainable(fitted, after)
-    structure = unexplained(after, floor, explained, last=not found)
+    structure = unexplained(after, floor, explained, last=not order.findings)
     # An effect that passes the test of evidence explains more than noise, if only by imitation.
     remains = structure.is_structure or order.demoted or order.not_claimed
-    verdict = "missing" if found else ("unexplained" if remains else "none")
+    verdict = "missing" if order.findings else ("unexplained" if remains else "none")
     whole = replace(made, verdict=verdict, unexplained=structure, explainable=explained)
     return whole if brief else with_visibility(whole)
 

@@ -136,6 +136,8 @@ class Diagnosis(Plotted):
         All effects that pass the test of evidence alone, ids or formulas, the best first.
     tried
         All effects that were tried.
+    in_one_block
+        Effects that would pass, but for the one block that gains most.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
@@ -166,6 +168,7 @@ class Diagnosis(Plotted):
     not_claimed: tuple[NotClaimed, ...] = ()
     passed: tuple[str, ...] = ()
     tried: Tried = Tried()
+    in_one_block: tuple[Finding, ...] = ()
 
     @property
     def has_doubts(self) -> bool:

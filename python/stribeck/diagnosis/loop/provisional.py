@@ -1,8 +1,8 @@
-"""An effect that is added on trial, where causes in the measurement explain it as well.
+"""An effect that is added on trial: two causes that are missing hide each other.
 
-Two causes hide each other: beside one that is not in the model yet, neither predicts much better
-than causes in the measurement. One of them is added on trial, the search goes on, and the effect
-stays if it stands beside the others.
+Without the other, neither predicts much better than causes in the measurement; or one block, where
+the other is large, loses what the rest gains. One of them is added on trial, the search goes on,
+and the effect stays if it stands beside the others.
 """
 
 from __future__ import annotations
@@ -11,19 +11,21 @@ from dataclasses import replace
 
 from stribeck.diagnosis.loop.superfluous import fit_without
 from stribeck.diagnosis.plausibility.claim import Claim
-from stribeck.diagnosis.plausibility.rules import weak
+from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.imitations import NARROW, standing
-from stribeck.diagnosis.trials.trial import Trial
+from stribeck.diagnosis.trials.trial import Trial, passes
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
+from stribeck.models.catalog import effect_ids
 
 
 def on_trial(found: Diagnosis) -> Finding | None:
-    """The finding to add on trial: the best of those that causes in the measurement explain too.
+    """The finding to add on trial: the best of those that another missing cause may hide.
 
-    None where there is none, or where nothing else remains to be explained.
+    Causes in the measurement explain them as well, or one block does not show them. None where
+    there is none, or where nothing else remains to be explained.
     """
     if not found.unexplained.is_structure:
         return None
@@ -33,6 +35,7 @@ def on_trial(found: Diagnosis) -> Finding | None:
         if is_friction(finding.effect)
         and weak(Claim(finding.effect, finding.before, finding.fit)) is None
     ]
+    doubtful += found.in_one_block
     best = min(doubtful, key=lambda finding: finding.rmse_held_out_after, default=None)
     return None if best is None else replace(best, demoted=None)
 
@@ -47,6 +50,9 @@ def judged(finding: Finding, current: Fit, least: float, seed: int) -> Finding |
     if without is None:
         return None
     trial = Trial(finding.effect, current, evidence(without, current))
+    claim = Claim(finding.effect, without, current)
+    if not passes(trial, len(effect_ids()), least) or impossible(claim) or weak(claim):
+        return None
     if not standing(without, trial, (), least).stand:
         return None
     return replace(finding, weight=NARROW)

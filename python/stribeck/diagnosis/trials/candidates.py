@@ -22,6 +22,7 @@ from stribeck.diagnosis.trials.trial import (
     falls_on_all_samples,
     is_promising,
     passes,
+    passes_in_one_block,
     simpler_substitute,
     try_beyond,
     try_effect,
@@ -69,14 +70,33 @@ def candidates_for(fitted: Fit, rejected: Collection[str], more: Collection[str]
     return Candidates(possible, hidden)
 
 
-def passing_trials(
+@dataclass(frozen=True)
+class Tested:
+    """What passes the test of evidence.
+
+    Attributes
+    ----------
+    passing
+        Trials that pass, the best first.
+    in_one_block
+        Trials that pass but for the one block that gains most.
+    screened
+        Number of effects that were screened.
+    """
+
+    passing: list[Trial]
+    in_one_block: list[Trial]
+    screened: int
+
+
+def tested(
     fitted: Fit,
     possible: Collection[str],
     least: float,
     seed: int,
     progress: Callable[[str], None] = lambda sentence: None,
-) -> tuple[list[Trial], int]:
-    """Trials that pass, the best first, and the number of effects that were screened.
+) -> Tested:
+    """Screen and try effects, and test each.
 
     An effect that contains a simpler one is tried beside it, where the simpler one passes. If
     another effect does as well there with fewer parameters, the pair replaces it: the larger of
@@ -122,7 +142,8 @@ def passing_trials(
     for pair in pairs:
         if pair.larger in good and pair.together.rank < good[0].rank:
             good.sort(key=lambda trial: trial is not pair.larger)
-    return dry_friction_first(good, fitted.model), tried
+    in_one_block = [t for t in trials if passes_in_one_block(t, tried, least)]
+    return Tested(dry_friction_first(good, fitted.model), in_one_block, tried)
 
 
 @dataclass(frozen=True)

@@ -96,7 +96,7 @@ def ranked(
             weight = min(weight, DEMOTED)
         if t.effect in sift.narrow:
             weight = min(weight, NARROW)
-        made.append(_finding(before, t, weight, others, floor))
+        made.append(finding_of(before, t, weight, others, floor))
     besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))
 
@@ -124,7 +124,7 @@ def _none_but_demoted(
         weight = 1.0 if best is None else tie_weight(tie_statistic(best, trial))
         chance = min(1.0, trial.evidence.p_value * tried)
         most = min(DEMOTED, (1.0 - chance) * weight / (total + weight))
-        made.append(replace(_finding(before, trial, most, (), floor), demoted=reason))
+        made.append(replace(finding_of(before, trial, most, (), floor), demoted=reason))
     refused = tuple(NotClaimed(row.trial.effect, row.reason) for row in sift.refused)
     return Ranked((), tuple(made), refused)
 
@@ -183,9 +183,10 @@ def _doubtful_ties(
     return {t.effect: weights[t.effect] for t in alike if t.effect not in apart}
 
 
-def _finding(
+def finding_of(
     before: Fit, trial: Trial, weight: float, others: tuple[str, ...], floor: NoiseFloor
 ) -> Finding:
+    """The finding that a trial is, indistinguishable from `others`."""
     known = find(trial.effect)
     alike = () if known is None else known.alike(before.recording)
     return Finding(

@@ -222,8 +222,17 @@ def refined(trial: Trial, before: Fit, seed: int = 0) -> Trial:
 
 def passes(trial: Trial, tried: int, least: float) -> bool:
     """Whether a trial passes: large enough, in several blocks, and significant among `tried`."""
+    return trial.evidence.everywhere and _passes_somewhere(trial, tried, least)
+
+
+def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
+    """Whether a trial passes but for the one block that gains most."""
+    return not trial.evidence.everywhere and _passes_somewhere(trial, tried, least)
+
+
+def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
     e = trial.evidence
-    relevant = e.fall >= least and e.everywhere and e.fall_in_band > 0
+    relevant = e.fall >= least and e.fall_in_band > 0
     return relevant and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
