@@ -9,8 +9,12 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.diagnose import diagnose
+from stribeck.diagnosis.loop import exchange
 from stribeck.diagnosis.loop.exchange import tied
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from stribeck.diagnosis.trials.imitations import NARROW
+from stribeck.diagnosis.trials.sifting import Sifted
+from stribeck.diagnosis.trials.trial import Trial
 from synthetic import Array, joint, motion, record
 
 
@@ -49,6 +53,20 @@ def test_inertia_takes_the_place_of_effects_that_imitate_it(tmp_path: Path) -> N
     inertia = next(step for step in better.steps if step.finding.effect == "inertia")
     assert inertia.finding.confidence == 1.0 and not inertia.finding.indistinguishable_from
     assert path.exchanges(("inertia",), 0.01, seed=0).best is None
+
+
+def test_what_takes_a_place_is_no_surer_than_if_it_had_been_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def by_little(before: sb.Fit, trial: Trial, *_: object) -> Sifted:
+        return Sifted(stand=(trial,)).narrowed(trial)
+
+    path = detour(tmp_path, 0.2 * motion()[3], "spring", rivals=("inertia",))
+    monkeypatch.setattr(exchange, "standing", by_little)
+    found = path.exchanges((), 0.01, seed=0)
+    assert found.best is not None and found.best.most == NARROW
+    (step,) = path.exchanged(found.best, seed=0).steps
+    assert step.finding.effect == "inertia" and step.finding.confidence == NARROW
 
 
 def test_a_true_effect_is_not_exchanged(tmp_path: Path) -> None:

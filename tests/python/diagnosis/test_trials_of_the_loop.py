@@ -16,7 +16,7 @@ from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.imitations import NARROW, standing
 from stribeck.diagnosis.trials.sifting import Sifted
-from stribeck.diagnosis.trials.trial import TIE, Trial
+from stribeck.diagnosis.trials.trial import TIE, Trial, passes, passes_in_one_block
 from synthetic import joint, motion, record
 
 T, Q, V, A = motion()
@@ -48,6 +48,27 @@ def test_what_is_demoted_is_tried_where_structure_remains(doubtful: sb.Diagnosis
     # A cause in the measurement needs no trial.
     gain = replace(doubtful.demoted[0], effect="gain")
     assert on_trial(replace(doubtful, demoted=(gain,))) is None
+
+
+def test_what_one_block_hides_is_tried_too(doubtful: sb.Diagnosis) -> None:
+    """An effect that gains more in one block than in all, as another cause is large elsewhere."""
+    load = doubtful.demoted[0]
+    held = replace(load, demoted=None)
+    hidden = replace(doubtful, demoted=(), in_one_block=(held,))
+    tried = on_trial(hidden)
+    assert tried is not None and tried.effect == "load"
+    assert on_trial(replace(hidden, unexplained=Unexplained(0.05, None))) is None
+
+    found = evidence(load.before, load.fit)
+    trial = Trial("load", load.fit, found)
+    assert passes(trial, 20, 0.01) and not passes_in_one_block(trial, 20, 0.01)
+    elsewhere = replace(trial, evidence=replace(found, everywhere=False))
+    assert not passes(elsewhere, 20, 0.01) and passes_in_one_block(elsewhere, 20, 0.01)
+    small = replace(found, everywhere=False, fall=0.005)
+    assert not passes_in_one_block(replace(trial, evidence=small), 20, 0.01)
+    # It must pass in the end.
+    assert judged(held, load.fit, 0.01, seed=0) is not None
+    assert judged(held, load.fit, 2.0, seed=0) is None
 
 
 def test_what_is_weak_is_not_tried(doubtful: sb.Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
