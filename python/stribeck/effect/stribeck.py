@@ -23,8 +23,9 @@ FEWEST_SLOW, SHARE_SLOW = 20, 0.002
 #: The same of steady-state points, and the number that is always enough.
 FEWEST_SLOW_POINTS, ENOUGH_SLOW_POINTS = 5, 2
 
-#: Largest share of the height that may be left at the top speed: with more, friction is
-#: never seen to settle, and the curve imitates a bent viscous one.
+#: Share of the height that must be left at the slowest speed that is scored, since otherwise the
+#: curve is not seen, and that may be left at the top speed: with more, friction is never seen to
+#: settle, and the curve imitates a bent viscous one.
 LEFT = 0.1
 
 
@@ -86,12 +87,16 @@ def _unresolved(after: Identified) -> str | None:
     slow = m.value("stribeck_velocity")
     top = float(np.quantile(np.abs(r.velocity[after.rows]), 0.99))
     unit = f"{m.position_unit}/s"
-    if slow < r.velocity_threshold:
+
+    def left(speed: float) -> float:
+        return float(np.exp(-((speed / slow) ** m.value("stribeck_exponent"))))
+
+    if left(r.velocity_threshold) < LEFT:
         return (
             f"friction would fall around {number(slow)} {unit}, slower than what is scored, "
             f"{number(r.velocity_threshold)} {unit}"
         )
-    if np.exp(-((top / slow) ** m.value("stribeck_exponent"))) > LEFT:
+    if left(top) > LEFT:
         return (
             f"friction would fall around {number(slow)} {unit}, and the joint reaches only "
             f"{number(top)} {unit}"

@@ -138,7 +138,11 @@ def test_a_stribeck_curve_that_never_ends_or_never_begins(stribeck_curve: Claim)
     top = float(np.quantile(np.abs(r.velocity[stribeck_curve.rows]), 0.99))
     beyond = unresolved(with_values(stribeck_curve, stribeck_velocity=3.0 * top))
     assert beyond is not None and "reaches only" in beyond
-    slow = unresolved(with_values(stribeck_curve, stribeck_velocity=0.5 * r.velocity_threshold))
+    exponential = with_values(stribeck_curve, stribeck_exponent=1.0)
+    # exp(-2), 14 % of the height, is left at the slowest speed; or exp(-3), 5 %.
+    half, third = r.velocity_threshold / 2.0, r.velocity_threshold / 3.0
+    assert unresolved(with_values(exponential, stribeck_velocity=half)) is None
+    slow = unresolved(with_values(exponential, stribeck_velocity=third))
     assert slow is not None and "slower than what is scored" in slow
 
 
