@@ -7,6 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.trials.evidence import evidence
+from stribeck.diagnosis.trials.proxies import without_proxies
+from stribeck.diagnosis.trials.trial import Trial
 from synthetic import joint, motion, record
 
 
@@ -33,3 +36,19 @@ def test_a_spring_that_hardens_at_one_end_is_no_gravity(tmp_path: Path) -> None:
     _, q, _, _ = motion(8000)
     named = first_named(tmp_path, 0.5 * np.maximum(q - 0.2, 0.0) ** 2, 1)
     assert named and named[0] == "spring"
+
+
+def test_a_wrong_gain_is_one_beside_a_wrong_zero(tmp_path: Path) -> None:
+    """A gain that is 3 % off, and a zero that hides what this adds to a constant load of 10 N m."""
+    frame = joint(rows=8000)
+    told = 1.03 * frame["torque"] + 10.0
+    recording = record(
+        tmp_path, frame.with_columns(torque=told, load_torque=frame["load_torque"] + 10.0)
+    )
+    before = sb.fit("coulomb", recording, starts=1)
+    after = sb.add(before, "gain", starts=1)
+    # The zero explains more than the gain; no other dependence on the torque does.
+    trial = Trial("gain", after, evidence(before, after))
+    assert [kept.effect for kept in without_proxies(before, [trial])] == ["gain"]
+    found = sb.improve("coulomb", recording, starts=1)
+    assert [step.finding.effect for step in found.steps] == ["gain", "offset"]

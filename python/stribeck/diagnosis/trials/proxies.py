@@ -52,10 +52,18 @@ def without_proxies(before: Fit, good: list[Trial]) -> list[Trial]:
 
 
 def _is_proxy(before: Fit, trial: Trial, extra: Array) -> bool:
-    """Whether free functions, columns [m, k], explain more than the effect does."""
-    left = float(np.sum(held_out_with_columns(trial.fit, extra, before) ** 2))
-    own = held_out_square(trial.fit, before)
-    return own - left > SHARE * (held_out_square(before, before) - own)
+    """Whether free functions, columns [m, k], explain more than the effect does.
+
+    Beside a constant torque, which depends on no channel: it is another effect.
+    """
+    constant = np.ones((extra.shape[0], 1))
+
+    def square(fit: Fit, columns: Array) -> float:
+        return float(np.sum(held_out_with_columns(fit, columns, before) ** 2))
+
+    own = square(trial.fit, constant)
+    left = square(trial.fit, np.column_stack([constant, extra]))
+    return own - left > SHARE * (square(before, constant) - own)
 
 
 def _owes_to(before: Fit, other: Trial, extra: Array) -> bool:
