@@ -10,6 +10,7 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.loop import provisional
 from stribeck.diagnosis.loop.exchange import exchanges
+from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, on_trial
 from stribeck.diagnosis.loop.search import Search
 from stribeck.diagnosis.residual.unexplained import Unexplained
@@ -96,7 +97,6 @@ def test_the_search_returns_to_the_path_before_the_trial(
     doubtful: sb.Diagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from stribeck.diagnosis.loop import search as module
-    from stribeck.diagnosis.loop.path import ImprovementPath
 
     told: list[str] = []
     search = Search(0, 0.01, 8, (), (), told.append)
@@ -107,6 +107,25 @@ def test_the_search_returns_to_the_path_before_the_trial(
     back = list(search.paths(path))[-1]
     assert back.steps == () and back.last.demoted == doubtful.demoted
     assert told[-1] == "load does not stand beside the others: going back"
+
+
+def test_what_is_on_trial_displaces_another_effect_only_in_a_better_model(
+    doubtful: sb.Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = on_trial(doubtful)
+    assert told is not None
+    grown = ImprovementPath(doubtful.fit, doubtful).with_finding(told)
+    monkeypatch.setattr(Search, "_ends", lambda self, path: iter([grown]))
+    search = Search(0, 0.01, 8, (), (), lambda sentence: None)
+
+    def ends(fitted: sb.Fit) -> list[str]:
+        """The effects of a path to `fitted` by another effect, after the trial."""
+        other = replace(told, effect="gain", fit=fitted)
+        path = search._tried(ImprovementPath(doubtful.fit, doubtful).with_finding(other), told)
+        return [step.finding.effect for step in path.steps]
+
+    assert ends(doubtful.fit) == ["load"]
+    assert ends(told.fit) == ["gain"]
 
 
 def test_an_exchange_admits_no_friction_that_an_amplifier_imitates(tmp_path: Path) -> None:

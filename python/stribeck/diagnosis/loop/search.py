@@ -12,6 +12,8 @@ from stribeck.diagnosis.loop.provisional import judged, on_trial
 from stribeck.diagnosis.loop.remainder import REASON, imitations
 from stribeck.diagnosis.loop.superfluous import needed
 from stribeck.diagnosis.result import Diagnosis, Finding
+from stribeck.diagnosis.trials.evidence import difference
+from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
 
@@ -140,14 +142,15 @@ class Search:
     def _tried(self, path: ImprovementPath, finding: Finding) -> ImprovementPath:
         """The path grown beyond a finding on trial, or as it is where that does not stand then.
 
-        It does not either where it displaces an effect that was found without doubt.
+        It may displace an effect that was found before where the whole model predicts better.
         """
         self.progress(f"adding {finding.effect} on trial{_error_of(finding.fit)}")
         *_, grown = self._ends(path.with_finding(finding))
         found = [step.finding.effect for step in path.steps]
         kept = grown.holding(finding.effect)
         stands = None
-        if kept is not None and all(map(grown.holding, found)):
+        holds_all = all(map(grown.holding, found))
+        if kept is not None and (holds_all or _predicts_better(grown.current, path.current)):
             stands = judged(kept, grown.current, self.least_fall, self.seed)
         if stands is None:
             self.progress(f"{finding.effect} does not stand beside the others: going back")
@@ -172,6 +175,11 @@ class Search:
             except FitError as error:
                 self.progress(f"{effect} stays: {error}")
         return shorter
+
+
+def _predicts_better(model: Fit, other: Fit) -> bool:
+    """Whether the held-out error of a model is smaller by more than two standard errors."""
+    return difference(other, model).statistic > TIE
 
 
 def _error_of(fitted: Fit) -> str:
