@@ -34,6 +34,15 @@ def test_quadrants_that_neither_makes_are_named(tmp_path: Path) -> None:
     assert "quadrant" in names(recording)
 
 
+def test_quadrants_are_named_where_the_load_alone_shows_nothing(tmp_path: Path) -> None:
+    """Friction that a load adds while the joint drives it, and takes away while it is driven."""
+    v, tl = motion()[2], joint()["load_torque"].to_numpy()
+    recording = record(tmp_path, joint(0.08 * tl * np.abs(v)))
+    found = sb.diagnose(sb.fit("coulomb", recording, starts=2), brief=True)
+    assert "load" not in found.passed
+    assert [f.effect for f in found.findings if f.confidence > 0.9] == ["quadrant"]
+
+
 def test_what_a_springs_rest_position_does_is_no_offset(tmp_path: Path) -> None:
     """Nobody knows where a spring is at rest: its mean along the motion is its own."""
     q = motion()[1]

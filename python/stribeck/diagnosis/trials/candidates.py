@@ -98,27 +98,38 @@ def tested(
 ) -> Tested:
     """Screen and try effects, and test each.
 
-    An effect that contains a simpler one is tried beside it, where the simpler one passes. If
-    another effect does as well there with fewer parameters, the pair replaces it: the larger of
-    the two comes first.
+    An effect that contains a simpler one is tried beside it. It must add to that, and pass together
+    with it, which need not pass alone. If another effect does as well there with fewer parameters,
+    the pair replaces it: the larger of the two comes first.
     """
-    alone = [effect for effect in possible if missing_simpler_effect(effect, fitted.model) is None]
+    needs = {effect: missing_simpler_effect(effect, fitted.model) for effect in possible}
+    alone = [effect for effect in possible if needs[effect] is None]
     with on_threads() as pool:
-        screenings = [s for s in pool.map(partial(screened, fitted, seed=seed), alone) if s]
-        promising = [s for s in screenings if is_promising(s, least)]
-        progress(f"  {len(promising)} of {len(screenings)} effects are promising")
+        each = zip(possible, pool.map(partial(screened, fitted, seed=seed), possible), strict=True)
+        screenings = {effect: screening for effect, screening in each if screening}
+        first = [screenings[effect] for effect in alone if effect in screenings]
+        promising = [s for s in first if is_promising(s, least)]
+        progress(f"  {len(promising)} of {len(first)} effects are promising")
         trials: list[Trial] = []
         told = Told(progress, len(promising))
-        each = zip(promising, pool.map(partial(try_effect, fitted), promising), strict=True)
-        for screening, trial in each:
+        made = zip(promising, pool.map(partial(try_effect, fitted), promising), strict=True)
+        for screening, trial in made:
             told.fitted(effect_name(screening.effect), trial)
             trials += [trial] if trial else []
-    tried = max(len(screenings), 1)
+    tried = max(len(first), 1)
     good = [t for t in trials if passes(t, tried, least)]
     pairs: list[_Pair] = []
-    for effect in possible:
-        needed = missing_simpler_effect(effect, fitted.model)
-        simpler = next((t for t in good if t.effect == needed), None)
+
+    def trial_of_simpler(effect: str, needed: str) -> Trial | None:
+        """It is tried, though it promises nothing alone, where the wider one is promising."""
+        made = next((t for t in trials if t.effect == needed), None)
+        known = made is not None or not {effect, needed} <= screenings.keys()
+        if known or not is_promising(screenings[effect], least):
+            return made
+        return try_effect(fitted, screenings[needed])
+
+    for effect, needed in needs.items():
+        simpler = None if needed is None else trial_of_simpler(effect, needed)
         if simpler is None:
             continue
         beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
