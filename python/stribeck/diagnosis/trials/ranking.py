@@ -36,8 +36,8 @@ from stribeck.models.catalog import simpler_effect
 ALIKE = 0.9
 #: A tie with a smaller weight changes no confidence that is shown.
 NEGLIGIBLE = 0.005
-#: An effect that explains less than this share of the squared error above the noise floor is not
-#: reported, however significant: much larger causes remain.
+#: An effect that explains less than this share of the squared error above the noise floor, and of
+#: that in the band of the motion, is not reported, however significant: much larger causes remain.
 MATERIAL = 0.05
 
 
@@ -71,9 +71,8 @@ def ranked(
         # The thorough fit does not confirm the quick one.
         rest = sift.instead(first, judged if confirmed else Sifted())
         return ranked(before, rest, tried, least, floor, seed)
-    taken = share_of_unexplained(before, first.fit, floor)
     # With a robust loss most of the unexplained error may be that of outliers.
-    if taken is not None and taken < MATERIAL and before.loss_weight is None:
+    if before.loss_weight is None and not _is_material(before, first, floor):
         return _none_but_demoted(before, sift, tried, floor)
     ordered[0] = first
     weights = {t.effect: tie_weight(statistic[t.effect]) for t in good}
@@ -118,8 +117,7 @@ def _none_but_demoted(
     """
     made = []
     for trial, reason in ((row.trial, row.reason) for row in sift.demoted):
-        taken = share_of_unexplained(before, trial.fit, floor)
-        if taken is not None and taken < MATERIAL:
+        if not _is_material(before, trial, floor):
             continue
         weight = 1.0 if best is None else tie_weight(tie_statistic(best, trial))
         chance = min(1.0, trial.evidence.p_value * tried)
@@ -127,6 +125,16 @@ def _none_but_demoted(
         made.append(replace(finding_of(before, trial, most, (), floor), demoted=reason))
     refused = tuple(NotClaimed(row.trial.effect, row.reason) for row in sift.refused)
     return Ranked((), tuple(made), refused)
+
+
+def _is_material(before: Fit, trial: Trial, floor: NoiseFloor) -> bool:
+    """Whether an effect explains much of the error, or of that in the band of the motion.
+
+    Vibration may dominate the error outside that band.
+    """
+    taken = share_of_unexplained(before, trial.fit, floor)
+    in_band = 1.0 - (1.0 - trial.evidence.fall_in_band) ** 2
+    return taken is None or max(taken, in_band) >= MATERIAL
 
 
 def _tied(
