@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -121,6 +121,24 @@ def test_nothing_is_told_that_explains_next_to_nothing(
     told = ranked(before, sift, TRIED, LEAST, NoiseFloor(None), 0).demoted
     assert [finding.effect for finding in told] == ["temperature_dry", "load"]
     assert told[0].confidence == 0.0 and told[0].share_of_unexplained is None
+
+
+def test_an_effect_beside_vibration_is_material_in_the_band_of_the_motion(
+    case: tuple[sb.Fit, dict[str, Trial]],
+) -> None:
+    """Two per cent of the whole error, but ten of the error where friction acts, and not four."""
+    before, trials = case
+    assert before.rmse_held_out is not None
+    slight = replace(trials["load"].fit, rmse_held_out=0.99 * before.rmse_held_out)
+
+    def told(in_band: float) -> list[str]:
+        seen = replace(trials["load"].evidence, fall_in_band=1.0 - (1.0 - in_band) ** 0.5)
+        doubted = Doubted(Trial("load", slight, seen), "weak")
+        made = ranked(before, Sifted((), (doubted,)), TRIED, LEAST, NoiseFloor(0.0), 0)
+        return [finding.effect for finding in made.demoted]
+
+    assert told(0.1) == ["load"]
+    assert told(0.04) == []
 
 
 def test_what_is_demoted_is_told_with_its_reason(case: tuple[sb.Fit, dict[str, Trial]]) -> None:
