@@ -86,7 +86,9 @@ def without_imitations(
         better = rivals.advantage(trial)
         # An effect that predicts better than all the causes need not add much to them.
         needed = 0.0 if better > 0.0 else least / 2
-        if not (better > TIE or rivals.leave(trial, tried, needed)):
+        # Nor is one as likely whose simpler part shows nothing alone: it must predict better.
+        unseen = _lacks_simpler(trial, before, passed) and better <= SIMPLEST
+        if unseen or not (better > TIE or rivals.leave(trial, tried, needed)):
             doubted = Doubted(trial, f"{rivals.largest} explains it as well")
             judged = Sifted(demoted=(doubted,))
             if better < -TIE:
@@ -106,6 +108,13 @@ def without_imitations(
 def standing(before: Fit, trial: Trial, passed: Sequence[Trial], least: float) -> Sifted:
     """What stands of one trial, where every effect of the catalog counts as tried."""
     return without_imitations(before, Sifted(stand=(trial,)), passed, len(effect_ids()), least)
+
+
+def _lacks_simpler(trial: Trial, before: Fit, passed: Sequence[Trial]) -> bool:
+    """Whether a trial contains a simpler effect that has not passed."""
+    simpler = simpler_effect(trial.effect)
+    known = simpler is None or before.model.has(simpler)
+    return not known and all(t.effect != simpler for t in passed)
 
 
 def _beside_simpler(trial: Trial, passed: Sequence[Trial]) -> _Rivals | None:
