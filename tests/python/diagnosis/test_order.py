@@ -33,9 +33,10 @@ class Fitted:
 
 @dataclass(frozen=True)
 class Evident:
-    """Evidence by its p value."""
+    """Evidence by its p value, of an effect outside the band of the motion."""
 
     p_value: float = 0.0
+    fall_in_band: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -81,14 +81,19 @@ def without_imitations(
     columns = measurement_columns(before) if suspects else {}
     if not columns:
         return sift
-    rivals = _Rivals.beside(before, columns)
+    of_measurement = _Rivals.beside(before, columns)
     for trial in suspects:
+        unseen = _lacks_simpler(trial, before, passed)
+        rivals = _with_zero(before) if unseen else of_measurement
         better = rivals.advantage(trial)
-        # An effect that predicts better than all the causes need not add much to them.
-        needed = 0.0 if better > 0.0 else least / 2
-        # Nor is one as likely whose simpler part shows nothing alone: it must predict better.
-        unseen = _lacks_simpler(trial, before, passed) and better <= SIMPLEST
-        if unseen or not (better > TIE or rivals.leave(trial, tried, needed)):
+        if unseen:
+            # Its simpler part shows nothing alone: the wider one must also add to the causes.
+            stands = better > SIMPLEST and rivals.leave(trial, tried, least / 2)
+        else:
+            # An effect that predicts better than all the causes need not add much to them.
+            needed = 0.0 if better > 0.0 else least / 2
+            stands = better > TIE or rivals.leave(trial, tried, needed)
+        if not stands:
             doubted = Doubted(trial, f"{rivals.largest} explains it as well")
             judged = Sifted(demoted=(doubted,))
             if better < -TIE:
@@ -118,12 +123,12 @@ def _lacks_simpler(trial: Trial, before: Fit, passed: Sequence[Trial]) -> bool:
 
 
 def _beside_simpler(trial: Trial, passed: Sequence[Trial]) -> _Rivals | None:
-    """The causes beside a simpler effect that a trial contains; None where that has not passed.
-
-    Among them is a constant here: the zero of the torque.
-    """
+    """The causes beside a simpler effect that a trial contains; None where that has not passed."""
     simpler = next((t for t in passed if t.effect == simpler_effect(trial.effect)), None)
-    if simpler is None:
-        return None
-    zero = np.ones((simpler.fit.rows.size, 1))
-    return _Rivals.beside(simpler.fit, {**measurement_columns(simpler.fit), ZERO: zero})
+    return None if simpler is None else _with_zero(simpler.fit)
+
+
+def _with_zero(before: Fit) -> _Rivals:
+    """The causes beside a fit; a constant among them: the zero of the torque."""
+    zero = np.ones((before.rows.size, 1))
+    return _Rivals.beside(before, {**measurement_columns(before), ZERO: zero})
