@@ -69,6 +69,15 @@ def test_what_takes_a_place_is_no_surer_than_if_it_had_been_found(
     assert step.finding.effect == "inertia" and step.finding.confidence == NARROW
 
 
+def test_a_wider_effect_in_place_of_the_simpler_one_is_not_certain(tmp_path: Path) -> None:
+    """Most of its evidence is that of the simpler one."""
+    v, tl = motion()[2], joint()["load_torque"].to_numpy()
+    extra = 0.1 * np.abs(tl) * np.sign(v) * (1.0 + np.where(v * tl > 0, 1.5 * np.abs(v), 0.0))
+    path = detour(tmp_path, extra, "load", rivals=("quadrant",))
+    best = path.exchanges((), 0.01, seed=0).best
+    assert best is not None and best.by.effect == "quadrant" and best.most == NARROW
+
+
 def test_a_true_effect_is_not_exchanged(tmp_path: Path) -> None:
     """A Stribeck curve with an offset; neither viscous friction nor gravity replaces them."""
     v = motion()[2]

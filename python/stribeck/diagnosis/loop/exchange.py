@@ -29,6 +29,7 @@ from stribeck.diagnosis.trials.trial import (
 )
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
+from stribeck.models.catalog import simpler_effect
 from stribeck.models.formula_law import effect_name
 
 #: Rivals of each effect that are tried.
@@ -208,7 +209,9 @@ def _in_place(
     judged = standing(without, trial, (exchanged,), least)
     if not judged.stand:
         return None, 0.0
-    return trial, NARROW if judged.narrow else 1.0
+    # What shows an effect that contains the other shows the other as well.
+    by_little = judged.narrow or simpler_effect(effect) == finding.effect
+    return trial, NARROW if by_little else 1.0
 
 
 def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, better: float) -> bool:
