@@ -78,10 +78,8 @@ impl LowPass {
         let padding = padding.min(values.len() - 1);
         let before = values[1..=padding].iter().rev().map(|x| 2.0 * first - x);
         let after = values[values.len() - 1 - padding..values.len() - 1].iter().rev();
-        let mut padded: Vec<f64> = before
-            .chain(values.iter().copied())
-            .chain(after.map(|x| 2.0 * last - x))
-            .collect();
+        let mut padded: Vec<f64> =
+            before.chain(values.iter().copied()).chain(after.map(|x| 2.0 * last - x)).collect();
         for _ in 0..2 {
             for section in self.sections {
                 let start = padded[0];
@@ -110,7 +108,20 @@ mod tests {
         }
     }
 
-    const SCIPY: [f64; 12] = [-0.10531197215799304, 1.5452712508080335, 2.670830159486576, 3.089463678670535, 2.872629984416434, 2.1270548883640883, 1.240645773201142, 0.9324518287974704, 1.5264203529631684, 2.392999767210994, 2.619055488213377, 2.1093166393932545];
+    const SCIPY: [f64; 12] = [
+        -0.10531197215799304,
+        1.5452712508080335,
+        2.670830159486576,
+        3.089463678670535,
+        2.872629984416434,
+        2.1270548883640883,
+        1.240645773201142,
+        0.9324518287974704,
+        1.5264203529631684,
+        2.392999767210994,
+        2.619055488213377,
+        2.1093166393932545,
+    ];
 
     #[test]
     fn leaves_a_constant_as_it_is_and_removes_what_is_fast() {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
 
@@ -15,7 +15,7 @@ from stribeck.diagnosis.trials.dry_friction import (
     is_missing_dry_friction,
 )
 from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
-from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.screening import Screened, screened
 from stribeck.diagnosis.trials.told import Told
 from stribeck.diagnosis.trials.trial import (
     Trial,
@@ -103,33 +103,13 @@ def tested(
     the pair replaces it: the larger of the two comes first.
     """
     needs = {effect: missing_simpler_effect(effect, fitted.model) for effect in possible}
-    alone = [effect for effect in possible if needs[effect] is None]
-    with on_threads() as pool:
-        each = zip(possible, pool.map(partial(screened, fitted, seed=seed), possible), strict=True)
-        screenings = {effect: screening for effect, screening in each if screening}
-        first = [screenings[effect] for effect in alone if effect in screenings]
-        promising = [s for s in first if is_promising(s, least)]
-        progress(f"  {len(promising)} of {len(first)} effects are promising")
-        trials: list[Trial] = []
-        told = Told(progress, len(promising))
-        made = zip(promising, pool.map(partial(try_effect, fitted), promising), strict=True)
-        for screening, trial in made:
-            told.fitted(effect_name(screening.effect), trial)
-            trials += [trial] if trial else []
-    tried = max(len(first), 1)
-    good = [t for t in trials if passes(t, tried, least)]
+    alone = [effect for effect, needed in needs.items() if needed is None]
+    first = _tried_alone(fitted, possible, alone, least, seed, progress)
+    tried = max(first.screened, 1)
+    good = [t for t in first.trials if passes(t, tried, least)]
     pairs: list[_Pair] = []
-
-    def trial_of_simpler(effect: str, needed: str) -> Trial | None:
-        """It is tried, though it promises nothing alone, where the wider one is promising."""
-        made = next((t for t in trials if t.effect == needed), None)
-        known = made is not None or not {effect, needed} <= screenings.keys()
-        if known or not is_promising(screenings[effect], least):
-            return made
-        return try_effect(fitted, screenings[needed])
-
     for effect, needed in needs.items():
-        simpler = None if needed is None else trial_of_simpler(effect, needed)
+        simpler = None if needed is None else first.of_simpler(effect, needed)
         if simpler is None:
             continue
         beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
@@ -153,8 +133,64 @@ def tested(
     for pair in pairs:
         if pair.larger in good and pair.together.rank < good[0].rank:
             good.sort(key=lambda trial: trial is not pair.larger)
-    in_one_block = [t for t in trials if passes_in_one_block(t, tried, least)]
+    in_one_block = [t for t in first.trials if passes_in_one_block(t, tried, least)]
     return Tested(dry_friction_first(good, fitted.model), in_one_block, tried)
+
+
+@dataclass(frozen=True)
+class _TriedAlone:
+    """Effects that were tried alone.
+
+    Attributes
+    ----------
+    screenings
+        The screening of each effect, also of those that contain a simpler one.
+    trials
+        Trials of the promising ones, but for those that contain a simpler one.
+    screened
+        Number of effects that were screened, but for those.
+    """
+
+    fitted: Fit
+    least: float
+    screenings: Mapping[str, Screened]
+    trials: list[Trial]
+    screened: int
+
+    def of_simpler(self, effect: str, needed: str) -> Trial | None:
+        """The trial of the simpler effect that another contains.
+
+        It is tried, though it promises nothing alone, where the wider one is promising.
+        """
+        made = next((t for t in self.trials if t.effect == needed), None)
+        known = made is not None or not {effect, needed} <= self.screenings.keys()
+        if known or not is_promising(self.screenings[effect], self.least):
+            return made
+        return try_effect(self.fitted, self.screenings[needed])
+
+
+def _tried_alone(
+    fitted: Fit,
+    possible: Collection[str],
+    alone: Collection[str],
+    least: float,
+    seed: int,
+    progress: Callable[[str], None],
+) -> _TriedAlone:
+    """Screen all `possible` effects, and try the promising ones of `alone`."""
+    with on_threads() as pool:
+        each = zip(possible, pool.map(partial(screened, fitted, seed=seed), possible), strict=True)
+        screenings = {effect: screening for effect, screening in each if screening}
+        first = [screenings[effect] for effect in alone if effect in screenings]
+        promising = [s for s in first if is_promising(s, least)]
+        progress(f"  {len(promising)} of {len(first)} effects are promising")
+        trials: list[Trial] = []
+        told = Told(progress, len(promising))
+        made = zip(promising, pool.map(partial(try_effect, fitted), promising), strict=True)
+        for screening, trial in made:
+            told.fitted(effect_name(screening.effect), trial)
+            trials += [trial] if trial else []
+    return _TriedAlone(fitted, least, screenings, trials, len(first))
 
 
 @dataclass(frozen=True)
