@@ -47,7 +47,7 @@ def test_a_gap_is_measured_through_quantisation_and_noise(
     assert made.stiffness.value == pytest.approx(2e4, rel=0.02)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_intervals_hold_the_truth(tmp_path: Path) -> None:
     """Of 20 recordings with their own noise, at least 17 intervals of 95 % hold it."""
     truth = {"stiffness": 2e4, "backlash": 5e-4, "motor_coulomb": 3.0}

@@ -82,14 +82,14 @@ def test_gradients_at_random_points(law: str) -> None:
     assert_within(((error_of_gradient(p), p) for p in random_points(law, 30)), share=1)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("precision", ["double", "single"])
 @pytest.mark.parametrize("law", STATIC_LAWS)
 def test_values_at_a_thousand_points(law: str, precision: str) -> None:
     assert_within(((error_of_value(p, precision), p) for p in random_points(law, 1000)), share=1)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("law", STATIC_LAWS)
 def test_gradients_at_a_thousand_points(law: str) -> None:
     assert_within(((error_of_gradient(p), p) for p in random_points(law, 1000)), share=1)
