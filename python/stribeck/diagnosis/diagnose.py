@@ -137,11 +137,6 @@ def _diagnosed(
         not_claimed=order.not_claimed,
         passed=tuple(t.fit.model.written(t.effect) for t in passed),
         tried=Tried(offered.possible, tried, least_fall),
-        in_one_block=tuple(
-            finding_of(fitted, trial, NARROW, (), floor)
-            for trial in found.in_one_block
-            if impossible(Claim(trial.effect, fitted, trial.fit)) is None
-        ),
     )
     if brief and order.findings:
         return made
@@ -152,7 +147,17 @@ def _diagnosed(
     # An effect that passes the test of evidence explains more than noise, if only by imitation.
     remains = structure.is_structure or order.demoted or order.not_claimed
     verdict = "missing" if order.findings else ("unexplained" if remains else "none")
-    whole = replace(made, verdict=verdict, unexplained=structure, explainable=explained)
+    whole = replace(
+        made,
+        verdict=verdict,
+        unexplained=structure,
+        explainable=explained,
+        in_one_block=tuple(
+            finding_of(fitted, trial, NARROW, (), floor)
+            for trial in found.in_one_block
+            if impossible(Claim(trial.effect, fitted, trial.fit)) is None
+        ),
+    )
     return whole if brief else with_visibility(whole)
 
 

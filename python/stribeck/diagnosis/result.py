@@ -137,7 +137,7 @@ class Diagnosis(Plotted):
     tried
         All effects that were tried.
     in_one_block
-        Effects that would pass, but for the one block that gains most.
+        Effects that would pass, but gain in one block alone; not asked where `brief` finds some.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups

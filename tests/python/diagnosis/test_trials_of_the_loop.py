@@ -51,8 +51,8 @@ def test_what_is_demoted_is_tried_where_structure_remains(doubtful: sb.Diagnosis
     assert on_trial(replace(doubtful, demoted=(gain,))) is None
 
 
-def test_what_one_block_hides_is_tried_too(doubtful: sb.Diagnosis) -> None:
-    """An effect that gains more in one block than in all, as another cause is large elsewhere."""
+def test_what_gains_in_one_block_alone_is_tried_too(doubtful: sb.Diagnosis) -> None:
+    """Elsewhere another cause may be large."""
     load = doubtful.demoted[0]
     held = replace(load, demoted=None)
     hidden = replace(doubtful, demoted=(), in_one_block=(held,))

@@ -137,9 +137,10 @@ def _tried(
     made: list[Exchange] = []
     ties: dict[str, float] = {}
     for effect in possible[:MOST]:
-        by, most = _in_place(finding, current, without, effect, least, seed)
-        if by is None:
+        placed = _in_place(finding, current, without, effect, least, seed)
+        if placed is None:
             continue
+        by, most = placed
         worse = difference(current, by.fit).statistic
         better = difference(by.fit, current).statistic
         if _is_preferred(finding, by, current, worse, better):
@@ -188,27 +189,27 @@ def _claim(trial: Trial, before: Fit) -> Claim:
 
 def _in_place(
     finding: Finding, current: Fit, without: Fit, effect: str, least: float, seed: int
-) -> tuple[Trial | None, float]:
+) -> tuple[Trial, float] | None:
     """The trial of another effect in place of one, and its highest confidence.
 
-    None and 0 where it cannot take its place.
+    None where it cannot take its place.
     """
     whole = held_out_square(without, current)
     needed = 1.0 - (held_out_square(current, current) / whole) ** 0.5 if whole > 0.0 else 0.0
     found = screened(without, effect, seed=seed)
     if found is None or found.fall < PROMISE * needed:
-        return None, 0.0
+        return None
     trial = try_effect(without, found)
     if trial is None or trial.is_implausible or trial.evidence.p_value > SIGNIFICANCE:
-        return None, 0.0
+        return None
     claim = _claim(trial, without)
     if impossible(claim) or weak(claim):
-        return None, 0.0
+        return None
     # What causes in the measurement explain as well may not come in by the back door.
     exchanged = Trial(finding.effect, current, trial.evidence)
     judged = standing(without, trial, (exchanged,), least)
     if not judged.stand:
-        return None, 0.0
+        return None
     # What shows an effect that contains the other shows the other as well.
     by_little = judged.narrow or simpler_effect(effect) == finding.effect
     return trial, NARROW if by_little else 1.0

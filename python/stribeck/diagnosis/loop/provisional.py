@@ -1,7 +1,7 @@
 """An effect that is added on trial: two causes that are missing hide each other.
 
-Without the other, neither predicts much better than causes in the measurement; or one block, where
-the other is large, loses what the rest gains. One of them is added on trial, the search goes on,
+Without the other, neither predicts much better than causes in the measurement; or one gains in one
+block alone, since elsewhere the other is large. One of them is added on trial, the search goes on,
 and the effect stays if it stands beside the others.
 """
 
@@ -24,7 +24,7 @@ from stribeck.models.catalog import effect_ids
 def on_trial(found: Diagnosis) -> Finding | None:
     """The finding to add on trial: the best of those that another missing cause may hide.
 
-    Causes in the measurement explain them as well, or one block does not show them. None where
+    Causes in the measurement explain them as well, or they gain in one block alone. None where
     there is none, or where nothing else remains to be explained.
     """
     if not found.unexplained.is_structure:

@@ -79,7 +79,7 @@ class Tested:
     passing
         Trials that pass, the best first.
     in_one_block
-        Trials that pass but for the one block that gains most.
+        Trials that would pass, but gain in one block alone.
     screened
         Number of effects that were screened.
     """

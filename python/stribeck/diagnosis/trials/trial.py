@@ -226,7 +226,7 @@ def passes(trial: Trial, tried: int, least: float) -> bool:
 
 
 def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
-    """Whether a trial passes but for the one block that gains most."""
+    """Whether a trial would pass, but gains in one block alone."""
     return not trial.evidence.everywhere and _passes_somewhere(trial, tried, least)
 
 
