@@ -29,7 +29,7 @@ from stribeck.diagnosis.trials.trial import (
 )
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
-from stribeck.models.catalog import simpler_effect
+from stribeck.models.catalog import effect_ids, simpler_effect
 from stribeck.models.formula_law import effect_name
 
 #: Rivals of each effect that are tried.
@@ -102,7 +102,8 @@ def exchanges(
 
     def each(place: int) -> _Tried:
         finding = findings[place]
-        free = [e for e in rivals[place] if not _is_in(e, current)]
+        several = dict.fromkeys((*_wider(finding, current), *rivals[place]))
+        free = [e for e in several if not _is_in(e, current)]
         allowed = [effect for effect in free if effect_name(effect) not in refused]
         possible = (*_simpler(finding), *allowed)
         return _tried(finding, possible, spoilt, current, least, seed)
@@ -137,13 +138,13 @@ def _tried(
     made: list[Exchange] = []
     ties: dict[str, float] = {}
     for effect in possible[:MOST]:
-        placed = _in_place(finding, current, without, effect, least, seed)
-        if placed is None:
+        by = _in_place(finding, current, without, effect, seed)
+        if by is None:
             continue
-        by, most = placed
         worse = difference(current, by.fit).statistic
         better = difference(by.fit, current).statistic
-        if _is_preferred(finding, by, current, worse, better):
+        most = _most(finding, current, without, by, least)
+        if most is not None and _is_preferred(finding, by, current, worse, better):
             made.append(Exchange(finding, without, by, worse, most))
         elif better <= SIMPLEST and (by.parameters <= len(current.model.names) or worse > SIMPLEST):
             ties[by.effect] = tie_weight(better)
@@ -153,6 +154,12 @@ def _tried(
 def _simpler(finding: Finding) -> tuple[str, ...]:
     """The effect that came with that of a finding: once others are added it may do alone."""
     return tuple(effect for effect in brought_by(finding) if effect != finding.effect)
+
+
+def _wider(finding: Finding, current: Fit) -> list[str]:
+    """Effects that contain another effect of the model: with that they may do alone."""
+    others = {e for e in current.model.effects if e != finding.effect}
+    return [effect for effect in effect_ids() if simpler_effect(effect) in others]
 
 
 def _is_in(effect: str, current: Fit) -> bool:
@@ -187,13 +194,8 @@ def _claim(trial: Trial, before: Fit) -> Claim:
     return Claim(trial.effect, before, trial.fit)
 
 
-def _in_place(
-    finding: Finding, current: Fit, without: Fit, effect: str, least: float, seed: int
-) -> tuple[Trial, float] | None:
-    """The trial of another effect in place of one, and its highest confidence.
-
-    None where it cannot take its place.
-    """
+def _in_place(finding: Finding, current: Fit, without: Fit, effect: str, seed: int) -> Trial | None:
+    """The trial of another effect in place of one; None where it cannot take its place."""
     whole = held_out_square(without, current)
     needed = 1.0 - (held_out_square(current, current) / whole) ** 0.5 if whole > 0.0 else 0.0
     found = screened(without, effect, seed=seed)
@@ -203,16 +205,21 @@ def _in_place(
     if trial is None or trial.is_implausible or trial.evidence.p_value > SIGNIFICANCE:
         return None
     claim = _claim(trial, without)
-    if impossible(claim) or weak(claim):
-        return None
-    # What causes in the measurement explain as well may not come in by the back door.
-    exchanged = Trial(finding.effect, current, trial.evidence)
-    judged = standing(without, trial, (exchanged,), least)
+    return None if impossible(claim) or weak(claim) else trial
+
+
+def _most(finding: Finding, current: Fit, without: Fit, by: Trial, least: float) -> float | None:
+    """The highest confidence of an effect in place of another.
+
+    None where causes in the measurement explain it as well: those may not come in by the back door.
+    """
+    exchanged = Trial(finding.effect, current, by.evidence)
+    judged = standing(without, by, (exchanged,), least)
     if not judged.stand:
         return None
     # What shows an effect that contains the other shows the other as well.
-    by_little = judged.narrow or simpler_effect(effect) == finding.effect
-    return trial, NARROW if by_little else 1.0
+    by_little = judged.narrow or simpler_effect(by.effect) == finding.effect
+    return NARROW if by_little else 1.0
 
 
 def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, better: float) -> bool:

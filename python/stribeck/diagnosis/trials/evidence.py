@@ -15,6 +15,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from stribeck.effect.base import Effect
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length
@@ -34,7 +35,8 @@ class Evidence:
     everywhere : bool
         Whether the error falls also without the block that gains most: it is no single event.
     fall_in_band : float
-        Relative fall in the band of the motion, where friction acts and vibration does not.
+        Relative fall in the band of the motion, where friction acts and vibration does not; at all
+        frequencies for an effect that lasts for moments only.
     p_value : float
         Probability that noise alone yields an added torque this large, times the number of forms
         tried; it may exceed 1.
@@ -62,13 +64,11 @@ def evidence(before: Fit, after: Fit) -> Evidence:
     gain = np.bincount(r.block[rows], square_before - square_after)
     level = float(square_before.mean())
     fall = 1.0 - float(np.sqrt(square_after.mean() / level)) if level > 0 else 0.0
-    slow_before = zero_phase(r, bridged(r, before.held_out_residual))[rows]
-    slow_after = zero_phase(r, bridged(r, after.held_out_residual))[rows]
     added = before.weighted((after.prediction - before.prediction)[rows])
     return Evidence(
         fall,
         bool(gain.sum() - gain.max() > 0),
-        1.0 - rms(slow_after) / (rms(slow_before) or 1.0),
+        fall if _is_brief(before, after) else _fall_in_band(before, after),
         added_torque_test(
             added,
             before.weighted(after.residual[rows]),
@@ -78,10 +78,26 @@ def evidence(before: Fit, after: Fit) -> Evidence:
     )
 
 
+def _fall_in_band(before: Fit, after: Fit) -> float:
+    r, rows = before.recording, before.rows
+    slow_before = zero_phase(r, bridged(r, before.held_out_residual))[rows]
+    slow_after = zero_phase(r, bridged(r, after.held_out_residual))[rows]
+    return 1.0 - rms(slow_after) / (rms(slow_before) or 1.0)
+
+
+def _is_brief(before: Fit, after: Fit) -> bool:
+    """Whether all that was added lasts for moments only."""
+    added = _added(before, after)
+    return bool(added) and all(effect.brief for effect in added)
+
+
 def _forms(before: Fit, after: Fit) -> int:
     """From how many forms the wider model was chosen by looking at the data, such as periods."""
-    added = [e for e in after.model.effects if e not in before.model.effects]
-    return math.prod(of_catalog(effect).forms(after.recording) for effect in added)
+    return math.prod(effect.forms(after.recording) for effect in _added(before, after))
+
+
+def _added(before: Fit, after: Fit) -> list[Effect]:
+    return [of_catalog(e) for e in after.model.effects if e not in before.model.effects]
 
 
 def added_torque_test(added: Array, residual: Array, parameters: int) -> float:

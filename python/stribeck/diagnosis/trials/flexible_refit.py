@@ -30,7 +30,9 @@ class FlexibleRefit:
     least : array [k]
         The least factor of each column.
     held_out, residual : array [m]
-        Residual of the refits without each block, and of the refit to all samples.
+        Residual of the refits without each block, and of the refit to all samples. In a block that
+        it predicts worse than the fit does, such as the only cold one, the first is that of the
+        fit: there it would extrapolate.
     """
 
     before: Fit
@@ -80,6 +82,12 @@ class FlexibleRefit:
         return fall, p_value
 
 
+def _no_worse(held_out: Array, plain: Array, block: NDArray[np.int_]) -> Array:
+    """Held-out residuals [m], in each block those with the smaller sum of squares."""
+    worse = np.bincount(block, held_out**2) > np.bincount(block, plain**2)
+    return np.where(worse[block], plain, held_out)
+
+
 def held_out_with_columns(fitted: Fit, extra: Array, before: Fit) -> Array:
     """Held-out residual of `fitted` [m], linearised, with columns [m, k] added.
 
@@ -113,4 +121,6 @@ def _linear_refit(fitted: Fit, extra: Array, before: Fit, least: Array) -> tuple
         rows = group == b
         held_out[rows] = residual[rows] - columns[rows] @ step
     step = solve_bounded(matrix + ridge, vector, lower, free)
+    plain = before.weighted(fitted.held_out_residual[fitted.rows])
+    held_out = _no_worse(held_out, plain, fitted.recording.block[fitted.rows])
     return held_out, residual - columns @ step

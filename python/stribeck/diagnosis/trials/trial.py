@@ -231,8 +231,12 @@ def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
 
 
 def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
+    """Whether it is significant, lowers the error and that in the band, and one of them enough.
+
+    The error outside the band of the motion may be noise and vibration for the most part.
+    """
     e = trial.evidence
-    relevant = e.fall >= least and e.fall_in_band > 0
+    relevant = min(e.fall, e.fall_in_band) > 0 and max(e.fall, e.fall_in_band) >= least
     return relevant and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
