@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -89,6 +90,9 @@ def look(tell: Telling, files: Files, options: ReadOptions) -> Looked:
         recording = None
     if recording is not None:
         tell("known", recording)
+        # The page draws the recording now: what follows leaves it the processor.
+        if hasattr(os, "nice"):
+            os.nice(5)
     tell("said", "Checking the channels against each other, and what they can show")
     found = inspect(files, **options.given())
     return Looked(found.to_dict(), found.table.columns, found.table.joints)

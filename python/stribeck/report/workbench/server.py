@@ -12,6 +12,7 @@ import hmac
 import json
 import secrets
 import signal
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -31,6 +32,8 @@ from stribeck.report.workbench.work import prepare
 
 #: Largest file that can be sent, bytes. A larger one is opened by its path.
 MOST_SENT = 256 * 2**20
+#: Longest wait for a change before the page is told how far the work is, s.
+PAUSE = 0.25
 HOSTS = ("127.0.0.1", "localhost")
 HEADERS = {
     "Content-Security-Policy": (
@@ -143,8 +146,12 @@ class Upload(Handler):
 class Progress(Handler):
     """How far the work is."""
 
-    def get(self) -> None:
-        """As JSON."""
+    async def get(self) -> None:
+        """As JSON, at once when something changed, or after `PAUSE`."""
+        known = self.get_query_argument("version", "")
+        until = time.monotonic() + PAUSE
+        while str(self.bench.state.version) == known and time.monotonic() < until:
+            await asyncio.sleep(0.02)
         work = self.bench.work
         left = None
         if work is not None and work.title in self.bench.took:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
@@ -30,6 +31,8 @@ from stribeck.report.recording import scored_sentence
 from stribeck.report.workbench.controller import PROJECT, Workbench
 
 if TYPE_CHECKING:
+    import jinja2
+
     from stribeck.diagnosis.result import Finding
     from stribeck.projects.node import Node
     from stribeck.report.workbench.state import Joint
@@ -57,15 +60,6 @@ Values = dict[str, object]
 
 def page(bench: Workbench, name: str, link: Link) -> str:
     """The HTML of a page."""
-    import jinja2
-
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("stribeck", "report/workbench/templates"),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     joint = bench.state.current
     values: Values = {
         "page": name,
@@ -82,7 +76,21 @@ def page(bench: Workbench, name: str, link: Link) -> str:
         "figures": [],
         **_VIEWS[name](bench, joint),
     }
-    return environment.get_template(f"{name}.html").render(**values)
+    return templates().get_template(f"{name}.html").render(**values)
+
+
+@functools.cache
+def templates() -> jinja2.Environment:
+    """The templates of the pages, each compiled once."""
+    import jinja2
+
+    return jinja2.Environment(
+        loader=jinja2.PackageLoader("stribeck", "report/workbench/templates"),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
 
 
 def _data(bench: Workbench, joint: Joint | None) -> Values:

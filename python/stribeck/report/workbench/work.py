@@ -22,7 +22,11 @@ if TYPE_CHECKING:
 #: What a process tells: a sentence, a result so far, the last result, or why there is none.
 Kind = Literal["said", "known", "done", "failed"]
 #: Imported once, before the first work: what is done, and what a recording is read with.
-PRELOADED = ("stribeck.report.workbench.actions",)
+PRELOADED = (
+    "stribeck.report.workbench.actions",
+    "stribeck.recording.formats.columnar",
+    "scipy.ndimage",
+)
 ENDED = (
     "the working process has ended without an answer, most likely because memory ran out: close "
     "other programs, or give less data"

@@ -9,12 +9,12 @@ function clock(seconds, left) {
 }
 async function progress() {
   try {
-    const answer = await (await fetch(page.progress)).json();
+    const answer = await (await fetch(`${page.progress}&version=${page.version}`)).json();
     if (answer.version !== Number(page.version) || !answer.busy) { location.reload(); return; }
     document.getElementById("said").textContent = answer.said;
     document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
   } catch { document.getElementById("said").textContent = "The workbench has ended."; return; }
-  setTimeout(progress, 250);
+  setTimeout(progress, 0);
 }
 if (page.busy === "1") progress();
 
@@ -77,10 +77,12 @@ function followZoom(bokeh) {
     side.change.connect(() => { clearTimeout(waiting); waiting = setTimeout(answer, 40); });
   }
 }
+// This script runs before the library of the figures is loaded: both come at the same time.
+const places = [...document.querySelectorAll("[data-figure]")];
+const figures = places.length ? fetch(page.figures).then((answer) => answer.json()) : null;
 async function draw() {
-  const places = [...document.querySelectorAll("[data-figure]")];
-  if (!places.length) return;
-  const made = await (await fetch(page.figures)).json();
+  if (!figures) return;
+  const made = await figures;
   if (!made.item) { places.forEach((place) => { place.hidden = true; }); return; }
   // BokehJS fills the places in the order of the document: each figure needs one.
   for (const [name, id] of Object.entries(made.places)) {
