@@ -87,11 +87,8 @@ class Samples:
 
     def with_columns(self, more: Mapping[str, Array]) -> Samples:
         """The same with further columns, arrays [n], and a source of its own."""
-        return replace(self, columns={**self.columns, **more}).redrawn()
-
-    def redrawn(self) -> Samples:
-        """The same with a source of its own: figures of two documents cannot share one."""
-        return replace(self, source=ColumnDataSource(self.data(0, self.rows)))
+        made = replace(self, columns={**self.columns, **more})
+        return replace(made, source=ColumnDataSource(made.data(0, made.rows)))
 
     def within(self, start: float, end: float) -> tuple[int, int]:
         """First sample in a window of time, and the one after its last."""

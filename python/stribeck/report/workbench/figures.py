@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import base64
+import json
+import threading
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from stribeck.report.finding_view import FindingView, finding_view
+from stribeck.report.finding_view import finding_view
 from stribeck.report.interactive.channels_time import RecordingSamples, channels_time
 from stribeck.report.interactive.falling_error import falling_error
 from stribeck.report.interactive.finding_residual import evidence, evidence_columns
@@ -29,12 +31,47 @@ SAMPLES, WINDOW = "samples", "window"
 
 
 class Drawn:
-    """The figures of one page, made once for each state of what they show."""
+    """The figures of the pages, each page's made once for what it shows."""
 
     def __init__(self, bench: Workbench) -> None:
         self._bench = bench
-        self._kept: dict[str, tuple[Sequence[object], Samples | RecordingSamples]] = {}
-        self._views: dict[str, FindingView] = {}
+        self._samples: dict[str, Samples | RecordingSamples] = {}
+        self._answers: dict[str, tuple[Sequence[object], str]] = {}
+        self._drawing = threading.Lock()
+
+    def answer(self, page: str) -> str:
+        """The figures of a page as JSON of BokehJS."""
+        with self._drawing:
+            shown = self._shown(page)
+            if not shown:
+                return json.dumps({})
+            known = self._answers.get(page)
+            if known is None or not _same(known[0], shown):
+                known = (shown, json.dumps(as_json(self.plots(page))))
+                self._answers[page] = known
+            return known[1]
+
+    def _shown(self, page: str) -> Sequence[object]:
+        """What the figures of a page are drawn of; empty: there are none."""
+        joint = self._bench.state.current
+        if joint is None:
+            return ()
+        if page == "data":
+            return () if joint.recording is None else (joint.recording,)
+        if page == "compare":
+            return () if joint.sides is None else joint.sides.comparison.models
+        if page == "prove":
+            return () if joint.plan is None else (joint.plan,)
+        project = joint.project
+        if project is None:
+            return ()
+        if page == "where":
+            return () if joint.comparison is None else (project.fit,)
+        if page == "missing":
+            return () if project.diagnosis is None else project.diagnosis.findings
+        if page == "add":
+            return (*project.tree.path(project.current), project.tree.noise_floor)
+        return ()
 
     def plots(self, page: str) -> dict[str, figure]:
         """The figures of a page, by the names of their places."""
@@ -44,11 +81,11 @@ class Drawn:
         if page == "data" and joint.recording is not None:
             return self._windowed(channels_time(self._channels(joint.recording)))
         if page == "where" and joint.project is not None and joint.comparison is not None:
-            made = sample_plots(self._samples(page, [joint.project.fit]))
+            made = sample_plots(self._of(page, [joint.project.fit]))
             return self._windowed({**made, **parameter_plots(joint.project.fit)})
         if page == "compare" and joint.sides is not None:
             fits = [a.fit for a in joint.sides.comparison.models]
-            return self._windowed(sample_plots(self._samples(page, fits)))
+            return self._windowed(sample_plots(self._of(page, fits)))
         if page == "missing":
             return self._found(joint)
         if page == "prove" and joint.plan is not None:
@@ -58,9 +95,9 @@ class Drawn:
     def window(self, page: str, start: float, end: float) -> dict[str, dict[str, str]]:
         """The samples that are drawn between two times, as the script of the pages takes them."""
         joint = self._bench.state.current
-        if joint is None or page not in self._kept:
+        if joint is None or page not in self._samples:
             return {}
-        samples = self._kept[page][1]
+        samples = self._samples[page]
         return {
             name: {
                 "type": values.dtype.name,
@@ -74,17 +111,13 @@ class Drawn:
         diagnosis = None if joint.project is None else joint.project.diagnosis
         if diagnosis is None or not diagnosis.findings:
             return {}
-        known = self._kept.get("missing")
-        if known and isinstance(known[1], Samples) and _same(known[0], diagnosis.findings):
-            views, samples = self._views, known[1].redrawn()
-        else:
-            views = {
-                f"finding {k}": finding_view(found.effect, found.before, found.fit)
-                for k, found in enumerate(diagnosis.findings, 1)
-            }
-            samples = samples_of([diagnosis.fit])
-            samples = samples.with_columns(evidence_columns(views, samples.rows))
-            self._kept["missing"], self._views = (diagnosis.findings, samples), views
+        views = {
+            f"finding {k}": finding_view(found.effect, found.before, found.fit)
+            for k, found in enumerate(diagnosis.findings, 1)
+        }
+        samples = samples_of([diagnosis.fit])
+        samples = samples.with_columns(evidence_columns(views, samples.rows))
+        self._samples["missing"] = samples
         made = {"findings": findings(diagnosis.findings, diagnosis.noise_floor.value)}
         for (name, view), found in zip(views.items(), diagnosis.findings, strict=True):
             made[name] = evidence(found.effect, view, samples.unit, samples, name)
@@ -92,18 +125,13 @@ class Drawn:
             made["time"] = residual_time(samples)
         return self._windowed(made)
 
-    def _samples(self, page: str, fits: list[Fit]) -> Samples:
-        known = self._kept.get(page)
-        if known is not None and isinstance(known[1], Samples) and _same(known[0], fits):
-            # The samples of a figure belong to one document: each page gets its own.
-            return known[1].redrawn()
-        made = samples_of(fits)
-        self._kept[page] = (fits, made)
+    def _of(self, page: str, fits: list[Fit]) -> Samples:
+        self._samples[page] = made = samples_of(fits)
         return made
 
     def _channels(self, recording: Recording) -> RecordingSamples:
         made = RecordingSamples.of(recording)
-        self._kept["data"] = ([recording], made)
+        self._samples["data"] = made
         return made
 
     def _windowed(self, plots: dict[str, figure]) -> dict[str, figure]:

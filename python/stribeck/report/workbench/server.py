@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import hmac
-import json
 import secrets
 import signal
 import time
@@ -25,9 +24,9 @@ from tornado.web import Application, HTTPError, RequestHandler
 
 from stribeck.base.errors import StribeckError
 from stribeck.report.workbench.controller import Workbench
-from stribeck.report.workbench.figures import Drawn, as_json
+from stribeck.report.workbench.figures import Drawn
 from stribeck.report.workbench.forms import act
-from stribeck.report.workbench.views import PAGES, page
+from stribeck.report.workbench.views import PAGES, compile_pages, page
 from stribeck.report.workbench.work import prepare
 
 #: Largest file that can be sent, bytes. A larger one is opened by its path.
@@ -174,9 +173,9 @@ class Figures(Handler):
     async def get(self, name: str) -> None:
         """As JSON of BokehJS."""
         loop = asyncio.get_running_loop()
-        made = await loop.run_in_executor(None, lambda: as_json(self.drawn.plots(name)))
+        made = await loop.run_in_executor(None, self.drawn.answer, name)
         self.set_header("Content-Type", "application/json")
-        self.write(json.dumps(made))
+        self.write(made)
 
 
 class Window(Handler):
@@ -286,6 +285,7 @@ async def _serve(bench: Workbench, port: int, told: Callable[[str], None]) -> No
         loop.add_signal_handler(number, ended.set)
     told(f"http://127.0.0.1:{sockets[0].getsockname()[1]}/?token={token}")
     await loop.run_in_executor(None, prepare)
+    await loop.run_in_executor(None, compile_pages)
     await ended.wait()
     bench.cancel()
     server.stop()

@@ -79,6 +79,12 @@ def page(bench: Workbench, name: str, link: Link) -> str:
     return templates().get_template(f"{name}.html").render(**values)
 
 
+def compile_pages() -> None:
+    """Compile the templates of all pages, which their first visit would wait for."""
+    for name in PAGES:
+        templates().get_template(f"{name}.html")
+
+
 @functools.cache
 def templates() -> jinja2.Environment:
     """The templates of the pages, each compiled once."""

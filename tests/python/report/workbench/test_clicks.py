@@ -15,6 +15,7 @@ import pytest
 import stribeck as sb
 from browser import PAGES, artefacts, check_exported, chromium, done, go, press, workbench
 from in_chromium import faults, wider
+from stribeck.cli.main import main
 from stribeck.motion.generate.demo import demo_path
 from synthetic import joint
 
@@ -184,6 +185,31 @@ def test_a_million_samples(tmp_path: Path) -> None:
     assert largest < 1000.0, said
     # Times are those of a computer that does nothing else: here only that none is absurd.
     assert opened < 60.0 and max(zoom, brush, of_all) < 2000.0, said
+
+
+def test_the_first_finding_on_a_minute(tmp_path: Path) -> None:
+    path = tmp_path / "minute.csv"
+    main(["generate", "-o", str(path), "--effect", "load", "--seconds", "60", "--rate", "500"])
+    with workbench(tmp_path) as (_, address), chromium() as page:
+        page.goto(address)
+        page.get_by_label("Path of a recording").fill(str(path))
+        began, times = time.monotonic(), {}
+        press(page, "Open")
+        times["open and checked"] = time.monotonic() - began
+        go(page, "Compare")
+        press(page, "Fit this law")
+        times["law fitted"] = time.monotonic() - began
+        go(page, "Missing")
+        press(page, "Find what is missing")
+        first = page.inner_text("article h2")
+        times["finding"] = time.monotonic() - began
+        page.wait_for_selector("body[data-drawn='1']")
+        times["finding drawn"] = time.monotonic() - began
+    said = ", ".join(f"{what} {seconds:.2f} s" for what, seconds in times.items())
+    (artefacts(tmp_path / "pictures") / "minute.txt").write_text(said)
+    assert "(load)" in first
+    # Times are those of a computer that does nothing else: here only that none is absurd.
+    assert times["finding drawn"] < 120.0, said
 
 
 def processor_seconds() -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import pytest
 import stribeck as sb
 from stribeck.base.errors import StribeckError
 from stribeck.report.workbench.controller import Workbench
-from stribeck.report.workbench.figures import Drawn, as_json
+from stribeck.report.workbench.figures import Drawn
 from stribeck.report.workbench.forms import act, options_of, with_option
 from stribeck.report.workbench.views import PAGES, page
 from synthetic import joint
@@ -71,7 +72,9 @@ def test_the_loop(bench: Workbench) -> None:
     assert "coulomb+offset" in text
     drawn = Drawn(bench)
     for name in ("data", "where", "compare", "add"):
-        assert as_json(drawn.plots(name))["places"], name
+        answer = drawn.answer(name)
+        assert json.loads(answer)["places"], name
+        assert drawn.answer(name) is answer
     window = drawn.window("where", 1.0, 2.0)
     assert set(window["time"]) == {"type", "content"}
     kept = sb.project(bench.project.path)
