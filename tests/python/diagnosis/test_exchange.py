@@ -78,6 +78,29 @@ def test_a_wider_effect_in_place_of_the_simpler_one_is_not_certain(tmp_path: Pat
     assert best is not None and best.by.effect == "quadrant" and best.most == NARROW
 
 
+def quadrant_torque() -> Array:
+    """Friction under load that differs between motoring and generating, and grows with speed."""
+    v, tl = motion()[2], joint()["load_torque"].to_numpy()
+    return 0.1 * np.abs(tl) * np.sign(v) + np.where(v * tl > 0, 0.15 * np.abs(v), 0.05) * tl
+
+
+def test_a_wider_form_of_another_effect_is_a_rival(tmp_path: Path) -> None:
+    """A gain and a load dependence are nearly a load dependence that differs by quadrant."""
+    path = detour(tmp_path, quadrant_torque(), "gain", "load", rivals=())
+    best = path.exchanges((), 0.01, seed=0).best
+    assert best is not None and (best.finding.effect, best.by.effect) == ("gain", "quadrant")
+
+
+def test_what_measuring_explains_as_well_is_a_tie(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It takes no place, but predicts better, so that the effect is not certain either."""
+    path = detour(tmp_path, quadrant_torque(), "gain", "load", rivals=())
+    monkeypatch.setattr(exchange, "standing", lambda *_: Sifted())
+    found = path.exchanges((), 0.01, seed=0)
+    assert found.best is None and found.ties["gain"]["quadrant"] == 1.0
+
+
 def test_a_true_effect_is_not_exchanged(tmp_path: Path) -> None:
     """A Stribeck curve with an offset; neither viscous friction nor gravity replaces them."""
     v = motion()[2]

@@ -28,3 +28,17 @@ def test_a_form_explains_what_it_contains_unless_it_predicts_worse(tmp_path: Pat
     # Columns that only follow the samples they are fitted to explain nothing.
     follows = replace(holds, held_out=3.0 * holds.held_out)
     assert not follows.explains(trial, 20, 0.01)
+
+
+def test_a_form_does_not_extrapolate(tmp_path: Path) -> None:
+    """A column that grows in one block alone, as a temperature does in the only cold one."""
+    fitted = sb.fit("coulomb", record(tmp_path, joint()), starts=1)
+    block = fitted.recording.block[fitted.rows]
+    column = np.sign(fitted.recording.velocity[fitted.rows]) * np.where(block == 0, 50.0, 1.0)
+    column += np.random.default_rng(0).standard_normal(column.size)
+    refit = FlexibleRefit.beside(fitted, column[:, None])
+    plain = fitted.held_out_residual[fitted.rows]
+    per_block = [np.bincount(block, x**2) for x in (refit.held_out, plain)]
+    assert np.all(per_block[0] <= per_block[1])
+    assert np.array_equal(refit.held_out[block == 0], plain[block == 0])
+    assert not np.array_equal(refit.held_out, plain)

@@ -19,6 +19,7 @@ from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.imitations import NARROW, standing
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import (
     SIGNIFICANCE,
     SIMPLEST,
@@ -143,8 +144,12 @@ def _tried(
             continue
         worse = difference(current, by.fit).statistic
         better = difference(by.fit, current).statistic
-        most = _most(finding, current, without, by, least)
-        if most is not None and _is_preferred(finding, by, current, worse, better):
+        judged = standing(without, by, (Trial(finding.effect, current, by.evidence),), least)
+        if judged.refused:
+            continue
+        # What causes in the measurement explain as well may not come in by the back door.
+        if judged.stand and _is_preferred(finding, by, current, worse, better):
+            most = _most(finding, by, judged)
             made.append(Exchange(finding, without, by, worse, most))
         elif better <= SIMPLEST and (by.parameters <= len(current.model.names) or worse > SIMPLEST):
             ties[by.effect] = tie_weight(better)
@@ -208,15 +213,8 @@ def _in_place(finding: Finding, current: Fit, without: Fit, effect: str, seed: i
     return None if impossible(claim) or weak(claim) else trial
 
 
-def _most(finding: Finding, current: Fit, without: Fit, by: Trial, least: float) -> float | None:
-    """The highest confidence of an effect in place of another.
-
-    None where causes in the measurement explain it as well: those may not come in by the back door.
-    """
-    exchanged = Trial(finding.effect, current, by.evidence)
-    judged = standing(without, by, (exchanged,), least)
-    if not judged.stand:
-        return None
+def _most(finding: Finding, by: Trial, judged: Sifted) -> float:
+    """The highest confidence of an effect in place of another."""
     # What shows an effect that contains the other shows the other as well.
     by_little = judged.narrow or simpler_effect(by.effect) == finding.effect
     return NARROW if by_little else 1.0

@@ -15,11 +15,12 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from stribeck.diagnosis.in_band import held_out_in_band
 from stribeck.effect.base import Effect
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length
-from stribeck.identify.figures import bridged, rms, zero_phase
+from stribeck.identify.figures import rms
 
 Array = NDArray[np.float64]
 
@@ -79,9 +80,7 @@ def evidence(before: Fit, after: Fit) -> Evidence:
 
 
 def _fall_in_band(before: Fit, after: Fit) -> float:
-    r, rows = before.recording, before.rows
-    slow_before = zero_phase(r, bridged(r, before.held_out_residual))[rows]
-    slow_after = zero_phase(r, bridged(r, after.held_out_residual))[rows]
+    slow_before, slow_after = (held_out_in_band(fit, before) for fit in (before, after))
     return 1.0 - rms(slow_after) / (rms(slow_before) or 1.0)
 
 
