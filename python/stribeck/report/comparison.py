@@ -39,7 +39,7 @@ def comparison_text(comparison: Comparison) -> str:
         f"{len(models)} model{'s' if len(models) > 1 else ''} on {file_name(r)}",
         paragraph(scored_sentence(r)),
         _overview(comparison),
-        paragraph(f"Held-out: {compared(comparison)}. {_criteria(models)}{floor}"),
+        paragraph(f"Held-out: {compared(comparison)}. {criteria(models)}{floor}"),
         _regimes_text(comparison),
         notes_text(r.notes, *(a.fit.notes for a in models)),
     )
@@ -118,7 +118,7 @@ def _differences(models: Sequence[Assessment]) -> list[list[str]]:
     ]
 
 
-def _criteria(models: Sequence[Assessment]) -> str:
+def criteria(models: Sequence[Assessment]) -> str:
     """What the differences of the information criteria are; with a space after it."""
     known = _known(models)
     if len(known) < 2:

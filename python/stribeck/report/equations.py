@@ -10,6 +10,7 @@ from markupsafe import Markup
 
 from stribeck.models.catalog import catalog
 from stribeck.report.mathml import mathml
+from stribeck.report.numbers import listed, plain
 
 if TYPE_CHECKING:
     from stribeck.models.model import Model
@@ -23,6 +24,8 @@ SYMBOLS = {
     "a": "acceleration",
     "T": "temperature",
     "T0": "reference temperature",
+    "tr": "reference load",
+    "vr": "reference velocity",
     "tl": "load torque or force",
     "tm": "motor torque or force",
     "te": "external torque or force",
@@ -88,6 +91,22 @@ def symbols(model: Model) -> list[tuple[Markup, str]]:
     return [
         (Markup(mathml(name)[0]), meaning) for name, meaning in SYMBOLS.items() if name in words
     ]
+
+
+def absent_sentence(model: Model) -> str:
+    """Which symbols in the equations of its effects a model does not have; empty: it has all."""
+    own = {parameter.symbol for parameter in model.parameters}
+    rows = (row for name in model.effects for row in catalog()["effects"][name]["parameters"])
+    left = [str(row["symbol"]) for row in rows if row["symbol"] not in own]
+    if not left:
+        return ""
+    return f"This model does not have {listed(left)}: the part of the equation with them is zero."
+
+
+def constants_sentence(model: Model) -> str:
+    """The constants in the equations; empty where there are none."""
+    said = [f"{name} = {plain(value, 4)}" for name, value in model.constants.items()]
+    return f"Constants: {listed(said)}." if said else ""
 
 
 def _of_law(law: str) -> Equation:

@@ -24,7 +24,7 @@ from stribeck.report.interactive.fleet_changes import fleet_changes
 from stribeck.report.interactive.fleet_effects import fleet_effects
 from stribeck.report.page import render
 from stribeck.report.page_figures import figures_of
-from stribeck.report.sections import Section
+from stribeck.report.sections import Section, numbers
 from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
@@ -63,13 +63,14 @@ def fleet_page(fleet: Fleet, command: str = "", spell: Callable[[str], str] = st
         sections.append(Section(title, failure_sentences(fleet.failures), []))
     return render(
         "sections.html",
-        name=f"Fleet {fleet.folder.name}",
+        name=f"Fleet in the folder {fleet.folder.name}",
         about="changed joints and unusual effects",
         summary=heading(fleet),
         figures=figures_of(fleet_plots(fleet)),
         sections=[replace(one, sentences=[*map(spell, one.sentences)]) for one in sections],
         command=command,
         versions=versions(),
+        numbers=numbers,
     )
 
 

@@ -28,6 +28,17 @@ def plain(value: float, digits: int = 3) -> str:
     return f"{value:.{max(digits - 1 - size, 0)}f}"
 
 
+def shown(value: float) -> str:
+    r"""`value` as `plain` with a minus sign, for tables that are read and not typed in.
+
+    Examples
+    --------
+    >>> shown(-1.5) == "\N{MINUS SIGN}1.50"
+    True
+    """
+    return plain(value).replace("-", MINUS)
+
+
 def with_error(value: float, error: float | None) -> tuple[str, str]:
     """`value` and its standard error, both ending at the error's second digit.
 

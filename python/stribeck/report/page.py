@@ -13,9 +13,9 @@ from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog
 from stribeck.report.account import Account, Step, error_of, of_diagnosis, of_improvement
 from stribeck.report.certificate import certificate_text
-from stribeck.report.comparison import MARKED, REGIMES_LEGEND, compared, overview_rows
+from stribeck.report.comparison import MARKED, REGIMES_LEGEND, compared, criteria, overview_rows
 from stribeck.report.diagnosis import less_likely_sentence, untestable_rows
-from stribeck.report.equations import equations, symbols
+from stribeck.report.equations import absent_sentence, constants_sentence, equations, symbols
 from stribeck.report.finding_view import how_to_read
 from stribeck.report.fit import ASSUMED, PASSIVITY
 from stribeck.report.interactive.decimate import MOST_DRAWN
@@ -26,13 +26,20 @@ from stribeck.report.numbers import (
     listed,
     percent,
     plain,
+    shown,
     signed,
     thousands,
     unit_text,
 )
 from stribeck.report.page_figures import account_plots, figures_of
 from stribeck.report.parameters import interval_text, parameter_rows
-from stribeck.report.recording import REGIMES, file_name, held_out_meaning, scored_sentence
+from stribeck.report.recording import (
+    REGIMES,
+    file_name,
+    held_out_meaning,
+    scored_sentence,
+    state_of,
+)
 from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
@@ -99,6 +106,9 @@ def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
         spec=final.model.spec,
         equations=equations(final.model),
         symbols=symbols(final.model),
+        beside=[
+            one for one in (absent_sentence(final.model), constants_sentence(final.model)) if one
+        ],
         parameters=parameter_table(final),
         errors=_errors_sentence(final),
         held_out=held_out_meaning(r),
@@ -108,7 +118,7 @@ def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
         passivity=_passivity(account),
         facts=_facts(r),
         channels=_channels(r),
-        checks=[(check.ok, spell(check.said), spell(check.do or "")) for check in r.checks],
+        checks=[(state_of(c), spell(c.said), spell(c.do or "")) for c in r.checks],
         notes=[spell(note) for note in dict.fromkeys([*r.notes, *final.notes])],
         command=account.command,
         versions=versions(),
@@ -157,8 +167,8 @@ def _channels(r: Recording) -> list[tuple[str, str, str, str, str]]:
             name.replace("_", " "),
             column.source,
             unit_text(column.unit),
-            plain(column.minimum) if np.isfinite(column.minimum) else DASH,
-            plain(column.maximum) if np.isfinite(column.maximum) else DASH,
+            shown(column.minimum) if np.isfinite(column.minimum) else DASH,
+            shown(column.maximum) if np.isfinite(column.maximum) else DASH,
         )
         for name, column in r.columns.items()
     ]
@@ -190,6 +200,7 @@ def comparison_tables(comparison: Comparison) -> dict[str, object]:
         "regimes": regimes,
         "legend": REGIMES_LEGEND,
         "held_out": compared(comparison),
+        "criteria": criteria(models).strip(),
     }
 
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from stribeck.report.numbers import percent, plain, thousands
 
 if TYPE_CHECKING:
+    from stribeck.recording.check import Check
     from stribeck.recording.recording import Recording
 
 #: Names of the regimes.
@@ -43,6 +44,13 @@ def file_name(recording: Recording) -> str:
     """The recording's file, and its joint where it has a name."""
     name = Path(recording.path).name
     return f"{name}, joint {recording.joint}" if recording.joint else name
+
+
+def state_of(check: Check) -> Literal["ok", "open", "wrong"]:
+    """``"ok"``, ``"wrong"``, or ``"open"`` where nothing can be concluded."""
+    if check.is_open:
+        return "open"
+    return "ok" if check.ok else "wrong"
 
 
 def scored_sentence(r: Recording) -> str:

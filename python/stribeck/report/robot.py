@@ -46,7 +46,7 @@ def robot_text(robot: Robot) -> str:
             f"inertial parameters and {len(robot.joints)} rotor inertias (base parameters).",
             0,
         ),
-        paragraph(f"No torque shows: {hidden}.", 0),
+        paragraph(f"Without effect on any torque: {hidden}.", 0),
     )
 
 
@@ -97,7 +97,7 @@ def bodies_sentence(found: RobotFit) -> str:
 
 def errors_rows(joints: Sequence[JointFit], ordinary: Sequence[JointFit]) -> list[list[str]]:
     """The errors of each joint beside those of the ordinary model; the heading first."""
-    rows = [["joint", "model", "RMSE held out", "", "relative", "ordinary", "ratio"]]
+    rows = [["joint", "model", "held-out RMSE", "unit", "relative", "ordinary", "ratio"]]
     for mine, other in zip(joints, ordinary, strict=True):
         relative, before = mine.relative_residual_held_out, other.relative_residual_held_out
         rmse = f"{plain(mine.rmse_held_out)}"

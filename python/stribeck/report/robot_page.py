@@ -23,7 +23,7 @@ from stribeck.report.robot import (
     lacking_rows,
 )
 from stribeck.report.robot_payload import drive_gains_rows, payload_sentence
-from stribeck.report.sections import Section
+from stribeck.report.sections import Section, numbers
 from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
@@ -115,6 +115,7 @@ def _page(found: RobotFit, about: str, sections: Sequence[Section], command: str
         sections=sections,
         command=command,
         versions=versions(),
+        numbers=numbers,
     )
 
 
@@ -190,7 +191,7 @@ def _verdict(last: Diagnosis) -> list[str]:
 
 def _parameters(joint: JointFit) -> list[list[str]]:
     estimates = list(joint.estimates.values())
-    heading = ["parameter", "symbol", "value", "error", "95 % interval", "unit", "relative", ""]
+    heading = ["parameter", "symbol", "value", "error", "95 % interval", "unit", "relative", "note"]
     rows = zip(parameter_rows(estimates), estimates, strict=True)
     return [heading, *([*row[:4], interval_text(e), *row[4:]] for row, e in rows)]
 
@@ -201,7 +202,7 @@ def _bodies(found: RobotFit) -> Section:
         said.append(payload_sentence(found.payload, found.drive_gains))
     hidden = found.solved.balance.base.not_shown
     if hidden:
-        said.append(f"No torque shows: {', '.join(hidden)}.")
+        said.append(f"Without effect on any torque: {', '.join(hidden)}.")
     tables = [base_rows(found)]
     if found.drive_gains:
         said.append("Drive gains are those that a known payload shows.")

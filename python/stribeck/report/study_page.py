@@ -8,7 +8,7 @@ from stribeck.report.interactive.study_errors import study_errors
 from stribeck.report.numbers import MINUS, plain
 from stribeck.report.page import render
 from stribeck.report.page_figures import figures_of
-from stribeck.report.sections import Section
+from stribeck.report.sections import Section, numbers
 from stribeck.report.study import error_rows, heading_sentence, note_lines
 from stribeck.report.versions import versions
 
@@ -49,11 +49,12 @@ def study_page(study: Study, command: str = "") -> str:
     sections.append(Section("Notes", note_lines(study), []))
     return render(
         "sections.html",
-        name=f"Study {study.folder.name}",
+        name=f"Study in the folder {study.folder.name}",
         about="errors of many laws",
         summary=heading_sentence(study),
         figures=figures_of(plots),
         sections=sections,
         command=command,
         versions=versions(),
+        numbers=numbers,
     )

@@ -106,6 +106,21 @@ def test_the_page_of_a_diagnosis(diagnosis: sb.Diagnosis, diagnosed: str) -> Non
     assert "No effect that this recording can show is missing" in diagnosis_page(nothing)
 
 
+def test_a_check_without_a_result_has_a_mark_of_its_own(
+    improvement: sb.Improvement, improved: str
+) -> None:
+    checks = improvement.final.recording.checks
+    count = sum(check.is_open for check in checks)
+    assert count > 0
+    assert improved.count('<li class="open">') == count
+    assert improved.count('<li class="ok">') == len(checks) - count
+
+
+def test_the_equations_are_told_with_their_constants(improved: str) -> None:
+    assert "This model does not have ls and lv" in improved
+    assert re.search(r"Constants: reference_load = \d", improved)
+
+
 def test_a_file_name_cannot_break_the_page(improved: str) -> None:
     assert "made &lt;&amp;&gt; odd.parquet" in improved
     assert "made <&> odd" not in improved

@@ -215,7 +215,7 @@ def _load_of(r: Recording) -> tuple[Array | None, tuple[str, ...]]:
     if explained >= EXPLAINED:
         return shares, ()
     note = (
-        f"inertia and gravity of one payload explain {explained:.0%} of the recorded load torque; "
-        f"the plan uses these alone"
+        f"inertia and gravity of one payload explain {100.0 * explained:.0f} % of the recorded "
+        f"load torque; the plan uses these alone"
     )
     return shares, (note,)

@@ -82,6 +82,7 @@ def new_plot(
         background_fill_color=None,
         border_fill_color=None,
         outline_line_color=None,
+        min_border_left=66,
         min_border_right=12,
         toolbar_location="above",
         **ranges,

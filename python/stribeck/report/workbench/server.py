@@ -101,8 +101,10 @@ class Handler(RequestHandler):
 
     def back(self) -> None:
         """Show the page that a form was sent from."""
-        name = self.get_body_argument("page", "data")
-        self.redirect(self.link(name if name in PAGES else "data"), status=303)
+        given = self.get_body_argument("page", "data")
+        name = given if given in PAGES else "data"
+        self.bench.state.page = name
+        self.redirect(self.link(name), status=303)
 
 
 class Page(Handler):

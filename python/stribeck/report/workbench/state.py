@@ -87,6 +87,8 @@ class State:
         What was worked on, the newest last.
     current
         The one that the pages show.
+    message, page
+        The last message, and the page that it is for; empty: every page.
     version
         Counts the changes.
     """
@@ -96,4 +98,5 @@ class State:
     current: Joint | None = None
     written: list[Path] = field(default_factory=list)
     message: Message | None = None
+    page: str = ""
     version: int = 0

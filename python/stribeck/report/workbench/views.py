@@ -5,12 +5,13 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from stribeck.base.errors import spell_options
 from stribeck.base.version import __version__
 from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog, effect_ids, law_ids
+from stribeck.recording.check import Check
 from stribeck.recording.names import CHANNELS
 from stribeck.recording.options import TABLE, ReadOptions
 from stribeck.report.comparison import worst_places
@@ -23,11 +24,11 @@ from stribeck.report.diagnosis import (
     likely_effects,
     untestable_rows,
 )
-from stribeck.report.numbers import change_text, confidence_words, percent, plain, thousands
+from stribeck.report.numbers import change_text, confidence_words, percent, plain, shown, thousands
 from stribeck.report.page import comparison_tables
 from stribeck.report.parameters import parameter_rows
 from stribeck.report.project import branches
-from stribeck.report.recording import scored_sentence
+from stribeck.report.recording import scored_sentence, state_of
 from stribeck.report.workbench.controller import PROJECT, Workbench
 
 if TYPE_CHECKING:
@@ -69,7 +70,7 @@ def page(bench: Workbench, name: str, link: Link) -> str:
         "joints": bench.state.joints,
         "project": None if joint is None else joint.project,
         "work": bench.work,
-        "message": bench.state.message,
+        "message": bench.state.message if bench.state.page in ("", name) else None,
         "state_version": bench.state.version,
         "version": __version__,
         "folder": str(bench.folder),
@@ -129,13 +130,18 @@ def _check(bench: Workbench, joint: Joint | None) -> Values:
     found = None if joint is None else joint.looked
     said = {} if found is None else dict(found.said)
     options = ReadOptions() if joint is None else joint.options
-    checks = cast("list[dict[str, object]]", said.get("checks", []))
+    checks = cast("list[dict[str, Any]]", said.get("checks", []))
     return {
         "said": said,
         "columns": [] if found is None else found.columns,
         "channels": [name for name in CHANNELS if name not in ("joint", "run")],
         "checks": [
-            {**row, "fixes": _fixes(str(row["do"] or "")), "said": bench.spell(str(row["said"]))}
+            {
+                **row,
+                "state": state_of(Check(**row)),
+                "fixes": _fixes(str(row["do"] or "")),
+                "said": bench.spell(str(row["said"])),
+            }
             for row in checks
         ],
         "problem": bench.spell(str(said.get("problem", ""))),
@@ -148,6 +154,7 @@ def _check(bench: Workbench, joint: Joint | None) -> Values:
         ],
         "spell": bench.spell,
         "plain": plain,
+        "shown": shown,
         "thousands": thousands,
         "titles": _titles(),
         "untestable": _untestable_of(said),
