@@ -91,7 +91,10 @@ class ImprovementPath:
 
     def with_best(self) -> ImprovementPath:
         """The path with the best finding of the last diagnosis added."""
-        finding = self.last.findings[0]
+        return self.with_found(self.last.findings[0])
+
+    def with_found(self, finding: Finding) -> ImprovementPath:
+        """The path with a finding of the last diagnosis added."""
         rivals = tuple(e for e in self.last.passed if effect_name(e) != finding.effect)
         return self.with_finding(finding, rivals)
 

@@ -11,6 +11,7 @@ from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, on_trial
 from stribeck.diagnosis.loop.remainder import REASON, imitations
 from stribeck.diagnosis.loop.superfluous import needed
+from stribeck.diagnosis.loop.ways import best_of, other_beginnings, settled
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.evidence import difference
 from stribeck.diagnosis.trials.trial import TIE
@@ -52,7 +53,7 @@ class Search:
 
     def paths(self, path: ImprovementPath) -> Iterator[ImprovementPath]:
         """The path after each change, from one whose last diagnosis is that of its model."""
-        path = yield from self._grown(path)
+        path = yield from self._best_way(path)
         finding = on_trial(path.last)
         if finding is not None:
             path = self._tried(path, finding)
@@ -62,6 +63,7 @@ class Search:
             path = yield from self._grown(self._asked(shorter))
             if finding is None and (finding := on_trial(path.last)) is not None:
                 path = self._tried(path, finding)
+        path = settled(path, self.least_fall, self.seed)
         last = path.last if path.last.findings else with_visibility(path.last)
         said = replace(last, demoted=(*path.demoted, *last.demoted))
         yield replace(path, last=said)
@@ -103,6 +105,21 @@ class Search:
                 path = shorter
                 yield path
             path = self._asked(path)
+
+    def _best_way(
+        self, start: ImprovementPath
+    ) -> Generator[ImprovementPath, None, ImprovementPath]:
+        """Like `_grown`, from several beginnings where the first effect is in doubt."""
+        path = yield from self._grown(start)
+        ways = [path]
+        for finding in other_beginnings(start.last) if self.most_steps > 0 else ():
+            self.progress(f"trying {finding.effect} first")
+            *_, end = self._ends(start.with_found(finding))
+            ways.append(end)
+        best = best_of(ways)
+        if best is not path:
+            yield best
+        return best
 
     def _shortened(
         self, path: ImprovementPath, findings: Sequence[Finding]
