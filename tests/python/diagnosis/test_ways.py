@@ -1,0 +1,85 @@
+"""The loop begins with other effects too where the first one is in doubt."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.diagnose import diagnose
+from stribeck.diagnosis.loop.path import ImprovementPath
+from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings, settled
+from stribeck.diagnosis.trials.imitations import NARROW
+from synthetic import joint, motion, record
+
+
+@pytest.fixture(scope="module")
+def start(tmp_path_factory: pytest.TempPathFactory) -> ImprovementPath:
+    """A joint with a wrong inertia and a Stribeck curve."""
+    _, _, v, a = motion()
+    extra = 0.2 * a + 1.5 * np.exp(-((v / 0.15) ** 2)) * np.sign(v)
+    folder = tmp_path_factory.mktemp("ways")
+    fitted = sb.fit("coulomb", record(folder, joint(extra)), starts=1)
+    return ImprovementPath(fitted, diagnose(fitted, brief=True))
+
+
+def way(start: ImprovementPath, *effects: str) -> ImprovementPath:
+    """The path that has added some effects."""
+    for effect in effects:
+        after = sb.add(start.current, effect, starts=2)
+        said = start.last.findings[0]
+        finding = replace(
+            said, effect=effect, before=start.current, fit=after, weight=0.5, certainty=1.0
+        )
+        start = start.with_finding(replace(finding, indistinguishable_from=()))
+    return start
+
+
+def test_other_beginnings_are_tried_where_the_first_is_in_doubt(start: ImprovementPath) -> None:
+    first = start.last.findings[0]
+    weights = {"load": 0.2, "gain": 0.4, "position": 0.3}
+    others = [replace(first, effect=effect, weight=w) for effect, w in weights.items()]
+
+    def begins(weight: float) -> list[str]:
+        found = replace(start.last, findings=(replace(first, weight=weight), *others))
+        return [finding.effect for finding in other_beginnings(found)]
+
+    assert begins(0.5) == ["gain", "position"]
+    assert begins(FIRM) == []
+    assert other_beginnings(replace(start.last, findings=())) == []
+
+
+def test_the_way_that_predicts_better_is_taken(start: ImprovementPath) -> None:
+    greedy, right = way(start, "spring"), way(start, "stribeck", "inertia")
+    best = best_of([greedy, right])
+    assert [step.finding.effect for step in best.steps] == ["stribeck", "inertia"]
+    assert best.steps[0].finding.weight == NARROW
+    assert [gone.effect for gone in best.dropped] == ["spring"]
+    assert "stribeck" in best.dropped[0].reason
+    # The other way round nothing changes.
+    assert best_of([right, greedy]) is right
+
+
+def test_of_ways_that_predict_alike_the_one_with_fewer_parameters_is_taken(
+    start: ImprovementPath,
+) -> None:
+    wide, small = way(start, "inertia", "frictional_lag"), way(start, "inertia", "stribeck")
+    assert best_of([wide, small]).current is small.current
+    assert best_of([small, wide]) is small
+    # What it began with is in the model still, and nothing was dropped.
+    assert best_of([wide, small]).dropped == ()
+
+
+def test_ties_among_effects_of_one_model_are_settled(start: ImprovementPath) -> None:
+    path = way(start, "stribeck", "inertia")
+    first = replace(path.steps[0].finding, indistinguishable_from=("inertia",))
+    tied = path.with_instead(first)
+    ended = settled(tied, 0.01, seed=0)
+    assert ended.steps[0].finding.weight == NARROW
+    assert ended.steps[0].finding.indistinguishable_from == ()
+    assert ended.steps[1] is tied.steps[1]
+    # Another tie is outside the model, or it does not pass beside the others.
+    other = path.with_instead(replace(first, indistinguishable_from=("inertia", "load")))
+    assert settled(other, 0.01, seed=0) is other
+    assert settled(tied, 2.0, seed=0) is tied
