@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import sys
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
@@ -55,7 +56,7 @@ MADE = {
     "v": lambda of: 57.29577951308232 * of["recording"].velocity,
     "tau": lambda of: of["recording"].torque,
     "temperature": lambda of: of["recording"].temperature,
-    "pool": lambda of: ProcessPoolExecutor(1),
+    "pool": lambda of: ProcessPoolExecutor(1, multiprocessing.get_context("forkserver")),
 }
 
 
