@@ -50,7 +50,7 @@ def _verdict(certificate: Certificate) -> str:
 
 def _box(certificate: Certificate) -> str:
     return ", ".join(
-        f"{name} {low:g} to {high:g} {_unit(certificate, name)}"
+        f"{name} {low:.4g} to {high:.4g} {_unit(certificate, name)}"
         for name, (low, high) in certificate.box.items()
     )
 
@@ -97,4 +97,4 @@ def _bound(margin: Margin, unit: str) -> str:
     if lower < 0.0:
         return f"{lower:.3g} {unit}"
     # For viscous friction the smallest margin is that of the slowest motion.
-    return f">= {0.0 if lower < REST else lower:.3g} {unit}"
+    return f"≥ {0.0 if lower < REST else lower:.3g} {unit}"

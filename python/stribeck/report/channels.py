@@ -13,6 +13,7 @@ from stribeck.effect.base import ResidualView
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.effect.registry import find
 from stribeck.effect.ripple import ripple_period_of
+from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.figures import bridged, zero_phase
 
 if TYPE_CHECKING:
@@ -50,7 +51,9 @@ def clock(r: Recording) -> Channel:
 
 def load_of(fit: Fit) -> Array | None:
     """Load torque of every sample, recorded or identified; None where unknown."""
-    return fit.recording.load_torque if fit.recording.load_torque is not None else fit.load
+    if fit.recording.load_torque is not None:
+        return fit.recording.load_torque
+    return own_load(fit.model, fit.recording) if fit.load is None else fit.load
 
 
 def torque_name(unit: str) -> str:

@@ -28,7 +28,7 @@ def plain(value: float, digits: int = 3) -> str:
     return f"{value:.{max(digits - 1 - size, 0)}f}"
 
 
-def shown(value: float) -> str:
+def shown(value: float, digits: int = 3) -> str:
     r"""`value` as `plain` with a minus sign, for tables that are read and not typed in.
 
     Examples
@@ -36,7 +36,7 @@ def shown(value: float) -> str:
     >>> shown(-1.5) == "\N{MINUS SIGN}1.50"
     True
     """
-    return plain(value).replace("-", MINUS)
+    return plain(value, digits).replace("-", MINUS)
 
 
 def with_error(value: float, error: float | None) -> tuple[str, str]:

@@ -43,6 +43,7 @@ def parameter_rows(estimates: Iterable[Estimate]) -> list[list[str]]:
     poor = poorly_determined(estimates)
     for e in estimates:
         value, error = with_error(e.value, e.stderr)
+        value = value.replace("-", MINUS)
         known = e.stderr is not None and e.value != 0.0
         relative = percent((e.stderr or 0.0) / abs(e.value)) if known else ""
         error = f"± {error}" if error else ""

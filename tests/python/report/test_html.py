@@ -118,7 +118,7 @@ def test_a_check_without_a_result_has_a_mark_of_its_own(
 
 def test_the_equations_are_told_with_their_constants(improved: str) -> None:
     assert "This model does not have ls and lv" in improved
-    assert re.search(r"Constants: reference_load = \d", improved)
+    assert re.search(r"Constants, in SI units: reference_load = \d", improved)
 
 
 def test_a_file_name_cannot_break_the_page(improved: str) -> None:

@@ -26,7 +26,8 @@ def test_a_page_of_a_fit(motion: RobotMotion) -> None:
         "Joint 1",
         "Joint 2",
         "Rigid bodies",
-        "stribeck robot fit",
+        '<span class="word">stribeck</span> <span class="word">robot</span> '
+        '<span class="word">fit</span>',
         "N m s/rad",
     ):
         assert words in page
@@ -53,7 +54,7 @@ def test_joints_share_samples_and_time(motion: RobotMotion) -> None:
 def test_a_page_of_a_diagnosis(motion: RobotMotion) -> None:
     found = RobotDiagnosis.of(improve_robot(motion, most_steps=0))
     page = robot_diagnosis_page(found, "stribeck robot diagnose")
-    assert "What is missing" in page and "stribeck robot diagnose" in page
+    assert "What is missing" in page and '<span class="word">diagnose</span>' in page
     for name, joint in found.joints.items():
         assert f"Joint {name}" in page
         for finding in joint.findings:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from bokeh.models import (
+    BasicTickFormatter,
     FixedTicker,
     HoverTool,
     Legend,
@@ -106,6 +107,9 @@ def range_over(values: Array) -> Range1d:
 
 def _style(plot: figure) -> None:
     for axis in (*plot.xaxis, *plot.yaxis):
+        if isinstance(axis.formatter, BasicTickFormatter):
+            # 0.0005 instead of 5.000e-4, which is too long beside its neighbour.
+            axis.formatter.power_limit_low = -4
         axis.axis_label_text_font_style = "normal"
         axis.axis_label_text_font_size = "13px"
         axis.major_label_text_font_size = "12px"

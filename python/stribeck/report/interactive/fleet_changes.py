@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from bokeh.models import ColumnDataSource, Range1d, Span, Whisker
 
 from stribeck.report.fleet import joint_name, relative_text
@@ -16,6 +17,7 @@ from stribeck.report.interactive.base import (
     legend_above,
     name_places,
     new_plot,
+    range_over,
 )
 from stribeck.report.numbers import plain, unit_text
 
@@ -27,6 +29,8 @@ if TYPE_CHECKING:
 #: Joints that are named on the axis; of more, the pointer names each.
 MOST_NAMED = 40
 TALLEST = 640
+#: The ends of an interval.
+SIDES = ("low", "high")
 
 
 def fleet_changes(changes: Changes) -> figure:
@@ -46,12 +50,12 @@ def fleet_changes(changes: Changes) -> figure:
         height=min(110 + 26 * len(drawn), TALLEST),
     )
     plot.add_layout(Span(location=0.0, dimension="height", line_color=INK, line_alpha=0.7))
-    items = []
+    items, every = [], [_row(k, *pair) for k, pair in enumerate(drawn)]
     for chosen, colour, label in (
         (False, MEASURED, "within the variation from day to day"),
         (True, COLOURS[0], "changed"),
     ):
-        rows = [_row(k, *pair) for k, pair in enumerate(drawn) if pair[0].changed == chosen]
+        rows = [every[k] for k, (joint, _) in enumerate(drawn) if joint.changed == chosen]
         if not rows:
             continue
         source = ColumnDataSource({name: [row[name] for row in rows] for name in rows[0]})
@@ -76,13 +80,14 @@ def fleet_changes(changes: Changes) -> figure:
         name_places(plot, [joint_name(joint.robot, joint.joint) for joint, _ in drawn])
     else:
         plot.yaxis[0].major_label_text_alpha = 0.0
+    plot.x_range = range_over(np.array([0.0, *(row[side] for row in every for side in SIDES)]))
     plot.y_range = Range1d(-0.7, len(drawn) - 0.3)
     plot.ygrid.visible = False
     legend_above(plot, items)
     return plot
 
 
-def _row(place: int, joint: JointChange, change: Change) -> dict[str, object]:
+def _row(place: int, joint: JointChange, change: Change) -> dict[str, Any]:
     value, error = 100.0 * change.relative, 196.0 * change.stderr / abs(change.before)
     unit = unit_text(change.unit)
     return {

@@ -1,10 +1,12 @@
 // Figures take their colours from the page, which changes them when it gets dark or is printed.
-// Legends are drawn before they are part of the page, so they are told the colour.
+// Legends are drawn before they are part of the page, and words in a figure take no colour from it:
+// they are told the colour.
 function repaint() {
   const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
   for (const drawn of Bokeh.documents) {
     for (const model of drawn.all_models) {
       if (model.type === "Legend") model.label_text_color = ink;
+      if (model.type === "Text") model.text_color = ink;
     }
   }
   for (const view of Object.values(Bokeh.index)) {
