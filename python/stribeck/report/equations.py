@@ -24,8 +24,6 @@ SYMBOLS = {
     "a": "acceleration",
     "T": "temperature",
     "T0": "reference temperature",
-    "tr": "reference load",
-    "vr": "reference velocity",
     "tl": "load torque or force",
     "tm": "motor torque or force",
     "te": "external torque or force",
@@ -33,6 +31,12 @@ SYMBOLS = {
     "D": "dry friction",
     "V": "viscous friction",
     "z": "deflection of the bristle",
+}
+#: Constants are values of the recording: what each stands for in an equation.
+CONSTANTS = {
+    "tr": "reference load: the RMS of the load torque",
+    "vr": "reference speed of the recording",
+    "xr": "reference torque: the 99th percentile of the motor torque",
 }
 #: Identified rigid-body terms, by their name in a model.
 RIGID_BODY = {"inertia": "J a", "gravity": "gc cos q + gs sin q"}
@@ -89,7 +93,9 @@ def symbols(model: Model) -> list[tuple[Markup, str]]:
     used = " ".join(row.text for row in equations(model))
     words = set(re.findall(r"[A-Za-z]\w*", used)) | {"tf"}
     return [
-        (Markup(mathml(name)[0]), meaning) for name, meaning in SYMBOLS.items() if name in words
+        (Markup(mathml(name)[0]), meaning)
+        for name, meaning in {**SYMBOLS, **CONSTANTS}.items()
+        if name in words - {parameter.symbol for parameter in model.parameters}
     ]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import stribeck as sb
 from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import catalog, effect_ids
-from stribeck.report.equations import SYMBOLS, equations
+from stribeck.report.equations import CONSTANTS, SYMBOLS, equations
 from stribeck.report.mathml import mathml
 from stribeck.report.numbers import listed, unit_text
 
@@ -32,12 +32,6 @@ GROUPS = {
     "actuator": "the actuator",
     "rigid body": "the rigid body",
     "drive": "the drive train",
-}
-#: Constants are values of the recording: what each stands for in an equation.
-CONSTANTS = {
-    "tr": "reference load: the RMS of the load torque",
-    "vr": "reference speed of the recording",
-    "xr": "reference torque: the 99th percentile of the motor torque",
 }
 
 
