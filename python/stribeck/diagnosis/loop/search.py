@@ -112,11 +112,12 @@ class Search:
         """Like `_grown`, from several beginnings where the first effect is in doubt."""
         path = yield from self._grown(start)
         ways = [path]
-        for finding in other_beginnings(start.last) if self.most_steps > 0 else ():
+        others = other_beginnings(start.last, path, self.seed) if self.most_steps > 0 else ()
+        for finding in others:
             self.progress(f"trying {finding.effect} first")
             *_, end = self._ends(start.with_found(finding))
             ways.append(end)
-        best = best_of(ways)
+        best = best_of(ways, self.least_fall, self.seed)
         if best is not path:
             yield best
         return best

@@ -6,7 +6,7 @@ models at the end of each way are compared, as those of an exchange are.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from stribeck.diagnosis.loop.path import Dropped, ImprovementPath
@@ -14,7 +14,11 @@ from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.evidence import difference
 from stribeck.diagnosis.trials.imitations import NARROW
-from stribeck.diagnosis.trials.trial import SIMPLEST, TIE, tie_weight
+from stribeck.diagnosis.trials.ranking import finding_of
+from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.trial import SIMPLEST, TIE, tie_weight, try_effect
+from stribeck.models.catalog import simpler_effect
+from stribeck.models.formula_law import effect_name
 
 #: A first effect of at least this weight is not in doubt.
 FIRM = 0.9
@@ -22,34 +26,67 @@ FIRM = 0.9
 OTHERS = 2
 
 
-def other_beginnings(found: Diagnosis) -> list[Finding]:
-    """What the loop may begin with instead, likeliest first; nothing where the first is firm."""
-    if not found.findings or found.findings[0].weight >= FIRM:
-        return []
-    return sorted(found.findings[1:], key=lambda finding: -finding.weight)[:OTHERS]
+def other_beginnings(start: Diagnosis, path: ImprovementPath, seed: int) -> Iterator[Finding]:
+    """What the loop may begin with instead, likeliest first; nothing where the first is firm.
+
+    Where structure remains at the end of `path`, also effects that lower the error, but may not be
+    claimed alone: beside others they may. Of one that contains a simpler effect, that.
+    """
+    doubtful = _is_doubtful(path)
+    firm = not start.findings or start.findings[0].weight >= FIRM
+    likely = [] if firm else sorted(start.findings[1:], key=lambda found: -found.weight)[:OTHERS]
+    yield from likely
+    count = len(likely)
+    tried = {found.effect for found in (*start.findings[:1], *likely)}
+    for name in dict.fromkeys(simpler_effect(effect) or effect for effect in start.passed):
+        if not doubtful or count == OTHERS:
+            return
+        began = None if effect_name(name) in tried else _begun(start, name, seed)
+        if began is not None:
+            yield began
+            count += 1
 
 
-def best_of(ways: Sequence[ImprovementPath]) -> ImprovementPath:
+def _is_doubtful(path: ImprovementPath) -> bool:
+    """Whether structure remains, and what was found first is not firm."""
+    remains = path.last.unexplained.is_structure or path.last.noise_floor.value is None
+    return remains and (not path.steps or path.steps[0].finding.confidence < FIRM)
+
+
+def _begun(start: Diagnosis, effect: str, seed: int) -> Finding | None:
+    """An effect as the first, without a weight of its own; None where it cannot be fitted."""
+    found = screened(start.fit, effect, seed=seed)
+    trial = None if found is None else try_effect(start.fit, found)
+    return None if trial is None else finding_of(start.fit, trial, 0.0, (), start.noise_floor)
+
+
+def best_of(ways: Sequence[ImprovementPath], least: float, seed: int) -> ImprovementPath:
     """The way whose last model predicts best, the first of those that predict alike.
 
-    The effect with which it begins is as certain as the models of the others predict worse.
+    The effect with which another way than the first begins must pass all tests at its end. It is as
+    certain as the models of the others predict worse.
     """
     best = ways[0]
     for way in ways[1:]:
-        if _is_better(way, best):
-            best = way
-    if best is ways[0] or not best.steps:
+        if way.steps and _is_better(way, best) and (began := _judged(way, least, seed)):
+            best = way.with_instead(began)
+    if best is ways[0]:
         return best
-    begun = ways[0].steps[0].finding.effect
-    others = [way for way in ways if not _holds_all(way, best)]
+    others = [way for way in ways if not _ends_alike(way, best)]
     rival = sum(tie_weight(difference(o.current, best.current).statistic) for o in others)
     began = best.steps[0].finding
     first = replace(began, weight=min(NARROW, 1.0 / (1.0 + rival)), indistinguishable_from=())
     best = best.with_instead(first)
-    if best.holding(begun) is not None:
+    if not ways[0].steps or best.holding(ways[0].steps[0].finding.effect) is not None:
         return best
+    begun = ways[0].steps[0].finding.effect
     reason = f"the model found when {first.effect} is added first predicts better without it"
     return replace(best, dropped=(*best.dropped, Dropped(begun, best.start, reason)))
+
+
+def _judged(way: ImprovementPath, least: float, seed: int) -> Finding | None:
+    """The effect with which a way begins, as its last model shows it."""
+    return judged(way.steps[0].finding, way.current, least, seed)
 
 
 def _is_better(way: ImprovementPath, than: ImprovementPath) -> bool:
@@ -60,7 +97,7 @@ def _is_better(way: ImprovementPath, than: ImprovementPath) -> bool:
     return fewer and difference(way.current, than.current).statistic <= SIMPLEST
 
 
-def _holds_all(way: ImprovementPath, other: ImprovementPath) -> bool:
+def _ends_alike(way: ImprovementPath, other: ImprovementPath) -> bool:
     """Whether two ways end with the same effects."""
     return set(way.current.model.effects) == set(other.current.model.effects)
 
