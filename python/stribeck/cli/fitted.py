@@ -41,13 +41,13 @@ def fits_of(
         return fit(model, recording, starts=starts, seed=seed, per_run=own)
 
     for argument in models:
-        say(f"note: {argument} ...")
+        say(f"{'evaluating' if is_model_file(argument) else 'fitting'} {argument}")
         if is_model_file(argument):
             fits.append(stored_model(argument, recording))
         else:
             fits.append(fitted(next(to_fit)))
     for model in to_fit:
-        say(f"note: {model.own[0].text} ...")
+        say(f"fitting {model.own[0].text}")
         fits.append(fitted(model))
     return fits
 

@@ -125,7 +125,7 @@ def _of_data(
     recording = read_recording(data, reading)
     fits: list[Fit] = []
     for name in (*named, *specs):
-        say(f"note: {name} ...")
+        say(f"fitting {name}")
         fits.append(model_fit(name, recording, starts=starts, seed=seed))
     best = min(fits, key=error_of).model if fits else "coulomb"
     improvement = improve(best, recording, starts=starts, seed=seed, progress=say)

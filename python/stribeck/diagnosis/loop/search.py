@@ -96,7 +96,9 @@ class Search:
                 self.progress(f"adding {added}{_error_of(path.current)}")
                 yield path
             findings = [step.finding for step in path.steps]
-            shorter, path = self._shortened(path, findings if ends else findings[:-1])
+            # What the path begins with on trial, without a weight, is judged at its end.
+            proven = [finding for finding in findings[:-1] if finding.weight > 0.0]
+            shorter, path = self._shortened(path, findings if ends else proven)
             if shorter is None and ends:
                 shorter, path = self._exchanged(path)
                 if shorter is None:
