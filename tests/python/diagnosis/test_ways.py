@@ -10,6 +10,7 @@ import stribeck as sb
 from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings, settled
+from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.trials.imitations import NARROW
 from synthetic import joint, motion, record
 
@@ -36,39 +37,67 @@ def way(start: ImprovementPath, *effects: str) -> ImprovementPath:
     return start
 
 
+def begins(start: ImprovementPath, path: ImprovementPath) -> list[str]:
+    """What the loop begins with instead, after it has taken `path`."""
+    return [finding.effect for finding in other_beginnings(start.last, path, 0)]
+
+
 def test_other_beginnings_are_tried_where_the_first_is_in_doubt(start: ImprovementPath) -> None:
     first = start.last.findings[0]
     weights = {"load": 0.2, "gain": 0.4, "position": 0.3}
     others = [replace(first, effect=effect, weight=w) for effect, w in weights.items()]
 
-    def begins(weight: float) -> list[str]:
-        found = replace(start.last, findings=(replace(first, weight=weight), *others))
-        return [finding.effect for finding in other_beginnings(found)]
+    def doubted(weight: float) -> ImprovementPath:
+        findings = (replace(first, weight=weight), *others)
+        return replace(start, last=replace(start.last, findings=findings))
 
-    assert begins(0.5) == ["gain", "position"]
-    assert begins(FIRM) == []
-    assert other_beginnings(replace(start.last, findings=())) == []
+    assert begins(doubted(0.5), start) == ["gain", "position"]
+    assert begins(doubted(FIRM), start) == []
+
+
+def test_what_may_not_be_claimed_alone_begins_where_structure_remains(
+    start: ImprovementPath,
+) -> None:
+    """Of an effect that contains a simpler one, that; two at most."""
+    said = replace(
+        start.last,
+        findings=(),
+        passed=("frictional_lag", "inertia", "spring"),
+        unexplained=Unexplained(0.5, None),
+    )
+    ended = replace(start, last=said)
+    assert begins(ended, ended) == ["stribeck", "inertia"]
+    assert all(found.weight == 0.0 for found in other_beginnings(said, ended, 0))
+    explained = replace(said, unexplained=Unexplained(0.0, None))
+    assert begins(ended, replace(start, last=explained)) == []
+    # A first effect that is firm is not in doubt, whatever remains.
+    assert begins(ended, replace(way(start, "inertia"), last=said)) == ["stribeck", "inertia"]
+    firm = way(start, "inertia")
+    sure = replace(firm.steps[0].finding, weight=1.0)
+    assert begins(ended, replace(firm.with_instead(sure), last=said)) == []
 
 
 def test_the_way_that_predicts_better_is_taken(start: ImprovementPath) -> None:
     greedy, right = way(start, "spring"), way(start, "stribeck", "inertia")
-    best = best_of([greedy, right])
+    best = best_of([greedy, right], 0.01, 0)
     assert [step.finding.effect for step in best.steps] == ["stribeck", "inertia"]
     assert best.steps[0].finding.weight == NARROW
     assert [gone.effect for gone in best.dropped] == ["spring"]
     assert "stribeck" in best.dropped[0].reason
+    # Its beginning must pass all tests at the end.
+    assert best_of([greedy, right], 2.0, 0) is greedy
     # The other way round nothing changes.
-    assert best_of([right, greedy]) is right
+    assert best_of([right, greedy], 0.01, 0) is right
 
 
 def test_of_ways_that_predict_alike_the_one_with_fewer_parameters_is_taken(
     start: ImprovementPath,
 ) -> None:
     wide, small = way(start, "inertia", "frictional_lag"), way(start, "inertia", "stribeck")
-    assert best_of([wide, small]).current is small.current
-    assert best_of([small, wide]) is small
+    assert best_of([wide, small], 0.01, 0).current is small.current
+    assert best_of([small, wide], 0.01, 0) is small
     # What it began with is in the model still, and nothing was dropped.
-    assert best_of([wide, small]).dropped == ()
+    assert best_of([wide, small], 0.01, 0).dropped == ()
 
 
 def test_ties_among_effects_of_one_model_are_settled(start: ImprovementPath) -> None:
