@@ -12,7 +12,8 @@ def _where(before: Identified, after: Identified) -> str:
     m = after.model
     return (
         f"the torque is shifted by {number(m.value('offset'))} {m.load_unit}, the same in both "
-        f"directions"
+        f"directions, as if Coulomb friction were larger by that in one direction and smaller in "
+        f"the other"
     )
 
 
