@@ -231,13 +231,8 @@ def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
 
 
 def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
-    """Whether it is significant and lowers the error enough, or half as much and that in the band.
-
-    The error outside the band of the motion may be noise and vibration for the most part.
-    """
     e = trial.evidence
-    relevant = e.fall >= least or (e.fall >= least / 2 and e.fall_in_band >= least)
-    relevant = relevant and e.fall_in_band > 0
+    relevant = e.fall >= least and e.fall_in_band > 0
     return relevant and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
