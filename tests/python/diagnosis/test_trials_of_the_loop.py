@@ -104,6 +104,7 @@ def test_the_search_returns_to_the_path_before_the_trial(
     kept = list(search.paths(path))[-1]
     assert [step.finding.effect for step in kept.steps] == ["load"] and kept.last.demoted == ()
     monkeypatch.setattr(module, "judged", lambda *_: None)
+    monkeypatch.setattr(module, "other_beginnings", lambda *_: ())
     back = list(search.paths(path))[-1]
     assert back.steps == () and back.last.demoted == doubtful.demoted
     assert told[-1] == "load does not stand beside the others: going back"
