@@ -10,11 +10,10 @@ use pulp::Arch;
 
 use super::BatchError;
 use super::balance::Balance;
-use super::watch::all_finite;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 use crate::dynamics::{Memory, State};
-use crate::graph::Beginning;
+use crate::graph::{Beginning, all_finite};
 use crate::sample::Sample;
 use crate::scalar::{Real, Scalar};
 use crate::table::Channel;

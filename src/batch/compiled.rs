@@ -90,7 +90,8 @@ impl Compiled {
         Self { schedule, width: purpose.wanted.len() }
     }
 
-    /// Writes torque and derivatives, sample by sample. `look` sees each block.
+    /// Writes torque and derivatives, sample by sample. `look` sees each block. Returns whether the
+    /// results, the derivatives if there are any, are finite.
     pub(super) fn run(
         &self,
         values: &[f64],
@@ -98,9 +99,10 @@ impl Compiled {
         channels: Channels<'_>,
         columns: &Columns<'_>,
         out: &mut Outputs<'_>,
-        mut look: impl FnMut(&Range<usize>, &[Numbers<'_>]),
-    ) {
+        mut look: impl FnMut(&Range<usize>),
+    ) -> bool {
         let width = self.width;
+        let mut finite = true;
         self.each_block(
             values,
             rows,
@@ -108,15 +110,20 @@ impl Compiled {
             columns,
             #[inline(always)]
             |block, outputs| {
-                look(&block, outputs);
-                outputs[0].copy_to(&mut out.torque[block.clone()]);
-                let slopes = &mut out.slopes[block.start * width..block.end * width];
-                for (k, slope) in outputs[1..].iter().enumerate() {
+                look(&block);
+                let torque_finite = outputs[0].copy_to(&mut out.torque[block.clone()]);
+                let slopes = &outputs[1..];
+                finite &= slopes
+                    .iter()
+                    .fold(torque_finite || width > 0, |all, numbers| all & numbers.are_finite());
+                let out = &mut out.slopes[block.start * width..block.end * width];
+                for (k, slope) in slopes.iter().enumerate() {
                     // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
-                    slope.add_to_each(0.0, slopes[k..].iter_mut().step_by(width));
+                    slope.add_to_each(0.0, out[k..].iter_mut().step_by(width));
                 }
             },
         );
+        finite
     }
 
     /// Passes torque and derivatives of each block of samples to `sink`, which has the widest vectors

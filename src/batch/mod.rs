@@ -304,20 +304,15 @@ fn in_one_pass(
     check_length(out.torque, rows.count())?;
     check_length(out.slopes, rows.count() * wanted.len())?;
     let compiled = Compiled::of(spec, wanted, &rows, columns);
-    let (mut watch, mut finite) = (Watch::new(spec, columns, &read), true);
-    compiled.run(
+    let mut watch = Watch::new(spec, columns, &read);
+    let finite = compiled.run(
         values,
         &rows,
         columns.channels,
         columns,
         &mut out,
         #[inline(always)]
-        |block, outputs| {
-            watch.look(block);
-            for numbers in &outputs[usize::from(outputs.len() > 1)..] {
-                finite &= numbers.are_finite();
-            }
-        },
+        |block| watch.look(block),
     );
     if !watch.passed() {
         columns.check_values(spec, &read)?;
@@ -335,14 +330,7 @@ fn side_by_side(
     out: Outputs<'_>,
 ) -> Result<(), BatchError> {
     measured(spec, values, columns, wanted, locked, out, |rows, channels, out| {
-        Compiled::of(spec, wanted, rows, columns).run(
-            values,
-            rows,
-            channels,
-            columns,
-            out,
-            |_, _| (),
-        );
+        Compiled::of(spec, wanted, rows, columns).run(values, rows, channels, columns, out, |_| ());
     })
 }
 

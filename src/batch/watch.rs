@@ -5,6 +5,7 @@ use std::vec::Vec;
 
 use super::columns::{Columns, Named};
 use crate::composed::Spec;
+use crate::graph::all_finite;
 
 /// Looks at the columns that a model reads as it reads them.
 pub struct Watch<'a> {
@@ -46,10 +47,4 @@ impl<'a> Watch<'a> {
     pub fn passed(&self) -> bool {
         self.finite && !(self.below && self.above)
     }
-}
-
-/// Whether all numbers are finite. No early exit, so that the loop vectorises.
-#[inline(always)]
-pub fn all_finite(values: &[f64]) -> bool {
-    values.iter().fold(true, |all, x| all & x.is_finite())
 }

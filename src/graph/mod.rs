@@ -22,7 +22,7 @@ mod two_valued;
 
 pub use derivative::derivatives;
 pub use model::model;
-pub use numbers::Numbers;
+pub use numbers::{Numbers, all_finite};
 pub use operation::Operation;
 #[cfg(feature = "python")]
 pub use operation::{Binary, Id, Unary};

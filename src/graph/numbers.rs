@@ -49,22 +49,32 @@ impl Numbers<'_> {
         }
     }
 
-    /// Whether all of them are finite. No early exit, so that the loop vectorises.
+    /// Whether all of them are finite.
     #[inline(always)]
     #[must_use]
     pub fn are_finite(&self) -> bool {
         match self {
             Self::Same(x) => x.is_finite(),
-            Self::Each(rows) => rows.iter().fold(true, |all, x| all & x.is_finite()),
+            Self::Each(rows) => all_finite(rows),
         }
     }
 
-    /// Writes the values.
+    /// Writes the values; whether all of them are finite.
     #[inline(always)]
-    pub fn copy_to(&self, out: &mut [f64]) {
+    pub fn copy_to(&self, out: &mut [f64]) -> bool {
         match self {
-            Self::Same(x) => out.fill(*x),
-            Self::Each(rows) => out.copy_from_slice(rows),
+            Self::Same(x) => {
+                out.fill(*x);
+                x.is_finite()
+            }
+            Self::Each(rows) => {
+                let mut beyond = 0;
+                for (out, &x) in out.iter_mut().zip(*rows) {
+                    *out = x;
+                    beyond |= beyond_range(x);
+                }
+                beyond >> 63 == 0
+            }
         }
     }
 
@@ -76,4 +86,18 @@ impl Numbers<'_> {
             Self::Each(rows) => out.zip(*rows).for_each(|(out, x)| *out = x + number),
         }
     }
+}
+
+/// Whether all numbers are finite. No early exit, so that the loop vectorises.
+#[inline(always)]
+pub fn all_finite(values: &[f64]) -> bool {
+    values.iter().fold(0, |any, &x| any | beyond_range(x)) >> 63 == 0
+}
+
+/// The highest bit is set if `x` is infinite or NaN. Bits of several numbers are joined faster than
+/// results of comparisons.
+#[inline(always)]
+const fn beyond_range(x: f64) -> u64 {
+    const EXPONENT: u64 = f64::INFINITY.to_bits();
+    (x.to_bits() & EXPONENT) + (1 << 52)
 }
