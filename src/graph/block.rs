@@ -201,7 +201,12 @@ fn power<const N: usize>(
         (x, Operand::Same(1.0)) => map(out, x, |x| elementary::powf(x, 1.0)),
         (x, Operand::Same(2.0)) => map(out, x, |x| elementary::powf(x, 2.0)),
         (Operand::Each(x), Operand::Same(p)) if plain(p) => {
-            exponent_each(out, x, |_| p, halves);
+            if exponent_each(out, x, |_| p, halves) {
+                for (out, &fraction) in out.iter_mut().zip(&halves[0].0) {
+                    *out = elementary::usual_power((*out, fraction));
+                }
+                return;
+            }
             for ((out, &x), &fraction) in out.iter_mut().zip(x).zip(&halves[0].0) {
                 *out = elementary::powf_of_exponent(x, (*out, fraction), p);
             }
@@ -221,23 +226,26 @@ fn power<const N: usize>(
 }
 
 /// The powers of two that equal the powers: writes the integer parts and, to the first of `halves`,
-/// the fractions.
+/// the fractions. Whether none is a special case.
 #[inline(always)]
 fn exponent_each<const N: usize>(
     out: &mut [f64; N],
     x: &[f64; N],
     p: impl Fn(usize) -> f64,
     [one, other]: &mut Halves<N>,
-) {
+) -> bool {
     for ((k, &x), (s, low)) in out.iter_mut().zip(x).zip(one.0.iter_mut().zip(&mut other.0)) {
         (*k, (*s, *low)) = elementary::log2_quotient(x);
     }
     for ((out, one), &low) in out.iter_mut().zip(&mut one.0).zip(&other.0) {
         (*out, *one) = elementary::log2_of_quotient(*out, (*one, low));
     }
-    for (row, (out, one)) in out.iter_mut().zip(&mut one.0).enumerate() {
+    let mut usual = true;
+    for (row, ((out, &x), one)) in out.iter_mut().zip(x).zip(&mut one.0).enumerate() {
         (*out, *one) = elementary::exponent_fast((*out, *one), p(row));
+        usual &= elementary::is_usual_power(x, *out);
     }
+    usual
 }
 
 /// Recomputes the results that are NaN: special cases.

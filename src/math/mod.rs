@@ -97,6 +97,10 @@ macro_rules! elementary {
             elementary!(@ "The second half of [`powf_fast`].",
                 powf_of_exponent(x: $float, exponent: ($float, $float), p: $float) -> $float,
                 power::powf_of_exponent(x, exponent, p));
+            elementary!(@ "Whether [`powf_of_exponent`] is [`usual_power`], from the integer.",
+                is_usual_power(x: $float, n: $float) -> bool, power::is_usual_power(x, n));
+            elementary!(@ "[`powf_of_exponent`] where [`is_usual_power`].",
+                usual_power(exponent: ($float, $float)) -> $float, power::usual_power(exponent));
             elementary!(@ "The power for an exponent of 0, 1 or 2, which [`powf_fast`] does not support; else `value`.",
                 power_without_logarithm(value: $float, x: $float, p: $float) -> $float,
                 power::without_logarithm(value, x, p));

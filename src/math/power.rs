@@ -69,12 +69,24 @@ pub fn exponent_fast<F: Format>(logarithm: (F, F), p: F) -> (F, F) {
 #[inline(always)]
 pub fn powf_of_exponent<F: Format>(x: F, (n, fraction): (F, F), p: F) -> F {
     let zero = F::of(0.0);
-    let value = exp2_of_fraction(fraction).times_power_of_two_in_range(n.nearest().1);
+    let value = usual_power((n, fraction));
     let limit = if n < zero { zero } else { F::INFINITY };
     let beyond = if n.abs() >= F::EXP2_RANGE { limit } else { F::NAN };
     let value = if n.abs() < F::EXP2_NORMAL { value } else { beyond };
     let value = if x.is_normal_and_positive() { value } else { F::NAN };
     if (x == zero) & (p > zero) { zero } else { value }
+}
+
+/// Whether the second half of [`powf_fast`] is [`usual_power`]: no special case.
+#[inline(always)]
+pub fn is_usual_power<F: Format>(x: F, n: F) -> bool {
+    (n.abs() < F::EXP2_NORMAL) & x.is_normal_and_positive()
+}
+
+/// `2^(n + f)` where [`is_usual_power`].
+#[inline(always)]
+pub fn usual_power<F: Format>((n, fraction): (F, F)) -> F {
+    exp2_of_fraction(fraction).times_power_of_two_in_range(n.nearest().1)
 }
 
 /// Whether [`powf_fast`] supports this exponent: not 0, 1, 2, NaN or very large.
