@@ -92,9 +92,7 @@ pub fn unary<const N: usize>(
         Unary::Negate => map(out, x, |x| -x),
         Unary::Abs => map(out, x, f64::abs),
         Unary::Sign => map(out, x, Real::sign),
-        Unary::Exp => in_halves(out, x, halves, elementary::exp_reduced, |_, n, r| {
-            elementary::exp_of_reduced(n, r)
-        }),
+        Unary::Exp => exponential(out, x, halves, |x| x),
         Unary::Expm1 => {
             in_halves(out, x, halves, elementary::expm1_reduced, elementary::expm1_of_reduced);
         }
@@ -113,10 +111,38 @@ pub fn unary<const N: usize>(
     }
 }
 
+/// `e^f(x)`. Where no result is at the end of the range of numbers the second half is shorter.
+#[inline(always)]
+pub fn exponential<const N: usize>(
+    out: &mut [f64; N],
+    x: Operand<'_, N>,
+    halves: &mut Halves<N>,
+    f: impl Fn(f64) -> f64,
+) {
+    let Operand::Each(x) = x else { return map(out, x, |x| elementary::exp(f(x))) };
+    let [large, small] = halves;
+    let mut usual = true;
+    let parts = large.0.iter_mut().zip(&mut small.0);
+    for ((n, &x), (large, small)) in out.iter_mut().zip(x).zip(parts) {
+        (*n, (*large, *small)) = elementary::exp_reduced(f(x));
+        usual &= elementary::is_usual_exp(x);
+    }
+    let parts = large.0.iter().zip(&small.0);
+    if usual {
+        for (out, (&large, &small)) in out.iter_mut().zip(parts) {
+            *out = elementary::usual_exp_of_reduced(*out, (large, small));
+        }
+    } else {
+        for (out, (&large, &small)) in out.iter_mut().zip(parts) {
+            *out = elementary::exp_of_reduced(*out, (large, small));
+        }
+    }
+}
+
 /// A function in two loops: a processor looks only so many operations ahead, so that shorter ones
 /// keep more independent operations in flight.
 #[inline(always)]
-pub fn in_halves<const N: usize>(
+fn in_halves<const N: usize>(
     out: &mut [f64; N],
     x: Operand<'_, N>,
     [large, small]: &mut Halves<N>,
@@ -327,4 +353,41 @@ pub fn binary_once(operation: Binary, x: f64, y: f64) -> f64 {
     let mut out = [0.0];
     binary(&mut out, operation, Operand::Same(x), Operand::Same(y), &mut [Buffer([0.0]); 2]);
     out[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bits of `block` and of single numbers, for numbers within the usual range, and with others
+    /// among them.
+    fn same_bits(
+        usual: [f64; 4],
+        others: [f64; 4],
+        block: impl Fn(&mut [f64; 8], Operand<'_, 8>, &mut Halves<8>),
+        single: impl Fn(f64) -> f64,
+    ) {
+        for last in [usual, others] {
+            let x: [f64; 8] = core::array::from_fn(|i| if i < 4 { usual[i] } else { last[i - 4] });
+            let mut out = [0.0; 8];
+            block(&mut out, Operand::Each(&x), &mut [Buffer::ZERO; 2]);
+            assert_eq!(out.map(f64::to_bits), x.map(|x| single(x).to_bits()), "{x:?}");
+        }
+    }
+
+    #[test]
+    fn blocks_with_and_without_special_cases_have_the_bits_of_single_numbers() {
+        same_bits(
+            [0.3, 1.0, 17.0, 1e-200],
+            [0.0, 5e-324, 1e300, f64::INFINITY],
+            |out, x, halves| binary(out, Binary::Power, x, Operand::Same(1.3), halves),
+            |x| elementary::powf(x, 1.3),
+        );
+        same_bits(
+            [-511.0, -0.0, 0.7, 511.0],
+            [-745.0, 709.7, f64::NEG_INFINITY, 1e4],
+            |out, x, halves| unary(out, Unary::Exp, x, halves),
+            elementary::exp,
+        );
+    }
 }

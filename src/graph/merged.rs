@@ -1,8 +1,7 @@
 //! One loop for several operations over a block of samples.
 
-use super::block::{Halves, Operand, any_nan, chain, in_halves, zip};
+use super::block::{Halves, Operand, any_nan, chain, exponential, zip};
 use super::merge::{Step, Steps, Work};
-use crate::math::f64 as elementary;
 
 /// Several operations on each sample.
 #[inline(always)]
@@ -17,10 +16,7 @@ pub fn run<const N: usize>(
         Work::Single(_) => {}
         Work::Steps(all) => steps(out, &all, from),
         Work::AbsoluteQuotient => zip(out, x, y, |x, y| (x / y).abs()),
-        Work::NegativeExponential => {
-            let reduced = |x: f64| elementary::exp_reduced(-x);
-            in_halves(out, x, halves, reduced, |_, n, r| elementary::exp_of_reduced(n, r));
-        }
+        Work::NegativeExponential => exponential(out, x, halves, |x| -x),
         Work::NegativeUnless => {
             let (other, equal) = (y.at(0), -z.at(0));
             zip(out, x, w, |x, differs| if x == other { equal } else { -differs });

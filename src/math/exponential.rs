@@ -47,6 +47,18 @@ pub fn exp_of_reduced<F: Format>(n: F, r: (F, F)) -> F {
     exp_of(r).times_power_of_two(n.nearest().1)
 }
 
+/// Whether the second half of [`exp`] is [`usual_exp_of_reduced`]: the result is normal.
+#[inline(always)]
+pub fn is_usual_exp<F: Format>(x: F) -> bool {
+    x.abs() < F::EXP_USUAL
+}
+
+/// The second half of [`exp`] where [`is_usual_exp`].
+#[inline(always)]
+pub fn usual_exp_of_reduced<F: Format>(n: F, r: (F, F)) -> F {
+    exp_of(r).times_power_of_two_in_range(n.nearest().1)
+}
+
 /// `e^x - 1`.
 #[inline(always)]
 pub fn expm1<F: Format>(x: F) -> F {

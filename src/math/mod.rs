@@ -69,6 +69,11 @@ macro_rules! elementary {
             elementary!(@ "The second half of [`exp`].",
                 exp_of_reduced(n: $float, rest: ($float, $float)) -> $float,
                 exponential::exp_of_reduced(n, rest));
+            elementary!(@ "Whether [`exp_of_reduced`] is [`usual_exp_of_reduced`], from the argument of [`exp`].",
+                is_usual_exp(x: $float) -> bool, exponential::is_usual_exp(x));
+            elementary!(@ "[`exp_of_reduced`] where [`is_usual_exp`].",
+                usual_exp_of_reduced(n: $float, rest: ($float, $float)) -> $float,
+                exponential::usual_exp_of_reduced(n, rest));
             elementary!(@ "`e^x - 1`.", expm1(x: $float) -> $float, exponential::expm1(x));
             elementary!(@ "The first half of [`expm1`]: a power of two, and the rest in two parts.",
                 expm1_reduced(x: $float) -> ($float, ($float, $float)),
