@@ -51,7 +51,8 @@ class FlexibleRefit:
     def beside(cls, before: Fit, columns: Array, least: Array | None = None) -> FlexibleRefit:
         """A fit with given columns [m, k], and their least factors; default: any."""
         least = np.full(columns.shape[1], -np.inf) if least is None else least
-        return cls(before, columns, least, *_linear_refit(before, columns, before, least))
+        held_out, residual = _linear_refit(before, columns, before, least)
+        return cls(before, columns, least, _no_worse(held_out, before, before), residual)
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
         """Whether a trial among `tried`, which must bring the fall `least`, no longer passes.
@@ -72,6 +73,7 @@ class FlexibleRefit:
     def beside_columns(self, trial: Trial) -> tuple[float, float]:
         """What a trial adds to the columns: relative fall of the held-out RMSE, and p-value."""
         along, residual_along = _linear_refit(trial.fit, self.columns, self.before, self.least)
+        along = _no_worse(along, trial.fit, self.before)
         level = float(np.mean(self.held_out**2))
         fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
         p_value = added_torque_test(
@@ -82,8 +84,10 @@ class FlexibleRefit:
         return fall, p_value
 
 
-def _no_worse(held_out: Array, plain: Array, block: NDArray[np.int_]) -> Array:
-    """Held-out residuals [m], in each block those with the smaller sum of squares."""
+def _no_worse(held_out: Array, fitted: Fit, before: Fit) -> Array:
+    """Held-out residuals [m], but those of `fitted` in the blocks that it predicts better."""
+    plain = before.weighted(fitted.held_out_residual[fitted.rows])
+    block = fitted.recording.block[fitted.rows]
     worse = np.bincount(block, held_out**2) > np.bincount(block, plain**2)
     return np.where(worse[block], plain, held_out)
 
@@ -121,6 +125,4 @@ def _linear_refit(fitted: Fit, extra: Array, before: Fit, least: Array) -> tuple
         rows = group == b
         held_out[rows] = residual[rows] - columns[rows] @ step
     step = solve_bounded(matrix + ridge, vector, lower, free)
-    plain = before.weighted(fitted.held_out_residual[fitted.rows])
-    held_out = _no_worse(held_out, plain, fitted.recording.block[fitted.rows])
     return held_out, residual - columns @ step
