@@ -98,7 +98,6 @@ EFFECT = Effect(
     generated_constants=_generated_constants,
     flexible_shape=_flexible_shape,
     size_range=(5.0, 1e-2),
-    brief=True,
     design_note=(
         "teeth change flanks only where the load torque changes its sign: choose a payload or an "
         "orientation that balances the joint within its range"

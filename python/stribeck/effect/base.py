@@ -196,9 +196,6 @@ class Effect:
         between which the smallest visible effect is searched, from large effects to small ones.
     forms
         How many forms a fit chooses from by looking at the data; they count as so many tests.
-    brief
-        Whether its torque lasts for moments only, so that most of it is above the band of the
-        motion: evidence in that band is then no condition.
     unresolved
         Why the identified values lie beyond what the recording resolves, as a clause: a time
         constant longer than a move, a distance between two samples; None where they do not.
@@ -230,7 +227,6 @@ class Effect:
     fixed_form: FixedForm | None = None
     size_range: tuple[float, float] | None = None
     forms: Callable[[Recording], int] = _one_form
-    brief: bool = False
     unresolved: Callable[[Identified], str | None] = _nothing
     alike: Callable[[Recording], tuple[str, ...]] = _no_names
     part_of: str | None = None

@@ -47,16 +47,6 @@ def test_chance_of_several_parameters() -> None:
     assert found <= binom.ppf(0.999, TRIALS, 0.05), found
 
 
-def test_what_lasts_for_moments_is_not_judged_in_the_band(tmp_path: Path) -> None:
-    """The flanks of teeth meet within milliseconds; a dependence on load lasts."""
-    load = joint()["load_torque"].to_numpy()
-    hidden = 0.1 * np.abs(load) * np.sign(motion()[2])
-    fitted = sb.fit("coulomb", record(tmp_path, joint(hidden)), starts=1)
-    for effect, brief in (("backlash", True), ("load", False)):
-        found = evidence(fitted, sb.add(fitted, effect, starts=1))
-        assert (found.fall_in_band == found.fall) is brief
-
-
 def test_the_test_is_that_of_batch_means() -> None:
     """Slow noise has as few batches as are allowed, 20; the statistic is F distributed."""
     rng = np.random.default_rng(10)

@@ -16,7 +16,6 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.in_band import held_out_in_band
-from stribeck.effect.base import Effect
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length
@@ -36,8 +35,7 @@ class Evidence:
     everywhere : bool
         Whether the error falls also without the block that gains most: it is no single event.
     fall_in_band : float
-        Relative fall in the band of the motion, where friction acts and vibration does not; at all
-        frequencies for an effect that lasts for moments only.
+        Relative fall in the band of the motion, where friction acts and vibration does not.
     p_value : float
         Probability that noise alone yields an added torque this large, times the number of forms
         tried; it may exceed 1.
@@ -69,7 +67,7 @@ def evidence(before: Fit, after: Fit) -> Evidence:
     return Evidence(
         fall,
         bool(gain.sum() - gain.max() > 0),
-        fall if _is_brief(before, after) else _fall_in_band(before, after),
+        _fall_in_band(before, after),
         added_torque_test(
             added,
             before.weighted(after.residual[rows]),
@@ -84,19 +82,10 @@ def _fall_in_band(before: Fit, after: Fit) -> float:
     return 1.0 - rms(slow_after) / (rms(slow_before) or 1.0)
 
 
-def _is_brief(before: Fit, after: Fit) -> bool:
-    """Whether all that was added lasts for moments only."""
-    added = _added(before, after)
-    return bool(added) and all(effect.brief for effect in added)
-
-
 def _forms(before: Fit, after: Fit) -> int:
     """From how many forms the wider model was chosen by looking at the data, such as periods."""
-    return math.prod(effect.forms(after.recording) for effect in _added(before, after))
-
-
-def _added(before: Fit, after: Fit) -> list[Effect]:
-    return [of_catalog(e) for e in after.model.effects if e not in before.model.effects]
+    added = [e for e in after.model.effects if e not in before.model.effects]
+    return math.prod(of_catalog(effect).forms(after.recording) for effect in added)
 
 
 def added_torque_test(added: Array, residual: Array, parameters: int) -> float:
