@@ -71,9 +71,9 @@ class Needed:
 def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -> Needed:
     """What the effects of some findings bring to a model that has all of them.
 
-    One is idle where the error rises without it by less than half of `least`, in the band of the
-    motion too, by no more than noise explains, or the held-out error by no more than one standard
-    error where it is not significant among all effects.
+    One is idle where the error rises without it by less than half of `least`, by no more than noise
+    explains, or the held-out error by no more than one standard error where it is not significant
+    among all effects.
     """
     rises: dict[str, float] = {}
     certainty: dict[str, float] = {}
@@ -90,9 +90,7 @@ def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -
         lost = difference(without, current)
         certainty[finding.effect] = lost.certainty
         gain[finding.effect] = held_out_square(without, current) / square - 1.0
-        shown = evidence(without, current)
-        chance = shown.p_value
-        rise = max(rise, shown.fall_in_band)
+        chance = evidence(without, current).p_value
         # Among all effects a finding must be significant; there, it needs no further proof.
         doubtful = chance * len(effect_ids()) > SIGNIFICANCE
         if rise < least / 2 or chance > SIGNIFICANCE or (doubtful and lost.statistic <= SIMPLEST):

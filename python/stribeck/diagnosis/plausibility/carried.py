@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.carrying import fewest
-from stribeck.diagnosis.in_band import held_out_in_band
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.recording.moves import moves
 
@@ -55,19 +54,9 @@ def move_of(claim: Claim) -> NDArray[np.intp]:
 
 def squares_of_moves(claim: Claim) -> tuple[Array, Array]:
     """Squared held-out error of each move, without and with the effect."""
-    fits = claim.before, claim.after
-    return _of_moves(claim, *(claim.before.weighted(f.held_out_residual[claim.rows]) for f in fits))
-
-
-def squares_in_band(claim: Claim) -> tuple[Array, Array]:
-    """The same in the band of the motion."""
-    fits = claim.before, claim.after
-    return _of_moves(claim, *(held_out_in_band(fit, claim.before) for fit in fits))
-
-
-def _of_moves(claim: Claim, without: Array, along: Array) -> tuple[Array, Array]:
-    """Sums of squares of each move, of two residuals [m]."""
-    move = move_of(claim)
-    squares = (np.bincount(move, residual**2).astype(np.float64) for residual in (without, along))
-    first, second = squares
-    return first, second
+    move, before = move_of(claim), claim.before
+    without, along = (
+        np.bincount(move, before.weighted(fit.held_out_residual[claim.rows]) ** 2)
+        for fit in (before, claim.after)
+    )
+    return without.astype(np.float64), along.astype(np.float64)

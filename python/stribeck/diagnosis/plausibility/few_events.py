@@ -5,13 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stribeck.diagnosis.carrying import FEWEST_MOVES
-from stribeck.diagnosis.plausibility.carried import (
-    Array,
-    Carried,
-    move_of,
-    squares_in_band,
-    squares_of_moves,
-)
+from stribeck.diagnosis.plausibility.carried import Carried, move_of, squares_of_moves
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
 
@@ -28,20 +22,14 @@ def few_events(claim: Claim) -> str | None:
 def one_event(claim: Claim) -> str | None:
     """Which move alone shows the effect; None where it shows without any of them.
 
-    Left out, the held-out error of the other moves falls less than a finding must bring, and that
-    in the band of the motion too.
+    Left out, the held-out error of the other moves falls less than a finding must bring.
     """
     squares = squares_of_moves(claim)
-    if max(map(_fall_without_best, (squares, squares_in_band(claim)))) >= claim.least_fall:
+    gain = squares[0] - squares[1]
+    best = int(np.argmax(gain))
+    left = [float(square.sum() - square[best]) for square in squares]
+    if left[0] > 0.0 and 1.0 - np.sqrt(left[1] / left[0]) >= claim.least_fall:
         return None
-    best = int(np.argmax(squares[0] - squares[1]))
     first = claim.rows[move_of(claim) == best][0]
     at = float(claim.before.recording.time[first])
     return f"without the move that begins at {number(at)} s it would not be found"
-
-
-def _fall_without_best(squares: tuple[Array, Array]) -> float:
-    """Relative fall of the RMSE of all moves but the one that gains most."""
-    best = int(np.argmax(squares[0] - squares[1]))
-    without, along = (float(square.sum() - square[best]) for square in squares)
-    return 1.0 - float(np.sqrt(along / without)) if without > 0.0 else 0.0

@@ -15,11 +15,10 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.diagnosis.in_band import held_out_in_band
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length
-from stribeck.identify.figures import rms
+from stribeck.identify.figures import bridged, rms, zero_phase
 
 Array = NDArray[np.float64]
 
@@ -63,11 +62,13 @@ def evidence(before: Fit, after: Fit) -> Evidence:
     gain = np.bincount(r.block[rows], square_before - square_after)
     level = float(square_before.mean())
     fall = 1.0 - float(np.sqrt(square_after.mean() / level)) if level > 0 else 0.0
+    slow_before = zero_phase(r, bridged(r, before.held_out_residual))[rows]
+    slow_after = zero_phase(r, bridged(r, after.held_out_residual))[rows]
     added = before.weighted((after.prediction - before.prediction)[rows])
     return Evidence(
         fall,
         bool(gain.sum() - gain.max() > 0),
-        _fall_in_band(before, after),
+        1.0 - rms(slow_after) / (rms(slow_before) or 1.0),
         added_torque_test(
             added,
             before.weighted(after.residual[rows]),
@@ -75,11 +76,6 @@ def evidence(before: Fit, after: Fit) -> Evidence:
         )
         * _forms(before, after),
     )
-
-
-def _fall_in_band(before: Fit, after: Fit) -> float:
-    slow_before, slow_after = (held_out_in_band(fit, before) for fit in (before, after))
-    return 1.0 - rms(slow_after) / (rms(slow_before) or 1.0)
 
 
 def _forms(before: Fit, after: Fit) -> int:

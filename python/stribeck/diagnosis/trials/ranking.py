@@ -63,9 +63,6 @@ def ranked(
     best = good[0]
     statistic = {t.effect: tie_statistic(best, t) for t in good}
     tied = _tied(before, good, statistic, tried, least, seed)
-    # What contains the first adds nothing to it that shows: by definition it is another effect.
-    wider = _part_of(tied[0].effect)
-    tied = [t for t in tied if t.effect != wider]
     ordered = tied + [t for t in good if t not in tied]
     first = refined(ordered[0], before, seed)
     judged = Sifted.of(before, [first], least)
@@ -83,7 +80,6 @@ def ranked(
     weights.update({t.effect: max(weights[t.effect], tie_weight(TIE)) for t in tied})
     claimed = sum(weights[t.effect] for t in tied)
     doubtful = _doubtful_ties(best, sift, tried, least, seed)
-    doubtful.pop(wider, None)
     total = claimed + sum(doubtful.values())
     alike = [t.effect for t in tied]
     named = [*alike, *doubtful]
@@ -213,12 +209,6 @@ def finding_of(
         fit=trial.fit,
         before=before,
     )
-
-
-def _part_of(effect: str) -> str:
-    """The effect that contains another one on any motion; an empty string for none."""
-    known = find(effect)
-    return (known.part_of if known is not None else None) or ""
 
 
 def _may_replace(
