@@ -11,10 +11,8 @@ from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, on_trial
 from stribeck.diagnosis.loop.remainder import REASON, imitations
 from stribeck.diagnosis.loop.superfluous import needed
-from stribeck.diagnosis.loop.ways import best_of, other_beginnings, settled
+from stribeck.diagnosis.loop.ways import best_of, other_beginnings, predicts_better, settled
 from stribeck.diagnosis.result import Diagnosis, Finding
-from stribeck.diagnosis.trials.evidence import difference
-from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
 
@@ -170,7 +168,7 @@ class Search:
         kept = grown.holding(finding.effect)
         stands = None
         holds_all = all(map(grown.holding, found))
-        if kept is not None and (holds_all or _predicts_better(grown.current, path.current)):
+        if kept is not None and (holds_all or predicts_better(grown.current, path.current)):
             stands = judged(kept, grown.current, self.least_fall, self.seed)
         if stands is None:
             self.progress(f"{finding.effect} does not stand beside the others: going back")
@@ -195,11 +193,6 @@ class Search:
             except FitError as error:
                 self.progress(f"{effect} stays: {error}")
         return shorter
-
-
-def _predicts_better(model: Fit, other: Fit) -> bool:
-    """Whether the held-out error of a model is smaller by more than two standard errors."""
-    return difference(other, model).statistic > TIE
 
 
 def _error_of(fitted: Fit) -> str:

@@ -17,6 +17,7 @@ from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import finding_of
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import SIMPLEST, TIE, tie_weight, try_effect
+from stribeck.fitting.result import Fit
 from stribeck.models.catalog import simpler_effect
 from stribeck.models.formula_law import effect_name
 
@@ -68,32 +69,34 @@ def best_of(ways: Sequence[ImprovementPath], least: float, seed: int) -> Improve
     """
     best = ways[0]
     for way in ways[1:]:
-        if way.steps and _is_better(way, best) and (began := _judged(way, least, seed)):
+        if not way.steps or not _is_better(way, best):
+            continue
+        began = judged(way.steps[0].finding, way.current, least, seed)
+        if began is not None:
             best = way.with_instead(began)
     if best is ways[0]:
         return best
     others = [way for way in ways if not _ends_alike(way, best)]
     rival = sum(tie_weight(difference(o.current, best.current).statistic) for o in others)
-    began = best.steps[0].finding
-    first = replace(began, weight=min(NARROW, 1.0 / (1.0 + rival)), indistinguishable_from=())
-    best = best.with_instead(first)
-    if not ways[0].steps or best.holding(ways[0].steps[0].finding.effect) is not None:
-        return best
-    begun = ways[0].steps[0].finding.effect
+    first = best.steps[0].finding
+    weight = min(NARROW, 1.0 / (1.0 + rival))
+    best = best.with_instead(replace(first, weight=weight, indistinguishable_from=()))
+    left = [step.finding.effect for step in ways[0].steps[:1]]
     reason = f"the model found when {first.effect} is added first predicts better without it"
-    return replace(best, dropped=(*best.dropped, Dropped(begun, best.start, reason)))
+    gone = [Dropped(e, best.start, reason) for e in left if best.holding(e) is None]
+    return replace(best, dropped=(*best.dropped, *gone))
 
 
-def _judged(way: ImprovementPath, least: float, seed: int) -> Finding | None:
-    """The effect with which a way begins, as its last model shows it."""
-    return judged(way.steps[0].finding, way.current, least, seed)
+def predicts_better(model: Fit, other: Fit) -> bool:
+    """Whether the held-out error of a model is smaller by more than two standard errors."""
+    return difference(other, model).statistic > TIE
 
 
 def _is_better(way: ImprovementPath, than: ImprovementPath) -> bool:
     """Whether a way ends better: by two standard errors, or by none with fewer parameters."""
-    fewer = len(way.current.model.names) < len(than.current.model.names)
-    if difference(than.current, way.current).statistic > TIE:
+    if predicts_better(way.current, than.current):
         return True
+    fewer = len(way.current.model.names) < len(than.current.model.names)
     return fewer and difference(way.current, than.current).statistic <= SIMPLEST
 
 
