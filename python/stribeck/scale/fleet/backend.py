@@ -11,6 +11,7 @@ from typing import Protocol
 
 from stribeck.base.errors import SpecError, StribeckError, option
 from stribeck.base.pool import ProcessPool, worker_count
+from stribeck.scale.fleet.cluster import ClusterExecutor
 
 #: Seconds between two questions to a scheduler about its number of workers.
 BETWEEN_COUNTS = 2.0
@@ -155,7 +156,7 @@ class DaskCluster:
                 f"no Dask scheduler answers at {address} ({_first_line(error)}): start one with "
                 f"`dask scheduler`, which prints its address"
             ) from None
-        self._executor: Executor = self._client.get_executor(pure=False)
+        self._executor = ClusterExecutor(self._client)
         self._note, self._threads, self._counted = note, 1, -float("inf")
 
     def executor(self) -> Executor:
@@ -184,7 +185,6 @@ class DaskCluster:
         return StribeckError(f"the connection to {self._address} was lost; {CONTINUES}")
 
     def close(self) -> None:
-        self._executor.shutdown(wait=False)
         self._client.close(timeout=2)
 
 

@@ -1,0 +1,47 @@
+"""A Dask client as an executor that keeps results when the workers that hold them end.
+
+`distributed.Client.get_executor` fetches a result, and reads afterwards whether the task has
+failed. If the worker that holds the result ends between the two, it takes the result for an error.
+"""
+
+from __future__ import annotations
+
+from asyncio import CancelledError as CancelledInLoop
+from collections.abc import Callable
+from concurrent.futures import CancelledError, Executor, Future
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+Result = TypeVar("Result")
+
+
+class ClusterExecutor(Executor):
+    """Calls on the workers of a Dask client, which the caller made and will close."""
+
+    def __init__(self, client: Client) -> None:
+        self._client = client
+
+    def submit(self, fn: Callable[..., Result], /, *args: Any, **kwargs: Any) -> Future[Result]:
+        """Return the future of a call; if it is cancelled, the cluster drops the call."""
+        here: Future[Result] = Future()
+        remote = self._client.submit(fn, *args, pure=False, **kwargs)
+        here.add_done_callback(lambda done: remote.cancel() if done.cancelled() else None)
+        remote.add_done_callback(lambda ended: _hand_over(ended.result, here))
+        return here
+
+
+def _hand_over(fetch: Callable[[], Result], here: Future[Result]) -> None:
+    """Fetch the result of a call that has ended; Dask computes it again where it was lost."""
+    try:
+        result = fetch()
+    except (CancelledError, CancelledInLoop):
+        here.cancel()
+        here.set_running_or_notify_cancel()
+    except Exception as error:
+        if here.set_running_or_notify_cancel():
+            here.set_exception(error)
+    else:
+        if here.set_running_or_notify_cancel():
+            here.set_result(result)
