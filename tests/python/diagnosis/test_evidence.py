@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from scipy.stats import binom, f
@@ -15,6 +16,7 @@ from stribeck.diagnosis.trials.evidence import (
     evidence,
     held_out_square,
 )
+from stribeck.diagnosis.trials.trial import Trial, tie_statistic
 from synthetic import ar1, joint, motion, record
 
 TRIALS = 200
@@ -108,3 +110,21 @@ def test_difference_is_a_mean_and_its_error(tmp_path: Path) -> None:
         square = np.sum(fit.held_out_residual[rows] ** 2)
         assert held_out_square(fit, worse) == pytest.approx(square)
     assert difference(better, worse).statistic == 0.0
+
+
+def test_causes_outside_friction_are_compared_at_reversals_too(tmp_path: Path) -> None:
+    """A delay shows most where dry friction changes its sign, which no law is fitted to."""
+    frame = joint()
+    late = np.interp(frame["time"] - 0.02, frame["time"], frame["torque"])
+    delayed = record(tmp_path, frame.with_columns(torque=pl.Series(late)), "late")
+    before = sb.fit("coulomb", delayed)
+    delay, inertia, curve = (
+        Trial(effect, after, evidence(before, after))
+        for effect in ("delay", "inertia", "nonlinear_viscous")
+        for after in [sb.fit(f"coulomb+{effect}", delayed)]
+    )
+    scored = difference(inertia.fit, delay.fit)
+    everywhere = difference(inertia.fit, delay.fit, everywhere=True)
+    assert everywhere.total > scored.total > 0.0
+    assert tie_statistic(delay, inertia) == everywhere.statistic
+    assert tie_statistic(delay, curve) == difference(curve.fit, delay.fit).statistic

@@ -142,8 +142,9 @@ def _tried(
         by = _in_place(finding, current, without, effect, seed)
         if by is None:
             continue
-        worse = difference(current, by.fit).statistic
-        better = difference(by.fit, current).statistic
+        everywhere = not (is_friction(finding.effect) or is_friction(by.effect))
+        worse = difference(current, by.fit, everywhere=everywhere).statistic
+        better = difference(by.fit, current, everywhere=everywhere).statistic
         judged = standing(without, by, (Trial(finding.effect, current, by.evidence),), least)
         if judged.refused:
             continue

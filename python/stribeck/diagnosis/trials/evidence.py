@@ -136,9 +136,10 @@ class Difference:
         return cls(float(sums.sum()), error)
 
 
-def difference(worse: Fit, better: Fit) -> Difference:
-    """Compare two models, nested or not, on held-out samples."""
-    rows = worse.rows
+def difference(worse: Fit, better: Fit, *, everywhere: bool = False) -> Difference:
+    """Compare two models, nested or not, on held-out samples; `everywhere`, also at reversals."""
+    whole = everywhere and worse.loss_weight is None
+    rows = np.flatnonzero(worse.recording.moving) if whole else worse.rows
     change = (
         worse.weighted(worse.held_out_residual[rows]) ** 2
         - worse.weighted(better.held_out_residual[rows]) ** 2

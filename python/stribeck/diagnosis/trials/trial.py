@@ -13,6 +13,7 @@ from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence, h
 from stribeck.diagnosis.trials.screening import STARTS, Screened, extended_model, screened
 from stribeck.diagnosis.visibility.model_space import MOST_ROWS
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
+from stribeck.effect.describe import is_friction
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import FROM_NEARBY, QUICK, THOROUGH
@@ -251,8 +252,13 @@ def falls_on_all_samples(before: Fit, trial: Trial) -> bool:
 
 
 def tie_statistic(best: Trial, other: Trial) -> float:
-    """Standard errors by which `other`'s held-out error exceeds `best`'s."""
-    return difference(other.fit, best.fit).statistic
+    """Standard errors by which `other`'s held-out error exceeds `best`'s.
+
+    Where neither is friction, also at reversals: those are excluded because friction differs there,
+    and a delay, an inertia or a gain acts there as anywhere.
+    """
+    everywhere = not (is_friction(best.effect) or is_friction(other.effect))
+    return difference(other.fit, best.fit, everywhere=everywhere).statistic
 
 
 def tie_weight(statistic: float) -> float:
