@@ -14,6 +14,7 @@ from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.testable import untestable
 from stribeck.fitting.result import Fit
+from stribeck.fitting.rigid_body import own_load
 from stribeck.passivity.certificate import Certificate
 from stribeck.passivity.check import check
 from stribeck.report.account import (
@@ -29,7 +30,7 @@ def comparison_report(comparison: Comparison, path: str | None) -> None:
     if path is None:
         return
     first = comparison.models[0].fit
-    cannot = untestable(comparison.recording, first.load)
+    cannot = untestable(comparison.recording, own_load(first.model, comparison.recording))
     write_account(of_comparison(comparison, cannot.values()), path)
 
 

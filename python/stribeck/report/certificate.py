@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from stribeck.passivity.certificate import MEANING
@@ -19,33 +20,56 @@ UNITS = {"temperature": "degC", "time": "s"}
 REST = 1e-20
 
 
+@dataclass(frozen=True)
+class Part:
+    """A sentence, and what is listed below it: a bound, which may be empty, and what it is of."""
+
+    sentence: str
+    items: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def rows(self) -> list[str]:
+        """The list for a page: what each bound is of, then the bound."""
+        return [f"{of}: {bound}" if bound else of for bound, of in self.items]
+
+
 def certificate_text(certificate: Certificate) -> str:
     """The whole answer."""
-    lines = [_verdict(certificate)]
-    if certificate.counterexample is not None:
-        lines += _motion(certificate.counterexample)
-    unit = certificate.friction.torque_unit
-    shown = [m for m in certificate.margins if m.lower is not None]
-    if shown:
-        lines.append("  Smallest margin of each condition over the whole box, as a proved bound:")
-        lines += [f"    {_bound(m, unit):>12}  {MEANING[m.condition]}" for m in shown]
-    if certificate.passive and certificate.condition in ("storage", "cycle", "elements"):
-        lines.append(paragraph(f"The proof uses this condition: {MEANING[certificate.condition]}."))
-    if certificate.left_out:
-        are = "is" if len(certificate.left_out) == 1 else "are"
-        checked = f"Only the friction {certificate.friction.spec} was checked"
-        lines.append(paragraph(f"{checked}; {listed(certificate.left_out)} {are} not friction."))
+    lines = []
+    for k, part in enumerate(certificate_parts(certificate)):
+        lines.append(paragraph(part.sentence, 2 if k else 0, 2))
+        lines += [f"    {f'{bound:>12}  ' if bound else ''}{of}" for bound, of in part.items]
     return "\n".join(lines)
 
 
-def _verdict(certificate: Certificate) -> str:
+def certificate_parts(certificate: Certificate) -> list[Part]:
+    """The sentences of the answer, each with what is listed below it."""
+    parts = _verdict(certificate)
+    if certificate.counterexample is not None:
+        parts += _motion(certificate.counterexample)
+    unit = certificate.friction.torque_unit
+    shown = [m for m in certificate.margins if m.lower is not None]
+    if shown:
+        bounds = tuple((_bound(m, unit), MEANING[m.condition]) for m in shown)
+        said = "Smallest margin of each condition over the whole box, as a proved bound:"
+        parts.append(Part(said, bounds))
+    if certificate.passive and certificate.condition in ("storage", "cycle", "elements"):
+        parts.append(Part(f"The proof uses this condition: {MEANING[certificate.condition]}."))
+    if certificate.left_out:
+        are = "is" if len(certificate.left_out) == 1 else "are"
+        checked = f"Only the friction {certificate.friction.spec} was checked"
+        parts.append(Part(f"{checked}; {listed(certificate.left_out)} {are} not friction."))
+    return parts
+
+
+def _verdict(certificate: Certificate) -> list[Part]:
     spec, where = certificate.model.spec, _box(certificate)
     if certificate.passive is None:
-        undecided = paragraph(f"Cannot decide whether {spec} is passive for {where}:", 0, 2)
-        return undecided + "\n" + paragraph(f"{certificate.why}.", 2)
+        undecided = f"Cannot decide whether {spec} is passive for {where}:"
+        return [Part(undecided), Part(f"{certificate.why}.")]
     if certificate.passive:
-        return paragraph(f"{spec} is passive for {where}: proved over the whole box.", 0, 2)
-    return paragraph(f"{spec} is not passive for {where}.", 0, 2)
+        return [Part(f"{spec} is passive for {where}: proved over the whole box.")]
+    return [Part(f"{spec} is not passive for {where}.")]
 
 
 def _box(certificate: Certificate) -> str:
@@ -66,7 +90,7 @@ def _unit(certificate: Certificate, channel: str) -> str:
     return units.get(channel, certificate.friction.torque_unit)
 
 
-def _motion(example: Counterexample) -> list[str]:
+def _motion(example: Counterexample) -> list[Part]:
     unit = example.friction.position_unit
     start = f"This {example.kind} generates energy"
     if example.deflection is not None:
@@ -75,9 +99,8 @@ def _motion(example: Counterexample) -> list[str]:
     if example.kind != "operating point":
         returned = "; the bristle returns to where it was"
     return [
-        f"  {start}:",
-        *(f"    {_step(step, unit)}" for step in example.steps),
-        f"  Net work {example.net_work:.3g} J, by the model's exact step{returned}.",
+        Part(f"{start}:", tuple(("", _step(step, unit)) for step in example.steps)),
+        Part(f"Net work {example.net_work:.3g} J, by the model's exact step{returned}."),
     ]
 
 

@@ -30,7 +30,7 @@ VERDICTS = {
     "unexplained": "Unexplained structure remains, but none of the known effects explains it.",
 }
 #: The verdict where effects lower the held-out error, and none may be claimed.
-NO_CLAIM = "What remains is more than noise, but no effect can be claimed on this recording."
+NO_CLAIM = "Effects lower the held-out error, but none of them can be claimed on this recording."
 #: Headings of the lists of a diagnosis.
 VISIBLE = "Not found. Smallest RMS torque that would have been significant 19 times in 20"
 DEMOTED = "Lowers the held-out error, but this recording does not show it well enough"
@@ -102,7 +102,7 @@ def diagnosis_summary(diagnosis: Diagnosis) -> str:
     """What a diagnosis found, in one sentence."""
     spec, unit = diagnosis.fit.model.spec, diagnosis.fit.model.torque_unit
     if not diagnosis.findings:
-        return nothing_found(diagnosis, spec, unexplained=diagnosis.verdict != "none")
+        return nothing_found(diagnosis, spec, unexplained=diagnosis.unexplained.is_structure)
     best = diagnosis.findings[0]
     return (
         f"What the model {spec} lacks most is {hedged(best)}: adding it lowers the held-out error "
@@ -133,6 +133,11 @@ def nothing_found(last: Diagnosis, spec: str, *, unexplained: bool) -> str:
     if last.trend is not None:
         return (
             f"No effect is claimed to be missing from the model {spec}, but {_changes(last.trend)}."
+        )
+    if last.has_doubts and not unexplained:
+        return (
+            f"No effect is claimed to be missing from the model {spec}: what lowers its held-out "
+            f"error need not be the cause."
         )
     if last.has_doubts:
         return (

@@ -79,11 +79,9 @@ def equations(model: Model) -> list[Equation]:
     ]
     rows += [_of_effect(name) for name in model.effects]
     if model.rigid_body:
-        terms = " + ".join(RIGID_BODY[name] for name in model.rigid_body)
+        terms = f"tl = {' + '.join(RIGID_BODY[name] for name in model.rigid_body)}"
         rows.append(
-            Equation(
-                "rigid body", "load, identified with the friction", terms, _set(f"tl = {terms}")
-            )
+            Equation("rigid body", "Load, identified with the friction", terms, _set(terms))
         )
     return rows
 
@@ -97,6 +95,13 @@ def symbols(model: Model) -> list[tuple[Markup, str]]:
         for name, meaning in {**SYMBOLS, **CONSTANTS}.items()
         if name in words - {parameter.symbol for parameter in model.parameters}
     ]
+
+
+def beside(model: Model) -> list[str]:
+    """The sentences that equations need beside them."""
+    changed = bool(model.effects) or any(own.effect for own in model.own)
+    arrow = "An arrow replaces a part of the friction by what follows it." if changed else ""
+    return [said for said in (arrow, absent_sentence(model), constants_sentence(model)) if said]
 
 
 def absent_sentence(model: Model) -> str:

@@ -46,6 +46,8 @@ def with_error(value: float, error: float | None) -> tuple[str, str]:
     --------
     >>> with_error(8.01234, 0.0223), with_error(1234.5, 87.0), with_error(0.25, None)
     (('8.012', '0.022'), ('1234', '87'), ('0.2500', ''))
+    >>> with_error(28595.0, 11071.0), with_error(-0.0004, 0.12)
+    (('29000', '11000'), ('0.00', '0.12'))
     """
     if error is None or not math.isfinite(error):
         return plain(value, PLAIN_DIGITS), ""
@@ -56,7 +58,12 @@ def with_error(value: float, error: float | None) -> tuple[str, str]:
     if min(size, last) < -7 or size > 6:
         digits = min(max(size - last, 0), 9)
         return f"{value:.{digits}e}", f"{error:.1e}"
-    return f"{value:.{max(-last, 0)}f}", f"{error:.{max(-last, 0)}f}"
+    return _rounded(value, last), _rounded(error, last)
+
+
+def _rounded(value: float, last: int) -> str:
+    """`value` with its last digit at this power of ten; zero has no sign."""
+    return f"{round(value, -last) or 0.0:.{max(-last, 0)}f}"
 
 
 def unit_text(unit: str) -> str:

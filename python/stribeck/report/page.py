@@ -12,10 +12,11 @@ from stribeck.base.files import png_bytes
 from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog
 from stribeck.report.account import Account, Step, error_of, of_diagnosis, of_improvement
-from stribeck.report.certificate import certificate_text
+from stribeck.report.certificate import certificate_parts
+from stribeck.report.channels import torque_name
 from stribeck.report.comparison import MARKED, REGIMES_LEGEND, compared, criteria, overview_rows
 from stribeck.report.diagnosis import less_likely_sentence, untestable_rows
-from stribeck.report.equations import absent_sentence, constants_sentence, equations, symbols
+from stribeck.report.equations import beside, equations, symbols
 from stribeck.report.finding_view import how_to_read
 from stribeck.report.fit import ASSUMED, PASSIVITY
 from stribeck.report.interactive.decimate import MOST_DRAWN
@@ -33,6 +34,7 @@ from stribeck.report.numbers import (
 )
 from stribeck.report.page_figures import account_plots, figures_of
 from stribeck.report.parameters import interval_text, parameter_rows
+from stribeck.report.prose import prose, unit
 from stribeck.report.recording import (
     REGIMES,
     file_name,
@@ -89,14 +91,15 @@ def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
         Writes the options in its sentences.
     """
     final = account.final
-    r, unit = final.recording, final.model.torque_unit
+    r, torque_unit = final.recording, final.model.torque_unit
     found = bool(account.steps) and account.steps[0].verb == "found"
     return render(
         "report.html",
         name=file_name(r),
         summary=account.summary,
         figures=figures_of(account_plots(account)),
-        unit=unit,
+        unit=torque_unit,
+        quantity=torque_name(torque_unit),
         steps=[_step(k, step) for k, step in enumerate(account.steps, 1)],
         found=found,
         likely=account.likely,
@@ -106,9 +109,7 @@ def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
         spec=final.model.spec,
         equations=equations(final.model),
         symbols=symbols(final.model),
-        beside=[
-            one for one in (absent_sentence(final.model), constants_sentence(final.model)) if one
-        ],
+        beside=beside(final.model),
         parameters=parameter_table(final),
         errors=_errors_sentence(final),
         held_out=held_out_meaning(r),
@@ -139,6 +140,7 @@ def render(template: str, **said: object) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters.update(prose=prose, unit=unit)
     return environment.get_template(template).render(version=__version__, **said)
 
 
@@ -195,6 +197,7 @@ def comparison_tables(comparison: Comparison) -> dict[str, object]:
     ]
     return {
         "heading": heading,
+        "unit": models[0].fit.model.torque_unit,
         "rows": rows,
         "names": [a.model for a in models],
         "regimes": regimes,
@@ -250,15 +253,7 @@ def _passivity(account: Account) -> list[tuple[str, list[str]]]:
     answer = PASSIVITY[account.final.passive()]
     if account.certificate is None:
         return [(account.passivity or answer, [])]
-    made: list[tuple[str, list[str]]] = []
-    for line in certificate_text(account.certificate).splitlines():
-        if line.startswith("    ") and made:
-            made[-1][1].append(line.strip())
-        elif made and not made[-1][1] and made[-1][0][-1:] not in ".:":
-            # A line that the terminal's width has broken.
-            made[-1] = (f"{made[-1][0]} {line.strip()}", [])
-        else:
-            made.append((line.strip(), []))
+    made = [(part.sentence, part.rows) for part in certificate_parts(account.certificate)]
     cost = account.passivity.removeprefix(answer).strip()
     return [*made, (cost, [])] if cost else made
 

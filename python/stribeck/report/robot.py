@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING
 
 from stribeck.report.diagnosis import doubts
 from stribeck.report.layout import bullets, joined, paragraph, table
-from stribeck.report.numbers import DASH, confidence_text, percent, plain, unit_text, with_error
+from stribeck.report.numbers import (
+    DASH,
+    MINUS,
+    confidence_text,
+    percent,
+    plain,
+    thousands,
+    unit_text,
+    with_error,
+)
 from stribeck.report.robot_payload import drive_gains_text, payload_sentence
 
 if TYPE_CHECKING:
@@ -71,8 +80,8 @@ def robot_fit_text(found: RobotFit) -> str:
     runs = balance.run_names
     from_runs = f"{len(runs)} runs" if len(runs) > 1 else "1 run"
     return joined(
-        f"{balance.base.robot.name}: {len(found.joints)} joints, {balance.rows} samples, "
-        f"{from_runs}; low-pass {balance.motion.cutoff:.3g} Hz on both sides",
+        f"{balance.base.robot.name}: {len(found.joints)} joints, {thousands(balance.rows)} "
+        f"samples, {from_runs}; low-pass {balance.motion.cutoff:.3g} Hz on both sides",
         errors_text(found.joints, found.ordinary, balance.held_out),
         friction_text(found.joints),
         _base_text(found),
@@ -143,7 +152,7 @@ def base_rows(found: RobotFit, most: int | None = None) -> list[list[str]]:
     rows = [["base parameter", "value", "error", "unit"]]
     for row in shown[:most]:
         value, error = with_error(row.value, row.stderr)
-        rows.append([row.combination, value, f"± {error}", row.unit])
+        rows.append([row.combination.replace(" - ", f" {MINUS} "), value, f"± {error}", row.unit])
     return rows
 
 
@@ -205,7 +214,7 @@ def robot_diagnosis_text(found: RobotDiagnosis) -> str:
 
 def lacking_rows(found: RobotDiagnosis) -> list[list[str]]:
     """What each joint lacks; the heading first."""
-    rows = [["joint", "model", "lacks", "RMSE held out", "", "confidence"]]
+    rows = [["joint", "model", "lacks", "held-out RMSE", "unit", "confidence"]]
     for name, joint in found.joints.items():
         first = joint.findings[0] if joint.findings else None
         if first is None:
@@ -256,7 +265,7 @@ def causes_text(found: Sequence[Found]) -> str:
 
 def added_rows(found: RobotImprovement) -> list[list[str]]:
     """The effects added to each joint; the heading first."""
-    rows = [["joint", "added", "RMSE held out", "", "relative"]]
+    rows = [["joint", "added", "held-out RMSE", "unit", "relative"]]
     for name, steps in found.steps.items():
         for step in steps:
             before, after = step.before, step.after

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from stribeck.effect.describe import physically
 from stribeck.report.diagnosis import doubts
-from stribeck.report.numbers import confidence_words, percent, plain, unit_text
+from stribeck.report.numbers import confidence_words, percent, plain, thousands, unit_text
 from stribeck.report.page import render
 from stribeck.report.page_figures import figures_of, robot_plots
 from stribeck.report.parameters import interval_text, parameter_rows
@@ -108,8 +108,8 @@ def _page(found: RobotFit, about: str, sections: Sequence[Section], command: str
         name=balance.base.robot.name,
         about=about,
         summary=(
-            f"{len(found.joints)} joints, {balance.rows} samples, {runs}. Both sides of the torque "
-            f"balance pass a low-pass at {motion.cutoff:.3g} Hz."
+            f"{len(found.joints)} joints, {thousands(balance.rows)} samples, {runs}. Both sides of "
+            f"the torque balance pass a low-pass at {motion.cutoff:.3g} Hz."
         ),
         figures=figures_of(robot_plots(found)),
         sections=sections,

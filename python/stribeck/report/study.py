@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stribeck.report.layout import line_width, paragraph, table
@@ -35,7 +36,8 @@ def heading_sentence(study: Study) -> str:
     if study.frame.height < len(plan.jobs):
         fits += f" of {thousands(len(plan.jobs))} (not complete)"
     return (
-        f"{plan.path}: {len(plan.laws)} law{'s' if len(plan.laws) > 1 else ''}, "
+        f"{Path(plan.path).name or plan.path}: "
+        f"{len(plan.laws)} law{'s' if len(plan.laws) > 1 else ''}, "
         f"{len(study.joints)} joint{'s' if len(study.joints) > 1 else ''}, up to {plan.starts} "
         f"start{'s' if plan.starts > 1 else ''} each, {fits}"
     )
@@ -146,7 +148,7 @@ def note_lines(study: Study) -> list[str]:
                 0,
             )
         )
-    lines.append(f"All fits, tables and figures are in {study.folder}")
+    lines.append(f"All fits, tables and figures are in {study.folder}.")
     return lines
 
 

@@ -22,7 +22,10 @@ def _errors(study: Study, table: Table, speeds: str, low: bool) -> list[list[str
     """The errors of a table by joint; the heading names the speeds and the units."""
     heading, *rows = error_rows(study, table.rows, list(study.joints), low)
     units = [data.torque_unit for data in study.joints.values()]
-    named = [f"{name} [{unit}]" for name, unit in zip(heading[1:], units, strict=True)]
+    of = ["" if joint is None else "joint " for joint in study.joints]
+    named = [
+        f"{word}{name} [{unit}]" for word, name, unit in zip(of, heading[1:], units, strict=True)
+    ]
     return [[f"law, {speeds}", *named], *rows]
 
 

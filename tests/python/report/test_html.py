@@ -11,6 +11,8 @@ import pytest
 import stribeck as sb
 from stribeck.models.catalog import catalog
 from stribeck.report.account import of_comparison
+from stribeck.report.diagnosis import diagnosis_summary
+from stribeck.report.equations import beside, symbols
 from stribeck.report.mathml import mathml
 from stribeck.report.page import account_page, diagnosis_page, improvement_page
 
@@ -104,6 +106,26 @@ def test_the_page_of_a_diagnosis(diagnosis: sb.Diagnosis, diagnosed: str) -> Non
         assert row.effect in diagnosed
     nothing = replace(diagnosis, verdict="none", findings=(), demoted=(), not_claimed=())
     assert "No effect that this recording can show is missing" in diagnosis_page(nothing)
+
+
+def test_no_more_than_noise_is_said_to_be_noise(diagnosis: sb.Diagnosis) -> None:
+    doubted = replace(diagnosis, verdict="unexplained", findings=(), demoted=diagnosis.findings)
+    noise = replace(doubted, unexplained=replace(doubted.unexplained, share=0.0))
+    structure = replace(doubted, unexplained=replace(doubted.unexplained, share=0.9))
+    assert "leaves more than noise" in diagnosis_summary(structure)
+    assert "No effect is claimed to be missing" in diagnosis_summary(noise)
+
+
+def test_bars_are_as_high_as_what_stands_between_them() -> None:
+    assert mathml("|v/a1|")[0].count('stretchy="true"') == 2
+
+
+def test_only_symbols_of_the_equations_are_told(plain: sb.Recording) -> None:
+    law, effect = (sb.fit(spec, plain, starts=1).model for spec in ("coulomb", "coulomb+stribeck"))
+    assert beside(law) == []
+    assert beside(effect)[0].startswith("An arrow")
+    own = replace(law, rigid_body=("inertia",))
+    assert "load torque or force" in [meaning for _, meaning in symbols(own)]
 
 
 def test_a_check_without_a_result_has_a_mark_of_its_own(

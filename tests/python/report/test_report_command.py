@@ -37,6 +37,16 @@ def test_every_command_writes_the_same_kind_of_page(plain_file: Path, tmp_path: 
         assert '<section id="repeat">' in page.read_text()
 
 
+def test_a_load_that_was_identified_is_known(plain_file: Path, tmp_path: Path) -> None:
+    data, page = tmp_path / "free.csv", tmp_path / "page.html"
+    pl.read_csv(plain_file).drop("load_torque").write_csv(data)
+    done = stribeck("fit", data, "--model", "coulomb", "--starts", 2, "--report", page)
+    assert done.returncode == 0, done.stderr
+    text = page.read_text()
+    assert "Load, identified with the friction" in text
+    assert "the load torque is not known<" not in text
+
+
 def test_a_column_with_markup_is_text(plain_file: Path, tmp_path: Path) -> None:
     bad = "<script>alert(1)</script>"
     frame = pl.read_csv(plain_file).rename({"torque": bad})

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from stribeck.identify.estimates import Estimate
 
-#: Intervals longer than this share of a value are cut off, so that the others can be read.
+#: Ends further from a value than this share of it are cut off, so that the others can be read.
 WIDEST = 1.5
 
 

@@ -15,7 +15,7 @@ from stribeck.report.interactive.base import (
     name_places,
     new_plot,
 )
-from stribeck.report.numbers import MINUS, plain
+from stribeck.report.numbers import plain
 from stribeck.scale.study.plan import DYNAMIC, STATIC, THERMAL
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def study_errors(study: Study, joint: str | None, *, low_speed: bool = False) ->
     found = sorted((row for row in found if row[2].rows > 0), key=lambda row: row[2].rms)
     unit = data.torque_unit
     plot = new_plot(
-        f"{torque_name(unit)} error, measured {MINUS} modelled [{unit}]",
+        f"{torque_name(unit)} error [{unit}]",
         "",
         tools="save",
         active=None,

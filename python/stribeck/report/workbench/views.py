@@ -14,6 +14,7 @@ from stribeck.models.catalog import catalog, effect_ids, law_ids
 from stribeck.recording.check import Check
 from stribeck.recording.names import CHANNELS
 from stribeck.recording.options import TABLE, ReadOptions
+from stribeck.report.certificate import certificate_parts
 from stribeck.report.comparison import worst_places
 from stribeck.report.diagnosis import (
     diagnosis_summary,
@@ -24,10 +25,12 @@ from stribeck.report.diagnosis import (
     likely_effects,
     untestable_rows,
 )
+from stribeck.report.finding_view import how_to_read
 from stribeck.report.numbers import change_text, confidence_words, percent, plain, shown, thousands
 from stribeck.report.page import comparison_tables
 from stribeck.report.parameters import parameter_rows
 from stribeck.report.project import branches
+from stribeck.report.prose import prose, unit
 from stribeck.report.recording import scored_sentence, state_of
 from stribeck.report.workbench.controller import PROJECT, Workbench
 
@@ -91,13 +94,15 @@ def templates() -> jinja2.Environment:
     """The templates of the pages, each compiled once."""
     import jinja2
 
-    return jinja2.Environment(
+    environment = jinja2.Environment(
         loader=jinja2.PackageLoader("stribeck", "report/workbench/templates"),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters.update(prose=prose, unit=unit)
+    return environment
 
 
 def _data(bench: Workbench, joint: Joint | None) -> Values:
@@ -283,6 +288,7 @@ def _finding(finding: Finding, likely: bool) -> Values:
         "falls": f"{plain(before)} → {plain(after)} {unit} ({change_text(before, after)})",
         "share": "" if share is None else percent(share),
         "ties": ties,
+        "read": "; ".join(how_to_read(finding.effect)),
     }
 
 
@@ -338,7 +344,7 @@ def _prove(bench: Workbench, joint: Joint | None) -> Values:
     hardest = float(abs(r.acceleration_smooth).max())
     unseen = [] if project.diagnosis is None else [u.effect for u in project.diagnosis.untestable]
     return {
-        "certificate": None if joint.certificate is None else repr(joint.certificate),
+        "certificate": None if joint.certificate is None else certificate_parts(joint.certificate),
         "passive": None if joint.certificate is None else joint.certificate.passive,
         "box": "\n".join(f"{k}={low:.4g}:{high:.4g}" for k, (low, high) in model.box.items()),
         "unit": r.position_unit,

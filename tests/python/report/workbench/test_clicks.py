@@ -79,7 +79,7 @@ def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> No
     press(page, "Find what is missing")
     go(page, "Prove")
     press(page, "Prove passivity")
-    assert "passive" in page.inner_text("pre")
+    assert "passive" in page.inner_text("div.answer")
     press(page, "Plan the motion")
     assert "demo-1.motion.csv" in page.inner_text("p.done")
     go(page, "Export")
