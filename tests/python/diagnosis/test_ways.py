@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -112,3 +113,10 @@ def test_ties_among_effects_of_one_model_are_settled(start: ImprovementPath) -> 
     other = path.with_instead(replace(first, indistinguishable_from=("inertia", "load")))
     assert settled(other, 0.01, seed=0) is other
     assert settled(tied, 2.0, seed=0) is tied
+
+
+def test_a_proxy_does_not_stay_where_the_loop_began_with_it(tmp_path: Path) -> None:
+    """Torque along the sign of the acceleration is no error of inertia, though it is alike."""
+    a = motion()[3]
+    found = sb.improve("coulomb", record(tmp_path, joint(0.4 * np.sign(a))))
+    assert found.steps == () and found.last.verdict == "unexplained"

@@ -15,6 +15,7 @@ from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.imitations import NARROW, standing
+from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.trial import Trial, passes
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
@@ -53,6 +54,6 @@ def judged(finding: Finding, current: Fit, least: float, seed: int) -> Finding |
     claim = Claim(finding.effect, without, current)
     if not passes(trial, len(effect_ids()), least) or impossible(claim) or weak(claim):
         return None
-    if not standing(without, trial, (), least).stand:
+    if not without_proxies(without, [trial]) or not standing(without, trial, (), least).stand:
         return None
     return replace(finding, weight=NARROW)
