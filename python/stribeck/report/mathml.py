@@ -180,7 +180,7 @@ class _Parser:
             inner = self.sum()
             self._expect("|")
             self.bars -= 1
-            return _between_bars(inner)
+            return f"<mrow><mo>|</mo>{inner}<mo>|</mo></mrow>"
         if token in _FUNCTIONS or token == "sum_j":
             return self._applied(token)
         if token and token[0].isdigit():
@@ -199,22 +199,13 @@ class _Parser:
         if name == "cbrt":
             return f"<mroot>{_bare(argument)}<mn>3</mn></mroot>"
         if name == "abs":
-            return _between_bars(_bare(argument))
+            return f"<mrow><mo>|</mo>{_bare(argument)}<mo>|</mo></mrow>"
         gap = "" if argument.startswith("<mrow><mo>(") else '<mspace width="0.17em"/>'
         return f"<mrow><mi>{name}</mi><mo>&#x2061;</mo>{gap}{argument}</mrow>"
 
     def _expect(self, token: str) -> None:
         if self.take() != token:
             raise _Unreadable(token)
-
-
-def _between_bars(inner: str) -> str:
-    """An absolute value; without its form a browser takes a bar for an operator of fixed size."""
-    first, last = (
-        f'<mo form="{form}" stretchy="true" lspace="0" rspace="0">|</mo>'
-        for form in ("prefix", "postfix")
-    )
-    return f"<mrow>{first}{inner}{last}</mrow>"
 
 
 def _dots(parser: _Parser) -> str:

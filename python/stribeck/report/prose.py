@@ -9,12 +9,13 @@ from markupsafe import Markup, escape
 from stribeck.report.numbers import MINUS
 
 SPACE = "\N{NO-BREAK SPACE}"
-#: One part of a unit: ``m``, ``rad/s2``, ``s/rad``.
-_PART = r"(?:%|degC|rad|deg|kg|Hz|mm|ms|[NmsAVWJK])[23]?(?:/(?:rad|deg|kg|[NmsAVK])[23]?)?"
+#: One part of a unit: ``m``, ``rad/s2``, ``s/rad``; the catalog writes T for a torque or a force,
+#: and X for an angle or a length.
+_PART = r"(?:%|degC|rad|deg|kg|Hz|mm|ms|[NmsAVWJKTX])[23]?(?:/(?:rad|deg|kg|[NmsAVKX])[23]?)?"
 _UNIT = rf"{_PART}(?: {_PART})*"
 _AFTER_NUMBER = re.compile(rf"(?<=\d) {_UNIT}(?![\w/])")
 _ALONE = re.compile(_UNIT)
-_POWER = re.compile(r"(?<=[a-z])[23]")
+_POWER = re.compile(r"(?<=[A-Za-z])[23]")
 _NEGATIVE = re.compile(r"(?:(?<=[\s(])|^)-(?=\d)")
 _BETWEEN_NUMBERS = re.compile(r"(?<=\d) → (?=\d)")
 
@@ -44,8 +45,8 @@ def unit(text: str) -> str:
 
     Examples
     --------
-    >>> unit("rad/s2"), unit("a2")
-    ('rad/s²', 'a2')
+    >>> unit("rad/s2"), unit("T s2/X2"), unit("a2")
+    ('rad/s²', 'T s²/X²', 'a2')
     """
     return _powers(text) if _ALONE.fullmatch(text) else text
 

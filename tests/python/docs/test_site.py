@@ -33,6 +33,16 @@ KINDS = (
 )
 
 
+#: Commands of which a part can only be seen by scrolling.
+CUT_OFF = """[...document.querySelectorAll(".language-console code")]
+    .filter(code => code.scrollWidth > code.clientWidth + 1).map(code => code.innerText)"""
+
+
+def cut_off(tab: Any) -> list[str]:
+    """Commands that do not go on in the next line."""
+    return [f"cut off: {command}" for command in tab.evaluate(CUT_OFF)]
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("site")
@@ -56,6 +66,7 @@ def test_no_page_has_a_serious_fault(browser: Any, site: Path) -> None:
     pages["index"] = pages.pop(".")
     assert len(pages) > 40 and set(KINDS) - set(pages) <= {"measured/emps"}
     wrong: dict[str, list[str]] = {}
+    commands = 0
     # One test: the site is built once, in whichever process the test runs.
     for width, scheme, names in ((1280, "light", pages), (390, "dark", pages if KEPT else KINDS)):
         context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
@@ -63,8 +74,9 @@ def test_no_page_has_a_serious_fault(browser: Any, site: Path) -> None:
         tab.set_default_timeout(90_000)
         for name in sorted(set(names) & set(pages)):
             tab.goto(pages[name].as_uri())
-            found = faults(tab) + wider(tab)
+            found = faults(tab) + wider(tab) + cut_off(tab)
             wrong |= {f"{name} at {width}": found} if found else {}
+            commands += tab.locator(".language-console code").count()
             keep(tab, f"docs-{name.replace('/', '-')}-{width}.png")
         context.close()
-    assert wrong == {}
+    assert wrong == {} and commands > 0

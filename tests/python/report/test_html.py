@@ -116,10 +116,6 @@ def test_no_more_than_noise_is_said_to_be_noise(diagnosis: sb.Diagnosis) -> None
     assert "No effect is claimed to be missing" in diagnosis_summary(noise)
 
 
-def test_bars_are_as_high_as_what_stands_between_them() -> None:
-    assert mathml("|v/a1|")[0].count('stretchy="true"') == 2
-
-
 def test_only_symbols_of_the_equations_are_told(plain: sb.Recording) -> None:
     law, effect = (sb.fit(spec, plain, starts=1).model for spec in ("coulomb", "coulomb+stribeck"))
     assert beside(law) == []

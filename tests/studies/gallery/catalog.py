@@ -8,6 +8,7 @@ from stribeck.models.catalog import catalog, effect_ids
 from stribeck.report.equations import CONSTANTS, SYMBOLS, equations
 from stribeck.report.mathml import mathml
 from stribeck.report.numbers import listed, unit_text
+from stribeck.report.prose import unit
 
 INTRODUCTION = """# Effect gallery
 
@@ -64,7 +65,7 @@ def description(effect: str) -> list[str]:
     ]
     for p in row["parameters"]:
         lines.append(
-            f"| `{p['name']}` | {_symbol(p['symbol'])} | {unit_text(p['unit'])} | "
+            f"| `{p['name']}` | {_symbol(p['symbol'])} | {unit(unit_text(p['unit']))} | "
             f"{p['description']} |"
         )
     lines += ["", f"**Needs** {row['needs']}.", *_relations(effect)]

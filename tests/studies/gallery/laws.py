@@ -13,6 +13,7 @@ from stribeck.models.catalog import catalog, effect_ids
 from stribeck.report.equations import SYMBOLS, equations
 from stribeck.report.mathml import mathml
 from stribeck.report.numbers import listed, unit_text
+from stribeck.report.prose import unit
 
 PAGE = Path(__file__).resolve().parents[3] / "docs/law_catalog.md"
 INTRODUCTION = """# Catalog of laws
@@ -53,7 +54,7 @@ def section(law: str, row: Mapping[str, object]) -> list[str]:
     assert isinstance(parameters, list | tuple)
     for p in parameters:
         lines.append(
-            f"| `{p['name']}` | {mathml(p['symbol'])[0]} | {unit_text(p['unit'])} | "
+            f"| `{p['name']}` | {mathml(p['symbol'])[0]} | {unit(unit_text(p['unit']))} | "
             f"{p['description']} |"
         )
     contained = row["captures"]
