@@ -72,6 +72,22 @@ def test_the_page_is_whole(browser: Any, page: Path, width: int, scheme: str) ->
     context.close()
 
 
+def test_printed_figures_fit_the_paper(browser: Any, page: Path) -> None:
+    tab = browser.new_page(viewport={"width": 1280, "height": 900})
+    tab.goto(page.as_uri())
+    tab.wait_for_function(DRAWN, timeout=60_000)
+    tab.emulate_media(media="print")
+    tab.set_viewport_size({"width": 700, "height": 900})
+    tab.wait_for_selector("canvas.printed")
+    pictures = tab.locator("canvas.printed")
+    assert pictures.count() == tab.locator("figure").count() > 8
+    fits = "all => all.every(one => one.clientWidth <= one.closest('figure').clientWidth)"
+    assert pictures.evaluate_all(fits)
+    tab.emulate_media(media="screen")
+    tab.wait_for_function("() => document.querySelector('canvas.printed') === null")
+    tab.close()
+
+
 @pytest.fixture(scope="module")
 def reports(tmp_path_factory: pytest.TempPathFactory, motion: RobotMotion) -> Path:
     """A folder with one page of each other kind."""

@@ -24,4 +24,15 @@ function whenDrawn() {
 }
 addEventListener("load", whenDrawn);
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
-matchMedia("print").addEventListener("change", repaint);
+// Figures are not laid out again for the paper: it gets pictures of them, which fit.
+function takePictures(printed) {
+  for (const picture of document.querySelectorAll("canvas.printed")) picture.remove();
+  if (!printed) return;
+  for (const view of Object.values(Bokeh.index)) {
+    if (!view.repaint) continue;
+    const picture = view.export("auto", true).canvas;
+    picture.className = "printed";
+    view.el.after(picture);
+  }
+}
+matchMedia("print").addEventListener("change", ({ matches }) => { repaint(); takePictures(matches); });
