@@ -141,7 +141,14 @@ def friction_text(joints: Sequence[JointFit]) -> str:
             flag = "at its bound" if e.at_bound else "" if e.identifiable else "not identifiable"
             name = joint.joint if k == 0 else ""
             rows.append(
-                [name, e.name, value, f"± {error}" if error else "", unit_text(e.unit), flag]
+                [
+                    name,
+                    e.name,
+                    value.replace("-", MINUS),
+                    f"± {error}" if error else "",
+                    unit_text(e.unit),
+                    flag,
+                ]
             )
     return table(rows, right=[2])
 
@@ -152,7 +159,8 @@ def base_rows(found: RobotFit, most: int | None = None) -> list[list[str]]:
     rows = [["base parameter", "value", "error", "unit"]]
     for row in shown[:most]:
         value, error = with_error(row.value, row.stderr)
-        rows.append([row.combination.replace(" - ", f" {MINUS} "), value, f"± {error}", row.unit])
+        combination = row.combination.replace(" - ", f" {MINUS} ")
+        rows.append([combination, value.replace("-", MINUS), f"± {error}", row.unit])
     return rows
 
 
