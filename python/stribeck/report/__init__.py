@@ -39,7 +39,7 @@ RENDERERS: dict[str, dict[str, str]] = {
         "notebook": "notebook_tables:robot_fit_view",
     },
     "stribeck.robot.follow:RobotTracking": {
-        "text": "robot:robot_tracking_text",
+        "text": "robot_tracking:robot_tracking_text",
         "notebook": "notebook_tables:robot_tracking_view",
     },
     "stribeck.robot.plan:RobotPlan": {

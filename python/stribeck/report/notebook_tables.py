@@ -15,7 +15,6 @@ from stribeck.report.page import picture_text
 from stribeck.report.page_figures import robot_plots
 from stribeck.report.robot import (
     NO_CAUSES,
-    TRACKED,
     added_rows,
     base_rows,
     bodies_sentence,
@@ -25,9 +24,8 @@ from stribeck.report.robot import (
     lacking_rows,
     plan_rows,
     plan_sentence,
-    tracking_rows,
-    tracking_sentence,
 )
+from stribeck.report.robot_tracking import TRACKED, tracking_rows, tracking_sentence
 
 if TYPE_CHECKING:
     from stribeck.base.shown import Shown
