@@ -235,12 +235,14 @@ class Effect:
     cannot_hide: Callable[[Array], str | None] = _nothing
 
 
-def number(value: float) -> str:
-    """Three significant digits, for sentences.
+def number(value: float, digits: int = 3) -> str:
+    """Three significant digits, for sentences; an exponent only from a million on.
 
     Examples
     --------
-    >>> number(0.012345), number(1234.5)
-    ('0.0123', '1.23e+03')
+    >>> number(0.012345), number(1234.5), number(1.5e7)
+    ('0.0123', '1230', '1.5e+07')
+    >>> number(1234.5, 2)
+    '1200'
     """
-    return f"{value:.3g}"
+    return f"{float(f'{value:.{digits}g}'):g}"

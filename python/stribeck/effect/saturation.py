@@ -32,7 +32,8 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
         return None
     unit = facts.recording.torque_unit
     return Obstacle(
-        f"the largest torque of {top:.3g} {unit} is less than twice the median {usual:.3g} {unit}",
+        f"the largest torque of {number(top)} {unit} is less than twice the median "
+        f"{number(usual)} {unit}",
         "add fast accelerations or heavy payloads, up to the largest torque of the motor",
     )
 

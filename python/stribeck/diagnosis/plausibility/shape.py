@@ -41,8 +41,8 @@ def few_samples(claim: Claim) -> str | None:
     if each >= min(FEWEST * parameters, LARGE * length):
         return None
     return (
-        f"only {number(each)} samples a move carry 90 % of what it gains, of {number(length)}: "
-        f"too few to show how the torque changes there"
+        f"only {number(each, 2)} samples a move carry 90 % of what it gains, of "
+        f"{number(length, 2)}: too few to show how the torque changes there"
     )
 
 

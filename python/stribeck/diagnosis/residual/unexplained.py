@@ -15,6 +15,7 @@ from stribeck.diagnosis.residual.explainable import Explainable
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.regimes import regime_rows
 from stribeck.diagnosis.residual.varying_friction import VaryingFriction, varying_friction
+from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 
@@ -100,15 +101,15 @@ def unexplained(
 
 def _varying(fit: Fit, varying: VaryingFriction) -> str:
     return (
-        f"friction varies by {varying.rms:.2g} {fit.model.torque_unit} (RMS) during the recording, "
-        f"equally in both directions, and no recorded channel explains it"
+        f"friction varies by {number(varying.rms, 2)} {fit.model.torque_unit} (RMS) during the "
+        f"recording, equally in both directions, and no recorded channel explains it"
     )
 
 
 def _repeated(fit: Fit, floor: float) -> str:
     return (
-        f"repeats of the same state differ by only {floor:.2g} {fit.model.torque_unit}, so the "
-        f"error repeats with the motion, but no function of the recorded channels explains it "
+        f"repeats of the same state differ by only {number(floor, 2)} {fit.model.torque_unit}, so "
+        f"the error repeats with the motion, but no function of the recorded channels explains it "
         f"(structural vibration, for example)"
     )
 

@@ -18,6 +18,7 @@ from stribeck.diagnosis.visibility.power import Demand, Noise
 from stribeck.diagnosis.visibility.result import Visibility
 from stribeck.diagnosis.visibility.smallest import VisibleEffect, smallest_visible
 from stribeck.diagnosis.visibility.subspace import sine_to_span
+from stribeck.effect.base import number
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.fitting.rigid_body import own_load
@@ -118,7 +119,7 @@ def _hidden(one: VisibleEffect, space: ModelSpace, unit: str) -> Untestable:
         )
     elif np.isfinite(one.smallest):
         why = (
-            f"it would only be found above {one.smallest:.2g} {unit} RMS, more than all the "
+            f"it would only be found above {number(one.smallest, 2)} {unit} RMS, more than all the "
             f"friction ({why}, or nearly)"
         )
     row = effect_row(one.effect)
