@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from stribeck.report.comparison import worst_places
 from stribeck.report.diagnosis import (
     ALIKE,
-    VISIBLE,
     diagnosis_summary,
     doubts,
     errors_sentence,
@@ -21,6 +20,7 @@ from stribeck.report.diagnosis import (
     left_text,
     likely_effects,
     trend_text,
+    visible_heading,
     visible_rows,
 )
 from stribeck.report.improvement import passivity_sentence, stopped_sentence, summary_sentence
@@ -127,7 +127,7 @@ class Account:
             return []
         found = [
             *doubts(self.diagnosis),
-            (VISIBLE, visible_rows(self.diagnosis.smallest_visible)),
+            (visible_heading(self.diagnosis), visible_rows(self.diagnosis.smallest_visible)),
             (ALIKE, group_rows(self.diagnosis.groups)),
         ]
         return [(heading, rows) for heading, rows in found if rows]

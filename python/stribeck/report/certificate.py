@@ -11,6 +11,7 @@ from stribeck.report.layout import paragraph
 from stribeck.report.numbers import listed
 
 if TYPE_CHECKING:
+    from stribeck.models.model import Model
     from stribeck.passivity.certificate import Certificate, Counterexample, Margin
 
 #: Units of a box's sides other than those of the joint.
@@ -18,6 +19,8 @@ UNITS = {"temperature": "degC", "time": "s"}
 
 #: Smaller torques than this are those of viscous friction next to rest: zero.
 REST = 1e-20
+#: A bound below zero by less than this share of the dry friction is rounded outwards from zero.
+ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -47,10 +50,10 @@ def certificate_parts(certificate: Certificate) -> list[Part]:
     parts = _verdict(certificate)
     if certificate.counterexample is not None:
         parts += _motion(certificate.counterexample)
-    unit = certificate.friction.torque_unit
+    friction = certificate.friction
     shown = [m for m in certificate.margins if m.lower is not None]
     if shown:
-        bounds = tuple((_bound(m, unit), MEANING[m.condition]) for m in shown)
+        bounds = tuple((_bound(m, friction), MEANING[m.condition]) for m in shown)
         said = "Smallest margin of each condition over the whole box, as a proved bound:"
         parts.append(Part(said, bounds))
     if certificate.passive and certificate.condition in ("storage", "cycle", "elements"):
@@ -114,10 +117,18 @@ def _step(step: Mapping[str, float], unit: str) -> str:
     return ", ".join([held, *others])
 
 
-def _bound(margin: Margin, unit: str) -> str:
+def _bound(margin: Margin, friction: Model) -> str:
     """The smallest margin where the condition holds, else by how much it is violated."""
-    lower = margin.lower or 0.0
-    if lower < 0.0:
+    lower, unit = margin.lower or 0.0, friction.torque_unit
+    if lower < -ROUNDING * _dry(friction):
         return f"{lower:.3g} {unit}"
+    if lower < 0.0:
+        return f"0 {unit} within rounding"
     # For viscous friction the smallest margin is that of the slowest motion.
     return f"≥ {0.0 if lower < REST else lower:.3g} {unit}"
+
+
+def _dry(friction: Model) -> float:
+    """Sum of the sizes of all dry friction, in the unit of torque."""
+    rows = zip(friction.parameters, friction.values, strict=True)
+    return sum(abs(float(value)) for row, value in rows if row.role == "dry")

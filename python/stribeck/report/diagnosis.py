@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from stribeck.effect.describe import physically
+from stribeck.report.channels import torque_name
 from stribeck.report.comparison import noise_floor_sentence
 from stribeck.report.layout import bullets, joined, notes_text, paragraph
 from stribeck.report.numbers import confidence_text, confidence_words, hedge, listed, percent, plain
@@ -32,7 +33,6 @@ VERDICTS = {
 #: The verdict where effects lower the held-out error, and none may be claimed.
 NO_CLAIM = "Effects lower the held-out error, but none of them can be claimed on this recording."
 #: Headings of the lists of a diagnosis.
-VISIBLE = "Not found. Smallest RMS torque that would have been significant 19 times in 20"
 DEMOTED = "Lowers the held-out error, but this recording does not show it well enough"
 NOT_CLAIMED = "Lowers the held-out error, but cannot be the cause, or need not be"
 ALIKE = "Indistinguishable from each other on this data"
@@ -60,7 +60,7 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         paragraph(explainable_after(diagnosis), 0),
         paragraph(trend_text(diagnosis.trend), 0),
         paragraph(following, 0),
-        bullets(f"{VISIBLE}:", visible_rows(diagnosis.smallest_visible)),
+        bullets(f"{visible_heading(diagnosis)}:", visible_rows(diagnosis.smallest_visible)),
         bullets(f"{ALIKE}:", group_rows(diagnosis.groups)),
         doubts_text(diagnosis),
         untestable_text(diagnosis.untestable),
@@ -317,6 +317,12 @@ def untestable_text(rows: Iterable[Untestable], indent: int = 0) -> str:
         [f"{names}: {why}. To test: {do}." for names, why, do in untestable_rows(rows)],
         indent,
     )
+
+
+def visible_heading(diagnosis: Diagnosis) -> str:
+    """Heading of the list of the effects that were not found."""
+    effort = torque_name(diagnosis.fit.model.torque_unit)
+    return f"Not found. Smallest RMS {effort} that would have been significant 19 times in 20"
 
 
 def visible_rows(rows: Sequence[SmallestVisible]) -> list[str]:

@@ -150,10 +150,23 @@ def confidence_text(confidence: float) -> str:
 
 
 def change_text(before: float, after: float) -> str:
-    """The relative change of a number in per cent, with its sign."""
+    """The relative change of a number in per cent, with its sign.
+
+    Examples
+    --------
+    >>> change_text(5.0, 5.5), change_text(5.0, 5.001), change_text(5.0, 5.0)
+    ('+10 %', '< +0.1 %', '0 %')
+    >>> change_text(5.0, 4.999) == f"> {MINUS}0.1 %", change_text(5.0, 0.01) == f"< {MINUS}99 %"
+    (True, True)
+    """
     if not before:
         return ""
-    return f"{MINUS if after <= before else '+'}{percent(abs(1.0 - after / before))}"
+    size, fell = percent(abs(1.0 - after / before)), after < before
+    if size[0] in "<>":
+        # An inequality of a fall turns with its sign.
+        way = {"<": ">", ">": "<"}[size[0]] if fell else size[0]
+        return f"{way} {MINUS if fell else '+'}{size[2:]}"
+    return size if after == before else f"{MINUS if fell else '+'}{size}"
 
 
 def thousands(count: int) -> str:

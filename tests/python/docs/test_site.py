@@ -28,6 +28,7 @@ KINDS = (
     "index",
     "measured/emps",
     "people/firmware_engineer",
+    "people/researcher",
     "robots",
     "rust",
 )

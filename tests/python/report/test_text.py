@@ -17,6 +17,8 @@ from stribeck.report import (
 from stribeck.report import (
     improvement as improving,
 )
+from stribeck.report.certificate import certificate_text
+from stribeck.report.diagnosis import visible_heading
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
 
 
@@ -143,3 +145,19 @@ def test_numbers_as_people_read_them() -> None:
     ]
     assert listed(["a", "b", "c"]) == "a, b and c"
     assert confidence_words(0.3) == "possible (confidence 0.30)"
+
+
+def test_a_bound_that_is_rounding_is_said_to_be() -> None:
+    friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    found = sb.check(friction, {"velocity": (-2.0, 2.0)})
+    margin = replace(found.margins[0], lower=-6.04e-14)
+    assert "0 N m within rounding" in certificate_text(replace(found, margins=(margin,)))
+    violated = replace(margin, lower=-6.04e-9)
+    assert "-6.04e-09 N m" in certificate_text(replace(found, margins=(violated,)))
+
+
+def test_what_was_not_found_on_a_prismatic_joint_is_a_force(diagnosis: sb.Diagnosis) -> None:
+    assert "RMS torque" in visible_heading(diagnosis)
+    model = replace(diagnosis.fit.model, torque_unit="N")
+    moved = replace(diagnosis, fit=replace(diagnosis.fit, model=model))
+    assert "RMS force" in visible_heading(moved)
