@@ -236,7 +236,7 @@ class Effect:
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Three significant digits, for sentences; an exponent only from a million on.
+    """`digits` significant digits, for sentences; an exponent only from a million on.
 
     Examples
     --------

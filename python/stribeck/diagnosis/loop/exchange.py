@@ -25,6 +25,7 @@ from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
     TIE,
     Trial,
+    tie_statistic,
     tie_weight,
     try_effect,
 )
@@ -142,10 +143,9 @@ def _tried(
         by = _in_place(finding, current, without, effect, seed)
         if by is None:
             continue
-        everywhere = not (is_friction(finding.effect) or is_friction(by.effect))
-        worse = difference(current, by.fit, everywhere=everywhere).statistic
-        better = difference(by.fit, current, everywhere=everywhere).statistic
-        judged = standing(without, by, (Trial(finding.effect, current, by.evidence),), least)
+        present = Trial(finding.effect, current, by.evidence)
+        worse, better = tie_statistic(by, present), tie_statistic(present, by)
+        judged = standing(without, by, (present,), least)
         if judged.refused:
             continue
         # What causes in the measurement explain as well may not come in by the back door.
