@@ -29,7 +29,7 @@ from stribeck.motion.compensate.tracking import compensate as follow
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.trajectory import Quintic, Trapezoid
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "python" / "methods"))
+sys.path.append(str(Path(__file__).resolve().parents[1] / "python/fitting/methods"))
 import indy
 
 #: degC.

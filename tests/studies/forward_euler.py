@@ -18,8 +18,8 @@ import stribeck as sb
 from numpy.typing import NDArray
 from stribeck.base.files import save_figure
 from stribeck.identify.problem import Problem
-from stribeck.identify.reduced import ReducedProblem
 from stribeck.identify.scaling import bounds, model_for
+from stribeck.identify.space import SearchSpace
 from stribeck.motion.generate.files import write_robot
 from stribeck.motion.generate.ur5e import RobotRecording
 from stribeck.report.style import AFTER, BEFORE, new_figure, style, title
@@ -111,13 +111,14 @@ def lost_shares(law: str, rec: sb.Recording) -> tuple[float, float]:
     """Share of a fit's random starts whose bristle is lost: by Euler, and by the exact step."""
     model = model_for(law, rec)
     lower, upper, start = bounds(model, rec)
-    problem = ReducedProblem(Problem(rec, model, np.flatnonzero(rec.moving)), lower, upper)
+    problem = Problem(rec, model, np.flatnonzero(rec.moving))
+    space = SearchSpace.of(problem, lower, upper)
     random, symbols = np.random.default_rng(0), [p.symbol for p in model.parameters]
     rows = slice(0, 6000)
     velocity = rec.velocity[rows]
     counts = np.zeros(2)
     for _ in range(DRAWS):
-        a = dict(zip(symbols, problem.drawn(start, random), strict=True))
+        a = dict(zip(symbols, space.drawn(start, random), strict=True))
         most = strength(law, a, velocity).max()
         for k, step in enumerate((euler, exact)):
             force = np.abs(step(law, a, velocity, 1.0 / RATE)).max()
@@ -127,25 +128,31 @@ def lost_shares(law: str, rec: sb.Recording) -> tuple[float, float]:
 
 
 def draw(path: str) -> None:
-    """Starts from rest, and how far forces go by speed."""
-    figure = new_figure(9.0, 7.5)
+    """Starts from rest, and how far torques go by speed."""
+    figure = new_figure(9.0, 8.0)
+    rows = figure.subplots(3, 2)
     speeds = np.linspace(0.05, FASTEST, 200)
-    for (left, right), law in zip(figure.subplots(3, 2), TABLE_7, strict=True):
+    for (left, right), law in zip(rows, TABLE_7, strict=True):
         velocity = np.full(25, SHOWN[law])
         time = 1e3 * (np.arange(velocity.size) + 1.0) / RATE
         for step, colour, name in ((euler, BEFORE, "forward Euler"), (exact, AFTER, "exact step")):
-            force = step(law, TABLE_7[law], velocity, 1.0 / RATE)
-            left.plot(time, force, ".-", color=colour, lw=1.0, label=name)
+            torque = step(law, TABLE_7[law], velocity, 1.0 / RATE)
+            left.plot(time, torque, ".-", color=colour, lw=1.0, label=name)
             peaks = [peak(step, law, float(s)) for s in speeds]
-            right.semilogy(speeds, np.minimum(peaks, 1e12), color=colour, lw=1.4, label=name)
+            right.semilogy(speeds, np.minimum(peaks, 1e12), color=colour, lw=1.4)
         most = strength(law, TABLE_7[law], velocity)[0]
         left.set_ylim(-0.5 * most, 3.0 * most)
-        title(left, f"{law} from rest at {SHOWN[law]:.3g} rad/s: force (N m) over time (ms)")
-        title(right, "largest force over that in sliding, by speed (rad/s)")
+        title(left, f"{law}, from rest at {SHOWN[law]:.3g} rad/s")
+        left.set_ylabel("torque [N m]")
+        title(right, f"{law}, by speed")
+        right.set_ylabel("largest / sliding torque")
         right.set_ylim(0.1, 2e12)
         style(left)
         style(right)
-    figure.axes[0].legend(frameon=False, fontsize=9)
+    rows[2, 0].set_xlabel("time [ms]")
+    rows[2, 1].set_xlabel("speed [rad/s]")
+    handles, labels = rows[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper right", ncols=2, frameon=False, fontsize=9)
     save_figure(figure, path)
 
 

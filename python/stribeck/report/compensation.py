@@ -6,8 +6,17 @@ from typing import TYPE_CHECKING
 
 from stribeck.report.channels import torque_name
 from stribeck.report.layout import joined, paragraph, table
-from stribeck.report.numbers import DASH, MINUS, listed
-from stribeck.report.style import COLOURS, MEASURED, legend_above, new_figure, strided, style, title
+from stribeck.report.numbers import DASH, listed, minus_signs
+from stribeck.report.style import (
+    COLOURS,
+    GREY,
+    MEASURED,
+    legend_above,
+    new_figure,
+    strided,
+    style,
+    title,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,7 +37,7 @@ def tracking_text(tracking: Tracking) -> str:
         if compensator is not None:
             alpha = f"{compensator.factor:5.3f}"
             source = "measured" if compensator.feedback else "desired"
-            change = f"{-100.0 * tracking.reduction(motion):+.0f} %".replace("-", MINUS)
+            change = minus_signs(f"{-100.0 * tracking.reduction(motion):+.0f} %")
         errors = [f"{motion.rmse:.3g}", f"{motion.largest_error:.3g}"]
         rows.append([motion.name, alpha, source, *errors, change])
     observer = ""
@@ -86,13 +95,14 @@ def tracking_figure(tracking: Tracking) -> Figure:
     figure = new_figure(9.0, 7.0)
     top, middle, bottom = figure.subplots(3, 1, sharex=True, height_ratios=(1, 2, 2))
     top.plot(time, tracking.desired_position[rows], color=MEASURED, lw=1.3)
+    # Wide and below: a compensation that equals the friction covers it.
+    friction = tracking.motions[-1].friction_torque[rows]
+    bottom.plot(time, friction, color=GREY, lw=3.0, label="friction")
     for k, motion in enumerate(tracking.motions):
         colour = COLOURS[k % len(COLOURS)]
         middle.plot(time, motion.error[rows], color=colour, lw=1.1, label=motion.name)
         if motion.compensator is not None:
             bottom.plot(time, motion.compensation[rows], color=colour, lw=1.1, label=motion.name)
-    friction = tracking.motions[-1].friction_torque[rows]
-    bottom.plot(time, friction, color=MEASURED, lw=0.8, label="friction")
     title(top, f"Desired position [{position_unit}]")
     title(middle, f"Tracking error [{position_unit}]")
     title(bottom, f"Friction and compensation, {torque_name(torque_unit)} [{torque_unit}]")

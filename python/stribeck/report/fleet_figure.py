@@ -118,6 +118,7 @@ def _draw_effects(axes: Axes, effects: Effects) -> None:
             )
     axes.set_xticks(range(len(columns)), columns, rotation=30, ha="right", fontsize=9)
     axes.set_yticks(range(len(rows)), [row or "unnamed" for row in rows], fontsize=9)
+    axes.set_xlabel("effect")
     axes.tick_params(length=0)
     for side in axes.spines.values():
         side.set_color(AFTER)

@@ -115,6 +115,9 @@ def validation_figure(validation: Validation) -> Figure:
     title(top, f"{validation.model.spec}: position [{position_unit}]")
     middle.plot(time, (validation.simulated - validation.measured)[rows], color=AFTER, lw=1.0)
     title(middle, f"Position error, simulated minus measured [{position_unit}]")
+    top.sharex(middle)
+    top.tick_params(labelbottom=False)
+    middle.set_xlabel("time [s]")
     if validation.closed_loop:
         bottom.plot(time, validation.measured_torque[rows], color=MEASURED, lw=1.6)
         bottom.plot(time, validation.torque[rows], color=BEFORE, lw=0.8)
