@@ -58,6 +58,8 @@ def lines() -> list[Line]:
         for kind, block in re.findall(r"^```(console|text)\n(.*?)^```", text, re.M | re.S):
             prompted = "$ " in block
             for line in block.splitlines():
+                if line.startswith("#"):
+                    continue
                 if line.startswith("$ ") or (kind == "console" and not prompted and line):
                     name = path.relative_to(ROOT).as_posix()
                     found.append(Line(name, line.removeprefix("$ ")))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 
@@ -10,6 +11,9 @@ from stribeck.cli.main import cli
 
 #: An option of at least so many commands, with the same words, is described once.
 SHARED = 8
+#: What Markdown reads as more than a letter, outside of code.
+_MARK = re.compile(r"[\\|\[\]*_<>](?=(?:[^`]*`[^`]*`)*[^`]*$)")
+_OPTION = re.compile(r"(?<![\w`-])--[a-z][\w-]*(?=(?:[^`]*`[^`]*`)*[^`]*$)")
 
 HEAD = """# Commands
 
@@ -62,7 +66,7 @@ def section(name: str, command: click.Command, common: set[tuple[str, str]]) -> 
 def paragraphs(text: str) -> str:
     """The help of a command; its lines are joined, since Markdown breaks them anew."""
     plain = text.replace("\b\n", "").strip()
-    return "\n\n".join(" ".join(part.split()) for part in plain.split("\n\n"))
+    return "\n\n".join(options(" ".join(part.split())) for part in plain.split("\n\n"))
 
 
 def option_rows(command: click.Command) -> list[tuple[str, str]]:
@@ -85,13 +89,15 @@ def table(rows: list[tuple[str, str]]) -> str:
     """Options as a table of Markdown."""
     lines = ["| option | effect |", "|---|---|"]
     for written, said in rows:
-        cells = (written.replace("|", "\\|"), escaped(said))
-        lines.append(f"| {cells[0]} | {cells[1]} |")
+        lines.append(f"| {written} | {escaped(said)} |")
     return "\n".join(lines)
 
 
 def escaped(text: str) -> str:
-    """Text of a cell; brackets are no links, and stars no emphasis."""
-    for mark in "\\|[]*_<>":
-        text = text.replace(mark, f"\\{mark}")
-    return text
+    """Text of a cell; brackets are no links, stars no emphasis, and options are code."""
+    return _MARK.sub(lambda mark: f"&#{ord(mark[0])};", options(text))
+
+
+def options(text: str) -> str:
+    """Text whose options are set as code."""
+    return _OPTION.sub(r"`\g<0>`", text)
