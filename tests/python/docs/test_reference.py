@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -21,6 +22,6 @@ def test_every_option_of_every_command_is_described() -> None:
         for parameter in command.params:
             if isinstance(parameter, click.Option) and not parameter.hidden:
                 assert parameter.opts[-1] in text, (name, parameter.opts)
-    # A heading, a head of a table or a row: no cell is broken over lines.
+    # A heading, a head of a table or a row: no cell is broken over lines, and bars are in code.
     rows = [line for line in text.splitlines() if line.startswith("|")]
-    assert all(line.replace("\\|", "").count("|") == 3 for line in rows)
+    assert all(re.sub("`[^`]*`", "", line).count("|") == 3 for line in rows)
