@@ -178,6 +178,6 @@ def compare_simulators(folder: Path) -> None:
     _, call = medians(servo.ours, servo.one_step, 25)
     print(
         f"  {steps / mine:.3g} steps/s here, {steps / other:.3g} by BAM; here a call of one step "
-        f"takes {1e3 * call:.2g} ms, the others {1e6 * (mine - call) / (steps - 1):.2g} us each; "
+        f"takes {1e3 * call:.2g} ms, the others {1e6 * (mine - call) / (steps - 1):.2g} µs each; "
         f"positions {coarse:.2%} of the motion apart, {fine:.3%} at a step {FINER} times finer"
     )

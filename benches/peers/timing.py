@@ -6,6 +6,8 @@ from collections.abc import Callable
 from statistics import median
 from time import perf_counter
 
+from stribeck.effect.base import number
+
 
 def seconds(work: Callable[[], object]) -> float:
     """Wall-clock seconds of one call."""
@@ -30,5 +32,5 @@ def line(
     """Print the medians and their ratio as a row of the table; the medians, s."""
     mine, other = medians(ours, theirs, repeats)
     ratio = f"{other / mine:.0f}" if other >= 100.0 * mine else f"{other / mine:.2g}"
-    print(f"| {what} | {1e3 * mine:.3g} ms | {peer}: {1e3 * other:.3g} ms | {ratio} x |")
+    print(f"| {what} | {number(1e3 * mine)} ms | {peer}: {number(1e3 * other)} ms | {ratio} x |")
     return mine, other

@@ -155,8 +155,10 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
         source: "Tadese et al. 2021, eqs 8-18, sgn v restored in eq 13, arctangent of eq 16 dropped",
         formula: "s0 z + s1 exp(-|v/vd|) dz/dt + sgn v s2 (1 - exp(-|v/s3|)) + b_i + a_i tl; \
                   dz/dt = v - s0 |v|/Fc z; s2 = s20 + s2T T, s3 = s30 + s3T T; Fc, s2, s3 per \
-                  direction (_plus, _minus); b_i = g1 (1 - exp(-|g2 v|)) + g3, a_i = l1 + l2 v in \
-                  quadrant i = 1..4: v, tl = ++, -+, --, +-; 0 at v = 0 or tl = 0",
+                  direction (_plus, _minus); b_i = g1 (1 - exp(-|g2 v|)) + g3, a_i = l1 + l2 v; \
+                  i = 1 where v > 0 and tl > 0; i = 2 where v < 0 and tl > 0; \
+                  i = 3 where v < 0 and tl < 0; i = 4 where v > 0 and tl < 0; \
+                  b_i = a_i = 0 where v = 0 or tl = 0",
         parameters: Self::TABLE,
         channels: &[Channel::Temperature, Channel::LoadTorque],
         constants: &[],

@@ -57,7 +57,9 @@ impl<S: Real> FrictionLaw<S> for Xiao<S> {
         title: "Xiao et al.",
         source: "Xiao et al. 2019, after the UR5e review 2024/25, section 2.2",
         formula: "s0 z + s1 dz/dt + s2 v + l_i |tl| sgn v; dz/dt = v - s0 |v|/g z; \
-                  g = Fc + (Fs - Fc) exp(-(v/vs)^2); quadrant i = 1..4: v, tl = ++, -+, --, +-",
+                  g = Fc + (Fs - Fc) exp(-(v/vs)^2); i = 1 where v > 0 and tl > 0; \
+                  i = 2 where v < 0 and tl > 0; i = 3 where v < 0 and tl < 0; \
+                  i = 4 where v > 0 and tl < 0",
         parameters: Self::TABLE,
         channels: &[Channel::LoadTorque],
         constants: &[],

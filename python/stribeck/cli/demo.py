@@ -24,7 +24,7 @@ from stribeck.report.comparison import worst_places
 from stribeck.report.diagnosis import indistinguishable_sentence, untestable_text
 from stribeck.report.improvement import improvement_bars, summary_sentence
 from stribeck.report.layout import paragraph, table
-from stribeck.report.numbers import confidence_words, listed, plain
+from stribeck.report.numbers import confidence_words, listed, plain, unit_text, with_error
 from stribeck.report.recording import held_out_meaning
 
 BASE = "coulomb"
@@ -185,18 +185,18 @@ def _added(improvement: Improvement) -> str:
 def _left(last: Diagnosis, truth: Truth, final: Fit) -> str:
     """The true effects and parameters, known because the recording was generated."""
     hidden = truth["hidden"]
-    found = set(final.model.effects) == set(hidden)
+    same = set(final.model.effects) == set(hidden)
     rows = [["parameter", "true", "found", "unit"]]
     for name, p in truth["parameters"].items():
         e = final.estimates.get(name)
         if e is None or p["value"] == 0.0 or not e.identifiable or e.at_bound:
             continue
-        error = f" ± {plain(e.stderr, 2)}" if e.stderr is not None else ""
-        rows.append([name, plain(p["value"]), f"{plain(e.value)}{error}", p["unit"]])
+        found = " ± ".join(filter(None, with_error(e.value, e.stderr)))
+        rows.append([name, plain(p["value"]), found, unit_text(p["unit"])])
     noise = f"{plain(truth['noise_rms'])} {truth['torque_unit']}"
     verdict = (
         f"Effects hidden in the recording: {listed(hidden)}; torque noise {noise}. "
-        f"{'The same effects were found.' if found else 'Other effects were found.'}"
+        f"{'The same effects were found.' if same else 'Other effects were found.'}"
     )
     return paragraph(verdict, 0) + "\n\n" + table(rows)
 
