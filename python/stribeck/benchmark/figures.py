@@ -84,9 +84,10 @@ def calibration_figure(bins: Sequence[Reliability]) -> Figure:
         label="findings, 95 % interval",
     )
     plain = {"facecolor": "white", "edgecolor": "none", "pad": 0.5}
-    beside = {"xytext": (-6, 4), "textcoords": "offset points", "ha": "right", "bbox": plain}
-    for mean, share, r in zip(means, shares, bins, strict=True):
-        axes.annotate(str(r.share.total), (mean, share), fontsize=8, color=MEASURED, **beside)
+    below = {"xytext": (0, -5), "textcoords": "offset points", "ha": "center", "va": "top"}
+    for mean, low, r in zip(means, spans[0], bins, strict=True):
+        count = str(r.share.total)
+        axes.annotate(count, (mean, low), fontsize=8, color=MEASURED, bbox=plain, **below)
     axes.set(
         xlim=(-0.02, 1.02),
         ylim=(-0.02, 1.04),
@@ -97,7 +98,7 @@ def calibration_figure(bins: Sequence[Reliability]) -> Figure:
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    axes.set_title("Confidence and truth (numbers: findings)", loc="left", fontsize=10.5)
+    axes.set_title("Confidence and truth (numbers of findings below the intervals)", loc="left", fontsize=10.5)
     figure.legend(frameon=False, fontsize=9, loc="outside lower center", ncols=2)
     return figure
 
