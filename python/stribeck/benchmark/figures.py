@@ -98,7 +98,9 @@ def calibration_figure(bins: Sequence[Reliability]) -> Figure:
     axes.set_axisbelow(True)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
-    axes.set_title("Confidence and truth (numbers of findings below the intervals)", loc="left", fontsize=10.5)
+    axes.set_title(
+        "Confidence and truth (numbers of findings below the intervals)", loc="left", fontsize=10.5
+    )
     figure.legend(frameon=False, fontsize=9, loc="outside lower center", ncols=2)
     return figure
 
