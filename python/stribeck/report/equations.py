@@ -10,7 +10,7 @@ from markupsafe import Markup
 
 from stribeck.models.catalog import catalog
 from stribeck.report.mathml import mathml
-from stribeck.report.numbers import listed, shown
+from stribeck.report.numbers import listed, plain
 
 if TYPE_CHECKING:
     from stribeck.models.model import Model
@@ -116,7 +116,7 @@ def absent_sentence(model: Model) -> str:
 
 def constants_sentence(model: Model) -> str:
     """The constants in the equations; empty where there are none."""
-    said = [f"{name} = {shown(value, 4)}" for name, value in model.constants.items()]
+    said = [f"{name} = {plain(value, 4)}" for name, value in model.constants.items()]
     return f"Constants, in SI units: {listed(said)}." if said else ""
 
 

@@ -12,7 +12,7 @@ from stribeck.identify.figures import torque_cutoff
 from stribeck.report.channels import clock, load_of, torque_name
 from stribeck.report.exogeneity import exogeneity_text
 from stribeck.report.layout import joined, notes_text, paragraph
-from stribeck.report.numbers import MINUS, change_text, percent, plain
+from stribeck.report.numbers import change_text, minus_signs, percent, plain
 from stribeck.report.parameters import (
     correlation_text,
     effective_text,
@@ -116,12 +116,8 @@ def _criteria_text(fit: Fit) -> str:
     if found is None or fit.starts == 0:
         return ""
 
-    def shown(value: float) -> str:
-        return f"{value:.1f}".replace("-", MINUS)
-
-    return paragraph(
-        f"AIC {shown(found.aic)}, BIC {shown(found.bic)}, for {effective_text(found)}."
-    )
+    aic, bic = (minus_signs(f"{value:.1f}") for value in (found.aic, found.bic))
+    return paragraph(f"AIC {aic}, BIC {bic}, for {effective_text(found)}.")
 
 
 def _errors_legend(fit: Fit) -> str:

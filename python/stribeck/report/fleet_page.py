@@ -22,10 +22,9 @@ from stribeck.report.fleet import (
 from stribeck.report.fleet_figure import with_friction
 from stribeck.report.interactive.fleet_changes import fleet_changes
 from stribeck.report.interactive.fleet_effects import fleet_effects
-from stribeck.report.page import render
+from stribeck.report.page import sections_page
 from stribeck.report.page_figures import figures_of
-from stribeck.report.sections import Section, numbers
-from stribeck.report.versions import versions
+from stribeck.report.sections import Section
 
 if TYPE_CHECKING:
     from bokeh.plotting import figure
@@ -61,16 +60,13 @@ def fleet_page(fleet: Fleet, command: str = "", spell: Callable[[str], str] = st
     if fleet.failures:
         title = f"Without a result ({counted(len(fleet.failures), 'task')})"
         sections.append(Section(title, failure_sentences(fleet.failures), []))
-    return render(
-        "sections.html",
-        name=f"Fleet in the folder {fleet.folder.name}",
-        about="changed joints and unusual effects",
-        summary=heading(fleet),
-        figures=figures_of(fleet_plots(fleet)),
-        sections=[replace(one, sentences=[*map(spell, one.sentences)]) for one in sections],
-        command=command,
-        versions=versions(),
-        numbers=numbers,
+    return sections_page(
+        f"Fleet in the folder {fleet.folder.name}",
+        "changed joints and unusual effects",
+        heading(fleet),
+        figures_of(fleet_plots(fleet)),
+        [replace(one, sentences=[*map(spell, one.sentences)]) for one in sections],
+        command,
     )
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from stribeck.recording.several.paths import run_name
 from stribeck.report.diagnosis import untestable_text
 from stribeck.report.layout import bullets, joined, paragraph, table
-from stribeck.report.numbers import listed, plain, shown, thousands
+from stribeck.report.numbers import listed, plain, thousands
 from stribeck.report.recording import scored_sentence
 from stribeck.report.transmission import transmission_text
 
@@ -121,6 +121,6 @@ def _channels(inspection: Inspection) -> str:
         channels = {**r.columns, **channels}
     rows = [["channel", "from", "unit", "min", "max"]]
     rows += [
-        [name, c.source, c.unit, shown(c.minimum), shown(c.maximum)] for name, c in channels.items()
+        [name, c.source, c.unit, plain(c.minimum), plain(c.maximum)] for name, c in channels.items()
     ]
     return table(rows, {3, 4})

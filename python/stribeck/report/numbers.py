@@ -10,13 +10,31 @@ DASH = "\N{EN DASH}"
 PLAIN_DIGITS = 4
 
 
+def minus_signs(text: str) -> str:
+    """A formatted number as it is read: with minus signs in place of hyphens."""
+    return text.replace("-", MINUS)
+
+
 def plain(value: float, digits: int = 3) -> str:
-    """`value` with significant digits; an exponent only for very small and very large values.
+    r"""`value` with significant digits; an exponent only for very small and very large values.
 
     Examples
     --------
-    >>> plain(0.012345), plain(1234.5), plain(2.5e-7), plain(8.0)
-    ('0.0123', '1234', '2.5e-07', '8.00')
+    >>> plain(0.012345), plain(1234.5), plain(2.5e7), plain(8.0)
+    ('0.0123', '1234', '2.5e+07', '8.00')
+    >>> plain(-1.5) == "\N{MINUS SIGN}1.50"
+    True
+    """
+    return minus_signs(typed(value, digits))
+
+
+def typed(value: float, digits: int = 3) -> str:
+    """`value` as `plain`, with the hyphen that programs read: for fields that take numbers.
+
+    Examples
+    --------
+    >>> typed(-1.5), typed(2.5e-7)
+    ('-1.50', '2.5e-07')
     """
     if not math.isfinite(value):
         return "unknown"
@@ -28,19 +46,8 @@ def plain(value: float, digits: int = 3) -> str:
     return f"{value:.{max(digits - 1 - size, 0)}f}"
 
 
-def shown(value: float, digits: int = 3) -> str:
-    r"""`value` as `plain` with a minus sign, for tables that are read and not typed in.
-
-    Examples
-    --------
-    >>> shown(-1.5) == "\N{MINUS SIGN}1.50"
-    True
-    """
-    return plain(value, digits).replace("-", MINUS)
-
-
 def with_error(value: float, error: float | None) -> tuple[str, str]:
-    """`value` and its standard error, both ending at the error's second digit.
+    r"""`value` and its standard error, both ending at the error's second digit.
 
     Examples
     --------
@@ -48,6 +55,8 @@ def with_error(value: float, error: float | None) -> tuple[str, str]:
     (('8.012', '0.022'), ('1234', '87'), ('0.2500', ''))
     >>> with_error(28595.0, 11071.0), with_error(-0.0004, 0.12)
     (('29000', '11000'), ('0.00', '0.12'))
+    >>> with_error(-3.1724, 0.0223)[0] == "\N{MINUS SIGN}3.172"
+    True
     """
     if error is None or not math.isfinite(error):
         return plain(value, PLAIN_DIGITS), ""
@@ -57,13 +66,13 @@ def with_error(value: float, error: float | None) -> tuple[str, str]:
     size = math.floor(math.log10(abs(value))) if value else last
     if min(size, last) < -7 or size > 6:
         digits = min(max(size - last, 0), 9)
-        return f"{value:.{digits}e}", f"{error:.1e}"
+        return minus_signs(f"{value:.{digits}e}"), minus_signs(f"{error:.1e}")
     return _rounded(value, last), _rounded(error, last)
 
 
 def _rounded(value: float, last: int) -> str:
     """`value` with its last digit at this power of ten; zero has no sign."""
-    return f"{round(value, -last) or 0.0:.{max(-last, 0)}f}"
+    return minus_signs(f"{round(value, -last) or 0.0:.{max(-last, 0)}f}")
 
 
 def unit_text(unit: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypedDict
 
 import numpy as np
@@ -27,12 +27,11 @@ from stribeck.report.numbers import (
     listed,
     percent,
     plain,
-    shown,
     signed,
     thousands,
     unit_text,
 )
-from stribeck.report.page_figures import account_plots, figures_of
+from stribeck.report.page_figures import Figures, account_plots, figures_of
 from stribeck.report.parameters import interval_text, parameter_rows
 from stribeck.report.prose import prose, unit
 from stribeck.report.recording import (
@@ -42,6 +41,7 @@ from stribeck.report.recording import (
     scored_sentence,
     state_of,
 )
+from stribeck.report.sections import Section, numbers
 from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
@@ -144,6 +144,43 @@ def render(template: str, **said: object) -> str:
     return environment.get_template(template).render(version=__version__, **said)
 
 
+def sections_page(
+    name: str,
+    about: str,
+    summary: str,
+    figures: Figures,
+    sections: Sequence[Section],
+    command: str,
+    *,
+    beside: Sequence[str] = (),
+    first: Sequence[Section] = (),
+) -> str:
+    """A page that is made of tables, with its figures above them.
+
+    Parameters
+    ----------
+    about
+        What the title of the window says beside the name.
+    beside
+        Sentences in small letters below the summary.
+    first
+        Sections above the figures.
+    """
+    return render(
+        "sections.html",
+        name=name,
+        about=about,
+        summary=summary,
+        beside=beside,
+        first=first,
+        figures=figures,
+        sections=sections,
+        command=command,
+        versions=versions(),
+        numbers=numbers,
+    )
+
+
 def picture_text(figure: Figure) -> str:
     """A figure as text that a page can hold."""
     return base64.b64encode(png_bytes(figure)).decode("ascii")
@@ -169,8 +206,8 @@ def _channels(r: Recording) -> list[tuple[str, str, str, str, str]]:
             name.replace("_", " "),
             column.source,
             unit_text(column.unit),
-            shown(column.minimum) if np.isfinite(column.minimum) else DASH,
-            shown(column.maximum) if np.isfinite(column.maximum) else DASH,
+            plain(column.minimum) if np.isfinite(column.minimum) else DASH,
+            plain(column.maximum) if np.isfinite(column.maximum) else DASH,
         )
         for name, column in r.columns.items()
     ]

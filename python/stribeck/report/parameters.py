@@ -8,7 +8,16 @@ from typing import TYPE_CHECKING
 
 from stribeck.identify.estimates import poorly_determined
 from stribeck.report.layout import paragraph, table
-from stribeck.report.numbers import MINUS, listed, percent, plain, thousands, unit_text, with_error
+from stribeck.report.numbers import (
+    MINUS,
+    listed,
+    minus_signs,
+    percent,
+    plain,
+    thousands,
+    unit_text,
+    with_error,
+)
 
 if TYPE_CHECKING:
     from stribeck.identify.confounded import Combination
@@ -43,7 +52,6 @@ def parameter_rows(estimates: Iterable[Estimate]) -> list[list[str]]:
     poor = poorly_determined(estimates)
     for e in estimates:
         value, error = with_error(e.value, e.stderr)
-        value = value.replace("-", MINUS)
         known = e.stderr is not None and e.value != 0.0
         relative = percent((e.stderr or 0.0) / abs(e.value)) if known else ""
         error = f"± {error}" if error else ""
@@ -88,7 +96,7 @@ def _unit(of_runs: Mapping[str, Estimate]) -> str:
 def _with_error(e: Estimate) -> str:
     value, error = with_error(e.value, e.stderr)
     flags = _flags(e, poorly_determined([e]))
-    shown = f"{value} ± {error}".removesuffix(" ± ").replace("-", MINUS, 1)
+    shown = f"{value} ± {error}".removesuffix(" ± ")
     return shown + (f" ({flags})" if flags else "")
 
 
@@ -160,9 +168,7 @@ def correlation_text(correlation: ParameterMatrix | None) -> str:
     pairs = [] if correlation is None else correlation.pairs(STRONG)
     if not pairs:
         return ""
-    named = [
-        f"{one} and {other} ({f'{value:.3f}'.replace('-', MINUS)})" for one, other, value in pairs
-    ]
+    named = [f"{one} and {other} ({minus_signs(f'{value:.3f}')})" for one, other, value in pairs]
     return paragraph(
         f"Strongly correlated estimates: {listed(named)}. An error of one is compensated by the "
         f"other."

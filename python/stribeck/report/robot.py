@@ -143,7 +143,7 @@ def friction_text(joints: Sequence[JointFit]) -> str:
                 [
                     name,
                     e.name,
-                    value.replace("-", MINUS),
+                    value,
                     f"± {error}" if error else "",
                     unit_text(e.unit),
                     flag,
@@ -159,7 +159,7 @@ def base_rows(found: RobotFit, most: int | None = None) -> list[list[str]]:
     for row in shown[:most]:
         value, error = with_error(row.value, row.stderr)
         combination = row.combination.replace(" - ", f" {MINUS} ")
-        rows.append([combination, value.replace("-", MINUS), f"± {error}", row.unit])
+        rows.append([combination, value, f"± {error}", row.unit])
     return rows
 
 

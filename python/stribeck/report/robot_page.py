@@ -7,8 +7,16 @@ from typing import TYPE_CHECKING
 
 from stribeck.effect.describe import physically
 from stribeck.report.diagnosis import doubts
-from stribeck.report.numbers import confidence_words, percent, plain, thousands, unit_text
-from stribeck.report.page import render
+from stribeck.report.interactive.base import AXES_SPAN
+from stribeck.report.numbers import (
+    confidence_words,
+    listed,
+    percent,
+    plain,
+    thousands,
+    unit_text,
+)
+from stribeck.report.page import sections_page
 from stribeck.report.page_figures import figures_of, robot_plots
 from stribeck.report.parameters import interval_text, parameter_rows
 from stribeck.report.robot import (
@@ -22,9 +30,14 @@ from stribeck.report.robot import (
     evaluated_rows,
     lacking_rows,
 )
+from stribeck.report.robot_headline import (
+    comparison_headline,
+    diagnosis_headline,
+    fit_headline,
+    improvement_headline,
+)
 from stribeck.report.robot_payload import drive_gains_rows, payload_sentence
-from stribeck.report.sections import Section, numbers
-from stribeck.report.versions import versions
+from stribeck.report.sections import Section
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -46,7 +59,8 @@ def robot_fit_page(found: RobotFit, command: str = "") -> str:
         The command that made it.
     """
     sections = [_errors(found), *_evaluated(found), *_joints(found, {}, {}), _bodies(found)]
-    return _page(found, "rigid bodies and friction of all joints", sections, command)
+    about = "rigid bodies and friction of all joints"
+    return _page(found, about, fit_headline(found), sections, command)
 
 
 def robot_comparison_page(compared: RobotComparison, command: str = "") -> str:
@@ -57,14 +71,35 @@ def robot_comparison_page(compared: RobotComparison, command: str = "") -> str:
         [joint.joint, *(percent(fit.joints[k].relative_residual_held_out) for fit in compared.fits)]
         for k, joint in enumerate(last.joints)
     ]
-    said = ["Held-out residual over torque, both filtered."]
-    sections = [Section("Models side by side", said, [[heading, *rows]])]
+    held_out = last.solved.balance.held_out
+    said = [f"Held-out residual over torque, both filtered; held out by {held_out}."]
+    said += [
+        f"{listed(specs)}: {sentence[:1].lower()}{sentence[1:]}"
+        for sentence, specs in _bodies_of_models(compared).items()
+    ]
+    sections = []
     for spec, found in zip(compared.specs, compared.fits, strict=True):
         tables = [evaluated_rows(found.joints, row) for row in found.evaluated]
         names = [f"{Path(row.path).name}, not fitted." for row in found.evaluated]
-        sections.append(Section(spec, [*names, bodies_sentence(found)], tables))
+        if tables:
+            sections.append(Section(spec, names, tables))
     sections += _joints(last, {}, {})
-    return _page(last, "models of all joints side by side", sections, command)
+    return _page(
+        last,
+        "models of all joints side by side",
+        comparison_headline(compared),
+        sections,
+        command,
+        first=[Section("Models side by side", said, [[heading, *rows]])],
+    )
+
+
+def _bodies_of_models(compared: RobotComparison) -> dict[str, list[str]]:
+    """What is said of the rigid bodies, with the models of which it is said."""
+    said: dict[str, list[str]] = {}
+    for spec, found in zip(compared.specs, compared.fits, strict=True):
+        said.setdefault(bodies_sentence(found), []).append(spec)
+    return said
 
 
 def robot_diagnosis_page(found: RobotDiagnosis, command: str = "") -> str:
@@ -78,7 +113,8 @@ def robot_diagnosis_page(found: RobotDiagnosis, command: str = "") -> str:
         *_joints(found.fit, {}, found.joints),
         _bodies(found.fit),
     ]
-    return _page(found.fit, "what every joint lacks", sections, command)
+    headline = diagnosis_headline(found)
+    return _page(found.fit, "what every joint lacks", headline, sections, command)
 
 
 def robot_improvement_page(found: RobotImprovement, command: str = "") -> str:
@@ -95,27 +131,38 @@ def robot_improvement_page(found: RobotImprovement, command: str = "") -> str:
         *_joints(final, found.steps, found.last),
         _bodies(final),
     ]
-    return _page(final, "what every joint lacks", sections, command)
+    headline = improvement_headline(found)
+    return _page(final, "what every joint lacks", headline, sections, command)
 
 
-def _page(found: RobotFit, about: str, sections: Sequence[Section], command: str) -> str:
+def _page(
+    found: RobotFit,
+    about: str,
+    headline: str,
+    sections: Sequence[Section],
+    command: str,
+    first: Sequence[Section] = (),
+) -> str:
+    """A page whose figures are of `found`."""
     balance = found.solved.balance
     motion = balance.motion
     names = balance.run_names
     runs = f"runs {', '.join(names)}" if len(names) > 1 else "one run"
-    return render(
-        "sections.html",
-        name=balance.base.robot.name,
-        about=about,
-        summary=(
+    specs = list(dict.fromkeys(joint.model.spec for joint in found.joints))
+    of = f"Figures show {specs[0]}. " if len(specs) == 1 else ""
+    return sections_page(
+        balance.base.robot.name,
+        about,
+        headline,
+        figures_of(robot_plots(found)),
+        sections,
+        command,
+        beside=[
             f"{len(found.joints)} joints, {thousands(balance.rows)} samples, {runs}. Both sides of "
-            f"the torque balance pass a low-pass at {motion.cutoff:.3g} Hz."
-        ),
-        figures=figures_of(robot_plots(found)),
-        sections=sections,
-        command=command,
-        versions=versions(),
-        numbers=numbers,
+            f"the torque balance pass a low-pass at {motion.cutoff:.3g} Hz.",
+            f"{of}{AXES_SPAN}",
+        ],
+        first=first,
     )
 
 
@@ -191,7 +238,16 @@ def _verdict(last: Diagnosis) -> list[str]:
 
 def _parameters(joint: JointFit) -> list[list[str]]:
     estimates = list(joint.estimates.values())
-    heading = ["parameter", "symbol", "value", "error", "95 % interval", "unit", "relative", "note"]
+    heading = [
+        "parameter",
+        "symbol",
+        "value",
+        "standard error",
+        "95 % interval",
+        "unit",
+        "relative",
+        "note",
+    ]
     rows = zip(parameter_rows(estimates), estimates, strict=True)
     return [heading, *([*row[:4], interval_text(e), *row[4:]] for row, e in rows)]
 

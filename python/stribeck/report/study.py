@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stribeck.report.layout import line_width, paragraph, table
-from stribeck.report.numbers import MINUS, listed, plain, thousands
+from stribeck.report.numbers import MINUS, listed, minus_signs, plain, thousands
 
 if TYPE_CHECKING:
     from stribeck.fitting.energy import Energy
@@ -54,7 +54,7 @@ def _signed(value: float, digits: int) -> str:
     text = f"{value:.{digits}f}"
     if float(text) == 0.0:
         text = text.removeprefix("-")
-    return text.replace("-", MINUS)
+    return minus_signs(text)
 
 
 def _error_tables(study: Study, each: Table) -> list[str]:

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 from stribeck.report.interactive.study_errors import study_errors
 from stribeck.report.numbers import MINUS, plain
-from stribeck.report.page import render
+from stribeck.report.page import sections_page
 from stribeck.report.page_figures import figures_of
-from stribeck.report.sections import Section, numbers
+from stribeck.report.sections import Section
 from stribeck.report.study import error_rows, heading_sentence, note_lines
-from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
     from bokeh.plotting import figure
@@ -50,14 +49,11 @@ def study_page(study: Study, command: str = "") -> str:
         said = [f"Mean and standard deviation of the error, measured {MINUS} modelled."]
         sections.append(Section(each.group.title, said, tables))
     sections.append(Section("Notes", note_lines(study), []))
-    return render(
-        "sections.html",
-        name=f"Study in the folder {study.folder.name}",
-        about="errors of many laws",
-        summary=heading_sentence(study),
-        figures=figures_of(plots),
-        sections=sections,
-        command=command,
-        versions=versions(),
-        numbers=numbers,
+    return sections_page(
+        f"Study in the folder {study.folder.name}",
+        "errors of many laws",
+        heading_sentence(study),
+        figures_of(plots),
+        sections,
+        command,
     )

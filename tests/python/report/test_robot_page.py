@@ -5,7 +5,11 @@ from __future__ import annotations
 import re
 
 import numpy as np
+from stribeck.report.interactive.base import shown_range
+from stribeck.report.interactive.robot_joint import joint_friction
+from stribeck.report.interactive.robot_samples import robot_samples
 from stribeck.report.page_figures import robot_plots
+from stribeck.report.robot_headline import diagnosis_headline, headline
 from stribeck.report.robot_page import (
     robot_comparison_page,
     robot_diagnosis_page,
@@ -54,6 +58,7 @@ def test_joints_share_samples_and_time(motion: RobotMotion) -> None:
 def test_a_page_of_a_diagnosis(motion: RobotMotion) -> None:
     found = RobotDiagnosis.of(improve_robot(motion, most_steps=0))
     page = robot_diagnosis_page(found, "stribeck robot diagnose")
+    assert '<p class="lead">' in page and "joint" in diagnosis_headline(found).lower()
     assert "What is missing" in page and '<span class="word">diagnose</span>' in page
     for name, joint in found.joints.items():
         assert f"Joint {name}" in page
@@ -65,10 +70,38 @@ def test_a_page_of_models_side_by_side(motion: RobotMotion) -> None:
     compared = compare_robots(motion, ["coulomb", "coulomb+offset"])
     page = robot_comparison_page(compared)
     assert "Models side by side" in page
-    assert page.count("<h2>coulomb") == 2
+    lead = page[page.index('<p class="lead">') :].partition("</p>")[0]
+    assert "joint" in lead and "held-out" in lead
+    # The table stands above the figures, which are of the last model.
+    assert page.index("Models side by side") < page.index("<figcaption>")
+    assert "Figures show coulomb+offset." in page
 
 
 def test_a_page_of_what_is_missing(motion: RobotMotion) -> None:
     page = robot_improvement_page(improve_robot(motion, most_steps=0))
     assert "No effect is added." in page
     assert "What was missing" in page
+
+
+def test_the_headline_is_in_proportion_to_the_confidence() -> None:
+    lacking = [("2", "load", 0.999), ("3", "load", 0.97), ("5", "presliding", 0.4)]
+    assert headline(lacking, {}, []) == (
+        "Joints 2 and 3 lack load (confidence 0.97) and joint 5 perhaps presliding (0.40)."
+    )
+    more = [*lacking, ("1", "ripple", 0.8), ("4", "stribeck", 0.3)]
+    assert headline(more, {}, []).endswith("; 1 more effect is named below.")
+    nothing = {"1": "none", "2": "unexplained"}
+    assert headline([], nothing, ["a payload in run 2"]) == (
+        "No effect is found to be missing from any joint, but structure remains on joint 2; in the "
+        "rigid bodies: a payload in run 2."
+    )
+
+
+def test_one_outlier_does_not_stretch_the_axes(motion: RobotMotion) -> None:
+    samples = robot_samples(fit_robot(motion))
+    before = joint_friction(samples, 0).y_range
+    values = samples.source.data["friction_0"]
+    known = values[np.isfinite(values)]
+    limits = shown_range([np.append(known, 100.0 * known.max())])
+    assert limits is not None
+    assert limits[1] < 2.0 * before.end and limits[0] > 2.0 * before.start

@@ -116,7 +116,7 @@ def test_effects_with_the_same_reason_stand_together() -> None:
     [
         (8.01234, 0.0223, ("8.012", "0.022")),
         (1234.5, 87.0, ("1234", "87")),
-        (1e-9, 2e-10, ("1.00e-09", "2.0e-10")),
+        (1e-9, 2e-10, ("1.00e\N{MINUS SIGN}09", "2.0e\N{MINUS SIGN}10")),
         (0.0, 0.01, ("0.000", "0.010")),
         (3.0, None, ("3.000", "")),
         (3.0, float("nan"), ("3.000", "")),
@@ -133,7 +133,7 @@ def test_numbers_as_people_read_them() -> None:
         "0.123",
         "12.3",
         "1234",
-        "1e-09",
+        "1e\N{MINUS SIGN}09",
     ]
     assert [percent(x) for x in (0.0, 0.5, 0.9999, 1.0, 3.0, 1e-5)] == [
         "0 %",

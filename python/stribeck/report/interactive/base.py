@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
+#: Ends of an axis; None where no value is known.
+Limits = tuple[float, float] | None
 
 #: Readable on a light and on a dark ground: contrast of at least 3 with white and with #15171c.
 MEASURED = "#808488"
@@ -158,11 +160,29 @@ def name_places(plot: figure, names: list[str], *, along: str = "y") -> None:
     axis.major_label_overrides = dict(enumerate(names))
 
 
-def shown_range(values: list[Array]) -> tuple[float, float] | None:
-    """The range of 99.8 % of the values: a single spike must not flatten the rest."""
+def begin_with(plot: figure, *, x: Limits = None, y: Limits = None) -> None:
+    """Begin with axes that span `shown_range` of the data; zooming out shows the rest."""
+    if x is not None:
+        plot.x_range = Range1d(*x)
+    if y is not None:
+        plot.y_range = Range1d(*y)
+
+
+#: What a page says of such axes.
+AXES_SPAN = "Axes leave out spikes; zoom out to see them."
+
+
+def shown_range(values: list[Array]) -> Limits:
+    """The range of 99.8 % of the values, and at most twice that of 98 % of them.
+
+    A single spike must not flatten the rest.
+    """
     finite = np.concatenate([v[np.isfinite(v)] for v in values]) if values else np.empty(0)
     if finite.size == 0:
         return None
-    low, high = np.quantile(finite, [0.001, 0.999])
+    low, first, last, high = np.quantile(finite, [0.001, 0.01, 0.99, 0.999])
+    # In a short recording the outer quantiles follow a single spike.
+    beyond = 0.5 * (last - first)
+    low, high = max(low, first - beyond), min(high, last + beyond)
     room = 0.1 * float(high - low) or 1.0
     return float(low) - room, float(high) + room

@@ -14,6 +14,7 @@ from stribeck.report.channels import clock, torque_name
 from stribeck.report.interactive.base import COLOURS, MEASURED, hover, new_plot, range_over
 from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
 from stribeck.report.interactive.dots import selected_dots
+from stribeck.report.interactive.samples import gaps
 
 if TYPE_CHECKING:
     from bokeh.plotting import figure
@@ -33,16 +34,20 @@ class RecordingSamples:
         ``time`` and the channels; NaN at gaps.
     labels : mapping of str
         Axis label with unit of each.
+    breaks : array of int
+        Samples at which lines break.
     """
 
     columns: Mapping[str, Array]
     labels: Mapping[str, str]
+    breaks: NDArray[np.intp]
 
     @classmethod
     def of(cls, r: Recording) -> RecordingSamples:
         """The channels that are measured."""
         gap = np.zeros_like(r.torque)
-        gap[np.flatnonzero(np.diff(r.segment)) + 1] = np.nan
+        breaks = gaps(r)
+        gap[breaks] = np.nan
         made, labels = clock(r), {}
         columns: dict[str, Array] = {"time": made.values}
         labels["time"] = made.label
@@ -58,7 +63,7 @@ class RecordingSamples:
             if values is not None:
                 columns[name] = values + gap
                 labels[name] = label
-        return cls(columns, labels)
+        return cls(columns, labels, breaks)
 
     def within(self, start: float, end: float) -> tuple[int, int]:
         """First sample in a window of time, and the one after its last."""
@@ -69,7 +74,7 @@ class RecordingSamples:
     def data(self, start: int, stop: int, most: int = MOST_DRAWN) -> dict[str, NDArray[np.generic]]:
         """The columns of the samples that are drawn from `start` to `stop`, and ``row``."""
         extremes = [values for name, values in self.columns.items() if name != "time"]
-        rows = drawn_rows(extremes, start, stop, most)
+        rows = drawn_rows(extremes, start, stop, most, self.breaks)
         made: dict[str, NDArray[np.generic]] = {
             name: values[rows] if name == "time" else values[rows].astype(np.float32)
             for name, values in self.columns.items()

@@ -15,7 +15,11 @@ MOST_DRAWN = 4_000
 
 
 def drawn_rows(
-    channels: Sequence[Array], start: int, stop: int, most: int = MOST_DRAWN
+    channels: Sequence[Array],
+    start: int,
+    stop: int,
+    most: int = MOST_DRAWN,
+    breaks: NDArray[np.intp] | None = None,
 ) -> NDArray[np.intp]:
     """Samples from `start` to `stop` that are drawn: all, or the extremes of equal buckets.
 
@@ -27,7 +31,9 @@ def drawn_rows(
     channels : sequence of arrays [n]
         The channels whose extremes are kept; NaN is no extreme.
     most
-        Largest number of samples.
+        Largest number of samples, without the breaks.
+    breaks : array of int, optional
+        Samples at which a line breaks: without them it would go on over a gap.
 
     Returns
     -------
@@ -39,6 +45,8 @@ def drawn_rows(
     >>> spike = np.zeros(1000)
     >>> spike[517] = 1.0
     >>> 517 in drawn_rows([spike], 0, 1000, most=30)
+    True
+    >>> 23 in drawn_rows([spike], 0, 1000, 30, np.array([23]))
     True
     >>> drawn_rows([spike], 10, 14)
     array([10, 11, 12, 13])
@@ -57,4 +65,6 @@ def drawn_rows(
         gone = np.isnan(table)
         kept.append(first + np.argmin(np.where(gone, np.inf, table), axis=1))
         kept.append(first + np.argmax(np.where(gone, -np.inf, table), axis=1))
+    if breaks is not None and breaks.size <= most:
+        kept.append(breaks[(breaks >= start) & (breaks < stop)])
     return np.unique(np.concatenate(kept))

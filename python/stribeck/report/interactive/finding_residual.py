@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource
 
 from stribeck.report.finding_view import FindingView, finding_view
 from stribeck.report.interactive.base import (
     COLOURS,
+    begin_with,
     hover,
     legend_above,
     new_plot,
@@ -121,8 +122,6 @@ def evidence(
             )
         hover(plot, shown[-1:], [(label, f"@mid{{0.0000}} {unit}"), (view.x_label, "@at{0.000}")])
         items.append((label, shown))
-    limits = shown_range(limited)
-    if limits is not None:
-        plot.y_range = Range1d(*limits)
+    begin_with(plot, y=shown_range(limited))
     legend_above(plot, items)
     return plot

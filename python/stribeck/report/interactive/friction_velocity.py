@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource
 
 from stribeck.report.interactive.base import (
     MEASURED,
+    begin_with,
     colour_of,
     hover,
     legend_above,
@@ -58,8 +59,6 @@ def friction_velocity(samples: Samples) -> figure:
         shown = shown or [sample_dots(plot, samples, "velocity", f"friction_{k}", colour_of(k))]
         items.append((name, shown))
     hover(plot, [dots], sample_rows(samples, *range(len(samples.fits))))
-    limits = samples.limits("friction")
-    if limits is not None:
-        plot.y_range = Range1d(*limits)
+    begin_with(plot, x=samples.limits("velocity"), y=samples.limits("friction"))
     legend_above(plot, items)
     return plot

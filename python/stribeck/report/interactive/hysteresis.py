@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bokeh.models import Range1d
-
 from stribeck.report.interactive.base import (
     MEASURED,
+    begin_with,
     colour_of,
     hover,
     legend_above,
@@ -47,8 +46,6 @@ def hysteresis(samples: Samples, channel: str = "position") -> figure:
         dots = sample_dots(plot, samples, channel, column, colour)
         items.append((name, [dots, legend_dot(plot, colour)]))
     hover(plot, items[0][1][:1], sample_rows(samples, *range(len(samples.fits))))
-    limits = samples.limits("friction")
-    if limits is not None:
-        plot.y_range = Range1d(*limits)
+    begin_with(plot, x=samples.limits(channel), y=samples.limits("friction"))
     legend_above(plot, items)
     return plot

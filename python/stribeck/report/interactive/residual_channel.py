@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from bokeh.models import ColumnDataSource, Range1d
+from bokeh.models import ColumnDataSource
 
 from stribeck.report.interactive.base import (
+    begin_with,
     colour_of,
     hover,
     legend_above,
@@ -69,11 +70,7 @@ def residual_channel(samples: Samples, channel: str) -> figure:
         items.append((name, shown))
     last = len(samples.fits) - 1
     hover(plot, [items[last][1][0]], sample_rows(samples, *range(len(samples.fits))))
-    limits = samples.limits(*(f"residual_{k}" for k in range(len(samples.fits))))
-    if limits is not None:
-        plot.y_range = Range1d(*limits)
-    across = samples.limits(channel)
-    if across is not None:
-        plot.x_range = Range1d(*across)
+    residuals = samples.limits(*(f"residual_{k}" for k in range(len(samples.fits))))
+    begin_with(plot, x=samples.limits(channel), y=residuals)
     legend_above(plot, items)
     return plot

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bokeh.models import BoxSelectTool, Range1d
+from bokeh.models import BoxSelectTool
 
 from stribeck.report.interactive.base import (
     COLOURS,
     MEASURED,
+    begin_with,
     hover,
     legend_above,
     new_plot,
@@ -43,6 +44,8 @@ def joint_friction(samples: RobotSamples, number: int) -> figure:
         dots = _dots(plot, samples, f"velocity_{number}", f"{column}_{number}", colour, 0.25)
         items.append((name, [dots, legend_dot(plot, colour)]))
     _said(plot, items[0][1][:1], samples, number)
+    limits = samples.limits
+    begin_with(plot, x=limits[f"velocity_{number}"], y=limits[f"friction_{number}"])
     legend_above(plot, items)
     return plot
 
@@ -72,9 +75,7 @@ def joint_residual(samples: RobotSamples, number: int, *, x_range: object = None
     zero_line(plot)
     dots = _dots(plot, samples, "time", f"residual_{number}", COLOURS[1], 0.5)
     _said(plot, [dots], samples, number)
-    limits = samples.limits[number]
-    if limits is not None:
-        plot.y_range = Range1d(*limits)
+    begin_with(plot, y=samples.limits[f"residual_{number}"])
     return plot
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ from bokeh.models import ColumnDataSource
 from numpy.typing import NDArray
 
 from stribeck.report.channels import clock, torque_name
-from stribeck.report.interactive.base import shown_range
+from stribeck.report.interactive.base import Limits, shown_range
 from stribeck.report.interactive.decimate import drawn_rows
 from stribeck.report.numbers import unit_text
 
@@ -43,14 +44,14 @@ class RobotSamples:
     source : ColumnDataSource
         ``time`` and, of joint `k`, ``velocity_k``, ``friction_k``, ``modelled_k`` and
         ``residual_k``; NaN where the joint is not scored.
-    limits : tuple of pairs
-        Range of the residual of each joint.
+    limits : mapping of pairs
+        Range of each column with which axes begin.
     """
 
     joints: tuple[JointLabels, ...]
     time_label: str
     source: ColumnDataSource
-    limits: tuple[tuple[float, float] | None, ...]
+    limits: Mapping[str, Limits]
 
 
 def robot_samples(found: RobotFit, most: int = MOST_OF_A_ROBOT) -> RobotSamples:
@@ -65,14 +66,14 @@ def robot_samples(found: RobotFit, most: int = MOST_OF_A_ROBOT) -> RobotSamples:
     motion = solved.balance.motion
     load = solved.balance.load(solved.values.base)
     columns: dict[str, Array] = {}
-    labels, limits = [], []
+    labels: list[JointLabels] = []
     for k, joint in enumerate(found.joints):
         recording = motion.joints[k]
         scored = np.where(motion.scored[:, k], 0.0, np.nan)
         friction = recording.torque - load[:, k] + scored
         residual = solved.balance.residual(solved.values, k) + scored
         columns |= {
-            f"velocity_{k}": recording.velocity,
+            f"velocity_{k}": recording.velocity + scored,
             f"friction_{k}": friction,
             f"modelled_{k}": friction - residual,
             f"residual_{k}": residual,
@@ -87,10 +88,10 @@ def robot_samples(found: RobotFit, most: int = MOST_OF_A_ROBOT) -> RobotSamples:
                 f"residual [{unit}]",
             )
         )
-        limits.append(shown_range([residual]))
     made = clock(motion.joints[0])
     extremes = [columns[f"residual_{k}"] for k in range(len(labels))]
     rows = drawn_rows(extremes, 0, made.values.size, most)
     drawn: dict[str, NDArray[np.generic]] = {"time": made.values[rows]}
     drawn |= {name: values[rows].astype(np.float32) for name, values in columns.items()}
-    return RobotSamples(tuple(labels), made.label, ColumnDataSource(drawn), tuple(limits))
+    limits = {name: shown_range([values]) for name, values in columns.items()}
+    return RobotSamples(tuple(labels), made.label, ColumnDataSource(drawn), limits)

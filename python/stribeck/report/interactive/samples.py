@@ -16,6 +16,7 @@ from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
 
 if TYPE_CHECKING:
     from stribeck.fitting.result import Fit
+    from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
@@ -105,7 +106,7 @@ class Samples:
         exact when these replace the data of `source`.
         """
         extremes = [self.columns["torque"], self.columns[f"residual_{len(self.fits) - 1}"]]
-        rows = drawn_rows(extremes, start, stop, most)
+        rows = drawn_rows(extremes, start, stop, most, gaps(self.fits[0].recording))
         # Single precision is finer than a pixel, and half as long; not so for hours of time.
         made: dict[str, NDArray[np.generic]] = {
             name: values[rows] if name == "time" else values[rows].astype(np.float32)
@@ -128,12 +129,11 @@ def samples_of(fits: Sequence[Fit], most: int = MOST_DRAWN) -> Samples:
     found = _channels(last)
     load = load_of(last)
     rest = np.zeros_like(r.torque) if load is None else load
-    starts = np.flatnonzero(np.diff(r.segment)) + 1
     scored = np.where(r.moving, 0.0, np.nan)
     # A line breaks at NaN: at each gap, and for models at rest.
     gap = np.zeros_like(r.torque)
     if not r.averaged:
-        gap[starts] = np.nan
+        gap[gaps(r)] = np.nan
     columns: dict[str, Array] = {
         **{name: made.values for name, made in found.items()},
         "time": clock(r).values,
@@ -160,6 +160,11 @@ def samples_of(fits: Sequence[Fit], most: int = MOST_DRAWN) -> Samples:
 def _channels(fit: Fit) -> dict[str, Channel]:
     """The channels of a recording that a residual can be drawn against."""
     return {name: found for name in CHANNELS if (found := channel(fit, name)) is not None}
+
+
+def gaps(r: Recording) -> NDArray[np.intp]:
+    """The first sample after each gap, at which a line over time breaks."""
+    return np.flatnonzero(np.diff(r.segment)) + 1
 
 
 def friction_label(samples: Samples) -> str:

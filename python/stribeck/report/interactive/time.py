@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bokeh.models import BoxSelectTool, Range1d
+from bokeh.models import BoxSelectTool
 
 from stribeck.report.channels import clock, torque_name
 from stribeck.report.interactive.base import (
     MEASURED,
+    begin_with,
     colour_of,
     hover,
     legend_above,
@@ -59,9 +60,7 @@ def residual_time(samples: Samples, *, x_range: object = None) -> figure:
     items = []
     for k, name in enumerate(samples.names):
         items.append((name, _drawn(plot, samples, f"residual_{k}", colour_of(k), 1.2)))
-    limits = samples.limits(*(f"residual_{k}" for k in range(len(samples.fits))))
-    if limits is not None:
-        plot.y_range = Range1d(*limits)
+    begin_with(plot, y=samples.limits(*(f"residual_{k}" for k in range(len(samples.fits)))))
     hover(plot, items[-1][1][-1:], sample_rows(samples, *range(len(samples.fits))))
     legend_above(plot, items)
     return plot

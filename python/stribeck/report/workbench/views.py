@@ -26,7 +26,7 @@ from stribeck.report.diagnosis import (
     untestable_rows,
 )
 from stribeck.report.finding_view import how_to_read
-from stribeck.report.numbers import change_text, confidence_words, percent, plain, shown, thousands
+from stribeck.report.numbers import change_text, confidence_words, percent, plain, thousands, typed
 from stribeck.report.page import comparison_tables
 from stribeck.report.parameters import parameter_rows
 from stribeck.report.project import branches
@@ -159,7 +159,6 @@ def _check(bench: Workbench, joint: Joint | None) -> Values:
         ],
         "spell": bench.spell,
         "plain": plain,
-        "shown": shown,
         "thousands": thousands,
         "titles": _titles(),
         "untestable": _untestable_of(said),
@@ -348,10 +347,10 @@ def _prove(bench: Workbench, joint: Joint | None) -> Values:
         "passive": None if joint.certificate is None else joint.certificate.passive,
         "box": "\n".join(f"{k}={low:.4g}:{high:.4g}" for k, (low, high) in model.box.items()),
         "unit": r.position_unit,
-        "low": plain(-1.0 if r.position is None else float(r.position.min())),
-        "high": plain(1.0 if r.position is None else float(r.position.max())),
-        "speed": plain(fastest),
-        "acceleration": plain(hardest),
+        "low": typed(-1.0 if r.position is None else float(r.position.min())),
+        "high": typed(1.0 if r.position is None else float(r.position.max())),
+        "speed": typed(fastest),
+        "acceleration": typed(hardest),
         "effects": [e for e in effect_ids() if not model.has(e)],
         "unseen": unseen,
         "planned": None if joint.plan is None else bench.spell(repr(joint.plan)),
