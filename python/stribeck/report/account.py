@@ -36,6 +36,8 @@ if TYPE_CHECKING:
     from stribeck.projects.project import Project
 
 
+#: Errors that differ by a smaller share are called alike: no effect is added for less.
+SAME = 0.01
 #: Samples of more models than this would hide each other.
 MOST_SHOWN = 3
 
@@ -139,13 +141,19 @@ def of_comparison(comparison: Comparison, untestable: Iterable[Untestable] = ())
     best = ranked[-1]
     unit = best.fit.model.torque_unit
     places = worst_places(best, 1)
-    worst = f" Its largest errors: {places[0]}." if places else ""
+    place, _, said = places[0].partition(": ") if places else ("", "", "")
+    worst = f" Its largest errors ({place}): {said}." if places else ""
     held = "held-out error" if best.rmse_held_out is not None else "error"
     if len(ranked) == 1:
         summary = f"The {held} of {best.model} is {plain(error_of(best.fit))} {unit}.{worst}"
+    elif error_of(ranked[0].fit) * (1.0 - SAME) < error_of(best.fit):
+        summary = (
+            f"The {held}s of the {len(ranked)} models differ by less than {percent(SAME)}; "
+            f"the smallest is {plain(error_of(best.fit))} {unit}, of {best.model}.{worst}"
+        )
     else:
         summary = (
-            f"Of {len(ranked)} models, {best.model} has the smallest error: {held} "
+            f"Of {len(ranked)} models, {best.model} has the smallest {held}, "
             f"{plain(error_of(best.fit))} {unit}.{worst}"
         )
     return Account(

@@ -49,7 +49,7 @@ def certificate_parts(certificate: Certificate) -> list[Part]:
     """The sentences of the answer, each with what is listed below it."""
     parts = _verdict(certificate)
     if certificate.counterexample is not None:
-        parts += _motion(certificate.counterexample)
+        parts += _motion(certificate, certificate.counterexample)
     friction = certificate.friction
     shown = [m for m in certificate.margins if m.lower is not None]
     if shown:
@@ -93,7 +93,7 @@ def _unit(certificate: Certificate, channel: str) -> str:
     return units.get(channel, certificate.friction.torque_unit)
 
 
-def _motion(example: Counterexample) -> list[Part]:
+def _motion(certificate: Certificate, example: Counterexample) -> list[Part]:
     unit = example.friction.position_unit
     start = f"This {example.kind} generates energy"
     if example.deflection is not None:
@@ -102,18 +102,19 @@ def _motion(example: Counterexample) -> list[Part]:
     if example.kind != "operating point":
         returned = "; the bristle returns to where it was"
     return [
-        Part(f"{start}:", tuple(("", _step(step, unit)) for step in example.steps)),
+        Part(f"{start}:", tuple(("", _step(certificate, step)) for step in example.steps)),
         Part(f"Net work {example.net_work:.3g} J, by the model's exact step{returned}."),
     ]
 
 
-def _step(step: Mapping[str, float], unit: str) -> str:
+def _step(certificate: Certificate, step: Mapping[str, float]) -> str:
     others = [
-        f"{name} {value:.6g}"
+        f"{name} {value:.6g} {_unit(certificate, name)}"
         for name, value in step.items()
         if name not in ("velocity", "duration")
     ]
-    held = f"velocity {step['velocity']:.6g} {unit}/s for {step['duration']:.6g} s"
+    speed = _unit(certificate, "velocity")
+    held = f"velocity {step['velocity']:.6g} {speed} for {step['duration']:.6g} s"
     return ", ".join([held, *others])
 
 

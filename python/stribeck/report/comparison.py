@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.report.channels import torque_name
 from stribeck.report.layout import joined, line_width, notes_text, paragraph, table, width_of
 from stribeck.report.numbers import percent, plain, signed
 from stribeck.report.parameters import effective_text
@@ -193,7 +194,7 @@ def worst_places(assessment: Assessment, most: int = 3) -> list[str]:
         bias = ""
         if abs(g.bias) > 0.3 * g.rmse:
             bias = (
-                f"; on average the measured torque is {plain(abs(g.bias))} {unit} "
+                f"; on average the measured {torque_name(unit)} is {plain(abs(g.bias))} {unit} "
                 f"{'above' if g.bias > 0 else 'below'} the model"
             )
         sentences.append(

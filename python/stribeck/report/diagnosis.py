@@ -237,6 +237,12 @@ def left_text(left: Unexplained) -> str:
     """How much of the error is more than noise."""
     if left.share is None:
         return "It cannot be estimated from this data how much of the remaining error is noise."
+    if left.share == 0.0:
+        # The held-out error may still exceed the noise floor, as where a recording is short.
+        return (
+            "No significant structure remains: no function of the recorded channels lowers the "
+            "held-out error."
+        )
     if not left.is_structure:
         return (
             f"No significant structure remains: {percent(left.share)} of the squared held-out "

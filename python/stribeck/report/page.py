@@ -19,6 +19,7 @@ from stribeck.report.diagnosis import less_likely_sentence, untestable_rows
 from stribeck.report.equations import beside, equations, symbols
 from stribeck.report.finding_view import how_to_read
 from stribeck.report.fit import ASSUMED, PASSIVITY
+from stribeck.report.interactive.base import AXES_SPAN
 from stribeck.report.interactive.decimate import MOST_DRAWN
 from stribeck.report.numbers import (
     DASH,
@@ -124,6 +125,7 @@ def account_page(account: Account, spell: Callable[[str], str] = str) -> str:
         command=account.command,
         versions=versions(),
         drawn_note=_drawn_sentence(account),
+        axes_span=AXES_SPAN,
     )
 
 
@@ -193,7 +195,7 @@ def _facts(r: Recording) -> list[tuple[str, str]]:
         ("file", r.path),
         ("SHA-256", r.sha256),
         ("joint", f"{r.joint or 'not named'}, {r.joint_kind}"),
-        ("samples", scored_sentence(r)),
+        ("samples", prose(scored_sentence(r))),
         ("runs", str(r.runs)),
         ("time", "one steady-state point a run" if r.averaged else time),
     ]

@@ -61,6 +61,8 @@ def correlation(matrix: ParameterMatrix) -> figure:
             color_mapper=mapper,
             title="correlation",
             title_text_color=INK,
+            title_text_font_style="normal",
+            title_text_font_size="12px",
             major_label_text_color=INK,
             background_fill_alpha=0.0,
             width=12,

@@ -7,6 +7,7 @@ function repaint() {
     for (const model of drawn.all_models) {
       if (model.type === "Legend") model.label_text_color = ink;
       if (model.type === "Text") model.text_color = ink;
+      if (model.type === "ColorBar") model.title_text_color = model.major_label_text_color = ink;
     }
   }
   for (const view of Object.values(Bokeh.index)) {
@@ -17,13 +18,7 @@ function repaint() {
     view.model.hold_render = held;
   }
 }
-function whenDrawn() {
-  if (Bokeh.documents.length === 0) { requestAnimationFrame(whenDrawn); return; }
-  repaint();
-  paintWhatIsSeen();
-}
-addEventListener("load", whenDrawn);
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { if (window.Bokeh) repaint(); });
 // Figures are not laid out again for the paper: it gets pictures of them, which fit.
 function takePictures(printed) {
   for (const picture of document.querySelectorAll("canvas.printed")) picture.remove();
@@ -35,4 +30,4 @@ function takePictures(printed) {
     view.el.after(picture);
   }
 }
-matchMedia("print").addEventListener("change", ({ matches }) => { repaint(); takePictures(matches); });
+matchMedia("print").addEventListener("change", ({ matches }) => { if (window.Bokeh) { repaint(); takePictures(matches); } });

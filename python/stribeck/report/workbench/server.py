@@ -53,6 +53,7 @@ _BOKEH = Path(bokeh.__file__).parent / "server" / "static" / "js"
 STATIC = {
     "bokeh.min.js": (_BOKEH / "bokeh.min.js", "text/javascript"),
     "offscreen.js": (_HERE.parent / "templates" / "offscreen.js", "text/javascript"),
+    "repaint.js": (_HERE.parent / "templates" / "repaint.js", "text/javascript"),
     "workbench.js": (_HERE / "static" / "workbench.js", "text/javascript"),
     "workbench.css": (_HERE / "static" / "workbench.css", "text/css"),
     "style.css": (_HERE.parent / "templates" / "style.css", "text/css"),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from stribeck.base.errors import spell_options
 from stribeck.base.version import __version__
+from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog, effect_ids, law_ids
 from stribeck.recording.check import Check
@@ -26,6 +27,7 @@ from stribeck.report.diagnosis import (
     untestable_rows,
 )
 from stribeck.report.finding_view import how_to_read
+from stribeck.report.interactive.base import AXES_SPAN
 from stribeck.report.numbers import change_text, confidence_words, percent, plain, thousands, typed
 from stribeck.report.page import comparison_tables
 from stribeck.report.parameters import parameter_rows
@@ -76,6 +78,7 @@ def page(bench: Workbench, name: str, link: Link) -> str:
         "message": bench.state.message if bench.state.page in ("", name) else None,
         "state_version": bench.state.version,
         "version": __version__,
+        "axes_span": AXES_SPAN,
         "folder": str(bench.folder),
         "figures": [],
         **_VIEWS[name](bench, joint),
@@ -208,6 +211,7 @@ def _compare(bench: Workbench, joint: Joint | None) -> Values:
         "sides": None if sides is None else comparison_tables(sides.comparison),
         "verdict": None if sides is None else sides_sentence(joint),
         "nodes": _nodes(joint),
+        "chosen": () if sides is None else tuple(node.number for node in sides.nodes),
         "figures": _sample_figures(joint) if sides is not None else [],
     }
 
@@ -219,9 +223,10 @@ def sides_sentence(joint: Joint | None) -> str:
         return ""
     better = sides.nodes[sides.better]
     between = sides.difference.statistic
+    chance = "" if between > TIE else ", which may be chance"
     return (
         f"Node {better.number}, {better.kept.model.spec}, has the smaller held-out error; the "
-        f"difference is {plain(between)} standard errors."
+        f"difference is {plain(between, 2)} standard errors{chance}."
     )
 
 
@@ -317,10 +322,10 @@ def _node(joint: Joint, node: Node, lead: str) -> Values:
     assert joint.project is not None
     kept, tree = node.kept, joint.project.tree
     error = kept.rmse if kept.rmse_held_out is None else kept.rmse_held_out
-    fall = ""
+    change = ""
     if node.parent is not None:
         before = tree.node(node.parent).kept
-        fall = change_text(before.rmse_held_out or before.rmse, error)
+        change = change_text(before.rmse_held_out or before.rmse, error)
     return {
         "number": node.number,
         "lead": lead,
@@ -328,7 +333,7 @@ def _node(joint: Joint, node: Node, lead: str) -> Values:
         "spec": kept.model.spec,
         "name": node.name,
         "error": f"{plain(error)} {kept.model.torque_unit}",
-        "fall": fall,
+        "change": change,
         "current": node.number == joint.project.current,
     }
 

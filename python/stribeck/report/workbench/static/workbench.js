@@ -95,11 +95,7 @@ async function draw() {
   const known = Bokeh.documents.length;
   await Bokeh.embed.embed_items(made.docs, [made.item]);
   if (Bokeh.documents.length > known) followZoom(Bokeh.documents[known]);
-  // Words in a legend take no colour from the page: they are told the colour.
-  const ink = getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
-  for (const model of Bokeh.documents.flatMap((drawn) => [...drawn.all_models])) {
-    if (model.type === "Legend") model.label_text_color = ink;
-  }
+  repaint();
   // The first picture of every figure is made; two frames later it is painted.
   requestAnimationFrame(() => requestAnimationFrame(paintWhatIsSeen));
   page.drawn = "1";
