@@ -148,7 +148,7 @@ def of_comparison(comparison: Comparison, untestable: Iterable[Untestable] = ())
         summary = f"The {held} of {best.model} is {plain(error_of(best.fit))} {unit}.{worst}"
     elif error_of(ranked[0].fit) * (1.0 - SAME) < error_of(best.fit):
         summary = (
-            f"The {held}s of the {len(ranked)} models differ by less than {percent(SAME)}; "
+            f"The {held}s of the {len(ranked)} models differ by less than {100.0 * SAME:.0f} %; "
             f"the smallest is {plain(error_of(best.fit))} {unit}, of {best.model}.{worst}"
         )
     else:

@@ -138,7 +138,7 @@ def robot_plots(found: RobotFit) -> dict[str, figure]:
     plots: dict[str, figure] = {}
     time_range: object = None
     for k, joint in enumerate(samples.joints):
-        plots[f"Joint {joint.name}: friction over velocity"] = joint_friction(samples, k)
+        plots[f"Joint {joint.name}: friction against velocity"] = joint_friction(samples, k)
         residual = joint_residual(samples, k, x_range=time_range)
         time_range = residual.x_range
         plots[f"Joint {joint.name}: residual over time"] = residual

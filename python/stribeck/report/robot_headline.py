@@ -40,7 +40,7 @@ def comparison_headline(compared: RobotComparison) -> str:
     if len(errors) == 1:
         return fit_headline(compared.fits[0])
     if falls[k] < ALIKE:
-        return f"On no joint do the held-out errors of the models differ by {percent(ALIKE)}."
+        return f"On no joint do the held-out errors of the models differ by {100.0 * ALIKE:.0f} %."
     of = by_joint[k]
     best, worst = (compared.specs[of.index(end)] for end in (min(of), max(of)))
     joint = compared.fits[0].joints[k].joint

@@ -49,6 +49,9 @@ if TYPE_CHECKING:
     from stribeck.robot.improve import RobotImprovement, RobotStep
     from stribeck.robot.result import JointFit, RobotFit
 
+#: Said of an effect that a joint shows alone, and that does not hold with all joints identified.
+NOT_ADDED = "Found on this joint alone, and not added: "
+
 
 def robot_fit_page(found: RobotFit, command: str = "") -> str:
     """A page on an identified robot.
@@ -128,7 +131,7 @@ def robot_improvement_page(found: RobotImprovement, command: str = "") -> str:
         Section("What was missing", said, tables),
         _errors(final),
         *_evaluated(final),
-        *_joints(final, found.steps, found.last),
+        *_joints(final, found.steps, found.last, of_the_rest=NOT_ADDED),
         _bodies(final),
     ]
     headline = improvement_headline(found)
@@ -187,8 +190,15 @@ def _joints(
     found: RobotFit,
     steps: Mapping[str, Sequence[RobotStep]],
     last: Mapping[str, Diagnosis],
+    of_the_rest: str = "",
 ) -> list[Section]:
-    """One section a joint: its model, what was added and why, its parameters."""
+    """One section a joint: its model, what was added and why, its parameters.
+
+    Parameters
+    ----------
+    of_the_rest
+        What is said before a finding of `last`.
+    """
     made = []
     for joint in found.joints:
         said = [
@@ -197,7 +207,7 @@ def _joints(
         ]
         said += [_step(step) for step in steps.get(joint.joint, ())]
         if joint.joint in last:
-            said += _verdict(last[joint.joint])
+            said += _verdict(last[joint.joint], of_the_rest)
         made.append(Section(f"Joint {joint.joint}", said, [_parameters(joint)]))
     return made
 
@@ -224,9 +234,9 @@ def _evidence(found: Finding, model: Model, before: float, after: float) -> str:
     )
 
 
-def _verdict(last: Diagnosis) -> list[str]:
+def _verdict(last: Diagnosis, of_the_rest: str) -> list[str]:
     """What a joint lacks, what remains of it, and what its motion cannot show."""
-    said = [_finding(one) for one in last.findings]
+    said = [f"{of_the_rest}{_finding(one)}" for one in last.findings]
     if last.verdict == "unexplained":
         said.append("Structure remains in its residual that no effect explains beyond doubt.")
     said += [f"{heading}: {' '.join(sentences)}" for heading, sentences in doubts(last)]

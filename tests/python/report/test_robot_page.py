@@ -37,7 +37,7 @@ def test_a_page_of_a_fit(motion: RobotMotion) -> None:
         assert words in page
     assert not re.search(r"<(script|img|link|iframe)[^>]*(src|href)=[\"']?(http|//)", page)
     for joint in ("1", "2"):
-        assert f"<figcaption>Joint {joint}: friction over velocity</figcaption>" in page
+        assert f"<figcaption>Joint {joint}: friction against velocity</figcaption>" in page
         assert f"<figcaption>Joint {joint}: residual over time</figcaption>" in page
 
 
