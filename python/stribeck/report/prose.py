@@ -60,4 +60,6 @@ def _set(text: str) -> str:
 
 
 def _powers(text: str) -> str:
-    return _POWER.sub(lambda found: "²" if found[0] == "2" else "³", text)
+    raised = _POWER.sub(lambda found: "²" if found[0] == "2" else "³", text)
+    # As on the axes of figures; in commands and files it is degC.
+    return raised.replace("degC", "°C")
