@@ -46,12 +46,17 @@ def stop(sentence: str) -> None:
     raise SystemExit(2)
 
 
-def run(*command: str | Path) -> None:
+def started(*command: str | Path) -> subprocess.Popen[bytes]:
     words = [str(word) for word in command]
     print("+ " + " ".join(words), file=sys.stderr, flush=True)
     environment = {**os.environ, "VIRTUAL_ENV": str(VENV)}
     environment["PATH"] = f"{BIN}{os.pathsep}{environment.get('PATH', '')}"
-    code = subprocess.run(words, cwd=ROOT, env=environment, check=False).returncode
+    return subprocess.Popen(words, cwd=ROOT, env=environment)
+
+
+def run(*command: str | Path) -> None:
+    with started(*command) as process:
+        code = process.wait()
     if code != 0:
         raise SystemExit(code)
 
@@ -102,8 +107,11 @@ def demo() -> None:
     run(PYTHON, "-m", "stribeck", "demo", *sys.argv[2:])
 
 
+RUST_TESTS = ("cargo", "test", "--quiet", "--locked", "--features", "identify")
+
+
 def test() -> None:
-    run("cargo", "test", "--quiet", "--locked", "--features", "identify")
+    run(*RUST_TESTS)
     run("cargo", "test", "--quiet", "--locked", "--package", "stribeck-c")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
     run(PYTHON, "-m", "pytest", "-q", "-n", "2", "--doctest-modules", "python/stribeck")
@@ -264,7 +272,14 @@ def main() -> None:
     task = sys.argv[1] if len(sys.argv) > 1 else ""
     if task not in TASKS:
         stop(f"say one of: {', '.join(TASKS)}")
-    setup()
+    # The extension module is built on one processor: the Rust tests are built beside it. What they
+    # cannot build is reported by the task itself.
+    beside = started(*RUST_TESTS, "--no-run") if task == "test" and shutil.which("cargo") else None
+    try:
+        setup()
+    finally:
+        if beside is not None:
+            beside.wait()
     TASKS[task]()
 
 

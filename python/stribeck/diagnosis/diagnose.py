@@ -18,7 +18,7 @@ from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
 from stribeck.diagnosis.result import Diagnosis, Tried
 from stribeck.diagnosis.trials.candidates import candidates_for, tested
 from stribeck.diagnosis.trials.imitations import NARROW, without_imitations
-from stribeck.diagnosis.trials.outshone import without_outshone
+from stribeck.diagnosis.trials.outshone import without_outshone, without_unresolved
 from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import finding_of, ranked
 from stribeck.diagnosis.trials.sifting import Sifted
@@ -118,11 +118,12 @@ def _diagnosed(
     offered = candidates_for(fitted, rejected, candidates)
     found = tested(fitted, offered.possible, least_fall, seed, progress)
     passed, tried = found.passing, found.screened
-    sift = Sifted.of(fitted, passed, least_fall)
+    sift = Sifted.of(fitted, passed, least_fall, found.outside_the_band)
     sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
     stood = sift
     sift = without_imitations(fitted, stood, passed, tried, least_fall)
     sift = without_outshone(stood, sift, tried, least_fall, seed)
+    sift = without_unresolved(fitted, sift, tried, least_fall, seed)
     best = sift.stand[0].fit if sift.stand else fitted
     floor = noise_floor(best)
     order = ranked(fitted, sift, tried, least_fall, floor, seed)

@@ -23,6 +23,7 @@ from stribeck.diagnosis.trials.trial import (
     is_promising,
     passes,
     passes_in_one_block,
+    passes_outside_the_band,
     simpler_substitute,
     try_beyond,
     try_effect,
@@ -80,12 +81,15 @@ class Tested:
         Trials that pass, the best first.
     in_one_block
         Trials that would pass, but gain in one block alone.
+    outside_the_band
+        Trials that would pass, but gain at frequencies above those of the motion alone.
     screened
         Number of effects that were screened.
     """
 
     passing: list[Trial]
     in_one_block: list[Trial]
+    outside_the_band: list[Trial]
     screened: int
 
 
@@ -134,7 +138,8 @@ def tested(
         if pair.larger in good and pair.together.rank < good[0].rank:
             good.sort(key=lambda trial: trial is not pair.larger)
     in_one_block = [t for t in first.trials if passes_in_one_block(t, tried, least)]
-    return Tested(dry_friction_first(good, fitted.model), in_one_block, tried)
+    outside = [t for t in first.trials if passes_outside_the_band(t, tried, least)]
+    return Tested(dry_friction_first(good, fitted.model), in_one_block, outside, tried)
 
 
 @dataclass(frozen=True)

@@ -180,9 +180,10 @@ def _doubtful_ties(
     """Weights of the effects that may not be claimed, and predict as well as the best that may.
 
     They are alternatives all the same: another cause, that the catalog does not hold, may have the
-    same torque.
+    same torque. So are those that gain outside the band of the motion alone, such as the shocks of
+    a backlash, which an elasticity imitates.
     """
-    trials = [row.trial for row in (*sift.demoted, *sift.refused)]
+    trials = [row.trial for row in (*sift.demoted, *sift.refused)] + list(sift.rivals)
     weights = {trial.effect: tie_weight(tie_statistic(best, trial)) for trial in trials}
     alike = [trial for trial in trials if weights[trial.effect] > NEGLIGIBLE]
     with on_threads() as pool:

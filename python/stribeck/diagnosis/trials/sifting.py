@@ -33,15 +33,20 @@ class Sifted:
         Those whose values cannot be right, or that causes in the measurement explain better.
     narrow
         Those that stand, but predict hardly better than causes in the measurement.
+    rivals
+        Trials that do not pass, and may predict as well as one that stands all the same.
     """
 
     stand: tuple[Trial, ...] = ()
     demoted: tuple[Doubted, ...] = ()
     refused: tuple[Doubted, ...] = ()
     narrow: frozenset[str] = frozenset()
+    rivals: tuple[Trial, ...] = ()
 
     @classmethod
-    def of(cls, before: Fit, trials: Sequence[Trial], least: float) -> Sifted:
+    def of(
+        cls, before: Fit, trials: Sequence[Trial], least: float, rivals: Sequence[Trial] = ()
+    ) -> Sifted:
         """Judge each of `trials`; `least` is the fall that a finding must bring."""
         stand: list[Trial] = []
         demoted: list[Doubted] = []
@@ -54,7 +59,7 @@ class Sifted:
                 demoted.append(Doubted(trial, reason))
             else:
                 stand.append(trial)
-        return cls(tuple(stand), tuple(demoted), tuple(refused))
+        return cls(tuple(stand), tuple(demoted), tuple(refused), rivals=tuple(rivals))
 
     def with_stand(self, trials: Sequence[Trial]) -> Sifted:
         """The same with other trials that stand."""
@@ -71,4 +76,5 @@ class Sifted:
             (*self.demoted, *judged.demoted),
             (*self.refused, *judged.refused),
             self.narrow,
+            self.rivals,
         )

@@ -231,10 +231,19 @@ def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
     return not trial.evidence.everywhere and _passes_somewhere(trial, tried, least)
 
 
-def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
+def passes_outside_the_band(trial: Trial, tried: int, least: float) -> bool:
+    """Whether a trial would pass, but gains at frequencies above those of the motion alone."""
     e = trial.evidence
-    relevant = e.fall >= least and e.fall_in_band > 0
-    return relevant and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
+    return e.everywhere and e.fall_in_band <= 0 and _is_significant(trial, tried, least)
+
+
+def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
+    return trial.evidence.fall_in_band > 0 and _is_significant(trial, tried, least)
+
+
+def _is_significant(trial: Trial, tried: int, least: float) -> bool:
+    e = trial.evidence
+    return e.fall >= least and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
 
 
 def falls_on_all_samples(before: Fit, trial: Trial) -> bool:
