@@ -14,14 +14,16 @@ from stribeck.diagnosis.trials.trial import Trial
 from synthetic import joint, record
 
 
-@pytest.mark.parametrize("how", ["demoted", "refused"])
+@pytest.mark.parametrize("how", ["demoted", "refused", "rivals"])
 def test_an_effect_that_predicts_as_well_lowers_the_confidence(tmp_path: Path, how: str) -> None:
     before = sb.fit("coulomb", record(tmp_path, joint(0.5)), starts=1)
     after = sb.add(before, "offset", starts=1)
     trial = Trial("offset", after, evidence(before, after))
-    # Another effect with the same torque, and one more parameter, that breaks a rule.
+    # Another effect with the same torque, and one more parameter, that breaks a rule or gains
+    # outside the band of the motion alone.
     wider = sb.add(before, "direction", starts=1)
-    other = Doubted(Trial("direction", wider, evidence(before, wider)), "a reason")
+    rival = Trial("direction", wider, evidence(before, wider))
+    other = rival if how == "rivals" else Doubted(rival, "a reason")
     floor = noise_floor(after)
 
     def confidence(sift: Sifted) -> tuple[float, tuple[str, ...]]:

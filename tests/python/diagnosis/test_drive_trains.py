@@ -27,6 +27,15 @@ def test_friction_that_looks_at_an_earlier_speed_lags(tmp_path: Path) -> None:
     assert model.value("frictional_lag") == pytest.approx(0.02, rel=0.2)
 
 
+def test_a_lag_below_a_sample_is_claimed_of_no_other_effect(tmp_path: Path) -> None:
+    found = sb.improve("coulomb", record(tmp_path, late_stribeck(0.005)))
+    assert found.final.model.spec == "coulomb+stribeck" and found.last.verdict == "unexplained"
+    (lag,) = found.last.not_claimed
+    assert lag.effect == "frictional_lag" and "less than a sample" in lag.reason
+    imitating = {row.effect: row.demoted for row in found.last.demoted}
+    assert imitating["inertia"] == "frictional_lag predicts better, and leaves nothing to it"
+
+
 @pytest.mark.slow
 def test_friction_without_a_lag_has_none(tmp_path: Path) -> None:
     assert list(steps(tmp_path, late_stribeck(0.0))) == ["stribeck"]

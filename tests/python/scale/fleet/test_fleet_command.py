@@ -17,7 +17,7 @@ import stribeck as sb
 from fleet_logs import answers, command
 
 #: So many that a run lasts for seconds, and what befalls it comes before its end.
-STARTS = 1500
+STARTS = 500
 
 
 def test_json_and_files_that_cannot_be_used(logs: list[Path], tmp_path: Path) -> None:
