@@ -181,9 +181,10 @@ def _doubtful_ties(
 
     They are alternatives all the same: another cause, that the catalog does not hold, may have the
     same torque. So are those that gain outside the band of the motion alone, such as the shocks of
-    a backlash, which an elasticity imitates.
+    a backlash, which an elasticity imitates. Friction acts in the band: none of these replaces it.
     """
-    trials = [row.trial for row in (*sift.demoted, *sift.refused)] + list(sift.rivals)
+    rivals = () if is_friction(best.effect) else sift.rivals
+    trials = [*(row.trial for row in (*sift.demoted, *sift.refused)), *rivals]
     weights = {trial.effect: tie_weight(tie_statistic(best, trial)) for trial in trials}
     alike = [trial for trial in trials if weights[trial.effect] > NEGLIGIBLE]
     with on_threads() as pool:
