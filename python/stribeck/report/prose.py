@@ -19,10 +19,11 @@ _POWER = re.compile(r"(?<=[A-Za-z])[23]")
 _NEGATIVE = re.compile(r"(?:(?<=[\s(])|^)-(?=\d)")
 _THOUSANDS = re.compile(r"(?<=\d) (?=\d{3}(?!\d))")
 _BETWEEN_NUMBERS = re.compile(r"(?<=\d) → (?=\d)")
+_COMPARED = re.compile(r"(?<=[<>≤≥±]) (?=\d)")
 
 
 def prose(text: str) -> Markup:
-    """A sentence with minus signs, numbers that stay whole and with their units, and code as code.
+    """A sentence with minus signs, numbers kept whole and with their units, and code as code.
 
     Examples
     --------
@@ -56,6 +57,7 @@ def _set(text: str) -> str:
     text = _NEGATIVE.sub(MINUS, text)
     text = _THOUSANDS.sub(SPACE, text)
     text = _BETWEEN_NUMBERS.sub(f"{SPACE}→{SPACE}", text)
+    text = _COMPARED.sub(SPACE, text)
     return _AFTER_NUMBER.sub(lambda found: _powers(found[0]).replace(" ", SPACE), text)
 
 
