@@ -20,6 +20,7 @@ _NEGATIVE = re.compile(r"(?:(?<=[\s(])|^)-(?=\d)")
 _THOUSANDS = re.compile(r"(?<=\d) (?=\d{3}(?!\d))")
 _BETWEEN_NUMBERS = re.compile(r"(?<=\d) → (?=\d)")
 _COMPARED = re.compile(r"(?<=[<>≤≥±]) (?=\d)")
+_NEWTON_METRE = re.compile(r"(?<=\bN) (?=m\b)")
 
 
 def prose(text: str) -> Markup:
@@ -57,7 +58,7 @@ def _set(text: str) -> str:
     text = _NEGATIVE.sub(MINUS, text)
     text = _THOUSANDS.sub(SPACE, text)
     text = _BETWEEN_NUMBERS.sub(f"{SPACE}→{SPACE}", text)
-    text = _COMPARED.sub(SPACE, text)
+    text = _NEWTON_METRE.sub(SPACE, _COMPARED.sub(SPACE, text))
     return _AFTER_NUMBER.sub(lambda found: _powers(found[0]).replace(" ", SPACE), text)
 
 
