@@ -9,6 +9,7 @@ from __future__ import annotations
 from asyncio import CancelledError as CancelledInLoop
 from collections.abc import Callable
 from concurrent.futures import CancelledError, Executor, Future
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -27,9 +28,15 @@ class ClusterExecutor(Executor):
         """Return the future of a call; if it is cancelled, the cluster drops the call."""
         here: Future[Result] = Future()
         remote = self._client.submit(fn, *args, pure=False, **kwargs)
-        here.add_done_callback(lambda done: remote.cancel() if done.cancelled() else None)
+        here.add_done_callback(lambda done: _drop(remote.cancel) if done.cancelled() else None)
         remote.add_done_callback(lambda ended: _hand_over(ended.result, here))
         return here
+
+
+def _drop(cancel: Callable[[], object]) -> None:
+    """Have the cluster drop a call; one whose scheduler is lost cannot be asked to."""
+    with suppress(Exception, CancelledInLoop):
+        cancel()
 
 
 def _hand_over(fetch: Callable[[], Result], here: Future[Result]) -> None:

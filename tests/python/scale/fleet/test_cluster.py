@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from concurrent.futures import CancelledError, Future
 from concurrent.futures import wait as wait_for
 from typing import Any
@@ -74,3 +75,15 @@ def test_a_call_that_is_cancelled_here_is_dropped_there() -> None:
     assert future.cancel() and remote.cancelled
     remote.end()
     assert future.cancelled()
+
+
+def test_a_scheduler_that_is_lost_cannot_drop_a_call(caplog: pytest.LogCaptureFixture) -> None:
+    class Lost(Remote):
+        def cancel(self) -> None:
+            raise OSError("the connection is closed")
+
+    remote = Lost(CancelledError())
+    future = ClusterExecutor(Client(remote)).submit(abs, -1)  # type: ignore[arg-type]
+    with caplog.at_level(logging.ERROR):
+        remote.end()
+    assert future.cancelled() and not caplog.records
