@@ -39,6 +39,7 @@ PYTHON = BIN / ("python.exe" if os.name == "nt" else "python")
 LOCK = ROOT / "requirements.lock"
 STAMP = VENV / "installed-for"
 PEERS = ROOT / "target" / "peers"
+RUST_TESTS = ("cargo", "test", "--quiet", "--locked", "--features", "identify")
 
 
 def stop(sentence: str) -> None:
@@ -105,9 +106,6 @@ def setup() -> None:
 
 def demo() -> None:
     run(PYTHON, "-m", "stribeck", "demo", *sys.argv[2:])
-
-
-RUST_TESTS = ("cargo", "test", "--quiet", "--locked", "--features", "identify")
 
 
 def test() -> None:

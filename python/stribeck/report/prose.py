@@ -17,10 +17,9 @@ _AFTER_NUMBER = re.compile(rf"(?<=\d) {_UNIT}(?![\w/])")
 _ALONE = re.compile(_UNIT)
 _POWER = re.compile(r"(?<=[A-Za-z])[23]")
 _NEGATIVE = re.compile(r"(?:(?<=[\s(])|^)-(?=\d)")
-_THOUSANDS = re.compile(r"(?<=\d) (?=\d{3}(?!\d))")
+#: Spaces at which no line breaks: of thousands, after a sign of comparison, and within N m.
+_TOGETHER = re.compile(r"(?<=\d) (?=\d{3}(?!\d))|(?<=[<>≤≥±]) (?=\d)|(?<=\bN) (?=m\b)")
 _BETWEEN_NUMBERS = re.compile(r"(?<=\d) → (?=\d)")
-_COMPARED = re.compile(r"(?<=[<>≤≥±]) (?=\d)")
-_NEWTON_METRE = re.compile(r"(?<=\bN) (?=m\b)")
 
 
 def prose(text: str) -> Markup:
@@ -56,9 +55,8 @@ def unit(text: str) -> str:
 
 def _set(text: str) -> str:
     text = _NEGATIVE.sub(MINUS, text)
-    text = _THOUSANDS.sub(SPACE, text)
+    text = _TOGETHER.sub(SPACE, text)
     text = _BETWEEN_NUMBERS.sub(f"{SPACE}→{SPACE}", text)
-    text = _NEWTON_METRE.sub(SPACE, _COMPARED.sub(SPACE, text))
     return _AFTER_NUMBER.sub(lambda found: _powers(found[0]).replace(" ", SPACE), text)
 
 

@@ -82,7 +82,7 @@ class Tested:
     in_one_block
         Trials that would pass, but gain in one block alone.
     outside_the_band
-        Trials that would pass, but gain at frequencies above those of the motion alone.
+        Trials that would pass, but gain only at frequencies above those of the motion.
     screened
         Number of effects that were screened.
     """

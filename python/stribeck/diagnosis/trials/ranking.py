@@ -180,7 +180,7 @@ def _doubtful_ties(
     """Weights of the effects that may not be claimed, and predict as well as the best that may.
 
     They are alternatives all the same: another cause, that the catalog does not hold, may have the
-    same torque. So are those that gain outside the band of the motion alone, such as the shocks of
+    same torque. So are those that gain only outside the band of the motion, such as the shocks of
     a backlash, which an elasticity imitates. Friction acts in the band: none of these replaces it.
     """
     rivals = () if is_friction(best.effect) else sift.rivals

@@ -232,7 +232,7 @@ def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
 
 
 def passes_outside_the_band(trial: Trial, tried: int, least: float) -> bool:
-    """Whether a trial would pass, but gains at frequencies above those of the motion alone."""
+    """Whether a trial would pass, but gains only at frequencies above those of the motion."""
     e = trial.evidence
     return e.everywhere and e.fall_in_band <= 0 and _is_significant(trial, tried, least)
 
