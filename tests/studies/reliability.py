@@ -4,7 +4,8 @@ python tests/studies/reliability.py [ANSWERS.jsonl...]
 
 Reads the answers of `stribeck benchmark diagnosis --realism N -o FOLDER`, of one run or of several,
 and prints their statistics as the command does. Without a file it reads those beside this script:
-seeds that were run once, before any rule was made from them. Writes the figure of docs/nuisances.md.
+seeds that were run once, before any rule was made from them. Writes the figure of
+docs/nuisances.md.
 """
 
 from __future__ import annotations
