@@ -4,10 +4,11 @@
 //! block by block, without a Jacobian in memory. [`minimise`] takes damped steps in the nonlinear
 //! parameters and solves for the linear ones, for a [`Problem`] or any other [`LeastSquares`].
 //!
-//! [`LowPass`] smooths recorded channels; a [`Forest`] learns from them what no model explains.
+//! [`divided_differences`] of recorded channels show their noise, [`LowPass`] smooths them; a [`Forest`] learns from them what no model explains.
 
 mod bounded;
 mod dense;
+mod differences;
 mod forest;
 mod low_pass;
 mod problem;
@@ -19,6 +20,7 @@ mod triangle;
 pub use bounded::bounded_least_squares;
 #[cfg(feature = "python")]
 pub(crate) use dense::SingularValues;
+pub use differences::divided_differences;
 pub use forest::{Forest, ForestError};
 pub use low_pass::LowPass;
 pub use problem::{NOT_SCORED, Problem};

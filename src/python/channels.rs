@@ -1,4 +1,4 @@
-//! Python interface: recorded channels smoothed, and learned by trees.
+//! Python interface: recorded channels differenced, smoothed, and learned by trees.
 
 use std::vec::Vec;
 
@@ -8,9 +8,26 @@ use pyo3::prelude::*;
 use super::columns::{Array, contiguous};
 use super::normal::row_by_row;
 use super::{ModelError, refuse};
-use crate::identify::{Forest, LowPass};
+use crate::identify::{Forest, LowPass, divided_differences as scaled_differences};
 
 type Matrix<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
+
+/// Divided differences of `order` 2 to 5 of the `values` [m] at `times` [m], scaled so that white
+/// noise keeps its standard deviation, array `[k]`; without those of constant stretches.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn divided_differences<'py>(
+    py: Python<'py>,
+    times: Array<'py>,
+    values: Array<'py>,
+    order: usize,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (times, values) = (contiguous(&times), contiguous(&values));
+    let found = py
+        .detach(|| scaled_differences(&times, &values, order))
+        .ok_or_else(|| ModelError::new_err("the order of a difference is 2 to 5"))?;
+    Ok(found.into_pyarray(py))
+}
 
 /// Each row of `signals` `[k, n]` filtered without phase, array `[k, n]`; `cutoff` is a share of the
 /// sampling rate.

@@ -22,7 +22,7 @@ from stribeck.diagnosis.trials.outshone import without_outshone, without_unresol
 from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import finding_of, ranked
 from stribeck.diagnosis.trials.sifting import Sifted
-from stribeck.diagnosis.trials.trial import SIGNIFICANCE
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial
 from stribeck.diagnosis.visibility.visibility import visibility
 from stribeck.fitting.fit import fit, on_recording, with_choices
 from stribeck.fitting.result import FIT, Fit
@@ -52,6 +52,7 @@ def diagnose(
     sample_rows: int = SAMPLE_ROWS,
     brief: bool = False,
     progress: Callable[[str], None] = lambda sentence: None,
+    known: Callable[[Diagnosis], None] = lambda found: None,
     **choices: Unpack[ChoiceArguments],
 ) -> Diagnosis:
     """Find the effects that are missing from `fitted`.
@@ -77,6 +78,8 @@ def diagnose(
         share as well.
     progress : callable
         Called with a sentence after each candidate.
+    known : callable
+        Called with what `brief` would return, once there are findings.
     **choices
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the model, which is then
         fitted again, or of the effects that are tried.
@@ -98,23 +101,28 @@ def diagnose(
         seed,
     )
     few = excerpt(fitted.recording, sample_rows, seed)
-    if few is fitted.recording:
-        return _diagnosed(fitted, least_fall, rejected, candidates, seed, brief, progress)
-    start = fit(fitted.model, few, starts=1, effort=FROM_NEARBY)
-    found = _diagnosed(start, least_fall, rejected, candidates, seed, brief, progress)
-    return with_errors_on_all_samples(found, fitted)
+    is_whole = few is fitted.recording
+    start = fitted if is_whole else fit(fitted.model, few, starts=1, effort=FROM_NEARBY)
+    made, in_one_block = _findings(start, least_fall, rejected, candidates, seed, progress)
+    shown = made if is_whole else with_errors_on_all_samples(made, fitted)
+    if shown.findings:
+        if brief:
+            return shown
+        known(shown)
+    whole = _with_remainder(made, in_one_block)
+    whole = whole if brief else with_visibility(whole)
+    return replace(whole, fit=shown.fit, findings=shown.findings, demoted=shown.demoted)
 
 
-def _diagnosed(
+def _findings(
     fitted: Fit,
     least_fall: float,
     rejected: Collection[str],
     candidates: Collection[str],
     seed: int,
-    brief: bool,
     progress: Callable[[str], None],
-) -> Diagnosis:
-    """A diagnosis on all samples of the fit's recording."""
+) -> tuple[Diagnosis, list[Trial]]:
+    """A diagnosis with its findings alone, and the trials that gain in one block alone."""
     offered = candidates_for(fitted, rejected, candidates)
     found = tested(fitted, offered.possible, least_fall, seed, progress)
     passed, tried = found.passing, found.screened
@@ -139,27 +147,30 @@ def _diagnosed(
         passed=tuple(t.fit.model.written(t.effect) for t in passed),
         tried=Tried(offered.possible, tried, least_fall),
     )
-    if brief and order.findings:
-        return made
+    return made, found.in_one_block
+
+
+def _with_remainder(found: Diagnosis, in_one_block: list[Trial]) -> Diagnosis:
+    """A diagnosis with what its findings leave unexplained, and its verdict."""
+    fitted, floor = found.fit, found.noise_floor
     # Without repeated states a regressor learns nothing that holds on other blocks.
-    after = order.findings[0].fit if order.findings else fitted
+    after = found.findings[0].fit if found.findings else fitted
     explained = None if floor.value is None else explainable(fitted, after)
-    structure = unexplained(after, floor, explained, last=not order.findings)
+    structure = unexplained(after, floor, explained, last=not found.findings)
     # An effect that passes the test of evidence explains more than noise, if only by imitation.
-    remains = structure.is_structure or order.demoted or order.not_claimed
-    verdict = "missing" if order.findings else ("unexplained" if remains else "none")
-    whole = replace(
-        made,
+    remains = structure.is_structure or found.has_doubts
+    verdict = "missing" if found.findings else ("unexplained" if remains else "none")
+    return replace(
+        found,
         verdict=verdict,
         unexplained=structure,
         explainable=explained,
         in_one_block=tuple(
             finding_of(fitted, trial, NARROW, (), floor)
-            for trial in found.in_one_block
+            for trial in in_one_block
             if impossible(Claim(trial.effect, fitted, trial.fit)) is None
         ),
     )
-    return whole if brief else with_visibility(whole)
 
 
 def with_visibility(found: Diagnosis) -> Diagnosis:

@@ -161,10 +161,12 @@ class Project(Plotted):
         candidates: Collection[str] = (),
         seed: int = 0,
         progress: Callable[[str], None] = lambda sentence: None,
+        known: Callable[[Project], None] = lambda project: None,
     ) -> Project:
         """Diagnose the current node, and store the findings.
 
-        Parameters are those of `stribeck.diagnose`; rejected effects are not tested.
+        Parameters are those of `stribeck.diagnose`; rejected effects are not tested, and `known`
+        is called with the project once there are findings.
         """
         found = diagnose_fit(
             self.fit_of(self.node, seed),
@@ -173,6 +175,7 @@ class Project(Plotted):
             seed=seed,
             rejected=self.tree.rejected(self.current),
             progress=progress,
+            known=lambda found: known(self._remembering(self.current, found)),
         )
         return self._remembering(self.current, found)
 

@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 
+from stribeck import _core
 from stribeck.recording.arrays import Floats, Ints
 
 __all__ = [
@@ -21,8 +22,6 @@ __all__ = [
     "slope_noise",
 ]
 
-#: Samples whose differences are computed at once.
-STRETCH = 8192
 #: A step longer than this many median steps starts a new segment.
 GAP = 5.0
 #: A sample moves when its speed is above this many standard deviations of the velocity noise.
@@ -106,41 +105,6 @@ def quantisation_step(values: Floats) -> float:
     return step if float(on_grid.mean()) > 0.9 else 0.0
 
 
-def _differences(time: Floats, value: Floats, slices: list[slice], order: int) -> Floats:
-    """Divided differences scaled so that white noise of sigma 1 gives values of sigma 1.
-
-    On a uniform grid these are the binomial differences over sqrt(C(2k, k)).
-    """
-    found: list[Floats] = []
-    for part in slices:
-        t, x = time[part], value[part]
-        # Short stretches stay in the cache of the processor.
-        for first in range(0, len(t) - order, STRETCH):
-            reach = slice(first, first + STRETCH + order)
-            found.append(_differences_of(t[reach], x[reach], order))
-    return np.concatenate(found) if found else np.empty(0)
-
-
-def _differences_of(t: Floats, x: Floats, order: int) -> Floats:
-    """The same of one stretch of samples, longer than `order`."""
-    n = len(t) - order
-    lag = {k: t[k:] - t[:-k] for k in range(1, order + 1)}
-    weights = np.empty((order + 1, n))
-    for j in range(order + 1):
-        product = np.full(n, (-1.0) ** (order - j))
-        for m in range(order + 1):
-            if m != j:
-                first = min(j, m)
-                product *= lag[abs(j - m)][first : first + n]
-        weights[j] = 1.0 / product
-    weights /= np.sqrt((weights**2).sum(axis=0))
-    windows = np.stack([x[j : j + n] for j in range(order + 1)])
-    # Stretches that are constant (a servo off, a clipped sensor) carry no noise and would pull the
-    # median to zero.
-    alive = (windows != windows[0]).any(axis=0)
-    return np.asarray((weights * windows).sum(axis=0)[alive])
-
-
 def noise_level(time: Floats, value: Floats, segment: Ints, quantum: float | None = None) -> float:
     """Standard deviation of the white noise on a signal, from its high-order differences.
 
@@ -197,7 +161,8 @@ def _noise_by_order(time: Floats, value: Floats, slices: list[slice]) -> list[fl
     """The noise from differences of order 2 to 5, as far as the samples allow."""
     sigmas: list[float] = []
     for order in (2, 3, 4, 5):
-        d = _differences(time, value, slices, order)
+        found = [_core.divided_differences(time[part], value[part], order) for part in slices]
+        d = np.concatenate(found) if found else np.empty(0)
         if d.size < 5:
             break
         sigmas.append(float(np.median(np.abs(d))) / 0.6745)

@@ -91,6 +91,18 @@ def test_rejected_effects_are_not_tried(loaded: sb.Recording) -> None:
     assert "load" not in [f.effect for f in found.findings]
 
 
+@pytest.mark.parametrize("sample_rows", [1_000_000, 1000])
+def test_findings_are_known_before_the_rest(loaded: sb.Recording, sample_rows: int) -> None:
+    told: list[sb.Diagnosis] = []
+    fitted = sb.fit("coulomb", loaded, starts=2)
+    found = sb.diagnose(fitted, sample_rows=sample_rows, known=told.append)
+    (first,) = told
+    assert first.findings is found.findings and first.findings
+    assert first.explainable is None and found.explainable is not None
+    brief = sb.diagnose(fitted, sample_rows=sample_rows, brief=True)
+    assert brief.to_dict() == first.to_dict()
+
+
 def test_another_recording_is_fitted_first(loaded: sb.Recording, plain: sb.Recording) -> None:
     fit = sb.fit("coulomb", loaded)
     assert sb.diagnose(fit, plain).verdict == "none"

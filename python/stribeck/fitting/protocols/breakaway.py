@@ -107,13 +107,17 @@ def _breakaway(recording: Recording, rest: Rest) -> Breakaway | None:
     before = min(rest.stop - rest.start, max(3 * after, _BEFORE), _MOST)
     rows = slice(rest.stop - before, rest.stop + after)
     time = recording.time[rows]
-    onset = _onset(recording, rows)
-    if onset is None:
+    signal, first = recording.velocity[rows], 2
+    if is_measured(recording) and recording.position is not None:
+        signal, first = recording.position[rows], 3
+    found = _searched(time, signal, (first, first + 1))
+    if found is None or not time[FEWEST] < found[0] < time[-FEWEST // 2]:
         return None
-    instant, error = onset
-    if not time[FEWEST] < instant < time[-FEWEST // 2]:
+    # What is no ramp with the smaller error is none with the larger.
+    if _ramped(recording, rest, rows, *found) is None:
         return None
-    return _ramped(recording, rest, rows, instant, error)
+    error = _onset_error(time, signal, found, first)
+    return None if error is None else _ramped(recording, rest, rows, found[0], error)
 
 
 def _ramped(
@@ -160,28 +164,31 @@ def _ramped(
     )
 
 
-def _onset(recording: Recording, rows: slice) -> tuple[float, float] | None:
-    """The instant at which a motion begins, and its standard error, s.
+def _onset_error(
+    time: Array, signal: Array, found: tuple[float, float], first: int
+) -> float | None:
+    """Standard error of the instant at which a motion begins, s; None with too few samples.
 
     While the torque rises in a straight line, the acceleration does so from zero: the position
-    begins with the third power of time. Whether the next one or two powers are taken into account
-    should not matter: what they disagree by is part of the error.
+    begins with the third power of time, its `first`, and the velocity with the second. Whether the
+    next one or two powers are taken into account should not matter: what they disagree by is part
+    of the error.
+
+    Parameters
+    ----------
+    found
+        The instant with two powers, and its standard error, s.
     """
-    time = recording.time[rows]
-    signal, first = recording.velocity[rows], 2
-    if is_measured(recording) and recording.position is not None:
-        signal, first = recording.position[rows], 3
-    two = _searched(time, signal, (first, first + 1))
     three = _searched(time, signal, (first, first + 1, first + 2))
-    if two is None or three is None:
+    if three is None:
         return None
-    hidden = _hidden(time, signal, two[0], (first, first + 1))
-    return two[0], float(np.linalg.norm([two[1], two[0] - three[0], hidden]))
+    hidden = _hidden(time, signal, found[0], (first, first + 1))
+    return float(np.linalg.norm([found[1], found[0] - three[0], hidden]))
 
 
 def _hidden(time: Array, signal: Array, instant: float, powers: tuple[int, ...]) -> float:
     """Time from the instant until the motion is as large as the noise, s."""
-    matrix = _regressors(time, instant, powers)
+    (matrix,) = _regressors(time, np.array([instant]), powers)
     solution = linear.least_norm(matrix, signal)
     noise = float(np.sqrt(np.mean((signal - matrix @ solution) ** 2)))
     rise = np.abs(matrix[:, 4:] @ solution[4:])
@@ -195,9 +202,9 @@ def _searched(time: Array, signal: Array, powers: tuple[int, ...]) -> tuple[floa
     if freedom < 3:
         return None
     tried = np.linspace(time[2], time[-3], _TRIED)
-    best = int(np.argmin([_squares(time, signal, float(t), powers) for t in tried]))
+    best = int(np.argmin(_squares(time, signal, tried, powers)))
     tried = np.linspace(tried[max(best - 2, 0)], tried[min(best + 2, _TRIED - 1)], _TRIED)
-    squares = np.array([_squares(time, signal, float(t), powers) for t in tried])
+    squares = _squares(time, signal, tried, powers)
     best = int(np.argmin(squares))
     quantile = float(scipy.special.fdtri(1, freedom, 0.6827))
     near = np.flatnonzero(squares <= squares[best] * (1.0 + quantile / freedom))
@@ -205,19 +212,20 @@ def _searched(time: Array, signal: Array, powers: tuple[int, ...]) -> tuple[floa
     return float(tried[best]), max(width, float(tried[1] - tried[0]))
 
 
-def _squares(time: Array, signal: Array, instant: float, powers: tuple[int, ...]) -> float:
-    """Sum of squares of a line before `instant` and a rise by powers of time after it."""
-    matrix = _regressors(time, instant, powers)
-    residual = signal - matrix @ linear.least_norm(matrix, signal)
-    return float(residual @ residual)
+def _squares(time: Array, signal: Array, instants: Array, powers: tuple[int, ...]) -> Array:
+    """Sum of squares of a line before each of `instants` and a rise after it, [k]."""
+    matrices = _regressors(time, instants, powers)
+    residuals = [signal - matrix @ linear.least_norm(matrix, signal) for matrix in matrices]
+    return np.array([residual @ residual for residual in residuals])
 
 
-def _regressors(time: Array, instant: float, powers: tuple[int, ...]) -> Array:
-    u = np.maximum(time - instant, 0.0) / (time[-1] - time[0])
-    along = (time - instant) / (time[-1] - time[0])
+def _regressors(time: Array, instants: Array, powers: tuple[int, ...]) -> Array:
+    """Columns of a line before each of `instants` [k] and of powers of time after it, [k, n, p]."""
+    along = (time - instants[:, None]) / (time[-1] - time[0])
+    before, after = np.minimum(along, 0.0), np.maximum(along, 0.0)
     # Creep in presliding goes faster towards the breakaway.
-    creep = [np.ones(time.size), along, np.minimum(along, 0.0) ** 2, np.minimum(along, 0.0) ** 4]
-    return np.column_stack([*creep, *(u**power for power in powers)])
+    creep = [np.ones_like(along), along, before**2, before**4]
+    return np.stack([*creep, *(after**power for power in powers)], axis=-1)
 
 
 @dataclass(frozen=True)

@@ -118,7 +118,7 @@ def where(tell: Telling, project: Project) -> Changed:
 def diagnose(tell: Telling, project: Project) -> Changed:
     """Find what the current model lacks."""
     tell("said", "Trying every effect that the data can show")
-    return Changed(project.diagnose(progress=lambda sentence: tell("said", sentence.strip())))
+    return Changed(_diagnosed(tell, project))
 
 
 def add(tell: Telling, project: Project, effect: str) -> Changed:
@@ -188,7 +188,7 @@ def page_of(tell: Telling, project: Project, command: str) -> str:
     """The report of the branch that ends at the current model."""
     if project.diagnosis is None:
         tell("said", "Looking for what is still missing")
-        project = project.diagnose(progress=lambda sentence: tell("said", sentence.strip()))
+        project = _diagnosed(tell, project)
         tell("known", Changed(project))
     tell("said", "Writing the page")
     fits = [project.fit_of(node) for node in project.tree.path(project.current)]
@@ -219,3 +219,13 @@ def _compared(tell: Telling, project: Project) -> Changed:
     tell("known", Changed(project))
     tell("said", "Looking where the model fails")
     return Changed(project, compare([fitted], project.recording))
+
+
+def _diagnosed(tell: Telling, project: Project) -> Project:
+    """Diagnose the current model; its findings are told before what else the data can show."""
+
+    def known(found: Project) -> None:
+        tell("known", Changed(found))
+        tell("said", "Looking at what is left, and at what this data could show")
+
+    return project.diagnose(progress=lambda sentence: tell("said", sentence.strip()), known=known)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import base64
+import itertools
 import json
 import threading
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from stribeck.report.finding_view import finding_view
@@ -23,11 +25,21 @@ if TYPE_CHECKING:
     from bokeh.plotting import figure
 
     from stribeck.fitting.result import Fit
+    from stribeck.projects.project import Project
     from stribeck.recording.recording import Recording
     from stribeck.report.workbench.state import Joint
 
 #: Names by which the script of the pages finds the samples and the range of time.
 SAMPLES, WINDOW = "samples", "window"
+
+
+@dataclass(frozen=True)
+class _Answer:
+    """Figures as JSON, their number, and what they are drawn of."""
+
+    of: Sequence[object]
+    number: str
+    text: str
 
 
 class Drawn:
@@ -36,20 +48,28 @@ class Drawn:
     def __init__(self, bench: Workbench) -> None:
         self._bench = bench
         self._samples: dict[str, Samples | RecordingSamples] = {}
-        self._answers: dict[str, tuple[Sequence[object], str]] = {}
+        self._answers: dict[str, _Answer] = {}
+        self._numbers = itertools.count(1)
         self._drawing = threading.Lock()
 
-    def answer(self, page: str) -> str:
-        """The figures of a page as JSON of BokehJS."""
+    def answer(self, page: str, shown: str = "") -> str:
+        """The figures of a page as JSON of BokehJS, with a `number` of their own.
+
+        Parameters
+        ----------
+        shown
+            The number of those that the page shows; if they are these, that is all that is said.
+        """
         with self._drawing:
-            shown = self._shown(page)
-            if not shown:
+            of = self._shown(page)
+            if not of:
                 return json.dumps({})
             known = self._answers.get(page)
-            if known is None or not _same(known[0], shown):
-                known = (shown, json.dumps(as_json(self.plots(page))))
-                self._answers[page] = known
-            return known[1]
+            if known is None or not _same(known.of, of):
+                number = str(next(self._numbers))
+                made = json.dumps({"number": number, **as_json(self.plots(page))})
+                known = self._answers[page] = _Answer(of, number, made)
+            return json.dumps({"same": True}) if known.number == shown else known.text
 
     def _shown(self, page: str) -> Sequence[object]:
         """What the figures of a page are drawn of; empty: there are none."""
@@ -68,7 +88,7 @@ class Drawn:
         if page == "where":
             return () if joint.comparison is None else (project.fit,)
         if page == "missing":
-            return () if project.diagnosis is None else project.diagnosis.findings
+            return _found(project)
         if page == "add":
             return (*project.tree.path(project.current), project.tree.noise_floor)
         return ()
@@ -175,5 +195,17 @@ def _errors(joint: Joint) -> dict[str, figure]:
     }
 
 
+def _found(project: Project) -> Sequence[object]:
+    """What tells the findings of a project from others."""
+    if project.diagnosis is None or not project.diagnosis.findings:
+        return ()
+    errors = [(f.effect, f.rmse_held_out_after) for f in project.diagnosis.findings]
+    return (str(project.path), project.current, *itertools.chain(*errors))
+
+
 def _same(some: Sequence[object], others: Sequence[object]) -> bool:
-    return len(some) == len(others) and all(a is b for a, b in zip(some, others, strict=True))
+    """Whether these are the same objects, or words and numbers that are equal."""
+    return len(some) == len(others) and all(
+        a is b or (isinstance(a, str | int | float) and a == b)
+        for a, b in zip(some, others, strict=True)
+    )

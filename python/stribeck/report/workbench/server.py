@@ -176,7 +176,8 @@ class Figures(Handler):
     async def get(self, name: str) -> None:
         """As JSON of BokehJS."""
         loop = asyncio.get_running_loop()
-        made = await loop.run_in_executor(None, self.drawn.answer, name)
+        shown = self.get_query_argument("known", "")
+        made = await loop.run_in_executor(None, self.drawn.answer, name, shown)
         self.set_header("Content-Type", "application/json")
         self.write(made)
 

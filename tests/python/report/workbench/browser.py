@@ -77,7 +77,8 @@ def press(page: Any, label: str) -> None:
 
 def done(page: Any) -> None:
     """Wait until no work goes on; no error may be shown."""
-    page.wait_for_selector("body[data-busy='0']")
+    # At every frame: a selector is looked for twice a second only.
+    page.wait_for_function("() => document.body.dataset.busy === '0'")
     errors = page.locator("p.error")
     assert errors.count() == 0, errors.all_inner_texts()
 

@@ -102,6 +102,27 @@ def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> No
     check_exported(kept / "demo-1-c")
 
 
+def test_a_page_gets_what_is_new_in_its_place(opened: tuple[Any, str]) -> None:
+    page, _ = opened
+    page.get_by_label("Path of a recording").fill("/tmp/other.csv")
+    page.wait_for_selector("[data-figure='time'] .bk-Figure")
+    page.evaluate("() => { document.querySelector('[data-figure=time]').kept = true; }")
+    done(page)
+    assert page.get_by_label("Path of a recording").input_value() == "/tmp/other.csv"
+    page.wait_for_function("() => document.body.dataset.drawn === '1'")
+    assert page.evaluate("() => document.querySelector('[data-figure=time]').kept")
+    go(page, "Compare")
+    press(page, "Fit this law")
+    go(page, "Missing")
+    page.get_by_role("button", name="Find what is missing", exact=True).click()
+    page.wait_for_selector("[data-figure='findings'] .bk-Figure")
+    page.evaluate("() => { document.querySelector('[data-figure=findings]').kept = true; }")
+    done(page)
+    page.wait_for_function("() => document.body.dataset.drawn === '1'")
+    assert page.evaluate("() => document.querySelector('[data-figure=findings]').kept")
+    assert "Cannot be tested" in page.inner_text("main")
+
+
 def test_long_work_is_stopped_at_once(opened: tuple[Any, str]) -> None:
     page, _ = opened
     done(page)
@@ -200,11 +221,14 @@ def test_the_first_finding_on_a_minute(tmp_path: Path) -> None:
         press(page, "Fit this law")
         times["law fitted"] = time.monotonic() - began
         go(page, "Missing")
-        press(page, "Find what is missing")
-        first = page.inner_text("article h2")
+        page.get_by_role("button", name="Find what is missing", exact=True).click()
+        page.wait_for_function("() => document.querySelector('article h2') !== null")
         times["finding"] = time.monotonic() - began
-        page.wait_for_selector("body[data-drawn='1']")
+        first = page.inner_text("article h2")
+        page.wait_for_function("() => document.body.dataset.drawn === '1'")
         times["finding drawn"] = time.monotonic() - began
+        done(page)
+        times["all told"] = time.monotonic() - began
     said = ", ".join(f"{what} {seconds:.2f} s" for what, seconds in times.items())
     (artefacts(tmp_path / "pictures") / "minute.txt").write_text(said)
     assert "(load)" in first

@@ -75,6 +75,9 @@ def test_the_loop(bench: Workbench) -> None:
         answer = drawn.answer(name)
         assert json.loads(answer)["places"], name
         assert drawn.answer(name) is answer
+        number = json.loads(answer)["number"]
+        assert json.loads(drawn.answer(name, number)) == {"same": True}
+        assert drawn.answer(name, number + "0") is answer
     window = drawn.window("where", 1.0, 2.0)
     assert set(window["time"]) == {"type", "content"}
     kept = sb.project(bench.project.path)

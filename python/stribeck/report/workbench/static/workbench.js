@@ -2,7 +2,7 @@
 "use strict";
 const page = document.body.dataset;
 
-// Progress: ask while work goes on, and show the page again when something changed.
+// Progress: ask while work goes on, and show what is new in its place when something changed.
 function clock(seconds, left) {
   const least = `${seconds.toFixed(0)} s`;
   return left === null ? `(${least})` : `(${least}, about ${Math.ceil(left)} s left)`;
@@ -10,20 +10,51 @@ function clock(seconds, left) {
 async function progress() {
   try {
     const answer = await (await fetch(`${page.progress}&version=${page.version}`)).json();
-    if (answer.version !== Number(page.version) || !answer.busy) { location.reload(); return; }
-    document.getElementById("said").textContent = answer.said;
-    document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
+    if (answer.version !== Number(page.version) || !answer.busy) {
+      await renew();
+      if (page.busy !== "1") return;
+    } else {
+      document.getElementById("said").textContent = answer.said;
+      document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
+    }
   } catch { document.getElementById("said").textContent = "The workbench has ended."; return; }
   setTimeout(progress, 0);
 }
+// The page as it is now, without its figures where they are drawn already: those stay, and so does
+// what is typed. The status is a live region: it stays and gets new content.
+async function renew() {
+  const text = await (await fetch(location.href)).text();
+  const now = new DOMParser().parseFromString(text, "text/html");
+  for (const typed of document.querySelectorAll("main input[id]")) {
+    const field = now.getElementById(typed.id);
+    if (field && typed.type !== "file" && typed.value !== typed.defaultValue) field.value = typed.value;
+  }
+  for (const place of now.querySelectorAll("[data-figure]")) {
+    const drawn = document.querySelector(`[data-figure="${CSS.escape(place.dataset.figure)}"]`);
+    if (drawn) place.replaceWith(drawn);
+  }
+  const status = document.querySelector(".status"), said = now.querySelector(".status");
+  const focused = document.activeElement.id;
+  status.replaceChildren(...said.childNodes);
+  said.remove();
+  while (status.nextSibling) status.nextSibling.remove();
+  status.after(...now.querySelector("main").childNodes);
+  if (focused) document.getElementById(focused)?.focus();
+  document.querySelector(".of").replaceWith(now.querySelector(".of"));
+  document.title = now.title;
+  Object.assign(page, now.body.dataset);
+  draw();
+}
 if (page.busy === "1") progress();
 
-// Files that are dropped anywhere on the form are sent with it.
-for (const form of document.querySelectorAll(".drop")) {
-  form.addEventListener("dragover", (event) => { event.preventDefault(); form.classList.add("over"); });
-  form.addEventListener("dragleave", () => form.classList.remove("over"));
-  form.addEventListener("drop", (event) => {
+// Files that are dropped anywhere on a form are sent with it.
+for (const name of ["dragover", "dragleave", "drop"]) {
+  document.addEventListener(name, (event) => {
+    const form = event.target.closest(".drop");
+    if (!form) return;
     event.preventDefault();
+    form.classList.toggle("over", name === "dragover");
+    if (name !== "drop") return;
     form.querySelector("input[type=file]").files = event.dataTransfer.files;
     form.requestSubmit();
   });
@@ -78,12 +109,26 @@ function followZoom(bokeh) {
   }
 }
 // This script runs before the library of the figures is loaded: both come at the same time.
-const places = [...document.querySelectorAll("[data-figure]")];
-const figures = places.length ? fetch(page.figures).then((answer) => answer.json()) : null;
-async function draw() {
-  if (!figures) return;
-  const made = await figures;
-  if (!made.item) { places.forEach((place) => { place.hidden = true; }); return; }
+const loaded = new Promise((done) => window.addEventListener("load", done));
+let shown = "", drawing = Promise.resolve();
+function draw() {
+  delete page.drawn;
+  drawing = drawing.then(drawOnce);
+}
+async function drawOnce() {
+  const places = [...document.querySelectorAll("[data-figure]")];
+  if (!places.length) return;
+  const made = await (await fetch(`${page.figures}&known=${shown}`)).json();
+  await loaded;
+  if (made.same) {
+    for (const place of places) place.hidden = !place.querySelector(".plot").hasChildNodes();
+    page.drawn = "1";
+    return;
+  }
+  // Figures are not taken out of a page: their memory would be lost.
+  if (shown) { location.reload(); return; }
+  if (!made.item) { for (const place of places) place.hidden = true; return; }
+  shown = made.number;
   // BokehJS fills the places in the order of the document: each figure needs one.
   for (const [name, id] of Object.entries(made.places)) {
     const place = places.find((one) => one.dataset.figure === name);
@@ -100,4 +145,4 @@ async function draw() {
   requestAnimationFrame(() => requestAnimationFrame(paintWhatIsSeen));
   page.drawn = "1";
 }
-window.addEventListener("load", draw);
+draw();
