@@ -11,19 +11,18 @@ async function progress() {
   try {
     const answer = await (await fetch(`${page.progress}&version=${page.version}`)).json();
     if (answer.version !== Number(page.version) || !answer.busy) {
-      await renew();
+      renew(await (await fetch(location.href)).text());
       if (page.busy !== "1") return;
     } else {
       document.getElementById("said").textContent = answer.said;
       document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
     }
-  } catch { document.getElementById("said").textContent = "The workbench has ended."; return; }
+  } catch { complain("The workbench has ended."); return; }
   setTimeout(progress, 0);
 }
-// The page as it is now, without its figures where they are drawn already: those stay, and so does
-// what is typed. The status is a live region: it stays and gets new content.
-async function renew() {
-  const text = await (await fetch(location.href)).text();
+// Show the page as it is now. Figures that are drawn already stay, and so does what is typed. The
+// status is a live region: it stays and gets new content.
+function renew(text) {
   const now = new DOMParser().parseFromString(text, "text/html");
   for (const typed of document.querySelectorAll("main input[id]")) {
     const field = now.getElementById(typed.id);
@@ -46,6 +45,33 @@ async function renew() {
   draw();
 }
 if (page.busy === "1") progress();
+
+// A form is sent without leaving the page, unless another page answers it.
+const path = (address) => new URL(address).pathname.replace(/^\/$/, "/data");
+function complain(said) {
+  const error = document.createElement("p");
+  error.className = "error";
+  error.textContent = said;
+  document.querySelector(".status").replaceChildren(error);
+  page.busy = "0";
+}
+document.addEventListener("submit", async (event) => {
+  event.preventDefault();
+  page.busy = "1";
+  const form = event.target, sent = new FormData(form);
+  const body = form.enctype === "multipart/form-data" ? sent : new URLSearchParams(sent);
+  try {
+    // A field of the form is called "action".
+    const answer = await fetch(form.getAttribute("action"), { method: "POST", body });
+    if (!answer.ok) complain(await answer.text());
+    else if (path(answer.url) !== path(location.href)) location.assign(answer.url);
+    else {
+      form.reset();
+      renew(await answer.text());
+      if (page.busy === "1") progress();
+    }
+  } catch { complain("The workbench has ended."); }
+});
 
 // Files that are dropped anywhere on a form are sent with it.
 for (const name of ["dragover", "dragleave", "drop"]) {
@@ -108,8 +134,21 @@ function followZoom(bokeh) {
     side.change.connect(() => { clearTimeout(waiting); waiting = setTimeout(answer, 40); });
   }
 }
-// This script runs before the library of the figures is loaded: both come at the same time.
-const loaded = new Promise((done) => window.addEventListener("load", done));
+// The library of the figures is large: it is loaded when the first are drawn, and on the first page
+// ahead of them.
+let library = null;
+function bokeh() {
+  library ??= Promise.all(page.library.split(" ").map((address) => new Promise((done, failed) => {
+    const script = document.createElement("script");
+    script.src = address;
+    script.async = false;
+    script.onload = done;
+    script.onerror = failed;
+    document.head.append(script);
+  })));
+  return library;
+}
+if (path(location.href) === "/data") addEventListener("load", bokeh);
 let shown = "", drawing = Promise.resolve();
 function draw() {
   delete page.drawn;
@@ -119,7 +158,6 @@ async function drawOnce() {
   const places = [...document.querySelectorAll("[data-figure]")];
   if (!places.length) return;
   const made = await (await fetch(`${page.figures}&known=${shown}`)).json();
-  await loaded;
   if (made.same) {
     for (const place of places) place.hidden = !place.querySelector(".plot").hasChildNodes();
     page.drawn = "1";
@@ -128,6 +166,7 @@ async function drawOnce() {
   // Figures are not taken out of a page: their memory would be lost.
   if (shown) { location.reload(); return; }
   if (!made.item) { for (const place of places) place.hidden = true; return; }
+  await bokeh();
   shown = made.number;
   // BokehJS fills the places in the order of the document: each figure needs one.
   for (const [name, id] of Object.entries(made.places)) {
