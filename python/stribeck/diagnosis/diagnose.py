@@ -76,10 +76,9 @@ def diagnose(
     brief : bool
         Without the smallest visible effects; where there are findings, without the explainable
         share as well.
-    progress : callable
-        Called with a sentence after each candidate.
-    known : callable
-        Called with what `brief` would return, once there are findings.
+    progress, known : callable
+        Called with a sentence after each candidate, and with what `brief` would return as soon as
+        there are findings.
     **choices
         `start`, `bounds` and `fix` of `stribeck.fit`, of parameters of the model, which is then
         fitted again, or of the effects that are tried.
@@ -94,12 +93,8 @@ def diagnose(
     ('missing', 'load')
     """
     check_share("least_fall", least_fall)
-    fitted = with_choices(
-        on_recording(fitted, recording, seed),
-        choices,
-        parameters_of_effects(candidates=candidates),
-        seed,
-    )
+    own = parameters_of_effects(candidates=candidates)
+    fitted = with_choices(on_recording(fitted, recording, seed), choices, own, seed)
     few = excerpt(fitted.recording, sample_rows, seed)
     is_whole = few is fitted.recording
     start = fitted if is_whole else fit(fitted.model, few, starts=1, effort=FROM_NEARBY)
@@ -109,8 +104,8 @@ def diagnose(
         if brief:
             return shown
         known(shown)
-    whole = _with_remainder(made, in_one_block)
-    whole = whole if brief else with_visibility(whole)
+    rest = _with_remainder(made, in_one_block)
+    whole = rest if brief else with_visibility(rest)
     return replace(whole, fit=shown.fit, findings=shown.findings, demoted=shown.demoted)
 
 

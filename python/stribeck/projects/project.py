@@ -165,8 +165,8 @@ class Project(Plotted):
     ) -> Project:
         """Diagnose the current node, and store the findings.
 
-        Parameters are those of `stribeck.diagnose`; rejected effects are not tested, and `known`
-        is called with the project once there are findings.
+        Parameters are those of `stribeck.diagnose`, but `known` gets a project; rejected effects are
+        not tested.
         """
         found = diagnose_fit(
             self.fit_of(self.node, seed),
@@ -331,9 +331,8 @@ class Project(Plotted):
     def compare(self, one: str | int, other: str | int, *, seed: int = 0) -> Sides:
         """Compare two nodes, given by number or name."""
         first, second = self.tree.find(one), self.tree.find(other)
-        return Sides.of(
-            (first, second), (self.fit_of(first, seed), self.fit_of(second, seed)), self.recording
-        )
+        fits = (self.fit_of(first, seed), self.fit_of(second, seed))
+        return Sides.of((first, second), fits, self.recording)
 
     def _with_node(self, change: str, found: Found, fitted: Fit) -> Project:
         tree, made = self.tree.with_node(
@@ -342,8 +341,7 @@ class Project(Plotted):
         return replace(self, tree=tree, current=made.number)
 
     def _remembering(self, number: int, diagnosis: Diagnosis) -> Project:
-        said = Remembered.of(diagnosis)
-        return replace(self, tree=self.tree.with_changed(number, diagnosis=said))
+        return replace(self, tree=self.tree.with_changed(number, diagnosis=Remembered.of(diagnosis)))
 
     def _rejecting(self, number: int, effect: str, why: str) -> Project:
         rejected = {**self.tree.node(number).rejected, effect: why}

@@ -108,7 +108,7 @@ def tested(
     """
     needs = {effect: missing_simpler_effect(effect, fitted.model) for effect in possible}
     alone = [effect for effect, needed in needs.items() if needed is None]
-    first = _tried_alone(fitted, possible, alone, least, seed, progress)
+    first = _tried_alone(fitted, alone, least, seed, progress)
     tried = max(first.screened, 1)
     good = [t for t in first.trials if passes(t, tried, least)]
     pairs: list[_Pair] = []
@@ -144,23 +144,26 @@ def tested(
 
 @dataclass(frozen=True)
 class _TriedAlone:
-    """Effects that were tried alone.
+    """Effects that were tried alone: all but those that contain a simpler one.
 
     Attributes
     ----------
     screenings
-        The screening of each effect, also of those that contain a simpler one.
+        The screening of each.
     trials
-        Trials of the promising ones, but for those that contain a simpler one.
-    screened
-        Number of effects that were screened, but for those.
+        Trials of the promising ones.
     """
 
     fitted: Fit
     least: float
+    seed: int
     screenings: Mapping[str, Screened]
     trials: list[Trial]
-    screened: int
+
+    @property
+    def screened(self) -> int:
+        """Number of effects that were screened."""
+        return len(self.screenings)
 
     def of_simpler(self, effect: str, needed: str) -> Trial | None:
         """The trial of the simpler effect that another contains.
@@ -168,34 +171,34 @@ class _TriedAlone:
         It is tried, though it promises nothing alone, where the wider one is promising.
         """
         made = next((t for t in self.trials if t.effect == needed), None)
-        known = made is not None or not {effect, needed} <= self.screenings.keys()
-        if known or not is_promising(self.screenings[effect], self.least):
+        if made is not None or needed not in self.screenings:
             return made
+        wider = screened(self.fitted, effect, seed=self.seed)
+        if wider is None or not is_promising(wider, self.least):
+            return None
         return try_effect(self.fitted, self.screenings[needed])
 
 
 def _tried_alone(
     fitted: Fit,
-    possible: Collection[str],
     alone: Collection[str],
     least: float,
     seed: int,
     progress: Callable[[str], None],
 ) -> _TriedAlone:
-    """Screen all `possible` effects, and try the promising ones of `alone`."""
+    """Screen the effects of `alone`, and try the promising ones."""
     with on_threads() as pool:
-        each = zip(possible, pool.map(partial(screened, fitted, seed=seed), possible), strict=True)
+        each = zip(alone, pool.map(partial(screened, fitted, seed=seed), alone), strict=True)
         screenings = {effect: screening for effect, screening in each if screening}
-        first = [screenings[effect] for effect in alone if effect in screenings]
-        promising = [s for s in first if is_promising(s, least)]
-        progress(f"  {len(promising)} of {len(first)} effects are promising")
+        promising = [s for s in screenings.values() if is_promising(s, least)]
+        progress(f"  {len(promising)} of {len(screenings)} effects are promising")
         trials: list[Trial] = []
         told = Told(progress, len(promising))
         made = zip(promising, pool.map(partial(try_effect, fitted), promising), strict=True)
         for screening, trial in made:
             told.fitted(effect_name(screening.effect), trial)
             trials += [trial] if trial else []
-    return _TriedAlone(fitted, least, screenings, trials, len(first))
+    return _TriedAlone(fitted, least, seed, screenings, trials)
 
 
 @dataclass(frozen=True)
