@@ -165,8 +165,8 @@ class Project(Plotted):
     ) -> Project:
         """Diagnose the current node, and store the findings.
 
-        Parameters are those of `stribeck.diagnose`, but `known` gets a project; rejected effects are
-        not tested.
+        Parameters are those of `stribeck.diagnose`, but `known` gets a project; rejected effects
+        are not tested.
         """
         found = diagnose_fit(
             self.fit_of(self.node, seed),
@@ -341,7 +341,8 @@ class Project(Plotted):
         return replace(self, tree=tree, current=made.number)
 
     def _remembering(self, number: int, diagnosis: Diagnosis) -> Project:
-        return replace(self, tree=self.tree.with_changed(number, diagnosis=Remembered.of(diagnosis)))
+        made = self.tree.with_changed(number, diagnosis=Remembered.of(diagnosis))
+        return replace(self, tree=made)
 
     def _rejecting(self, number: int, effect: str, why: str) -> Project:
         rejected = {**self.tree.node(number).rejected, effect: why}
