@@ -219,10 +219,8 @@ class Project(Plotted):
         has = (*model.own_effects, *model.effects)
         if effect not in has:
             if model.has(effect):
-                raise SpecError(
-                    f"{effect} is part of the law {model.law} and cannot be dropped: make a "
-                    f"project with another base"
-                )
+                part = f"{effect} is part of the law {model.law} and cannot be dropped"
+                raise SpecError(f"{part}: make a project with another base")
             there = f"it has {', '.join(has)}" if has else "nothing was added to it"
             raise SpecError(
                 f"effect {effect!r} is not in {model.spec}{nearest(effect, has) or f'; {there}'}"
