@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
-NOT_ASKED = Unexplained(None, None)
+NOT_ASKED = Unexplained(None, None, asked=False)
 
 
 @door(FitError, fitted=FIT)

@@ -226,7 +226,9 @@ def floor_sentence(floor: NoiseFloor, unit: str) -> str:
 
 
 def left_after(diagnosis: Diagnosis) -> str:
-    """How much of the error is more than noise once the first finding is added."""
+    """How much of the error is more than noise once the first finding is added, if asked."""
+    if not diagnosis.unexplained.asked:
+        return ""
     left = left_text(diagnosis.unexplained)
     if not diagnosis.findings:
         return left

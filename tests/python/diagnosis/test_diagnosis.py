@@ -101,6 +101,7 @@ def test_findings_are_known_before_the_rest(loaded: sb.Recording, sample_rows: i
     assert first.explainable is None and found.explainable is not None
     brief = sb.diagnose(fitted, sample_rows=sample_rows, brief=True)
     assert brief.to_dict() == first.to_dict()
+    assert "cannot be estimated" not in str(brief) and "remains" in str(found)
 
 
 def test_another_recording_is_fitted_first(loaded: sb.Recording, plain: sb.Recording) -> None:

@@ -55,11 +55,14 @@ class Unexplained:
     shown : float
         The share that a function of the recorded channels, or friction that varies along the
         recording, shows. An effect may imitate its cause.
+    asked : bool
+        False where a brief diagnosis has not looked for it.
     """
 
     share: float | None
     where: str | None
     shown: float = 0.0
+    asked: bool = True
 
     @property
     def is_structure(self) -> bool:

@@ -97,7 +97,7 @@ def without_imitations(
             doubted = Doubted(trial, f"{rivals.largest} explains it as well")
             judged = Sifted(demoted=(doubted,))
             if better < -TIE:
-                explained = f"{rivals.largest} explains more, and what it explains too"
+                explained = f"{rivals.largest} explains all that it does, and more"
                 judged = Sifted(refused=(Doubted(trial, explained),))
             sift = sift.instead(trial, judged)
             continue

@@ -55,8 +55,11 @@ function complain(said) {
   document.querySelector(".status").replaceChildren(error);
   page.busy = "0";
 }
+let sending = false;
 document.addEventListener("submit", async (event) => {
   event.preventDefault();
+  if (sending) return;
+  sending = true;
   page.busy = "1";
   const form = event.target, sent = new FormData(form);
   const body = form.enctype === "multipart/form-data" ? sent : new URLSearchParams(sent);
@@ -71,6 +74,7 @@ document.addEventListener("submit", async (event) => {
       if (page.busy === "1") progress();
     }
   } catch { complain("The workbench has ended."); }
+  sending = false;
 });
 
 // Files that are dropped anywhere on a form are sent with it.
