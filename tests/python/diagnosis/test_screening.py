@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import is_promising, try_effect
-from synthetic import joint, motion, record
+from synthetic import COULOMB, joint, motion, record
 
 ROWS = 9000
 
@@ -53,3 +54,28 @@ def test_the_seed_decides(fitted: sb.Fit) -> None:
     assert once is not None and again is not None
     assert once.fall == again.fall
     np.testing.assert_array_equal(once.model.values, again.model.values)
+
+
+def rested(frame: pl.DataFrame, rows: int) -> pl.DataFrame:
+    """The same after a rest, in which noise alone changes the sign of the velocity."""
+    t = np.arange(rows) * 0.01
+    noise = 1e-4 * np.random.default_rng(2).standard_normal(rows)
+    still = frame.head(1).select(pl.all().repeat_by(rows).explode())
+    rest = still.with_columns(time=pl.Series(t), velocity=pl.Series(noise), torque=pl.lit(2.0))
+    return pl.concat([rest, frame.with_columns(pl.col("time") + rows * 0.01)])
+
+
+@pytest.mark.parametrize("effect", ["delay", "presliding"])
+def test_a_rest_hides_no_effect(effect: str, tmp_path: Path) -> None:
+    frame = joint(rows=ROWS)
+    if effect == "delay":
+        frame = frame.with_columns(pl.col("torque").shift(2).backward_fill())
+    else:
+        _, q, v, _ = motion(ROWS)
+        turns = np.where(np.diff(np.sign(v), prepend=0.0) != 0, np.arange(ROWS), 0)
+        travel = np.abs(q - q[np.maximum.accumulate(turns)])
+        missing = 2.0 * COULOMB * np.sign(v) * np.exp(-travel / 0.05)
+        frame = frame.with_columns(torque=pl.col("torque") - missing)
+    fitted = sb.fit("coulomb", record(tmp_path, rested(frame, 12_000), trust=True))
+    found = screened(fitted, effect)
+    assert found is not None and is_promising(found, 0.01)

@@ -107,12 +107,12 @@ def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Arr
 def _few_samples(problem: Problem, base: Model) -> Problem:
     """Few samples of a memoryless model; for a new state, the stretch with the most reversals.
 
-    Where the base has a state or a delay already, another effect may show anywhere: all samples.
+    All samples for a delay, which may show anywhere, and for any effect beside a state or a delay.
     """
     if problem.model.memoryless:
         return problem.thinned(ROWS)
     is_new_state = problem.model.has_state and not base.has_state
-    return problem.window(SAMPLES) if is_new_state or base.memoryless else problem
+    return problem.window(SAMPLES) if is_new_state else problem
 
 
 def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: int) -> Search:
