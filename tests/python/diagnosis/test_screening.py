@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from stribeck.benchmark.generators import GENERATORS
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import is_promising, try_effect
 from synthetic import COULOMB, joint, motion, record
@@ -79,3 +80,16 @@ def test_a_rest_hides_no_effect(effect: str, tmp_path: Path) -> None:
     fitted = sb.fit("coulomb", record(tmp_path, rested(frame, 12_000), trust=True))
     found = screened(fitted, effect)
     assert found is not None and is_promising(found, 0.01)
+
+
+@pytest.mark.parametrize("seed", [3, 12])
+def test_the_best_of_the_minima_of_a_delay_is_found(seed: int, tmp_path: Path) -> None:
+    # Delayed, the sign of the velocity changes sample by sample: there is a minimum near each.
+    made = GENERATORS["closed_loop"].make(("delay",), seed, 5.0)
+    recording = record(tmp_path, made.frame, joint_kind=made.truth["kind"])
+    fitted = sb.fit("coulomb", recording, starts=1)
+    found = screened(fitted, "delay")
+    assert found is not None
+    trial = try_effect(fitted, found)
+    assert trial is not None
+    assert trial.fit.rmse < 1.01 * sb.fit("coulomb+delay", recording).rmse

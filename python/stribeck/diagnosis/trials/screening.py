@@ -37,6 +37,8 @@ ROWS, SAMPLES = 3000, 6000
 FIRST_STEPS, FURTHER_STEPS = 3, 20
 #: The further steps on all samples: the full fit continues from there.
 FURTHER_STEPS_ON_ALL_ROWS = 4
+#: Samples by which a delay is shifted to find the other minima, and how often at most.
+SHIFTS, MOST_SHIFTS = (-2.0, -1.0, 1.0, 2.0), 5
 #: A search ends at a step that predicts a smaller relative fall of the squared error.
 TOLERANCE = 1e-6
 
@@ -138,7 +140,30 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     if not nonlinear.any():
         return best
     further = FURTHER_STEPS if few else FURTHER_STEPS_ON_ALL_ROWS
-    return _steps(problem, best.values[None, :], lower, upper, further)[0]
+    found = _steps(problem, best.values[None, :], lower, upper, further)[0]
+    is_new_delay = unknown & np.array([name == "delay" for name in problem.model.names])
+    if not is_new_delay.any() or problem.model.has_state:
+        return found
+    return _across_samples(problem, found, is_new_delay, lower, upper)
+
+
+def _across_samples(
+    problem: Problem, found: Search, delay: NDArray[np.bool_], lower: Array, upper: Array
+) -> Search:
+    """The best search from `found`, and from delays that differ by a few samples.
+
+    The sign of a delayed velocity changes sample by sample: the error has a minimum near each.
+    """
+    period = 1.0 / problem.recording.rate_hz
+    for _ in range(MOST_SHIFTS):
+        at = np.tile(found.values, (len(SHIFTS), 1))
+        at[:, delay] += period * np.array(SHIFTS)[:, None]
+        tried = _steps(problem, np.clip(at, lower, upper), lower, upper, FIRST_STEPS)
+        best = min(tried, key=lambda search: search.square)
+        if not best.square < found.square:
+            break
+        found = best
+    return found
 
 
 def _steps(problem: Problem, at: Array, lower: Array, upper: Array, most: int) -> list[Search]:
