@@ -379,16 +379,11 @@ class Problem:
         return self if step <= 1 else replace(self, rows=self.rows[::step])
 
     def window(self, most: int) -> Problem:
-        """The same problem on at most `most` contiguous samples, those with the most reversals.
-
-        At rest the noise of the velocity changes its sign, which is no reversal.
-        """
+        """The same problem on at most `most` contiguous samples, those with the most reversals."""
         size = self.recording.time.size
         if size <= most:
             return self
-        moving = np.flatnonzero(self.recording.moving)
-        turned = np.zeros(size)
-        turned[moving[1:]] = np.diff(np.sign(self.recording.velocity[moving])) != 0
+        turned = np.diff(np.sign(self.recording.velocity), prepend=0.0) != 0
         count = np.cumsum(turned)
         starts = np.arange(0, size - most + 1, most // 4)
         start = int(starts[np.argmax(count[starts + most - 1] - count[starts])])
