@@ -4,7 +4,8 @@
 //! block by block, without a Jacobian in memory. [`minimise`] takes damped steps in the nonlinear
 //! parameters and solves for the linear ones, for a [`Problem`] or any other [`LeastSquares`].
 //!
-//! [`divided_differences`] of recorded channels show their noise, [`LowPass`] smooths them; a [`Forest`] learns from them what no model explains.
+//! [`divided_differences`] of recorded channels show their noise, [`LowPass`] smooths them; a
+//! [`Forest`] learns from them what no model explains.
 
 mod bounded;
 mod dense;

@@ -88,7 +88,7 @@ class Drawn:
         if page == "where":
             return () if joint.comparison is None else (project.fit,)
         if page == "missing":
-            return _found(project)
+            return _findings_of(project)
         if page == "add":
             return (*project.tree.path(project.current), project.tree.noise_floor)
         return ()
@@ -195,7 +195,7 @@ def _errors(joint: Joint) -> dict[str, figure]:
     }
 
 
-def _found(project: Project) -> Sequence[object]:
+def _findings_of(project: Project) -> Sequence[object]:
     """What tells the findings of a project from others."""
     if project.diagnosis is None or not project.diagnosis.findings:
         return ()

@@ -7,18 +7,22 @@ function clock(seconds, left) {
   const least = `${seconds.toFixed(0)} s`;
   return left === null ? `(${least})` : `(${least}, about ${Math.ceil(left)} s left)`;
 }
+let following = false;
 async function progress() {
+  if (following) return;
+  following = true;
   try {
-    const answer = await (await fetch(`${page.progress}&version=${page.version}`)).json();
-    if (answer.version !== Number(page.version) || !answer.busy) {
-      renew(await (await fetch(location.href)).text());
-      if (page.busy !== "1") return;
-    } else {
-      document.getElementById("said").textContent = answer.said;
-      document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
+    while (page.busy === "1") {
+      const answer = await (await fetch(`${page.progress}&version=${page.version}`)).json();
+      if (answer.version !== Number(page.version) || !answer.busy) {
+        renew(await (await fetch(location.href)).text());
+      } else {
+        document.getElementById("said").textContent = answer.said;
+        document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
+      }
     }
-  } catch { complain("The workbench has ended."); return; }
-  setTimeout(progress, 0);
+  } catch { complain("The workbench has ended."); }
+  following = false;
 }
 // Show the page as it is now. Figures that are drawn already stay, and so does what is typed. The
 // status is a live region: it stays and gets new content.
@@ -44,7 +48,7 @@ function renew(text) {
   Object.assign(page, now.body.dataset);
   draw();
 }
-if (page.busy === "1") progress();
+progress();
 
 // A form is sent without leaving the page, unless another page answers it.
 const path = (address) => new URL(address).pathname.replace(/^\/$/, "/data");
@@ -71,7 +75,7 @@ document.addEventListener("submit", async (event) => {
     else {
       form.reset();
       renew(await answer.text());
-      if (page.busy === "1") progress();
+      progress();
     }
   } catch { complain("The workbench has ended."); }
   sending = false;
@@ -156,7 +160,7 @@ if (path(location.href) === "/data") addEventListener("load", bokeh);
 let shown = "", drawing = Promise.resolve();
 function draw() {
   delete page.drawn;
-  drawing = drawing.then(drawOnce);
+  drawing = drawing.then(drawOnce, drawOnce);
 }
 async function drawOnce() {
   const places = [...document.querySelectorAll("[data-figure]")];
