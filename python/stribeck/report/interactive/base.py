@@ -31,6 +31,9 @@ Limits = tuple[float, float] | None
 MEASURED = "#808488"
 COLOURS = ("#D55E00", "#0079BD", "#009E73", "#C2639A", "#B98300", "#3E93C4")
 FLOOR = "#009E73"
+#: Width of a line through many samples, pixels: without a graphics card Chromium paints a wider one
+#: many times as slowly.
+HAIRLINE = 1.0
 #: Text and axes; pages set them by the CSS properties `--bk-...` for their own ground.
 INK, FAINT = "#74777c", "#9a9da340"
 #: Longest name of a model in a legend: a longer one is cut off on a phone.

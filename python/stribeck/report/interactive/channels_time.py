@@ -11,7 +11,14 @@ from bokeh.models import BoxSelectTool, ColumnDataSource
 from numpy.typing import NDArray
 
 from stribeck.report.channels import clock, torque_name
-from stribeck.report.interactive.base import COLOURS, MEASURED, hover, new_plot, range_over
+from stribeck.report.interactive.base import (
+    COLOURS,
+    HAIRLINE,
+    MEASURED,
+    hover,
+    new_plot,
+    range_over,
+)
 from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
 from stribeck.report.interactive.dots import selected_dots
 from stribeck.report.interactive.samples import gaps
@@ -109,7 +116,7 @@ def channels_time(samples: RecordingSamples) -> dict[str, figure]:
         select = BoxSelectTool(dimensions="width")
         plot.add_tools(select)
         plot.toolbar.active_drag = select
-        line = plot.line("time", name, source=source, color=MEASURED, line_width=1.3)
+        line = plot.line("time", name, source=source, color=MEASURED, line_width=HAIRLINE)
         line.nonselection_glyph = None
         selected_dots(plot, source, "time", name, COLOURS[0])
         hover(plot, [line], [("time", "@time{0.000} s"), (name, f"@{name}{{0.0000}}")])

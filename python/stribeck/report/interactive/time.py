@@ -8,6 +8,7 @@ from bokeh.models import BoxSelectTool
 
 from stribeck.report.channels import clock, torque_name
 from stribeck.report.interactive.base import (
+    HAIRLINE,
     MEASURED,
     begin_with,
     colour_of,
@@ -46,7 +47,7 @@ def time(samples: Samples, *, x_range: object = None) -> figure:
     measured = _drawn(plot, samples, "torque", MEASURED, 2.4)
     items = [("measured", measured)]
     for k, name in enumerate(samples.names):
-        items.append((name, _drawn(plot, samples, f"modelled_{k}", colour_of(k), 1.4)))
+        items.append((name, _drawn(plot, samples, f"modelled_{k}", colour_of(k), HAIRLINE)))
     hover(plot, measured[-1:], sample_rows(samples, *range(len(samples.fits))))
     legend_above(plot, items)
     return plot
@@ -59,7 +60,7 @@ def residual_time(samples: Samples, *, x_range: object = None) -> figure:
     zero_line(plot)
     items = []
     for k, name in enumerate(samples.names):
-        items.append((name, _drawn(plot, samples, f"residual_{k}", colour_of(k), 1.2)))
+        items.append((name, _drawn(plot, samples, f"residual_{k}", colour_of(k), HAIRLINE)))
     begin_with(plot, y=samples.limits(*(f"residual_{k}" for k in range(len(samples.fits)))))
     hover(plot, items[-1][1][-1:], sample_rows(samples, *range(len(samples.fits))))
     legend_above(plot, items)
