@@ -30,6 +30,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
@@ -56,8 +57,10 @@ def started(*command: str | Path) -> subprocess.Popen[bytes]:
 
 
 def run(*command: str | Path) -> None:
+    began = time.monotonic()
     with started(*command) as process:
         code = process.wait()
+    print(f"  {time.monotonic() - began:.0f} s", file=sys.stderr, flush=True)
     if code != 0:
         raise SystemExit(code)
 

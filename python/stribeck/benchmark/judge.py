@@ -27,12 +27,15 @@ class Judgement:
         reported as indistinguishable from the first one.
     problem
         The error, or an empty string.
+    extra
+        An effect was named that is not hidden.
     """
 
     right: bool
     exact: bool
     named: str
     problem: str
+    extra: bool = False
 
 
 def judge(answer: CaseAnswer) -> Judgement:
@@ -60,7 +63,8 @@ def judge(answer: CaseAnswer) -> Judgement:
     named = _top(answer)
     rule = _with_nuisances if answer.case.nuisances else _PROBLEMS[answer.case.group]
     problems = rule(answer, missed, wrong, named)
-    return Judgement(not problems, not missed and not wrong, named, "; ".join(problems))
+    exact = not missed and not wrong
+    return Judgement(not problems, exact, named, "; ".join(problems), bool(wrong))
 
 
 def is_right(step: NamedEffect, answer: CaseAnswer) -> bool:

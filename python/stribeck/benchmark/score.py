@@ -36,7 +36,10 @@ TITLES = {
     "limited": "limited motion: untestable, not claimed",
     "outside": "effect outside the library: unexplained",
 }
-#: The same with nuisances: every hidden effect found, and no friction claimed that is not hidden.
+#: Smallest share of recordings in which nothing is named that is not hidden, without nuisances.
+BAR_OF_NO_EXTRA = 0.96
+TITLE_OF_NO_EXTRA = "one to three hidden effects, or none: nothing else named"
+#: With nuisances: every hidden effect found, and no friction claimed that is not hidden.
 BARS_WITH_NUISANCES = {"one": 0.90, "two": 0.80, "three": 0.75, "none": 0.95}
 TITLES_WITH_NUISANCES = {
     "one": "one hidden effect, with nuisances: found, no false friction",
@@ -228,6 +231,9 @@ def _groups(judged: Judged) -> Iterable[ScoreGroup]:
         of = [j for a, j in plain if a.case.group == "one" and a.case.size == size]
         if of:
             yield ScoreGroup(f"one hidden effect, {size:g} x the noise", _right(of), bar)
+    if of := [j for a, j in plain if a.case.group in ("one", "two", "three", "none")]:
+        none_extra = Share(sum(not j.extra for j in of), len(of))
+        yield ScoreGroup(TITLE_OF_NO_EXTRA, none_extra, BAR_OF_NO_EXTRA)
     for titles, bars, of_kind in (
         (TITLES, BARS, plain),
         (TITLES_WITH_NUISANCES, BARS_WITH_NUISANCES, [r for r in judged if r[0].case.nuisances]),

@@ -21,6 +21,7 @@ def ask(*arguments: str) -> Result:
     return CliRunner().invoke(cli, ["benchmark", "diagnosis", "--workers", "1", *arguments])
 
 
+@pytest.mark.slow
 def test_a_case_is_answered_stored_and_scored(tmp_path: Path) -> None:
     folder = tmp_path / "board"
     only = ("--quick", "--only", "open_loop-offset-1x")

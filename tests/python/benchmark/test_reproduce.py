@@ -16,6 +16,8 @@ from stribeck.benchmark.reproduce.result import Reproduction, Row, last_digit
 from stribeck.benchmark.reproduce.text import reproduction_text
 from stribeck.cli.main import cli
 
+pytestmark = pytest.mark.slow
+
 #: Rows whose tolerance allows no doubt about what is compared: place and quantity.
 KNOWN = {
     "gantry": ("table 1", "static friction"),

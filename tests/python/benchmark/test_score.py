@@ -51,12 +51,20 @@ def covered(correlation: float, share: float, profile: float | None = None) -> l
 
 def test_groups_are_counted_against_their_bars() -> None:
     answers = [one("load", "load", seed=k) for k in range(19)] + [one("load", "gain", seed=19)]
-    (group,) = score(answers).groups
+    group, nothing_else = score(answers).groups
     assert group.share == Share(19, 20)
     assert group.bar == 0.95
     assert group.passed
-    (worse,) = score([*answers, one("load", "gain", seed=20)]).groups
+    assert nothing_else.share == Share(19, 20) and not nothing_else.passed
+    worse, _ = score([*answers, one("load", "gain", seed=20)]).groups
     assert not worse.passed
+
+
+def test_an_effect_beside_the_hidden_one_is_counted() -> None:
+    beside = (NamedEffect("load", 1.0), NamedEffect("position", 0.9))
+    found, nothing_else = score([one("load", "load"), one("load", "load", steps=beside)]).groups
+    assert found.share == Share(2, 2)
+    assert nothing_else.share == Share(1, 2)
 
 
 def test_the_confusion_matrix_holds_every_single_effect() -> None:

@@ -168,6 +168,7 @@ def test_unusable_spec(tmp_path: Path, frame: pl.DataFrame, spec: str, said: str
     refused(stribeck("fit", path, "--model", spec, "--json"), said)
 
 
+@pytest.mark.slow
 def test_unknown_effect_and_command(tmp_path: Path, frame: pl.DataFrame) -> None:
     path = tmp_path / "good.csv"
     frame.write_csv(path)
@@ -176,6 +177,7 @@ def test_unknown_effect_and_command(tmp_path: Path, frame: pl.DataFrame) -> None
     refused(stribeck("fit", path), "--model")
 
 
+@pytest.mark.slow
 def test_model_files(tmp_path: Path, frame: pl.DataFrame) -> None:
     path = tmp_path / "good.csv"
     frame.write_csv(path)
@@ -206,6 +208,7 @@ def test_output_that_cannot_be_written(tmp_path: Path, frame: pl.DataFrame) -> N
     )
 
 
+@pytest.mark.slow
 def test_several_joints_are_never_picked_silently(tmp_path: Path, frame: pl.DataFrame) -> None:
     path = tmp_path / "two.csv"
     both = pl.concat([frame.with_columns(joint=pl.lit(j)) for j in ("hip", "knee")])

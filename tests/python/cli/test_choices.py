@@ -21,6 +21,7 @@ def curve_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_fit_ends_at_a_bound_and_says_what_to_do(curve_file: Path) -> None:
     fit = ["fit", curve_file, "--model", "coulomb", "--bound", "viscous_friction=0.1:0.5"]
     made = answer(*fit)
@@ -49,6 +50,7 @@ def test_the_same_with_the_data_read_in_passes(curve_file: Path) -> None:
     assert any("--bound viscous_friction=0.1:2.5" in note for note in made["notes"])
 
 
+@pytest.mark.slow
 def test_compare_holds_them_where_a_model_has_the_parameter(curve_file: Path) -> None:
     compare = ["compare", curve_file, "coulomb", "coulomb+stribeck"]
     free, held = answer(*compare), answer(*compare, "--fix", "stribeck_height=0.4")
@@ -61,6 +63,7 @@ def test_compare_holds_them_where_a_model_has_the_parameter(curve_file: Path) ->
     assert "did you mean 'stribeck_height'?" in done.stderr
 
 
+@pytest.mark.slow
 def test_diagnose_holds_a_parameter_of_an_effect_that_it_tries(curve_file: Path) -> None:
     diagnose = ["diagnose", curve_file, "coulomb"]
     free = answer(*diagnose)["findings"][0]
@@ -81,6 +84,7 @@ def test_add_takes_choices_of_the_model_and_of_the_effect(curve_file: Path) -> N
     assert 0.15 <= found["stribeck_velocity"]["value"] <= 0.3
 
 
+@pytest.mark.slow
 def test_improve_keeps_them_in_force(curve_file: Path) -> None:
     made = answer(
         *("improve", curve_file, "--base", "coulomb", "--max-steps", 2),
@@ -92,6 +96,7 @@ def test_improve_keeps_them_in_force(curve_file: Path) -> None:
     assert 1.5 <= made["final"]["parameters"]["stribeck_exponent"]["value"] <= 2.0
 
 
+@pytest.mark.slow
 def test_study_holds_them_for_every_law_that_has_the_parameter(
     curve_file: Path, tmp_path: Path
 ) -> None:
@@ -107,6 +112,7 @@ def test_study_holds_them_for_every_law_that_has_the_parameter(
     assert not (tmp_path / "other").exists()
 
 
+@pytest.mark.slow
 def test_study_takes_constraints_ties_and_losses(curve_file: Path, tmp_path: Path) -> None:
     study = ["study", curve_file, "--law", "coulomb", "--law", "coulomb+stribeck", "--workers", 1]
     study += ["--starts", 2, "-o", tmp_path / "out", "--tie", "stribeck_height = 0.3*a2"]

@@ -133,6 +133,7 @@ def test_compare(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
     assert elsewhere["rmse_held_out"] == elsewhere["rmse"] == stored["rmse"]
 
 
+@pytest.mark.slow
 def test_diagnose(plain_file: Path, model_file: Path, tmp_path: Path) -> None:
     page, figures = tmp_path / "page.html", tmp_path / "figures"
     made = answer("diagnose", plain_file, model_file, "--report", page, "--figures", figures)
@@ -225,6 +226,7 @@ def test_progress_goes_to_stderr(plain_file: Path) -> None:
     assert done.stdout.startswith("{")
 
 
+@pytest.mark.slow
 def test_same_seed_same_answer(plain_file: Path) -> None:
     first, second = (
         answer("fit", plain_file, "--model", "coulomb+stribeck", "--starts", "3", "--seed", "4")
@@ -250,6 +252,7 @@ def test_help_lists_the_commands() -> None:
         assert f"  {command} " in done.stdout
 
 
+@pytest.mark.slow
 def test_texts_for_people(plain_file: Path, model_file: Path) -> None:
     for words in (
         ("fit", plain_file, "--model", "coulomb"),

@@ -102,6 +102,7 @@ def test_generate_writes_what_can_be_read(tmp_path: Path, ending: str, kind: str
     assert set(truth["hidden"]) == {"load", "stribeck"}
 
 
+@pytest.mark.slow
 def test_csv_and_parquet_hold_the_same_bits(tmp_path: Path) -> None:
     for ending in ("csv", "parquet"):
         done = run(

@@ -50,6 +50,7 @@ def answer(*words: object) -> dict[str, Any]:
     return made
 
 
+@pytest.mark.slow
 def test_both_estimators(noisy_file: Path) -> None:
     squares = answer(noisy_file, *REFERENCE)
     instrumental = answer(noisy_file, *REFERENCE, "--estimator", "iv")

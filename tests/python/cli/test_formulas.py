@@ -11,6 +11,7 @@ from as_user import answer, stribeck
 LAW = "c1*v + c2*tanh(v/c3)"
 
 
+@pytest.mark.slow
 def test_fit_writes_a_file_that_every_command_takes(plain_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "own.toml"
     fitted = answer(

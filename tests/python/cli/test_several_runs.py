@@ -54,6 +54,7 @@ def refused(*words: object, folder: Path, said: str) -> None:
     assert lines[0].startswith("stribeck: ") and said in lines[0], lines[0]
 
 
+@pytest.mark.slow
 def test_files_patterns_and_folders_are_the_same(folder: Path) -> None:
     two = [
         answer("fit", *given, "--model", "coulomb", folder=folder)
@@ -71,6 +72,7 @@ def test_files_patterns_and_folders_are_the_same(folder: Path) -> None:
     assert "run1  run1.csv" in text and "run2  run2.csv" in text
 
 
+@pytest.mark.slow
 def test_models_among_the_data(folder: Path) -> None:
     orders = (
         ["run1.csv", "logs", "coulomb", "m.toml"],
@@ -95,6 +97,7 @@ def test_diagnose_takes_several(folder: Path) -> None:
     assert made["model"] == "coulomb"
 
 
+@pytest.mark.slow
 def test_refusals(folder: Path) -> None:
     fit = ("--model", "coulomb")
     refused("fit", "x*.csv", *fit, folder=folder, said="no file matches this pattern")
@@ -109,6 +112,7 @@ def test_refusals(folder: Path) -> None:
     refused("improve", folder=folder, said="DATA")
 
 
+@pytest.mark.slow
 def test_the_error_on_another_recording(folder: Path) -> None:
     words = ["run1.csv", "--evaluate", "run2.csv", "--evaluate", "logs"]
     fitted = answer("fit", *words, "--model", "coulomb", "-o", "one.toml", folder=folder)
@@ -129,6 +133,7 @@ def test_improve_with_another_recording(folder: Path) -> None:
     assert made["evaluated"][0]["rmse"] == pytest.approx(made["final"]["rmse"], rel=0.2)
 
 
+@pytest.mark.slow
 def test_refused_other_recordings(folder: Path) -> None:
     fit = ("fit", "run*.csv", "--model", "coulomb", "--evaluate")
     refused(*fit, "run2.csv", folder=folder, said="run2.csv: the model is fitted to it")

@@ -19,6 +19,7 @@ def steps(folder: Path, frame: object) -> dict[str, sb.Fit]:
     return {step.finding.effect: step.after for step in found.steps}
 
 
+@pytest.mark.slow
 def test_friction_that_looks_at_an_earlier_speed_lags(tmp_path: Path) -> None:
     found = steps(tmp_path, late_stribeck(0.02))
     assert list(found) == ["frictional_lag"]
@@ -41,6 +42,7 @@ def test_friction_without_a_lag_has_none(tmp_path: Path) -> None:
     assert list(steps(tmp_path, late_stribeck(0.0))) == ["stribeck"]
 
 
+@pytest.mark.slow
 def test_a_spring_between_two_inertias_is_elasticity(tmp_path: Path) -> None:
     drive = TwoInertias()
     found = steps(tmp_path, drive.recorded("motor"))

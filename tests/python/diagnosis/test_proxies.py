@@ -38,6 +38,7 @@ def test_a_spring_that_hardens_at_one_end_is_no_gravity(tmp_path: Path) -> None:
     assert named and named[0] == "spring"
 
 
+@pytest.mark.slow
 def test_a_wrong_gain_is_one_beside_a_wrong_zero(tmp_path: Path) -> None:
     """A gain that is 3 % off, and a zero that hides what this adds to a constant load of 10 N m."""
     frame = joint(rows=8000)

@@ -66,6 +66,7 @@ def test_what_the_measurement_explains_is_not_unknown(fitted: sb.Fit, tmp_path: 
     assert unknown_structure(read_late, remains) == 0.0
 
 
+@pytest.mark.slow
 def test_what_explains_less_than_what_remains_is_demoted(tmp_path: Path) -> None:
     """A Stribeck curve follows a part of a gap at low speed."""
     extra = gap(0.3, 0.6) + load_dependence(0.15)

@@ -93,6 +93,7 @@ def test_an_effect_on_trial_goes_where_it_does_not_stand(
     assert judged(tried, tried.fit, 0.01, seed=0) is None
 
 
+@pytest.mark.slow
 def test_the_search_returns_to_the_path_before_the_trial(
     doubtful: sb.Diagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -82,6 +82,7 @@ def hits(folder: Path, effect: str, seeds: range, shares: tuple[float, ...]) -> 
     return count
 
 
+@pytest.mark.slow
 def test_twice_the_stated_size_is_found_and_half_of_it_seldom(tmp_path: Path) -> None:
     counts = [hits(tmp_path, effect, range(2), (SMALL, LARGE)) for effect in ("load", "stribeck")]
     assert [count[LARGE] for count in counts] == [2, 2]

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 import stribeck as sb
 
+pytestmark = pytest.mark.slow
+
 PAGE = (Path(__file__).resolve().parents[3] / "docs/json.md").read_text(encoding="utf-8")
 COMMANDS = {
     "inspect": ["inspect", "run.parquet"],

@@ -188,6 +188,7 @@ def test_standard_errors_cover_under_noise_with_a_memory(tmp_path: Path) -> None
     assert min(held.values()) >= fewest, held
 
 
+@pytest.mark.slow
 def test_linear_standard_errors_cover_under_noise_with_a_memory(tmp_path: Path) -> None:
     """The same for a linear model; white-noise formulas would cover about half."""
     trials, covered, naive = 60, 0, 0
@@ -280,6 +281,7 @@ print(json.dumps([f.model.values.tobytes().hex(), f.rmse.hex(), f.rmse_held_out.
 """
 
 
+@pytest.mark.slow
 def test_number_of_threads_changes_nothing(tmp_path: Path) -> None:
     v = motion()[2]
     path = tmp_path / "made.parquet"

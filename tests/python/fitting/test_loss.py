@@ -94,6 +94,7 @@ def test_without_outliers_little_is_lost(plain: sb.Recording, loss: str) -> None
         assert other.stderr == pytest.approx(1.026 * e.stderr, rel=0.03)
 
 
+@pytest.mark.slow
 def test_standard_errors_are_calibrated(tmp_path: Path) -> None:
     found = []
     for seed in range(60):

@@ -62,6 +62,7 @@ def test_intervals_hold_the_truth(tmp_path: Path) -> None:
     assert min(held.values()) >= 17, held
 
 
+@pytest.mark.slow
 def test_friction_has_a_side(tmp_path: Path) -> None:
     """Friction in front of the spring does not wind it up."""
     for motor, joint in ((4.0, 1.0), (1.0, 4.0)):
@@ -73,6 +74,7 @@ def test_friction_has_a_side(tmp_path: Path) -> None:
     assert "act behind the transmission" in text
 
 
+@pytest.mark.slow
 def test_a_hysteresis_is_no_gap(tmp_path: Path) -> None:
     made = measured(tmp_path, slip=1.5)
     # The loop is not saturated all the time: its mean half width is below 1.5 N m.
@@ -82,6 +84,7 @@ def test_a_hysteresis_is_no_gap(tmp_path: Path) -> None:
     assert both.backlash.value == pytest.approx(5e-4, rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_held_joint_shows_the_spring_alone(tmp_path: Path) -> None:
     made = measured(tmp_path, locked=True, slip=1.0, motor_friction=0.5)
     assert made.stiffness.value == pytest.approx(2e4, rel=0.03)
@@ -89,6 +92,7 @@ def test_a_held_joint_shows_the_spring_alone(tmp_path: Path) -> None:
     assert "friction of the motor is part of the hysteresis" in str(made.motor_coulomb.why)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_told_is_said(tmp_path: Path) -> None:
     one_sided = measured(tmp_path, offset=60.0, gap=5e-4)
     assert "does not change its sign" in str(one_sided.backlash.why)
@@ -112,6 +116,7 @@ def test_without_a_second_encoder(tmp_path: Path) -> None:
         measure_transmission(sb.read(path, gear_ratio=two_masses.RATIO, torque_at="link"))
 
 
+@pytest.mark.slow
 def test_inspect_shows_it(tmp_path: Path) -> None:
     path = tmp_path / "two.csv"
     two_masses.recorded(gap=5e-4).write_csv(path)

@@ -54,6 +54,7 @@ def test_with_all_parameters_each_run_is_fitted_alone() -> None:
             assert list(of_runs.values())[k].value == pytest.approx(one.model.value(name), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_errors_are_those_of_repeated_measurements() -> None:
     """The scatter of the offsets found over 30 draws of the noise is their standard error."""
     found = []
@@ -89,6 +90,7 @@ def test_a_law_with_a_state() -> None:
     assert found == pytest.approx(OFFSETS, abs=0.02)
 
 
+@pytest.mark.slow
 def test_shared_values_far_from_the_solution_do_not_matter() -> None:
     """From the values that all runs share, this search ends at twice the error.
 

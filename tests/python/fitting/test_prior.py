@@ -67,6 +67,7 @@ def test_a_prior_determines_what_the_data_does_not(tmp_path: Path) -> None:
         assert e.stderr == pytest.approx(error, rel=0.02)
 
 
+@pytest.mark.slow
 def test_intervals_are_calibrated_in_noise_with_memory(tmp_path: Path) -> None:
     """Truths drawn from the prior: errors in units of their standard errors have variance 1."""
     deviation, found = 0.02, []

@@ -151,6 +151,7 @@ def test_a_whole_bench_becomes_one_static_map(tmp_path: Path) -> None:
     assert static == pytest.approx(bench.STATIC, rel=0.05)
 
 
+@pytest.mark.slow
 def test_the_command_lists_and_reduces(tmp_path: Path) -> None:
     log, points = tmp_path / "ramps.csv", tmp_path / "points.csv"
     bench.measured(bench.ramps([2.0, 5.0])).write_csv(log)
@@ -195,6 +196,7 @@ def test_nothing_is_found_without_a_protocol(tmp_path: Path) -> None:
         coast_down_points(demo)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not DATA.is_dir(), reason="published measurements are not at ../shared/data")
 def test_closed_loop_measurements_hold_no_loops_and_no_coast_downs() -> None:
     """No arm or slide was released or kept in presliding; ramps from rest begin some runs."""

@@ -73,6 +73,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("spec", "said"), CASES)
 def test_the_conditions_of_karush_kuhn_and_tucker(
     recording: sb.Recording, spec: str, said: dict[str, Any]
@@ -181,6 +182,7 @@ def test_passivity_and_a_constraint_at_once(tmp_path: Path) -> None:
     assert both.constraints[0].active
 
 
+@pytest.mark.slow
 def test_the_loop_keeps_them_in_force(recording: sb.Recording) -> None:
     limit = "stribeck_height <= 0.3*coulomb_friction"
     base = sb.fit("coulomb", recording)
@@ -221,6 +223,7 @@ def test_what_cannot_be(recording: sb.Recording, said: dict[str, Any], sentence:
     assert sentence in str(refusal.value) and "\n" not in str(refusal.value)
 
 
+@pytest.mark.slow
 def test_the_command(recording: sb.Recording) -> None:
     fit = ["fit", recording.path, "--joint-kind", "revolute", "--model", "coulomb+stribeck"]
     fit += ["--constraint", "dFs <= 0.3*a2", "--tie", "alpha = 8*vs"]

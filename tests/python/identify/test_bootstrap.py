@@ -121,6 +121,7 @@ def test_a_parameter_at_a_bound_has_an_interval(tmp_path: Path) -> None:
     assert e.ci95 is not None and e.ci95[0] == 0.0 < e.ci95[1] < 0.1
 
 
+@pytest.mark.slow
 def test_the_command_resamples(tmp_path: Path) -> None:
     joint(noise=0.15).write_parquet(tmp_path / "made.parquet")
     words = ["fit", "made.parquet", "--model", "coulomb", "--joint-kind", "revolute", "--json"]

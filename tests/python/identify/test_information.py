@@ -96,6 +96,7 @@ def test_weights_are_those_of_the_likelihood(tmp_path: Path) -> None:
     assert all_samples.information.aic == pytest.approx(some.information.aic, rel=0.02)
 
 
+@pytest.mark.slow
 def test_the_commands_say_them(tmp_path: Path) -> None:
     joint(bend(motion()[2])).write_parquet(tmp_path / "bend.parquet")
 

@@ -212,6 +212,7 @@ def command(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([*full, *words], cwd=folder, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.slow
 def test_the_command_prints_the_intervals(tmp_path: Path) -> None:
     joint(stribeck_curve(0.5), noise=0.3, rho=0.8).write_parquet(tmp_path / "made.parquet")
     options = ("--model", "coulomb+stribeck", "--starts", "3", "--errors", "profile")

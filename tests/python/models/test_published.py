@@ -65,6 +65,7 @@ def test_an_unknown_set_is_answered_with_the_nearest() -> None:
         sb.published("gantry/table_1/gantry")
 
 
+@pytest.mark.slow
 def test_the_command_lists_and_shows() -> None:
     listed = answer("published", "indri")["published"]
     assert listed[0]["id"] == "indri/table_1/joint_1/indri_static"

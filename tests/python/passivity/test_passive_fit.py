@@ -54,6 +54,7 @@ def is_proved(fitted: sb.Fit) -> bool:
     return sb.check(fitted.model).passive is True
 
 
+@pytest.mark.slow
 def test_bristle_is_proved_and_its_cost_is_said(tmp_path: Path) -> None:
     recording = recorded(tmp_path, bristle)
     free = sb.fit("lugre", recording, starts=2)

@@ -88,6 +88,7 @@ def test_what_a_law_has_by_itself_cannot_be_dropped(folder: Path) -> None:
         made.drop("stribeck")
 
 
+@pytest.mark.slow
 def test_improve_makes_a_node_of_each_step_and_says_so(begun: sb.Project) -> None:
     seen: list[int] = []
     made = begun.improve(each=lambda project: seen.append(len(project.tree)))

@@ -227,6 +227,7 @@ def electrical_log() -> pl.DataFrame:
     )
 
 
+@pytest.mark.slow
 def test_the_gantry_from_voltage_and_current_to_its_friction_map(tmp_path: Path) -> None:
     """Seed paper "Gantry": power, efficiencies, force, static map, all by flags of the command."""
     import gantry

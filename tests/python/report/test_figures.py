@@ -42,6 +42,7 @@ def test_every_axis_has_its_unit(improvement: sb.Improvement, steady: sb.Fit) ->
             assert "[" in axes.get_ylabel() or axes.get_yticklabels(), name
 
 
+@pytest.mark.slow
 def test_legends_do_not_lie_over_the_data(improvement: sb.Improvement, steady: sb.Fit) -> None:
     for name, figure in drawn(improvement, steady).items():
         figure.canvas.draw()

@@ -144,6 +144,7 @@ def test_a_file_name_cannot_break_the_page(improved: str) -> None:
     assert "made <&> odd" not in improved
 
 
+@pytest.mark.slow
 def test_names_of_files_and_columns_are_text(plain: sb.Recording, tmp_path: Path) -> None:
     bad = "<script>alert(1)</script>"
     column = replace(plain.columns["torque"], source=bad)

@@ -67,6 +67,7 @@ def test_text_loads_no_plotting_library() -> None:
     assert said.stdout == "[]\n"
 
 
+@pytest.mark.slow
 def test_notebook_shows_tables_figures_and_text(
     improvement: sb.Improvement, diagnosis: sb.Diagnosis
 ) -> None:
@@ -87,6 +88,7 @@ def test_every_result_has_a_view_for_notebooks() -> None:
     assert [shown for shown, renderers in RENDERERS.items() if "notebook" not in renderers] == []
 
 
+@pytest.mark.slow
 def test_views_that_are_tables(
     improvement: sb.Improvement, motion: RobotMotion, tmp_path: Path
 ) -> None:

@@ -13,6 +13,7 @@ from as_user import answer, stribeck
 SHARED = Path(__file__).parents[4] / "shared"
 
 
+@pytest.mark.slow
 def test_the_report_of_a_file(plain_file: Path, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     made = answer("report", plain_file, "--model", "coulomb", "--starts", 2, "-o", page)
@@ -26,6 +27,7 @@ def test_the_report_of_a_file(plain_file: Path, tmp_path: Path) -> None:
     assert not re.search(r"<(script|img|link|iframe)[^>]*(src|href)=[\"']?(http|//)", text)
 
 
+@pytest.mark.slow
 def test_every_command_writes_the_same_kind_of_page(plain_file: Path, tmp_path: Path) -> None:
     page = tmp_path / "page.html"
     for words in (
@@ -37,6 +39,7 @@ def test_every_command_writes_the_same_kind_of_page(plain_file: Path, tmp_path: 
         assert '<section id="repeat">' in page.read_text()
 
 
+@pytest.mark.slow
 def test_a_load_that_was_identified_is_known(plain_file: Path, tmp_path: Path) -> None:
     data, page = tmp_path / "free.csv", tmp_path / "page.html"
     pl.read_csv(plain_file).drop("load_torque").write_csv(data)
@@ -47,6 +50,7 @@ def test_a_load_that_was_identified_is_known(plain_file: Path, tmp_path: Path) -
     assert "the load torque is not known<" not in text
 
 
+@pytest.mark.slow
 def test_a_column_with_markup_is_text(plain_file: Path, tmp_path: Path) -> None:
     bad = "<script>alert(1)</script>"
     frame = pl.read_csv(plain_file).rename({"torque": bad})
@@ -57,6 +61,7 @@ def test_a_column_with_markup_is_text(plain_file: Path, tmp_path: Path) -> None:
     assert bad not in page.read_text() and "&lt;script&gt;alert(1)" in page.read_text()
 
 
+@pytest.mark.slow
 def test_a_project_names_no_models_beside_it(plain_file: Path, tmp_path: Path) -> None:
     project, page = tmp_path / "p.toml", tmp_path / "page.html"
     assert stribeck("project", "new", project, plain_file, "--starts", 2).returncode == 0

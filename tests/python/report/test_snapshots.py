@@ -100,6 +100,7 @@ def test_demo(improved: sb.Improvement, snapshot: SnapshotAssertion) -> None:
     assert tell(improved, compared, demo_recording()[1]) == snapshot
 
 
+@pytest.mark.slow
 def test_pages(
     improved: sb.Improvement, diagnosed: sb.Diagnosis, snapshot: SnapshotAssertion
 ) -> None:

@@ -109,6 +109,7 @@ def test_payload_mass_lies_in_its_interval(arm: Robot, tmp_path: Path) -> None:
     assert high - low < 0.1
 
 
+@pytest.mark.slow
 def test_a_known_payload_shows_the_drive_gains(arm: Robot, tmp_path: Path) -> None:
     """Torques computed with gains that are wrong by up to a tenth; one payload, one run without."""
     known = KnownPayload(4.0, (0.05, 0.0, 0.02))

@@ -104,6 +104,7 @@ def test_passes_give_what_memory_gives(arm: Robot, runs: list[str]) -> None:
     assert stream.data.passes == 2
 
 
+@pytest.mark.slow
 def test_coupled_motors_and_drive_gains_in_passes(arm: Robot, runs: list[str]) -> None:
     """The second run's payload is taken as known; the last motor turns with the joint before."""
     coupled = replace(arm, coupling=coupling_of(len(arm.names)))
@@ -139,6 +140,7 @@ def test_a_law_that_reads_the_load_takes_more_passes(arm: Robot, runs: list[str]
     assert stream.data.passes > 3
 
 
+@pytest.mark.slow
 def test_files_are_runs_and_a_payload_is_found(arm: Robot, runs: list[str]) -> None:
     spec, payload = "coulomb+offset", ("run_2",)
     found = fit_robot(opened(arm, runs), spec, payload=payload)
@@ -167,6 +169,7 @@ def test_currents_become_torques(arm: Robot, runs: list[str], tmp_path: Path) ->
     assert_alike(fit_robot(stream), in_memory(arm, runs[:1], "coulomb+offset"))
 
 
+@pytest.mark.slow
 def test_a_part_in_memory_is_enough(arm: Robot, runs: list[str]) -> None:
     stream = opened(arm, runs[:1], sample_rows=1000)
     assert stream.motion.rows == 1000
@@ -176,6 +179,7 @@ def test_a_part_in_memory_is_enough(arm: Robot, runs: list[str]) -> None:
     assert_alike(found, expected, 1e-2)
 
 
+@pytest.mark.slow
 def test_text_is_read_as_parquet_is(
     arm: Robot, runs: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -203,6 +207,7 @@ def test_columns_of_whole_numbers_may_become_fractions(
         text_parts.text_parts(str(path), text_parts.Asked(), tmp_path)
 
 
+@pytest.mark.slow
 def test_what_cannot_be_read_in_passes_is_refused(
     arm: Robot, runs: list[str], tmp_path: Path
 ) -> None:
@@ -231,6 +236,7 @@ def test_more_than_the_memory_holds_is_refused(
         read_motion(arm, runs[:1], ReadOptions(map=MAP), CUTOFF)
 
 
+@pytest.mark.slow
 def test_the_command_reads_in_passes(arm: Robot, runs: list[str], tmp_path: Path) -> None:
     described = tmp_path / "scara.urdf"
     described.write_text(arms.urdf("scara"))

@@ -7,7 +7,6 @@ import itertools
 import json
 import threading
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from stribeck.report.finding_view import finding_view
@@ -33,27 +32,32 @@ if TYPE_CHECKING:
 SAMPLES, WINDOW = "samples", "window"
 
 
-@dataclass(frozen=True)
-class _Answer:
-    """Figures as JSON, their number, and what they are drawn of."""
-
-    of: Sequence[object]
-    number: str
-    text: str
-
-
 class Drawn:
     """The figures of the pages, each page's made once for what it shows."""
 
     def __init__(self, bench: Workbench) -> None:
         self._bench = bench
         self._samples: dict[str, Samples | RecordingSamples] = {}
-        self._answers: dict[str, _Answer] = {}
+        #: Of each page, what its figures are drawn of and their number.
+        self._numbered: dict[str, tuple[Sequence[object], str]] = {}
+        #: Of each page, the number of the figures that were made last, and them as JSON.
+        self._made: dict[str, tuple[str, str]] = {}
         self._numbers = itertools.count(1)
-        self._drawing = threading.Lock()
+        self._numbering, self._drawing = threading.Lock(), threading.Lock()
+
+    def number(self, page: str) -> str:
+        """The number of the figures of a page; empty if it has none."""
+        with self._numbering:
+            of = self._shown(page)
+            if not of:
+                return ""
+            known = self._numbered.get(page)
+            if known is None or not _same(known[0], of):
+                known = self._numbered[page] = (of, str(next(self._numbers)))
+            return known[1]
 
     def answer(self, page: str, shown: str = "") -> str:
-        """The figures of a page as JSON of BokehJS, with a `number` of their own.
+        """The figures of a page as JSON of BokehJS, with their `number`.
 
         Parameters
         ----------
@@ -61,15 +65,16 @@ class Drawn:
             The number of those that the page shows; if they are these, that is all that is said.
         """
         with self._drawing:
-            of = self._shown(page)
-            if not of:
+            number = self.number(page)
+            if not number:
                 return json.dumps({})
-            known = self._answers.get(page)
-            if known is None or not _same(known.of, of):
-                number = str(next(self._numbers))
-                made = json.dumps({"number": number, **as_json(self.plots(page))})
-                known = self._answers[page] = _Answer(of, number, made)
-            return json.dumps({"same": True}) if known.number == shown else known.text
+            if number == shown:
+                return json.dumps({"same": True})
+            known = self._made.get(page)
+            if known is None or known[0] != number:
+                text = json.dumps({"number": number, **as_json(self.plots(page))})
+                known = self._made[page] = (number, text)
+            return known[1]
 
     def _shown(self, page: str) -> Sequence[object]:
         """What the figures of a page are drawn of; empty: there are none."""

@@ -113,7 +113,8 @@ class Page(Handler):
 
     def get(self, name: str) -> None:
         """Its HTML."""
-        self.write(page(self.bench, name or "data", self.link))
+        name = name or "data"
+        self.write(page(self.bench, name, self.link, self.drawn.number(name)))
 
 
 class Act(Handler):

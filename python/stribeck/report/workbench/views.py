@@ -64,13 +64,14 @@ Link = Callable[..., str]
 Values = dict[str, object]
 
 
-def page(bench: Workbench, name: str, link: Link) -> str:
-    """The HTML of a page."""
+def page(bench: Workbench, name: str, link: Link, drawn: str = "") -> str:
+    """The HTML of a page, whose figures have the number `drawn`."""
     joint = bench.state.current
     values: Values = {
         "page": name,
         "pages": PAGES,
         "link": link,
+        "drawn": drawn,
         "joint": joint,
         "joints": bench.state.joints,
         "project": None if joint is None else joint.project,

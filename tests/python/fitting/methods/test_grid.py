@@ -82,6 +82,7 @@ def test_m0_with_its_exponent_of_1_3(tmp_path: Path) -> None:
         assert fit.model.value(name) == pytest.approx(value, rel=0.02), name
 
 
+@pytest.mark.slow
 def test_m0_frees_its_exponent_when_asked(tmp_path: Path) -> None:
     """Section II-A searches the Stribeck velocity and the exponent."""
     recording = points(tmp_path, noise=5e-4)

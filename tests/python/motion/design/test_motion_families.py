@@ -74,6 +74,7 @@ def test_derivatives_belong_to_the_position(kind: str) -> None:
     assert np.quantile(wrong, 0.99) < 1e-1
 
 
+@pytest.mark.slow
 def test_a_series_uses_one_of_its_limits_up() -> None:
     rng = np.random.default_rng(15)
     for _ in range(30):

@@ -72,6 +72,7 @@ def test_what_looked_alike_no_longer_does(planned: sb.Plan) -> None:
         assert row.after.value is not None
 
 
+@pytest.mark.slow
 def test_what_is_promised_comes_true(planned: sb.Plan, tmp_path: Path) -> None:
     """An offset of twice the promised size is found on the motion and told from a weight."""
     m = planned.motion
@@ -107,6 +108,7 @@ def test_a_fit_to_the_planned_motion_errs_as_little_as_promised(
     assert scatter["before"] > 5.0 * scatter["after"]
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_motion(narrow: sb.Fit) -> None:
     one, same, other = (
         sb.plan(narrow, show=("stribeck",), duration=10.0, rate=50.0, seed=seed, **LIMITS)
@@ -116,6 +118,7 @@ def test_the_same_seed_gives_the_same_motion(narrow: sb.Fit) -> None:
     assert not np.array_equal(one.motion.position, other.motion.position)
 
 
+@pytest.mark.slow
 def test_what_a_motion_cannot_do_is_said(plain: sb.Recording) -> None:
     fit = sb.fit("coulomb", plain)
     rows = sb.plan(fit, show=("temperature_dry", "load"), duration=10.0, **LIMITS).prospects
@@ -148,6 +151,7 @@ def test_a_voltage_on_a_motor_is_refused(plain: sb.Recording) -> None:
         sb.plan(driven, show=("stribeck",), **LIMITS)
 
 
+@pytest.mark.slow
 def test_the_joint_of_an_identified_rigid_body(tmp_path: Path) -> None:
     """Its load torque follows from the model, and a repeated pose order is broken up."""
     fit = sb.fit("coulomb", record(tmp_path, joint().drop("load_torque")))
@@ -171,6 +175,7 @@ def run(*arguments: str) -> tuple[int, str]:
 COMMAND = ("--position", "-1:1", "--speed", "2", "--acceleration", "8", "--duration", "10")
 
 
+@pytest.mark.slow
 def test_command_with_data(tmp_path: Path) -> None:
     log, out, picture = tmp_path / "log.csv", tmp_path / "motion.csv", tmp_path / "motion.png"
     joint(rows=1500).write_csv(log)
@@ -202,6 +207,7 @@ def test_command_with_data(tmp_path: Path) -> None:
     assert picture.read_bytes()[:4] == b"\x89PNG"
 
 
+@pytest.mark.slow
 def test_command_without_data(tmp_path: Path, plain: sb.Recording) -> None:
     path = tmp_path / "joint.toml"
     fitted = sb.fit("coulomb", plain).model

@@ -55,6 +55,7 @@ def _measured() -> Iterator[tuple[str, sb.Recording]]:
             yield f"{letter} {j}", sb.read(DATA / "kr300" / f"{letter}.mat", joint=str(j))
 
 
+@pytest.mark.slow
 @real
 def test_public_measurements() -> None:
     count, alarms = 0, []

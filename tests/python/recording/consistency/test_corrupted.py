@@ -28,6 +28,7 @@ def _share(names: list[str], folder: Path) -> tuple[float, int, list[str]]:
     return 1.0 - len(wrong) / count, count, wrong
 
 
+@pytest.mark.slow
 def test_the_demo_and_a_simulated_joint(tmp_path: Path) -> None:
     share, count, wrong = _share(list(QUICK), tmp_path)
     assert count >= 50 and share >= LEAST, wrong

@@ -123,6 +123,30 @@ def test_a_page_gets_what_is_new_in_its_place(opened: tuple[Any, str]) -> None:
     assert "Cannot be tested" in page.inner_text("main")
 
 
+def test_other_figures_undo_nothing(opened: tuple[Any, str]) -> None:
+    page, _ = opened
+    done(page)
+    go(page, "Compare")
+    press(page, "Fit this law")
+    go(page, "Add")
+    page.get_by_label("Effect to add").fill("load")
+    press(page, "Add the effect")
+    page.wait_for_function("() => document.body.dataset.drawn === '1'")
+    held: list[Any] = []
+    page.route("**/figures/**", lambda route: held.append(route))
+    press(page, "Go to node 0")
+    page.get_by_label("Effect to add").fill("stribeck")
+    page.evaluate("() => { document.body.kept = true; }")
+    while not held:
+        page.wait_for_timeout(50)
+    held[-1].continue_()
+    page.unroute("**/figures/**")
+    page.wait_for_selector("[data-figure='errors'] .bk-Figure")
+    page.wait_for_timeout(1000)
+    assert page.evaluate("() => document.body.kept")
+    assert page.get_by_label("Effect to add").input_value() == "stribeck"
+
+
 def test_long_work_is_stopped_at_once(opened: tuple[Any, str]) -> None:
     page, _ = opened
     done(page)

@@ -108,6 +108,7 @@ def test_an_error_is_one_sentence(address: str) -> None:
     assert "Traceback" not in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_it_with_code_0(tmp_path: Path, number: signal.Signals) -> None:
     with workbench(tmp_path) as (process, said):

@@ -20,6 +20,7 @@ from fleet_logs import answers, command
 STARTS = 500
 
 
+@pytest.mark.slow
 def test_json_and_files_that_cannot_be_used(logs: list[Path], tmp_path: Path) -> None:
     robot = tmp_path / "r1"
     robot.mkdir()

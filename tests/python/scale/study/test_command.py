@@ -16,6 +16,7 @@ from stribeck.scale.study.store import FITS
 from .conftest import command
 
 
+@pytest.mark.slow
 def test_json_alone_on_stdout(two_joints: Path, tmp_path: Path) -> None:
     done = command(
         two_joints,
@@ -39,6 +40,7 @@ def test_json_alone_on_stdout(two_joints: Path, tmp_path: Path) -> None:
     assert all(f"note: {text}\n" in done.stderr for text in answer["data"]["notes"])
 
 
+@pytest.mark.slow
 def test_the_folder_is_named_after_the_data(two_joints: Path, tmp_path: Path) -> None:
     done = command(two_joints, "--law", "coulomb", "--workers", 1, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
@@ -114,6 +116,7 @@ def start_long_study(data: Path, folder: Path, workers: int) -> subprocess.Popen
     return process
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="process groups and SIGINT are POSIX")
 @pytest.mark.parametrize("workers", [1, 2])
 def test_an_interrupt_keeps_what_is_done(two_joints: Path, tmp_path: Path, workers: int) -> None:
@@ -138,6 +141,7 @@ def test_an_interrupt_keeps_what_is_done(two_joints: Path, tmp_path: Path, worke
     assert fits_in(folder) == kept
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="process groups and signals are POSIX")
 def test_a_process_that_is_killed_ends_the_study_in_one_line(
     two_joints: Path, tmp_path: Path

@@ -55,6 +55,7 @@ def check_rankings(made: Study) -> None:
         assert max(e.low_speed.rms for law, e in dynamic.items() if law != "dahl") < slow
 
 
+@pytest.mark.slow
 def test_a_few_laws_on_one_joint(tmp_path: Path) -> None:
     path = warm_arm(tmp_path, repeats=61, every=30, rate=50.0)
     check_rankings(study(path, tmp_path / "out", FEW, starts=2, joint="wrist_1"))

@@ -94,11 +94,13 @@ def test_the_best_start_stands_in_the_table_and_the_best_law_first(made: Study) 
     assert [row.law for row in static.rows] == ["bittencourt_a", "coulomb"]
 
 
+@pytest.mark.slow
 def test_processes_do_not_change_the_results(made: Study, two_joints: Path, tmp_path: Path) -> None:
     parallel = study(two_joints, tmp_path / "out", LAWS, starts=STARTS, workers=2)
     assert without_seconds(parallel.frame) == without_seconds(made.frame)
 
 
+@pytest.mark.slow
 def test_a_study_goes_on_where_it_was_stopped(
     made: Study, two_joints: Path, tmp_path: Path
 ) -> None:
@@ -116,6 +118,7 @@ def test_a_study_goes_on_where_it_was_stopped(
     assert (folder / FITS).read_text().splitlines()[:7] == [x.rstrip("\n") for x in lines[:7]]
 
 
+@pytest.mark.slow
 def test_a_finished_study_is_only_read_again(made: Study, two_joints: Path, tmp_path: Path) -> None:
     shutil.copytree(made.folder, tmp_path / "out")
     told: list[tuple[int, int]] = []

@@ -7,12 +7,21 @@ function clock(seconds, left) {
   const least = `${seconds.toFixed(0)} s`;
   return left === null ? `(${least})` : `(${least}, about ${Math.ceil(left)} s left)`;
 }
-let following = false;
+let following = false, leaving = false;
+// The number of the figures that are drawn.
+let shown = "";
+// Load the page again for other figures: they are not taken out of a page, since their memory would
+// be lost. Until then the page is busy, so that nothing is typed or sent that the loading would undo.
+function load() {
+  leaving = true;
+  page.busy = "1";
+  location.reload();
+}
 async function progress() {
   if (following) return;
   following = true;
   try {
-    while (page.busy === "1") {
+    while (page.busy === "1" && !leaving) {
       const answer = await (await fetch(`${page.progress}&version=${page.version}`)).json();
       if (answer.version !== Number(page.version) || !answer.busy) {
         renew(await (await fetch(location.href)).text());
@@ -21,13 +30,15 @@ async function progress() {
         document.getElementById("clock").textContent = clock(answer.seconds, answer.left);
       }
     }
-  } catch { complain("The workbench has ended."); }
+  } catch { if (!leaving) complain("The workbench has ended."); }
   following = false;
 }
 // Show the page as it is now. Figures that are drawn already stay, and so does what is typed. The
 // status is a live region: it stays and gets new content.
 function renew(text) {
   const now = new DOMParser().parseFromString(text, "text/html");
+  const other = now.body.dataset.number;
+  if (shown && other && other !== shown) { load(); return; }
   for (const typed of document.querySelectorAll("main input[id]")) {
     const field = now.getElementById(typed.id);
     if (field && typed.type !== "file" && typed.value !== typed.defaultValue) field.value = typed.value;
@@ -62,7 +73,7 @@ function complain(said) {
 let sending = false;
 document.addEventListener("submit", async (event) => {
   event.preventDefault();
-  if (sending) return;
+  if (sending || leaving) return;
   sending = true;
   page.busy = "1";
   const form = event.target, sent = new FormData(form);
@@ -77,7 +88,7 @@ document.addEventListener("submit", async (event) => {
       renew(await answer.text());
       progress();
     }
-  } catch { complain("The workbench has ended."); }
+  } catch { if (!leaving) complain("The workbench has ended."); }
   sending = false;
 });
 
@@ -157,7 +168,7 @@ function bokeh() {
   return library;
 }
 if (path(location.href) === "/data") addEventListener("load", bokeh);
-let shown = "", drawing = Promise.resolve();
+let drawing = Promise.resolve();
 function draw() {
   delete page.drawn;
   drawing = drawing.then(drawOnce, drawOnce);
@@ -171,8 +182,7 @@ async function drawOnce() {
     page.drawn = "1";
     return;
   }
-  // Figures are not taken out of a page: their memory would be lost.
-  if (shown) { location.reload(); return; }
+  if (shown) { load(); return; }
   if (!made.item) { for (const place of places) place.hidden = true; return; }
   await bokeh();
   shown = made.number;
