@@ -40,6 +40,8 @@ PYTHON = BIN / ("python.exe" if os.name == "nt" else "python")
 LOCK = ROOT / "requirements.lock"
 STAMP = VENV / "installed-for"
 PEERS = ROOT / "target" / "peers"
+# A processor that has no tests left takes over some of the other's.
+ON_BOTH = ("-n", "2", "--dist", "worksteal")
 RUST_TESTS = ("cargo", "test", "--quiet", "--locked", "--features", "identify")
 
 
@@ -115,8 +117,8 @@ def test() -> None:
     run(*RUST_TESTS)
     run("cargo", "test", "--quiet", "--locked", "--package", "stribeck-c")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
-    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "--doctest-modules", "python/stribeck")
-    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "not slow and not long", *sys.argv[2:])
+    run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "--doctest-modules", "python/stribeck")
+    run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "-m", "not slow and not long", *sys.argv[2:])
 
 
 def browser() -> None:
@@ -140,12 +142,12 @@ def browser() -> None:
 def slow() -> None:
     browser()
     run("cargo", "test", "--quiet", "--locked", "--release", "--test", "soak", "--", "--ignored")
-    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "slow", *sys.argv[2:])
+    run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "-m", "slow", *sys.argv[2:])
 
 
 def long() -> None:
     setup()
-    run(PYTHON, "-m", "pytest", "-q", "-n", "2", "-m", "long", *sys.argv[2:])
+    run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "-m", "long", *sys.argv[2:])
 
 
 def check() -> None:

@@ -10,6 +10,11 @@ import stribeck as sb
 from synthetic import joint, record
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the tests that take minutes: no processor waits for them in the end."""
+    items.sort(key=lambda item: item.get_closest_marker("minutes") is None)
+
+
 @pytest.fixture(scope="session", autouse=True)
 def no_result_is_kept() -> Iterator[None]:
     """Commands of the tests leave nothing in the cache of the user, in this process or others."""

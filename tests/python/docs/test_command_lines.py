@@ -43,6 +43,7 @@ def test_every_exception_is_of_a_line():
 
 
 @pytest.mark.slow
+@pytest.mark.minutes
 @pytest.mark.skipif(shutil.which("cc") is None, reason="needs a C compiler")
 def test_every_line_runs(tmp_path: Path):
     done = subprocess.run(

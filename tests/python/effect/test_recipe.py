@@ -72,7 +72,8 @@ def tree(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return copy
 
 
-@pytest.mark.long
+@pytest.mark.slow
+@pytest.mark.minutes
 @pytest.mark.timeout(3600)
 def test_a_new_effect_is_generated_and_found(tree: Path) -> None:
     python = {"PYTHONPATH": str(tree / "python")}
@@ -91,6 +92,7 @@ def test_a_new_effect_is_generated_and_found(tree: Path) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.minutes
 @pytest.mark.timeout(3600)
 def test_without_its_python_file_the_effect_is_refused(tree: Path) -> None:
     missing = tree / "python" / "stribeck" / "effect" / "surge.py"

@@ -44,6 +44,7 @@ def test_a_tutorial_runs(name: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.minutes
 @pytest.mark.skipif(not DATA.is_dir(), reason="the public data sets are not at ../shared/data")
 @pytest.mark.parametrize("name", WITH_DATA)
 def test_a_tutorial_on_measurements_runs(name: str) -> None:

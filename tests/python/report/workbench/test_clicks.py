@@ -41,6 +41,7 @@ def shoot(page: Any, folder: Path, name: str) -> list[str]:
     return found
 
 
+@pytest.mark.minutes
 def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> None:
     page, _ = opened
     folder = artefacts(tmp_path / "pictures")
