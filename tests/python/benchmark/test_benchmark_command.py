@@ -29,8 +29,7 @@ def test_a_case_is_answered_stored_and_scored(tmp_path: Path) -> None:
     assert result.exit_code == 0, result.output
     said = json.loads(result.stdout)
     assert said["cases"] == 1
-    (group,) = said["groups"]
-    assert group["of"] == 1
+    assert [group["of"] for group in said["groups"]] == [1, 1]
     assert said["confusion"]["rows"] == ["offset"]
     (ratio,) = said["held_out_over_oracle"]
     assert 0.9 < ratio["mean"] < 1.5

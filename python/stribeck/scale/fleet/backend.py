@@ -160,6 +160,9 @@ class DaskCluster:
         self._note, self._threads, self._counted = note, 1, -float("inf")
 
     def executor(self) -> Executor:
+        # A call that is made while the client looks for its scheduler would never end.
+        if self._client.status != "running":
+            raise self.lost()
         return self._executor
 
     def width(self) -> int:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from distributed import Client
+    from distributed import Future as DaskFuture
 
 Result = TypeVar("Result")
 
@@ -28,15 +29,19 @@ class ClusterExecutor(Executor):
         """Return the future of a call; if it is cancelled, the cluster drops the call."""
         here: Future[Result] = Future()
         remote = self._client.submit(fn, *args, pure=False, **kwargs)
-        here.add_done_callback(lambda done: _drop(remote.cancel) if done.cancelled() else None)
+        here.add_done_callback(lambda _: _drop(remote) if here.cancelled() else None)
         remote.add_done_callback(lambda ended: _hand_over(ended.result, here))
         return here
 
 
-def _drop(cancel: Callable[[], object]) -> None:
+def _drop(remote: DaskFuture) -> None:
     """Have the cluster drop a call; one whose scheduler is lost cannot be asked to."""
+    # Asking for a call that the cluster has dropped itself can take as long as the client looks for
+    # its scheduler, and those who wait for the call would not be told before.
+    if remote.cancelled():
+        return
     with suppress(Exception, CancelledInLoop):
-        cancel()
+        remote.cancel()
 
 
 def _hand_over(fetch: Callable[[], Result], here: Future[Result]) -> None:

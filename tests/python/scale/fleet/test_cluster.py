@@ -15,18 +15,22 @@ class Remote:
     """A future of Dask that has ended, and whose outcome is fetched."""
 
     def __init__(self, outcome: object) -> None:
-        self._outcome, self.cancelled = outcome, False
+        self._outcome, self.dropped, self._ended = outcome, False, False
         self._callbacks: list[Any] = []
 
     def add_done_callback(self, callback: Any) -> None:
         self._callbacks.append(callback)
 
     def end(self) -> None:
+        self._ended = True
         for callback in self._callbacks:
             callback(self)
 
     def cancel(self) -> None:
-        self.cancelled = True
+        self.dropped = True
+
+    def cancelled(self) -> bool:
+        return self._ended and isinstance(self._outcome, CancelledError)
 
     def result(self) -> object:
         if isinstance(self._outcome, Exception):
@@ -67,12 +71,19 @@ def test_what_the_cluster_drops_is_cancelled() -> None:
     assert _ended(CancelledError()).cancelled()
 
 
+def test_what_the_cluster_drops_it_is_not_asked_to_drop() -> None:
+    remote = Remote(CancelledError())
+    future = ClusterExecutor(Client(remote)).submit(abs, -1)  # type: ignore[arg-type]
+    remote.end()
+    assert future.cancelled() and not remote.dropped
+
+
 def test_a_call_that_is_cancelled_here_is_dropped_there() -> None:
     remote = Remote(7)
     client = Client(remote)
     future = ClusterExecutor(client).submit(abs, -1)  # type: ignore[arg-type]
     assert client.submitted == [(abs, (-1,), False)]
-    assert future.cancel() and remote.cancelled
+    assert future.cancel() and remote.dropped
     remote.end()
     assert future.cancelled()
 
@@ -82,8 +93,7 @@ def test_a_scheduler_that_is_lost_cannot_drop_a_call(caplog: pytest.LogCaptureFi
         def cancel(self) -> None:
             raise OSError("the connection is closed")
 
-    remote = Lost(CancelledError())
-    future = ClusterExecutor(Client(remote)).submit(abs, -1)  # type: ignore[arg-type]
+    future = ClusterExecutor(Client(Lost(7))).submit(abs, -1)  # type: ignore[arg-type]
     with caplog.at_level(logging.ERROR):
-        remote.end()
+        assert future.cancel()
     assert future.cancelled() and not caplog.records

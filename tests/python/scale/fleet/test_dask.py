@@ -16,6 +16,7 @@ import pytest
 import stribeck as sb
 from fleet_logs import answers, command
 from fleet_pieces import square_unless_three, status_of_nanny
+from stribeck.base.errors import StribeckError
 from stribeck.scale.fleet.backend import DaskCluster
 from stribeck.scale.fleet.schedule import run_tasks
 
@@ -171,6 +172,17 @@ def test_the_command_works_on_the_cluster(
     assert done.returncode == 0, done.stderr
     assert "Traceback" not in done.stderr
     assert answers(tmp_path / "fleet").height == 4
+
+
+def test_no_call_is_made_while_the_scheduler_is_lost(cluster: Cluster) -> None:
+    backend = DaskCluster(cluster.address, print)
+    assert backend.executor().submit(abs, -1).result(timeout=60) == 1
+    cluster.scheduler.kill()
+    deadline = time.monotonic() + 60
+    with pytest.raises(StribeckError, match="was lost"):
+        while time.monotonic() < deadline:
+            backend.executor()
+    backend.close()
 
 
 def test_a_scheduler_that_is_lost_ends_the_run_in_one_line(
