@@ -219,7 +219,12 @@ def _check_address(address: str, seconds: float) -> None:
     OSError, ValueError
         Nothing listens, or the address is malformed.
     """
+    from distributed.comm.registry import get_backend
+
     protocol, _, place = address.rpartition("://")
+    if protocol:
+        # A client of an unknown protocol waits for 20 s when it is thrown away.
+        get_backend(protocol)
     if protocol in ("", "tcp", "tls"):
         host, _, port = place.rpartition(":")
         if not (host and port.isdecimal()):

@@ -89,6 +89,7 @@ def test_the_days_of_a_column_and_the_joint_of_a_path(logs: list[Path], tmp_path
         (("--starts", "0"), "starts"),
         (("--map", "velocity=vel", "--model", "coulomb"), "nothing could be identified"),
         (("--scheduler", "nowhere"), "an address looks like tcp://10.0.0.7:8786"),
+        (("--scheduler", "http://10.0.0.7:8786"), "unknown address scheme 'http'"),
         (("--scheduler", "tcp://127.0.0.1:1"), "no Dask scheduler answers at tcp://127.0.0.1:1"),
     ],
 )
