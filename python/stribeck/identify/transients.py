@@ -3,6 +3,9 @@
 They happen once, whereas an effect acts again and again. They are reported and excluded from the
 fit, so that they do not bias the parameters. Error figures include them, since the scored samples
 are the same for every model.
+
+A drive train, an inertia or a delay causes large errors wherever the joint accelerates hard. The
+error of a stretch is therefore compared with that of the stretches of similar acceleration too.
 """
 
 from __future__ import annotations
@@ -23,8 +26,10 @@ Array = NDArray[np.float64]
 MOST = 0.12
 #: Number of windows of a recording.
 WINDOWS = 60
-#: A window is an outlier if its error, filtered or raw, exceeds the median by such a factor.
+#: A window is an outlier if its error, filtered or raw, exceeds the median by such a factor: the
+#: median of all windows, and that of this many windows whose acceleration is most similar.
 OUTLIER_FILTERED, OUTLIER_RAW = 4.0, 3.0
+SIMILAR = 5
 #: Most transients; what happens more often needs an explanation.
 STRETCHES = 3
 
@@ -77,24 +82,38 @@ def transient_rows(
     window = np.minimum(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
     ).astype(np.uint32)
-    count = np.bincount(window[moving], minlength=WINDOWS)
+    similar = _similar(_levels(recording.acceleration_smooth, window, moving))
     marked = none
     for _ in range(4):
         residual = _left_out(columns, target, window, moving, moving & ~marked)
         slow = zero_phase(recording, residual)
         outlier = np.zeros(WINDOWS, dtype=bool)
         for values, factor in ((slow, OUTLIER_FILTERED), (residual, OUTLIER_RAW)):
-            square = np.bincount(window[moving], values[moving] ** 2, WINDOWS)
-            level = np.sqrt(square / np.maximum(count, 1))
+            level = _levels(values, window, moving)
             # The motion differs between windows: an outlier also exceeds the worst normal ones.
             normal = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
-            outlier |= level > normal
+            outlier |= level > np.maximum(normal, factor * np.median(level[similar], axis=1))
         again = moving & outlier[window]
         frequent = np.count_nonzero(np.diff(outlier.astype(int), prepend=0) == 1) > STRETCHES
         if frequent or again.sum() > MOST * moving.sum() or np.array_equal(again, marked):
             break
         marked = again
     return marked
+
+
+def _levels(values: Array, window: NDArray[np.uint32], moving: NDArray[np.bool_]) -> Array:
+    """RMS of the moving samples of each window, array [WINDOWS]."""
+    count = np.bincount(window[moving], minlength=WINDOWS)
+    square = np.bincount(window[moving], values[moving] ** 2, WINDOWS)
+    return np.asarray(np.sqrt(square / np.maximum(count, 1)))
+
+
+def _similar(acceleration: Array) -> NDArray[np.intp]:
+    """The other windows of closest acceleration, as a ratio, int array [WINDOWS, SIMILAR]."""
+    size = np.log(np.maximum(acceleration, np.finfo(float).tiny))
+    apart = np.abs(size[:, None] - size)
+    np.fill_diagonal(apart, np.inf)
+    return np.argsort(apart, axis=1, kind="stable")[:, :SIMILAR]
 
 
 def _of_one_size(columns: list[Array], moving: NDArray[np.bool_]) -> Array:

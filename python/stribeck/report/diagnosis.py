@@ -37,6 +37,9 @@ DEMOTED = "Lowers the held-out error, but this recording does not show it well e
 NOT_CLAIMED = "Lowers the held-out error, but cannot be the cause, or need not be"
 ALIKE = "Indistinguishable from each other on this data"
 
+#: Excluded samples that cause more than this share of the squared error are named with a verdict.
+MOST_OF_IT = 0.5
+
 
 def diagnosis_text(diagnosis: Diagnosis) -> str:
     """What is missing from a model."""
@@ -236,7 +239,17 @@ def left_after(diagnosis: Diagnosis) -> str:
 
 
 def left_text(left: Unexplained) -> str:
-    """How much of the error is more than noise."""
+    """How much of the error is more than noise, and whether most of it was not judged."""
+    said = _structure(left)
+    if left.excluded > MOST_OF_IT:
+        said += (
+            f" Not judged are the samples that the fit excludes (see the notes): they cause "
+            f"{percent(left.excluded)} of the squared held-out error of all samples."
+        )
+    return said
+
+
+def _structure(left: Unexplained) -> str:
     if left.share is None:
         return "It cannot be estimated from this data how much of the remaining error is noise."
     if left.share == 0.0:

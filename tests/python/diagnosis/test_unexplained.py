@@ -171,3 +171,14 @@ def test_places_with_few_samples_or_without_a_name_are_passed_over() -> None:
     short = slice(0, FEWEST_ROWS // 2)
     one = left(Moved(SPEED[short]), np.where(SPEED[short] > 1.0, 3.0, 1.0))
     assert unexplained(one, NO_FLOOR, could(0.5)).where == "everywhere"
+
+
+def test_the_share_of_excluded_samples_is_kept() -> None:
+    residual = np.where(np.arange(SPEED.size) < 10, 50.0, FLAT)
+    fit = left(Moved(SPEED), residual)
+    fit.transient[:10] = True
+    scored = fit.recording.moving
+    expected = (residual[:10] ** 2)[scored[:10]].sum() / (residual**2)[scored].sum()
+    made = unexplained(fit, NO_FLOOR, could(0.0))
+    assert made.excluded == pytest.approx(expected) and made.excluded > 0.8
+    assert unexplained(left(Moved(SPEED), FLAT), NO_FLOOR, could(0.0)).excluded == 0.0

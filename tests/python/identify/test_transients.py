@@ -136,3 +136,22 @@ def test_stretches_are_merged_across_short_rests(plain: sb.Recording) -> None:
         marked |= (t >= start - 1e-9) & (t <= end + 1e-9)
     expected = [(1.0, 3.0), (4.2, 4.4), (9.0, 9.0)]
     np.testing.assert_allclose(stretches(plain, marked), expected, atol=1e-9)
+
+
+def test_a_hard_acceleration_is_no_transient(tmp_path: Path) -> None:
+    """An error that grows with the acceleration is that of an inertia or of a drive train."""
+    frame = joint()
+    t = frame["time"].to_numpy()
+    # Shaken hard twice; what accelerates hard has an error that no column explains.
+    shaken = (np.abs(t - 9.0) < 0.5) | (np.abs(t - 21.0) < 0.5)
+    shake = np.where(shaken, 0.05 * np.sin(40.0 * t), 0.0)
+    torque = np.where(shaken, 3.0 * np.cos(97.0 * t), 0.0)
+    still = frame.with_columns(torque=frame["torque"] + torque)
+    moved = still.with_columns(
+        position=still["position"] + shake,
+        velocity=still["velocity"] + np.gradient(shake, t),
+        acceleration=still["acceleration"] + np.gradient(np.gradient(shake, t), t),
+    )
+    # Where the joint moves as at other times, the same error is a transient.
+    assert transient_rows(record(tmp_path, still, "still"))[shaken].any()
+    assert not transient_rows(record(tmp_path, moved, "moved")).any()

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.testable import Untestable
 from stribeck.report import (
     comparison,
@@ -18,7 +19,7 @@ from stribeck.report import (
     improvement as improving,
 )
 from stribeck.report.certificate import certificate_text
-from stribeck.report.diagnosis import visible_heading
+from stribeck.report.diagnosis import left_text, visible_heading
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
 
 
@@ -161,3 +162,9 @@ def test_what_was_not_found_on_a_prismatic_joint_is_a_force(diagnosis: sb.Diagno
     model = replace(diagnosis.fit.model, torque_unit="N")
     moved = replace(diagnosis, fit=replace(diagnosis.fit, model=model))
     assert "RMS force" in visible_heading(moved)
+
+
+def test_most_of_the_error_in_excluded_samples_is_said() -> None:
+    assert "Not judged" not in left_text(Unexplained(0.0, None, excluded=0.5))
+    said = left_text(Unexplained(0.0, None, excluded=0.83))
+    assert "Not judged are the samples that the fit excludes" in said and "83 %" in said

@@ -9,7 +9,9 @@ never finds all of it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from stribeck.diagnosis.residual.explainable import Explainable
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
@@ -57,12 +59,16 @@ class Unexplained:
         recording, shows. An effect may imitate its cause.
     asked : bool
         False where a brief diagnosis has not looked for it.
+    excluded : float
+        Share of the squared held-out error in scored samples that are excluded from the fit. They
+        are not judged.
     """
 
     share: float | None
     where: str | None
     shown: float = 0.0
     asked: bool = True
+    excluded: float = 0.0
 
     @property
     def is_structure(self) -> bool:
@@ -84,6 +90,21 @@ def unexplained(
     last : bool
         Whether no effect is left to add. Otherwise such an effect may explain varying friction.
     """
+    return replace(_unexplained(fit, floor, explained, last=last), excluded=_excluded(fit))
+
+
+def _excluded(fit: Fit) -> float:
+    """Share of the squared held-out error of the scored samples that the fit excludes."""
+    scored = fit.recording.moving
+    square = np.where(scored, fit.held_out_residual**2, 0.0)
+    total = float(square.sum())
+    return float(square[scored & fit.transient].sum()) / total if total > 0.0 else 0.0
+
+
+def _unexplained(
+    fit: Fit, floor: NoiseFloor, explained: Explainable | None, *, last: bool
+) -> Unexplained:
+    """The same without the share of excluded samples."""
     total = rms(fit.held_out_residual[fit.rows]) ** 2
     if explained is None or not total > 0.0:
         return Unexplained(None, None)
