@@ -24,6 +24,7 @@ mod spring;
 mod stribeck;
 mod temperature_dry;
 mod temperature_viscous;
+mod warm_up;
 
 /// Every effect as `file: Type`, in the order in which they act: the one list of them.
 macro_rules! every_effect {
@@ -52,6 +53,7 @@ macro_rules! every_effect {
             // Of the whole torque, whatever it consists of.
             saturation: Saturation,
             gain: Gain,
+            warm_up: WarmUp,
             delay: Delay,
         }
     };

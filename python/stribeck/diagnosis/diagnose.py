@@ -15,8 +15,8 @@ from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
-from stribeck.diagnosis.result import Diagnosis, Tried
-from stribeck.diagnosis.trials.candidates import candidates_for, tested
+from stribeck.diagnosis.result import Diagnosis, Finding, Tried
+from stribeck.diagnosis.trials.candidates import Tested, candidates_for, tested
 from stribeck.diagnosis.trials.imitations import NARROW, without_imitations
 from stribeck.diagnosis.trials.outshone import without_outshone, without_unresolved
 from stribeck.diagnosis.trials.proxies import without_proxies
@@ -98,13 +98,13 @@ def diagnose(
     few = excerpt(fitted.recording, sample_rows, seed)
     is_whole = few is fitted.recording
     start = fitted if is_whole else fit(fitted.model, few, starts=1, effort=FROM_NEARBY)
-    made, in_one_block = _findings(start, least_fall, rejected, candidates, seed, progress)
+    made, evidence = _findings(start, least_fall, rejected, candidates, seed, progress)
     shown = made if is_whole else with_errors_on_all_samples(made, fitted)
     if shown.findings:
         if brief:
             return shown
         known(shown)
-    rest = _with_remainder(made, in_one_block)
+    rest = _with_remainder(made, evidence)
     whole = rest if brief else with_visibility(rest)
     return replace(whole, fit=shown.fit, findings=shown.findings, demoted=shown.demoted)
 
@@ -116,8 +116,8 @@ def _findings(
     candidates: Collection[str],
     seed: int,
     progress: Callable[[str], None],
-) -> tuple[Diagnosis, list[Trial]]:
-    """A diagnosis with its findings alone, and the trials that gain in one block alone."""
+) -> tuple[Diagnosis, Tested]:
+    """A diagnosis with its findings alone, and the evidence that it is drawn from."""
     offered = candidates_for(fitted, rejected, candidates)
     found = tested(fitted, offered.possible, least_fall, seed, progress)
     passed, tried = found.passing, found.screened
@@ -142,10 +142,10 @@ def _findings(
         passed=tuple(t.fit.model.written(t.effect) for t in passed),
         tried=Tried(offered.possible, tried, least_fall),
     )
-    return made, found.in_one_block
+    return made, found
 
 
-def _with_remainder(found: Diagnosis, in_one_block: list[Trial]) -> Diagnosis:
+def _with_remainder(found: Diagnosis, evidence: Tested) -> Diagnosis:
     """A diagnosis with what its findings leave unexplained, and its verdict."""
     fitted, floor = found.fit, found.noise_floor
     # Without repeated states a regressor learns nothing that holds on other blocks.
@@ -155,16 +155,21 @@ def _with_remainder(found: Diagnosis, in_one_block: list[Trial]) -> Diagnosis:
     # An effect that passes the test of evidence explains more than noise, if only by imitation.
     remains = structure.is_structure or found.has_doubts
     verdict = "missing" if found.findings else ("unexplained" if remains else "none")
+
+    def possible(trials: list[Trial]) -> tuple[Finding, ...]:
+        return tuple(
+            finding_of(fitted, trial, NARROW, (), floor)
+            for trial in trials
+            if impossible(Claim(trial.effect, fitted, trial.fit)) is None
+        )
+
     return replace(
         found,
         verdict=verdict,
         unexplained=structure,
         explainable=explained,
-        in_one_block=tuple(
-            finding_of(fitted, trial, NARROW, (), floor)
-            for trial in in_one_block
-            if impossible(Claim(trial.effect, fitted, trial.fit)) is None
-        ),
+        in_one_block=possible(evidence.in_one_block),
+        uncertain=possible(evidence.uncertain),
     )
 
 

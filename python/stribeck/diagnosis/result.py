@@ -138,6 +138,9 @@ class Diagnosis(Plotted):
         All effects that were tried.
     in_one_block
         Effects that would pass, but gain in one block alone; not asked where `brief` finds some.
+    uncertain
+        Effects that predict better, but not by more than chance may: what else is missing may hide
+        them; not asked where `brief` finds some.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
@@ -169,6 +172,7 @@ class Diagnosis(Plotted):
     passed: tuple[str, ...] = ()
     tried: Tried = Tried()
     in_one_block: tuple[Finding, ...] = ()
+    uncertain: tuple[Finding, ...] = ()
 
     @property
     def has_doubts(self) -> bool:

@@ -1,8 +1,9 @@
 """An effect that is added on trial: two causes that are missing hide each other.
 
 Without the other, neither predicts much better than causes in the measurement; or one gains in one
-block alone, since elsewhere the other is large. One of them is added on trial, the search goes on,
-and the effect stays if it stands beside the others.
+block alone, since elsewhere the other is large; or neither gains more than chance may. One of them
+is added on trial, the search goes on, and the effect stays if it stands beside the others. Where
+others have taken its place, they stay if each of them stands.
 """
 
 from __future__ import annotations
@@ -25,18 +26,19 @@ from stribeck.models.catalog import effect_ids
 def on_trial(found: Diagnosis) -> Finding | None:
     """The finding to add on trial: the best of those that another missing cause may hide.
 
-    Causes in the measurement explain them as well, or they gain in one block alone. None where
-    there is none, or where nothing else remains to be explained.
+    Causes in the measurement explain them as well, or they gain in one block alone; or they gain no
+    more than chance may, since the other adds as much as noise. None where there is none.
     """
-    if not found.unexplained.is_structure:
-        return None
-    doubtful = [
-        finding
-        for finding in found.demoted
-        if is_friction(finding.effect)
-        and weak(Claim(finding.effect, finding.before, finding.fit)) is None
-    ]
-    doubtful += found.in_one_block
+    doubtful = list(found.uncertain)
+    if found.unexplained.is_structure:
+        doubtful = [
+            finding
+            for finding in found.demoted
+            if is_friction(finding.effect)
+            and weak(Claim(finding.effect, finding.before, finding.fit)) is None
+        ]
+        doubtful += found.in_one_block
+        doubtful = doubtful or list(found.uncertain)
     best = min(doubtful, key=lambda finding: finding.rmse_held_out_after, default=None)
     return None if best is None else replace(best, demoted=None)
 

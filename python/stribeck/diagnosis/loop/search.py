@@ -160,12 +160,15 @@ class Search:
     def _tried(self, path: ImprovementPath, finding: Finding) -> ImprovementPath:
         """The path grown beyond a finding on trial, or as it is where that does not stand then.
 
-        It may displace an effect that was found before where the whole model predicts better.
+        It may displace an effect that was found before where the whole model predicts better, and
+        give way itself to what was found beside it.
         """
         self.progress(f"adding {finding.effect} on trial{_error_of(finding.fit)}")
         *_, grown = self._ends(path.with_finding(finding))
         found = [step.finding.effect for step in path.steps]
         kept = grown.holding(finding.effect)
+        if kept is None and self._stands(grown) and predicts_better(grown.current, path.current):
+            return grown
         stands = None
         holds_all = all(map(grown.holding, found))
         if kept is not None and (holds_all or predicts_better(grown.current, path.current)):
@@ -174,6 +177,11 @@ class Search:
             self.progress(f"{finding.effect} does not stand beside the others: going back")
             return path
         return grown.with_instead(stands)
+
+    def _stands(self, path: ImprovementPath) -> bool:
+        """Whether each effect of a path passes all tests beside the others."""
+        each = (judged(s.finding, path.current, self.least_fall, self.seed) for s in path.steps)
+        return bool(path.steps) and all(finding is not None for finding in each)
 
     def _ends(self, path: ImprovementPath) -> Iterator[ImprovementPath]:
         """The path after each change of its growth, and at the end."""

@@ -21,6 +21,7 @@ from stribeck.diagnosis.trials.trial import (
     Trial,
     falls_on_all_samples,
     is_promising,
+    is_uncertain,
     passes,
     passes_in_one_block,
     passes_outside_the_band,
@@ -83,6 +84,8 @@ class Tested:
         Trials that would pass, but gain in one block alone.
     outside_the_band
         Trials that would pass, but gain only at frequencies above those of the motion.
+    uncertain
+        Trials that predict better in most blocks, but not by more than chance may.
     screened
         Number of effects that were screened.
     """
@@ -90,6 +93,7 @@ class Tested:
     passing: list[Trial]
     in_one_block: list[Trial]
     outside_the_band: list[Trial]
+    uncertain: list[Trial]
     screened: int
 
 
@@ -139,7 +143,8 @@ def tested(
             good.sort(key=lambda trial: trial is not pair.larger)
     in_one_block = [t for t in first.trials if passes_in_one_block(t, tried, least)]
     outside = [t for t in first.trials if passes_outside_the_band(t, tried, least)]
-    return Tested(dry_friction_first(good, fitted.model), in_one_block, outside, tried)
+    uncertain = [t for t in first.trials if is_uncertain(t, tried, least)]
+    return Tested(dry_friction_first(good, fitted.model), in_one_block, outside, uncertain, tried)
 
 
 @dataclass(frozen=True)

@@ -237,6 +237,13 @@ def passes_outside_the_band(trial: Trial, tried: int, least: float) -> bool:
     return e.everywhere and e.fall_in_band <= 0 and _is_significant(trial, tried, least)
 
 
+def is_uncertain(trial: Trial, tried: int, least: float) -> bool:
+    """Whether a trial predicts better in most blocks, but not by more than chance may."""
+    e = trial.evidence
+    falls = e.everywhere and e.fall >= least and e.fall_in_band > 0
+    return falls and e.p_value * tried > SIGNIFICANCE and not trial.is_implausible
+
+
 def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
     return trial.evidence.fall_in_band > 0 and _is_significant(trial, tried, least)
 
