@@ -4,6 +4,7 @@
     python3 develop.py setup         build and install only
     python3 develop.py demo          run `stribeck demo`
     python3 develop.py test          run all Rust tests and the fast Python tests
+    python3 develop.py rust          run all Rust tests
     python3 develop.py slow          run the slow tests
     python3 develop.py long          run the tests that take minutes each
     python3 develop.py check         run formatters, linters, type checks, import contracts, docs
@@ -31,6 +32,8 @@ import shutil
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
@@ -42,7 +45,7 @@ STAMP = VENV / "installed-for"
 PEERS = ROOT / "target" / "peers"
 # A processor that has no tests left takes over some of the other's.
 ON_BOTH = ("-n", "2", "--dist", "worksteal")
-RUST_TESTS = ("cargo", "test", "--quiet", "--locked", "--features", "identify")
+RUST_LOG = ROOT / "target" / "rust.log"
 
 
 def stop(sentence: str) -> None:
@@ -50,18 +53,13 @@ def stop(sentence: str) -> None:
     raise SystemExit(2)
 
 
-def started(*command: str | Path) -> subprocess.Popen[bytes]:
+def run(*command: str | Path) -> None:
     words = [str(word) for word in command]
     print("+ " + " ".join(words), file=sys.stderr, flush=True)
     environment = {**os.environ, "VIRTUAL_ENV": str(VENV)}
     environment["PATH"] = f"{BIN}{os.pathsep}{environment.get('PATH', '')}"
-    return subprocess.Popen(words, cwd=ROOT, env=environment)
-
-
-def run(*command: str | Path) -> None:
     began = time.monotonic()
-    with started(*command) as process:
-        code = process.wait()
+    code = subprocess.run(words, cwd=ROOT, env=environment, check=False).returncode
     print(f"  {time.monotonic() - began:.0f} s", file=sys.stderr, flush=True)
     if code != 0:
         raise SystemExit(code)
@@ -95,11 +93,15 @@ def fingerprint() -> str:
     return "\n".join(f"{p.relative_to(ROOT)} {p.stat().st_mtime_ns}" for p in sources)
 
 
+def needs_cargo() -> None:
+    if shutil.which("cargo") is None:
+        stop("needs stable Rust: cargo is not on the PATH (install it with rustup)")
+
+
 def setup() -> None:
     if sys.version_info < (3, 10):  # noqa: UP036  the message is for those who have an older one
         stop(f"needs CPython 3.10 or newer, this is {sys.version.split()[0]}")
-    if shutil.which("cargo") is None:
-        stop("needs stable Rust: cargo is not on the PATH (install it with rustup)")
+    needs_cargo()
     make_venv()
     now = fingerprint()
     if STAMP.exists() and STAMP.read_text() == now:
@@ -113,12 +115,36 @@ def demo() -> None:
     run(PYTHON, "-m", "stribeck", "demo", *sys.argv[2:])
 
 
-def test() -> None:
-    run(*RUST_TESTS)
+def rust() -> None:
+    run("cargo", "test", "--quiet", "--locked", "--features", "identify")
     run("cargo", "test", "--quiet", "--locked", "--package", "stribeck-c")
     run("cargo", "build", "--quiet", "--locked", "--no-default-features")
-    run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "--doctest-modules", "python/stribeck")
-    run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "-m", "not slow and not long", *sys.argv[2:])
+
+
+def test() -> None:
+    # The extension module is built on one processor: the Rust tests are built and run beside it.
+    with rust_beside():
+        setup()
+        run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "--doctest-modules", "python/stribeck")
+        run(PYTHON, "-m", "pytest", "-q", *ON_BOTH, "-m", "not slow and not long", *sys.argv[2:])
+
+
+@contextmanager
+def rust_beside() -> Iterator[None]:
+    """Run the Rust tests beside what follows; their output comes at the end."""
+    needs_cargo()
+    RUST_LOG.parent.mkdir(exist_ok=True)
+    with RUST_LOG.open("wb") as log:
+        beside = subprocess.Popen(
+            [sys.executable, __file__, "rust"], stdout=log, stderr=subprocess.STDOUT
+        )
+    try:
+        yield
+    finally:
+        code = beside.wait()
+        print(RUST_LOG.read_text(errors="replace"), file=sys.stderr, flush=True)
+    if code != 0:
+        raise SystemExit(code)
 
 
 def browser() -> None:
@@ -253,6 +279,7 @@ TASKS = {
     "setup": lambda: None,
     "demo": demo,
     "test": test,
+    "rust": rust,
     "slow": slow,
     "long": long,
     "check": check,
@@ -275,14 +302,8 @@ def main() -> None:
     task = sys.argv[1] if len(sys.argv) > 1 else ""
     if task not in TASKS:
         stop(f"say one of: {', '.join(TASKS)}")
-    # The extension module is built on one processor: the Rust tests are built beside it. What they
-    # cannot build is reported by the task itself.
-    beside = started(*RUST_TESTS, "--no-run") if task == "test" and shutil.which("cargo") else None
-    try:
+    if task not in ("test", "rust"):
         setup()
-    finally:
-        if beside is not None:
-            beside.wait()
     TASKS[task]()
 
 

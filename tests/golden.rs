@@ -241,6 +241,7 @@ fn elasticity_follows_the_second_derivative_of_the_load() {
 fn effects_of_the_whole_torque() {
     close(at_one_sample(&["gain"], &[0.08]), -6.54, 1e-15);
     close(at_one_sample(&["saturation"], &[0.15, 2.3]), -10.043039888108621, 1e-15);
+    close(at_one_sample(&["warm_up"], &[-0.03, 0.4, 3.0]), -5.2541376803641215, 1e-15);
     let effects = ["gain", "saturation", "ripple", "spring", "drift"];
     let values = [
         -0.3, 2.5, // drift

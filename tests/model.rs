@@ -90,6 +90,7 @@ fn laws_without_direction_are_odd() {
             "saturation",
             "gain",
             "delay",
+            "warm_up",
         ];
         if even.iter().any(|id| spec.has(id)) {
             continue;

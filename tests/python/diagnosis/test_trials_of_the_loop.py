@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.loop import provisional
+from stribeck.diagnosis.loop import search as search_module
 from stribeck.diagnosis.loop.exchange import exchanges
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, on_trial
@@ -17,7 +18,13 @@ from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.imitations import NARROW, standing
 from stribeck.diagnosis.trials.sifting import Sifted
-from stribeck.diagnosis.trials.trial import TIE, Trial, passes, passes_in_one_block
+from stribeck.diagnosis.trials.trial import (
+    TIE,
+    Trial,
+    is_uncertain,
+    passes,
+    passes_in_one_block,
+)
 from synthetic import joint, motion, record
 
 T, Q, V, A = motion()
@@ -72,6 +79,43 @@ def test_what_gains_in_one_block_alone_is_tried_too(doubtful: sb.Diagnosis) -> N
     assert judged(held, load.fit, 2.0, seed=0) is None
 
 
+def test_what_gains_no_more_than_chance_may_is_tried_too(doubtful: sb.Diagnosis) -> None:
+    """Another cause may add as much as noise; this needs no structure."""
+    load = replace(doubtful.demoted[0], demoted=None)
+    hidden = replace(doubtful, demoted=(), uncertain=(load,), unexplained=Unexplained(0.0, None))
+    tried = on_trial(hidden)
+    assert tried is not None and tried.effect == "load"
+
+    found = evidence(load.before, load.fit)
+    trial = Trial("load", load.fit, found)
+    assert not is_uncertain(trial, 20, 0.01)
+    chance = replace(found, p_value=0.001)
+    assert is_uncertain(replace(trial, evidence=chance), 20, 0.01)
+    for change in ({"p_value": 0.0004}, {"fall": 0.005}, {"fall_in_band": 0.0}):
+        assert not is_uncertain(replace(trial, evidence=replace(chance, **change)), 20, 0.01)
+    assert not is_uncertain(replace(trial, evidence=replace(chance, everywhere=False)), 20, 0.01)
+
+
+def test_what_takes_the_place_of_an_effect_on_trial_stays_where_it_stands(
+    doubtful: sb.Diagnosis, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told = on_trial(doubtful)
+    assert told is not None
+    other = replace(told, effect="position")
+    path = ImprovementPath(doubtful.fit, doubtful)
+    search = Search(0, 0.01, 8, (), (), lambda sentence: None)
+
+    def ends(grown: ImprovementPath) -> list[str]:
+        monkeypatch.setattr(Search, "_ends", lambda self, path: iter([grown]))
+        return [step.finding.effect for step in search._tried(path, other).steps]
+
+    assert ends(path.with_finding(told)) == ["load"]
+    # A model that predicts no better, or an effect that does not stand in it, is left.
+    assert ends(path.with_finding(replace(told, fit=doubtful.fit))) == []
+    monkeypatch.setattr(search_module, "judged", lambda *_: None)
+    assert ends(path.with_finding(told)) == []
+
+
 def test_what_is_weak_is_not_tried(doubtful: sb.Diagnosis, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(provisional, "weak", lambda claim: "only 3 moves carry it")
     assert on_trial(doubtful) is None
@@ -97,15 +141,13 @@ def test_an_effect_on_trial_goes_where_it_does_not_stand(
 def test_the_search_returns_to_the_path_before_the_trial(
     doubtful: sb.Diagnosis, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from stribeck.diagnosis.loop import search as module
-
     told: list[str] = []
     search = Search(0, 0.01, 8, (), (), told.append)
     path = ImprovementPath(doubtful.fit, doubtful)
     kept = list(search.paths(path))[-1]
     assert [step.finding.effect for step in kept.steps] == ["load"] and kept.last.demoted == ()
-    monkeypatch.setattr(module, "judged", lambda *_: None)
-    monkeypatch.setattr(module, "other_beginnings", lambda *_: ())
+    monkeypatch.setattr(search_module, "judged", lambda *_: None)
+    monkeypatch.setattr(search_module, "other_beginnings", lambda *_: ())
     back = list(search.paths(path))[-1]
     assert back.steps == () and back.last.demoted == doubtful.demoted
     assert told[-1] == "load does not stand beside the others: going back"

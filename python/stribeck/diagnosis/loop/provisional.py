@@ -29,7 +29,7 @@ def on_trial(found: Diagnosis) -> Finding | None:
     Causes in the measurement explain them as well, or they gain in one block alone; or they gain no
     more than chance may, since the other adds as much as noise. None where there is none.
     """
-    doubtful = list(found.uncertain)
+    doubtful: list[Finding] = []
     if found.unexplained.is_structure:
         doubtful = [
             finding
@@ -38,8 +38,8 @@ def on_trial(found: Diagnosis) -> Finding | None:
             and weak(Claim(finding.effect, finding.before, finding.fit)) is None
         ]
         doubtful += found.in_one_block
-        doubtful = doubtful or list(found.uncertain)
-    best = min(doubtful, key=lambda finding: finding.rmse_held_out_after, default=None)
+    likely = doubtful or found.uncertain
+    best = min(likely, key=lambda finding: finding.rmse_held_out_after, default=None)
     return None if best is None else replace(best, demoted=None)
 
 
