@@ -87,15 +87,18 @@ def transient_rows(
     for _ in range(4):
         residual = _left_out(columns, target, window, moving, moving & ~marked)
         slow = zero_phase(recording, residual)
-        outlier = np.zeros(WINDOWS, dtype=bool)
+        outlier = unlike = np.zeros(WINDOWS, dtype=bool)
         for values, factor in ((slow, OUTLIER_FILTERED), (residual, OUTLIER_RAW)):
             level = _levels(values, window, moving)
             # The motion differs between windows: an outlier also exceeds the worst normal ones.
             normal = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
-            outlier |= level > np.maximum(normal, factor * np.median(level[similar], axis=1))
-        again = moving & outlier[window]
+            large = level > normal
+            outlier = outlier | large
+            unlike = unlike | (large & (level > factor * np.median(level[similar], axis=1)))
+        again = moving & unlike[window]
         frequent = np.count_nonzero(np.diff(outlier.astype(int), prepend=0) == 1) > STRETCHES
-        if frequent or again.sum() > MOST * moving.sum() or np.array_equal(again, marked):
+        many = (moving & outlier[window]).sum() > MOST * moving.sum()
+        if frequent or many or np.array_equal(again, marked):
             break
         marked = again
     return marked

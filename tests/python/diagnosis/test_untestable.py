@@ -74,7 +74,7 @@ def test_load(tmp_path: Path, load: str) -> None:
         frame.with_columns(load_torque=pl.Series(given), torque=pl.Series(given + 3 * np.sign(v))),
     )
     unmoved = {"backlash", "elasticity"} if load == "constant" else set()
-    assert set(found) == {"load", "quadrant", "gain", "saturation"} | unmoved
+    assert set(found) == {"load", "quadrant", "gain", "saturation", "warm_up"} | unmoved
     assert ("varies too little" if load == "constant" else "sign") in found["load"]
 
 
