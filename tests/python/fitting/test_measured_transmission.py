@@ -70,7 +70,7 @@ def test_friction_has_a_side(tmp_path: Path) -> None:
         assert made.motor_share == pytest.approx(motor / 5.0, abs=0.02)
         assert made.coulomb.value == pytest.approx(5.0, rel=0.01)
     text = " ".join(transmission_text(made).split())
-    assert "20 % of the 4.99 N m of the joint" in text
+    assert f"20 % of the {made.coulomb.value:.3g} N m of the joint" in text
     assert "act behind the transmission" in text
 
 
