@@ -49,7 +49,7 @@ impl<S: Real> FrictionEffect<S> for WarmUp<S> {
         sample: &Sample<S::Plain>,
         constants: &Constants<S::Plain>,
     ) {
-        split.additive = split.additive + self.warm_up_zero * self.left(sample, constants);
+        split.additive += self.warm_up_zero * self.left(sample, constants);
     }
 
     #[inline]
