@@ -132,7 +132,6 @@ def test() -> None:
 @contextmanager
 def rust_beside() -> Iterator[None]:
     """Run the Rust tests beside what follows; their output comes at the end."""
-    needs_cargo()
     RUST_LOG.parent.mkdir(exist_ok=True)
     with RUST_LOG.open("wb") as log:
         beside = subprocess.Popen(
@@ -302,7 +301,9 @@ def main() -> None:
     task = sys.argv[1] if len(sys.argv) > 1 else ""
     if task not in TASKS:
         stop(f"say one of: {', '.join(TASKS)}")
-    if task not in ("test", "rust"):
+    if task in ("test", "rust"):
+        needs_cargo()
+    else:
         setup()
     TASKS[task]()
 

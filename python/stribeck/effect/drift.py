@@ -31,13 +31,17 @@ def _rank_correlation(one: Array, other: Array) -> float:
     return float(ranked.select(pl.corr("one", "other", method="spearman")).item())
 
 
+#: What to say of averaged points where the time is needed.
+NO_TIME = Obstacle(
+    "steady-state points do not say when they were measured",
+    "record the same motion again and again",
+)
+
+
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     r = facts.recording
     if r.averaged:
-        return Obstacle(
-            "steady-state points do not say when they were measured",
-            "record the same motion again and again",
-        )
+        return NO_TIME
     temperature = facts.scored(r.temperature)
     if temperature is None or spread(temperature) < SMALL_SPAN:
         return None
@@ -51,11 +55,13 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     )
 
 
-def _constants(recording: Recording) -> dict[str, float]:
+def duration(recording: Recording) -> dict[str, float]:
+    """The constant `duration` of effects that change with time, s."""
     return {"duration": float(recording.elapsed[-1]) or 1.0}
 
 
-def _generated_constants(made: GeneratedRecording) -> dict[str, float]:
+def generated_duration(made: GeneratedRecording) -> dict[str, float]:
+    """The same in a generated recording."""
     return {"duration": made.seconds}
 
 
@@ -95,8 +101,8 @@ EFFECT = Effect(
     obstacle=_obstacle,
     where=_where,
     plausible=_plausible,
-    constants=_constants,
-    generated_constants=_generated_constants,
+    constants=duration,
+    generated_constants=generated_duration,
     flexible_shape=_flexible_shape,
     alike=_alike,
     design_note=(

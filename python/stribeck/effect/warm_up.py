@@ -7,7 +7,6 @@ import numpy as np
 from stribeck.effect.base import (
     Array,
     Effect,
-    GeneratedRecording,
     Identified,
     JointSizes,
     Obstacle,
@@ -15,6 +14,7 @@ from stribeck.effect.base import (
     number,
 )
 from stribeck.effect.columns import hats
+from stribeck.effect.drift import NO_TIME, duration, generated_duration
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.gain import motor_torque_is_not_known, needs_motor_torque
 from stribeck.models.model import Model
@@ -26,19 +26,8 @@ HATS = 6
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     if facts.recording.averaged:
-        return Obstacle(
-            "steady-state points do not say when they were measured",
-            "record the same motion again and again",
-        )
+        return NO_TIME
     return motor_torque_is_not_known(facts)
-
-
-def _constants(recording: Recording) -> dict[str, float]:
-    return {"duration": float(recording.elapsed[-1]) or 1.0}
-
-
-def _generated_constants(made: GeneratedRecording) -> dict[str, float]:
-    return {"duration": made.seconds}
 
 
 def _refusal(model: Model, recording: Recording) -> str | None:
@@ -72,8 +61,8 @@ EFFECT = Effect(
     obstacle=_obstacle,
     where=_where,
     plausible=_plausible,
-    constants=_constants,
-    generated_constants=_generated_constants,
+    constants=duration,
+    generated_constants=generated_duration,
     refusal=_refusal,
     flexible_shape=_flexible_shape,
     design_note=(
