@@ -19,10 +19,11 @@ from stribeck.diagnosis.result import Diagnosis, Finding, Tried
 from stribeck.diagnosis.trials.candidates import Tested, candidates_for, tested
 from stribeck.diagnosis.trials.imitations import NARROW, without_imitations
 from stribeck.diagnosis.trials.outshone import without_outshone, without_unresolved
+from stribeck.diagnosis.trials.pairs import best_pair
 from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import finding_of, ranked
 from stribeck.diagnosis.trials.sifting import Sifted
-from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial, try_effect
 from stribeck.diagnosis.visibility.visibility import visibility
 from stribeck.fitting.fit import fit, on_recording, with_choices
 from stribeck.fitting.result import FIT, Fit
@@ -156,6 +157,9 @@ def _with_remainder(found: Diagnosis, evidence: Tested) -> Diagnosis:
     remains = structure.is_structure or found.has_doubts
     verdict = "missing" if found.findings else ("unexplained" if remains else "none")
 
+    pair = None if found.findings or not remains else best_pair(fitted, evidence.screenings)
+    first = None if pair is None else try_effect(fitted, evidence.screenings[pair[0]])
+
     def possible(trials: list[Trial]) -> tuple[Finding, ...]:
         return tuple(
             finding_of(fitted, trial, NARROW, (), floor)
@@ -170,6 +174,7 @@ def _with_remainder(found: Diagnosis, evidence: Tested) -> Diagnosis:
         explainable=explained,
         in_one_block=possible(evidence.in_one_block),
         uncertain=possible(evidence.uncertain),
+        of_a_pair=possible([] if first is None else [first]),
     )
 
 

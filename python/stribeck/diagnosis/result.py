@@ -141,6 +141,8 @@ class Diagnosis(Plotted):
     uncertain
         Effects that predict better, but not by more than chance may: what else is missing may hide
         them; not asked where `brief` finds some.
+    of_a_pair
+        An effect that predicts together with another one alone; asked where there are no findings.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
@@ -173,6 +175,7 @@ class Diagnosis(Plotted):
     tried: Tried = Tried()
     in_one_block: tuple[Finding, ...] = ()
     uncertain: tuple[Finding, ...] = ()
+    of_a_pair: tuple[Finding, ...] = ()
 
     @property
     def has_doubts(self) -> bool:

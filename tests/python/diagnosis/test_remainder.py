@@ -83,9 +83,10 @@ def test_what_explains_less_than_what_remains_is_demoted(tmp_path: Path) -> None
 
 
 def test_what_explains_hardly_more_than_what_remains_is_not_certain(tmp_path: Path) -> None:
-    found = sb.improve("coulomb", record(tmp_path, joint(gap(0.6, 0.9))), starts=2)
+    extra = gap(0.6, 0.9) + load_dependence(0.06)
+    found = sb.improve("coulomb", record(tmp_path, joint(extra)), starts=2)
     (step,) = found.steps
-    assert step.finding.effect == "stribeck"
+    assert step.finding.effect == "load"
     assert LEAST_PART < step.finding.confidence == step.finding.part < 0.8
     assert step.finding.weight > 0.99
 

@@ -1,9 +1,9 @@
 """An effect that is added on trial: two causes that are missing hide each other.
 
 Without the other, neither predicts much better than causes in the measurement; or one gains in one
-block alone, since elsewhere the other is large; or neither gains more than chance may. One of them
-is added on trial, the search goes on, and the effect stays if it stands beside the others. Where
-others have taken its place, they stay if each of them stands.
+block alone, since elsewhere the other is large; or neither gains more than chance may, or anything
+at all. One of them is added on trial, the search goes on, and the effect stays if it stands beside
+the others. Where others have taken its place, they stay if each of them stands.
 """
 
 from __future__ import annotations
@@ -21,6 +21,12 @@ from stribeck.diagnosis.trials.trial import Trial, passes
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
+
+
+def trials_of(found: Diagnosis) -> list[Finding]:
+    """The findings to add on trial, until one stands: one in doubt, and one of a pair."""
+    doubtful = on_trial(found)
+    return [*([] if doubtful is None else [doubtful]), *found.of_a_pair]
 
 
 def on_trial(found: Diagnosis) -> Finding | None:

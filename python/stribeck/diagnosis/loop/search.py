@@ -7,8 +7,9 @@ from dataclasses import dataclass, replace
 
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
+from stribeck.diagnosis.loop.form import OTHER_FORM, of_other_form
 from stribeck.diagnosis.loop.path import ImprovementPath
-from stribeck.diagnosis.loop.provisional import judged, on_trial
+from stribeck.diagnosis.loop.provisional import judged, trials_of
 from stribeck.diagnosis.loop.remainder import REASON, imitations
 from stribeck.diagnosis.loop.superfluous import needed
 from stribeck.diagnosis.loop.ways import best_of, other_beginnings, predicts_better, settled
@@ -52,15 +53,15 @@ class Search:
     def paths(self, path: ImprovementPath) -> Iterator[ImprovementPath]:
         """The path after each change, from one whose last diagnosis is that of its model."""
         path = yield from self._best_way(path)
-        finding = on_trial(path.last)
-        if finding is not None:
-            path = self._tried(path, finding)
+        trials = trials_of(path.last)
+        if trials:
+            path = self._beyond(path, trials)
             yield path
         if (shorter := self._without_imitations(path)) is not None:
             yield shorter
             path = yield from self._grown(self._asked(shorter))
-            if finding is None and (finding := on_trial(path.last)) is not None:
-                path = self._tried(path, finding)
+            if not trials:
+                path = self._beyond(path, trials_of(path.last))
         path = settled(path, self.least_fall, self.seed)
         last = path.last if path.last.findings else with_visibility(path.last)
         said = replace(last, demoted=(*path.demoted, *last.demoted))
@@ -157,6 +158,14 @@ class Search:
             self.progress(f"{found.best.finding.effect} stays: {error}")
             return None, path
 
+    def _beyond(self, path: ImprovementPath, trials: Sequence[Finding]) -> ImprovementPath:
+        """The path grown beyond the first finding on trial that stands; as it is without one."""
+        for finding in trials:
+            grown = self._tried(path, finding)
+            if grown is not path:
+                return grown
+        return path
+
     def _tried(self, path: ImprovementPath, finding: Finding) -> ImprovementPath:
         """The path grown beyond a finding on trial, or as it is where that does not stand then.
 
@@ -194,10 +203,13 @@ class Search:
         Once: without them more remains, beside which another effect would explain less.
         """
         shorter = None
-        for effect in imitations([step.finding for step in path.steps]):
-            self.progress(f"{effect} is doubtful: {REASON}")
+        findings = [step.finding for step in path.steps]
+        reasons = dict.fromkeys(imitations(findings), REASON)
+        form = of_other_form(findings, path.current, path.last.unexplained, self.seed)
+        for effect, reason in {**dict.fromkeys(form, OTHER_FORM), **reasons}.items():
+            self.progress(f"{effect} is doubtful: {reason}")
             try:
-                path = shorter = path.demoting(effect, REASON, self.seed)
+                path = shorter = path.demoting(effect, reason, self.seed)
             except FitError as error:
                 self.progress(f"{effect} stays: {error}")
         return shorter

@@ -1,8 +1,8 @@
 """The table of rules, and what they say of a claim.
 
 An effect whose values are impossible only imitates another cause: it is not claimed. One that too
-few events or samples carry, or only with the most extreme shape, may be right, but this recording
-cannot show it: it is demoted.
+few events or samples carry, or only with the most extreme shape, or that has another size in
+another condition, may be right, but this recording cannot show it: it is demoted.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from stribeck.diagnosis.plausibility.negative import negative_friction, negative
 from stribeck.diagnosis.plausibility.other_part import other_part_changes
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.too_large import too_large
+from stribeck.diagnosis.plausibility.uneven import uneven
 from stribeck.diagnosis.plausibility.unresolved import unresolved
 
 #: A rule: the reason why a claim breaks it, or None.
@@ -34,7 +35,7 @@ IMPOSSIBLE: tuple[Rule, ...] = (
 #: Nor is one with which another effect of the model breaks one of these.
 OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved)
 #: One that breaks one of these is demoted.
-WEAK: tuple[Rule, ...] = (few_events, one_event, few_samples, shape_at_bound)
+WEAK: tuple[Rule, ...] = (few_events, one_event, few_samples, shape_at_bound, uneven)
 
 #: The highest confidence of a demoted finding: as likely as not.
 DEMOTED = 0.5

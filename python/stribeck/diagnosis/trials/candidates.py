@@ -86,15 +86,20 @@ class Tested:
         Trials that would pass, but gain only at frequencies above those of the motion.
     uncertain
         Trials that predict better in most blocks, but not by more than chance may.
-    screened
-        Number of effects that were screened.
+    screenings
+        Each effect that was screened.
     """
 
     passing: list[Trial]
     in_one_block: list[Trial]
     outside_the_band: list[Trial]
     uncertain: list[Trial]
-    screened: int
+    screenings: Mapping[str, Screened]
+
+    @property
+    def screened(self) -> int:
+        """Number of effects that were screened."""
+        return max(len(self.screenings), 1)
 
 
 def tested(
@@ -113,7 +118,7 @@ def tested(
     needs = {effect: missing_simpler_effect(effect, fitted.model) for effect in possible}
     alone = [effect for effect, needed in needs.items() if needed is None]
     first = _tried_alone(fitted, alone, least, seed, progress)
-    tried = max(first.screened, 1)
+    tried = max(len(first.screenings), 1)
     good = [t for t in first.trials if passes(t, tried, least)]
     pairs: list[_Pair] = []
     for effect, needed in needs.items():
@@ -144,7 +149,8 @@ def tested(
     in_one_block = [t for t in first.trials if passes_in_one_block(t, tried, least)]
     outside = [t for t in first.trials if passes_outside_the_band(t, tried, least)]
     uncertain = [t for t in first.trials if is_uncertain(t, tried, least)]
-    return Tested(dry_friction_first(good, fitted.model), in_one_block, outside, uncertain, tried)
+    passing = dry_friction_first(good, fitted.model)
+    return Tested(passing, in_one_block, outside, uncertain, first.screenings)
 
 
 @dataclass(frozen=True)
@@ -164,11 +170,6 @@ class _TriedAlone:
     seed: int
     screenings: Mapping[str, Screened]
     trials: list[Trial]
-
-    @property
-    def screened(self) -> int:
-        """Number of effects that were screened."""
-        return len(self.screenings)
 
     def of_simpler(self, effect: str, needed: str) -> Trial | None:
         """The trial of the simpler effect that another contains.

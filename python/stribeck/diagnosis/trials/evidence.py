@@ -1,9 +1,7 @@
 """Does a wider model predict better, by more than chance?
 
 Two questions. How much does the error fall on held-out blocks? Could noise alone explain the torque
-that the wider model adds? The second is a Wald test along the added torque. The variance of the
-noise in that direction comes from batches longer than its correlation, so that the test is robust
-to autocorrelation and to noise of varying level.
+that the wider model adds?
 """
 
 from __future__ import annotations
@@ -17,6 +15,7 @@ from numpy.typing import NDArray
 
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
+from stribeck.identify.added_torque import added_torque_test
 from stribeck.identify.covariance import batches, correlation_length
 from stribeck.identify.figures import bridged, rms, zero_phase
 
@@ -82,28 +81,6 @@ def _forms(before: Fit, after: Fit) -> int:
     """From how many forms the wider model was chosen by looking at the data, such as periods."""
     added = [e for e in after.model.effects if e not in before.model.effects]
     return math.prod(of_catalog(effect).forms(after.recording) for effect in added)
-
-
-def added_torque_test(added: Array, residual: Array, parameters: int) -> float:
-    """Probability that noise like `residual` alone makes `added` torque [m] this large.
-
-    `added` is the best of a family with this number of additional `parameters`. Nonlinear ones
-    count like the others, which accounts for their search.
-    """
-    size = float(added @ added)
-    if size <= 0 or parameters < 1:
-        return 1.0
-    batch = batches(residual.size, correlation_length(residual), fewest=20, most=200)
-    count = int(batch.max()) + 1
-    if count <= parameters + 1:
-        return 1.0
-    scores = np.bincount(batch, added * residual, count)
-    variance = float(np.sum((scores - scores.mean()) ** 2)) * count / (count - 1)
-    if variance <= 0:
-        return 0.0
-    return float(
-        scipy.special.fdtrc(parameters, count - parameters, size**2 / variance / parameters)
-    )
 
 
 @dataclass(frozen=True)

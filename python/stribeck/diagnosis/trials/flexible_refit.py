@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.flexible_shape import flexible_columns
-from stribeck.diagnosis.trials.evidence import Difference, added_torque_test
+from stribeck.diagnosis.trials.evidence import Difference
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial
 from stribeck.fitting.result import Fit
+from stribeck.identify.added_torque import added_torque_test
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
 

@@ -18,6 +18,7 @@ from stribeck.diagnosis.plausibility.negative import negative_friction, negative
 from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, weak
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.too_large import too_large
+from stribeck.diagnosis.plausibility.uneven import uneven
 from stribeck.diagnosis.plausibility.unresolved import unresolved
 from stribeck.identify.problem import Problem
 from synthetic import Array, joint, motion, record
@@ -218,3 +219,23 @@ def test_a_shape_that_is_needed_at_its_bound(tmp_path: Path) -> None:
     reason = shape_at_bound(steep)
     assert reason is not None and reason.startswith("load_exponent is at its bound 2.5")
     assert shape_at_bound(made(tmp_path, 2.0 * share * np.sign(v), "load", "plain")) is None
+
+
+@pytest.mark.parametrize("condition", ["speed", "time"])
+def test_a_torque_that_acts_in_one_condition_alone(tmp_path: Path, condition: str) -> None:
+    """What acts in fast motion alone is not friction that depends on the position."""
+    t, q, v, _ = motion()
+    place = 1.5 * np.sin(2.0 * q) * np.sign(v)
+    share = np.abs(v) > np.median(np.abs(v)) if condition == "speed" else t > 0.6 * t[-1]
+    reason = uneven(made(tmp_path, place * share, "position"))
+    words = {"speed": "in fast motion", "time": "in the last part"}
+    assert reason is not None and words[condition] in reason.split("it is")[0], reason
+    assert uneven(made(tmp_path, place, "position", "all")) is None
+
+
+def test_a_torque_of_twice_the_size_is_claimed(tmp_path: Path) -> None:
+    """Effects are not exact: up to three times as large is allowed."""
+    _, q, v, _ = motion()
+    place = 1.5 * np.sin(2.0 * q) * np.sign(v)
+    fast = np.abs(v) > np.median(np.abs(v))
+    assert uneven(made(tmp_path, place * np.where(fast, 1.0, 0.5), "position")) is None

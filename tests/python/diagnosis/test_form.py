@@ -1,0 +1,49 @@
+"""Friction effects whose torque has another form than their law."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import stribeck as sb
+from stribeck.diagnosis.loop.form import OTHER_FORM, of_other_form
+from stribeck.diagnosis.residual.unexplained import Unexplained
+from synthetic import joint, joint_with_stribeck_curve, motion, record
+
+V = motion()[2]
+#: Structure that remains, as a diagnosis says it.
+REMAINS = Unexplained(0.5, "everywhere", 0.5)
+
+
+def test_a_curve_in_the_place_of_a_gap_is_demoted(tmp_path: Path) -> None:
+    """Friction that is smaller in a band of speeds is no Stribeck curve, though one follows it."""
+    speed = np.abs(V)
+    gap = -0.3 * ((speed > 0.6) & (speed < 0.9)) * np.sign(V)
+    found = sb.improve("coulomb", record(tmp_path, joint(gap)), starts=2)
+    assert not found.steps and found.last.verdict == "unexplained"
+    (doubted,) = found.last.demoted
+    assert doubted.effect == "stribeck" and doubted.demoted == OTHER_FORM
+
+
+def test_two_effects_of_the_same_variable_are_found(tmp_path: Path) -> None:
+    """Each has another form than its law until the other is in the model."""
+    speed = np.abs(V)
+    extra = np.sign(V) * (np.exp(-speed / 0.1) + 0.5 * speed**2)
+    found = sb.improve("coulomb", record(tmp_path, joint(extra)), starts=2)
+    assert {step.finding.effect for step in found.steps} == {"stribeck", "nonlinear_viscous"}
+    assert not found.last.demoted and found.last.verdict == "none"
+
+
+def test_an_effect_with_the_form_of_its_law_stays(tmp_path: Path) -> None:
+    """Also beside structure of another variable."""
+    found = sb.improve("coulomb", record(tmp_path, joint_with_stribeck_curve()), starts=2)
+    findings = [step.finding for step in found.steps]
+    assert [finding.effect for finding in findings] == ["stribeck"]
+    assert of_other_form(findings, found.final, REMAINS, 0) == []
+
+
+def test_other_causes_are_not_judged_by_their_form(tmp_path: Path) -> None:
+    found = sb.improve("coulomb", record(tmp_path, joint(0.5)), starts=2)
+    findings = [step.finding for step in found.steps]
+    assert [finding.effect for finding in findings] == ["offset"]
+    assert of_other_form(findings, found.final, REMAINS, 0) == []

@@ -1,0 +1,69 @@
+"""Two effects that predict only together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+from stribeck.benchmark.cases import Case
+from stribeck.diagnosis.trials.pairs import best_pair
+from stribeck.diagnosis.trials.screening import Screened, screened
+from synthetic import joint, motion, record
+
+ROWS = 6000
+T, Q, V, _ = motion(ROWS)
+EFFECTS = ("temperature_dry", "drift", "position", "offset", "stribeck")
+
+
+def warming(extra: np.ndarray) -> pl.DataFrame:
+    """A joint that warms up by 20 K, with `extra` torque."""
+    kelvin = 20.0 + 20.0 * (1.0 - np.exp(-T / 15.0))
+    return joint(extra, rows=ROWS).with_columns(temperature=pl.Series(kelvin))
+
+
+def hiding() -> pl.DataFrame:
+    """Wear raises dry friction while the warmth lowers it."""
+    warmth = 1.0 - np.exp(-T / 15.0)
+    return warming(1.2 * (T / T[-1] - warmth) * np.sign(V))
+
+
+def screenings(before: sb.Fit, effects: Sequence[str]) -> dict[str, Screened]:
+    made = {effect: screened(before, effect) for effect in effects}
+    return {effect: found for effect, found in made.items() if found is not None}
+
+
+def test_two_effects_that_hide_each_other_are_a_pair(tmp_path: Path) -> None:
+    before = sb.fit("coulomb", record(tmp_path, hiding()), starts=1)
+    pair = best_pair(before, screenings(before, EFFECTS))
+    assert pair is not None and set(pair) == {"temperature_dry", "drift"}
+
+
+@pytest.mark.parametrize("size", [0.0, 0.8])
+def test_noise_is_no_pair_nor_is_an_effect_that_predicts_alone(tmp_path: Path, size: float) -> None:
+    extra = size * np.sin(2.0 * Q) * np.sign(V)
+    before = sb.fit("coulomb", record(tmp_path, warming(extra)), starts=1)
+    assert best_pair(before, screenings(before, EFFECTS)) is None
+
+
+def test_effects_with_a_memory_of_their_own_are_left_out(tmp_path: Path) -> None:
+    before = sb.fit("coulomb", record(tmp_path, hiding()), starts=1)
+    assert best_pair(before, screenings(before, ("presliding", "delay", "drift"))) is None
+    assert best_pair(before, {}) is None
+
+
+@pytest.mark.slow
+def test_the_loop_finds_both(tmp_path: Path) -> None:
+    """A recording of the benchmark, read through a thermometer that lags."""
+    hidden = ("drift", "temperature_dry")
+    case = Case("two", "open_loop", hidden, 365166000, 2.0, nuisances=("lagging_thermometer",))
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    recording = sb.read(tmp_path / "recording.parquet")
+    found = sb.diagnose(sb.fit("coulomb", recording), brief=True)
+    assert found.findings == () and [finding.effect for finding in found.of_a_pair] == [hidden[1]]
+    improved = sb.improve("coulomb", recording)
+    assert {step.finding.effect for step in improved.steps} == set(hidden)
+    assert improved.last.verdict == "none"
