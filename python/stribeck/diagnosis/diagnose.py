@@ -13,9 +13,9 @@ from stribeck.diagnosis.all_samples import with_errors_on_all_samples
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.residual.explainable import explainable
-from stribeck.diagnosis.residual.noise_floor import noise_floor
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor, noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
-from stribeck.diagnosis.result import Diagnosis, Finding, Tried
+from stribeck.diagnosis.result import Diagnosis, Finding, Pair, Tried
 from stribeck.diagnosis.trials.candidates import Tested, candidates_for, tested
 from stribeck.diagnosis.trials.imitations import NARROW, without_imitations
 from stribeck.diagnosis.trials.outshone import without_outshone, without_unresolved
@@ -30,6 +30,7 @@ from stribeck.fitting.result import FIT, Fit
 from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
 from stribeck.identify.effort import FROM_NEARBY
 from stribeck.models.catalog import effect_ids
+from stribeck.models.formula_law import effect_name
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.several.concat import Recordings
 
@@ -157,9 +158,6 @@ def _with_remainder(found: Diagnosis, evidence: Tested) -> Diagnosis:
     remains = structure.is_structure or found.has_doubts
     verdict = "missing" if found.findings else ("unexplained" if remains else "none")
 
-    pair = None if found.findings or not remains else best_pair(fitted, evidence.screenings)
-    first = None if pair is None else try_effect(fitted, evidence.screenings[pair[0]])
-
     def possible(trials: list[Trial]) -> tuple[Finding, ...]:
         return tuple(
             finding_of(fitted, trial, NARROW, (), floor)
@@ -174,8 +172,18 @@ def _with_remainder(found: Diagnosis, evidence: Tested) -> Diagnosis:
         explainable=explained,
         in_one_block=possible(evidence.in_one_block),
         uncertain=possible(evidence.uncertain),
-        of_a_pair=possible([] if first is None else [first]),
+        pair=_pair(fitted, evidence, floor) if verdict == "unexplained" else None,
     )
+
+
+def _pair(fitted: Fit, evidence: Tested, floor: NoiseFloor) -> Pair | None:
+    """Two effects that predict only together; None where there are none."""
+    best = best_pair(fitted, evidence.screenings)
+    first = None if best is None else try_effect(fitted, evidence.screenings[best.first])
+    if best is None or first is None or impossible(Claim(first.effect, fitted, first.fit)):
+        return None
+    finding = finding_of(fitted, first, NARROW, (), floor)
+    return Pair(finding, effect_name(best.second), best.fall)
 
 
 def with_visibility(found: Diagnosis) -> Diagnosis:

@@ -100,6 +100,25 @@ class Finding(Plotted):
 
 
 @dataclass(frozen=True)
+class Pair:
+    """Two effects that predict only together.
+
+    Attributes
+    ----------
+    first
+        The one that predicts better alone, added alone.
+    second
+        The other, as the model names it.
+    fall
+        Relative fall of the held-out RMSE by both, linearised.
+    """
+
+    first: Finding
+    second: str
+    fall: float
+
+
+@dataclass(frozen=True)
 class Tried:
     """The effects that were tried, ids or formulas, and what one had to show to be a finding.
 
@@ -141,8 +160,8 @@ class Diagnosis(Plotted):
     uncertain
         Effects that predict better, but not by more than chance may: what else is missing may hide
         them; not asked where `brief` finds some.
-    of_a_pair
-        An effect that predicts together with another one alone; asked where there are no findings.
+    pair
+        Two effects that predict only together; asked where structure remains and nothing is found.
     smallest_visible
         For each effect that was tried and not found, the smallest that would have been found.
     groups
@@ -175,7 +194,7 @@ class Diagnosis(Plotted):
     tried: Tried = Tried()
     in_one_block: tuple[Finding, ...] = ()
     uncertain: tuple[Finding, ...] = ()
-    of_a_pair: tuple[Finding, ...] = ()
+    pair: Pair | None = None
 
     @property
     def has_doubts(self) -> bool:

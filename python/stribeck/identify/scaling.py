@@ -20,7 +20,7 @@ from stribeck.identify.drive_scaling import drive_scales, known_constants
 from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
 from stribeck.models.build import law as formula_law
 from stribeck.models.build import model
-from stribeck.models.catalog import law_row
+from stribeck.models.catalog import catalog, law_row
 from stribeck.models.formula_law import is_formula
 from stribeck.models.model import RIGID_BODY_EFFECTS, Model
 from stribeck.models.parameter import Parameter
@@ -182,8 +182,9 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
         # Known values are valid only with the constants that they came with.
         constants = {**law_constants(spec.law, recording), **constants}
     for effect in spec.effects:
-        needed = effect_constants(effect, recording)
-        constants = {**needed, **constants}
+        # The period of a ripple takes milliseconds to find.
+        if not constants.keys() >= set(catalog()["effects"][effect]["constants"]):
+            constants = {**effect_constants(effect, recording), **constants}
     constants.update(known_constants(recording))
     made = Model(
         law=spec.law,

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.residual.explainable import Explainable
     from stribeck.diagnosis.residual.noise_floor import NoiseFloor
     from stribeck.diagnosis.residual.unexplained import Unexplained
-    from stribeck.diagnosis.result import Diagnosis, Finding
+    from stribeck.diagnosis.result import Diagnosis, Finding, Pair
     from stribeck.diagnosis.testable import Untestable
     from stribeck.diagnosis.trend import Trend
     from stribeck.diagnosis.visibility.result import Group, SmallestVisible
@@ -62,6 +62,7 @@ def diagnosis_text(diagnosis: Diagnosis) -> str:
         paragraph(left_after(diagnosis), 0),
         paragraph(explainable_after(diagnosis), 0),
         paragraph(trend_text(diagnosis.trend), 0),
+        paragraph(pair_sentence(diagnosis.pair), 0),
         paragraph(following, 0),
         bullets(f"{visible_heading(diagnosis)}:", visible_rows(diagnosis.smallest_visible)),
         bullets(f"{ALIKE}:", group_rows(diagnosis.groups)),
@@ -78,6 +79,17 @@ def _verdict(diagnosis: Diagnosis) -> str:
     said = VERDICTS[diagnosis.verdict]
     word = hedge(diagnosis.findings[0].confidence) if diagnosis.findings else ""
     return f"{word.capitalize()} {said[0].lower()}{said[1:]}" if word else said
+
+
+def pair_sentence(pair: Pair | None) -> str:
+    """Which two effects predict only together; an empty string where none do."""
+    if pair is None:
+        return ""
+    return (
+        f"Together, {pair.first.effect} and {pair.second} lower the held-out error by "
+        f"{percent(pair.fall)}, and no effect nearly as much alone: two missing causes may hide each "
+        f"other. `improve` adds both where they stand all tests."
+    )
 
 
 def doubts_text(diagnosis: Diagnosis) -> str:

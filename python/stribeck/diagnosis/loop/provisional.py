@@ -26,7 +26,8 @@ from stribeck.models.catalog import effect_ids
 def trials_of(found: Diagnosis) -> list[Finding]:
     """The findings to add on trial, until one stands: one in doubt, and one of a pair."""
     doubtful = on_trial(found)
-    return [*([] if doubtful is None else [doubtful]), *found.of_a_pair]
+    of_a_pair = None if found.pair is None else found.pair.first
+    return [finding for finding in (doubtful, of_a_pair) if finding is not None]
 
 
 def on_trial(found: Diagnosis) -> Finding | None:

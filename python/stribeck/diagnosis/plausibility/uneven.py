@@ -43,7 +43,10 @@ def uneven(claim: Claim) -> str | None:
     residual, jacobian = map(problem.weighted, problem.linearise(fit.model.values))
     basis = orthonormal(jacobian)
     for halves in _all_halves(fit):
-        wider = problem.weighted(claim.torque * halves.side(claim.torque**2))
+        side = halves.side(claim.torque**2)
+        if np.ptp(side) == 0.0:
+            continue
+        wider = problem.weighted(claim.torque * side)
         own = outside_span(basis, wider[:, None])[:, 0]
         square = float(own @ own)
         if square <= OWN * float(wider @ wider):

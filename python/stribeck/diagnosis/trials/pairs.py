@@ -31,11 +31,22 @@ LEAST, RATIO = 0.1, 1.5
 RIDGE = 1e-6
 
 
-def best_pair(before: Fit, screenings: Mapping[str, Screened]) -> tuple[str, str] | None:
+@dataclass(frozen=True)
+class BestPair:
+    """Two effects, ids or formulas, and the relative fall of the held-out RMSE by both.
+
+    The first predicts better alone.
+    """
+
+    first: str
+    second: str
+    fall: float
+
+
+def best_pair(before: Fit, screenings: Mapping[str, Screened]) -> BestPair | None:
     """The two effects that predict best together, where none predicts nearly as well alone.
 
-    The one that predicts better alone comes first. Effects with a memory of their own, which are
-    screened on other samples, are left out.
+    Effects with a memory of their own, which are screened on other samples, are left out.
     """
     made = _Columns.of(before, [s for s in screenings.values() if _has_memory_of(s, before.model)])
     level = made.held_out_square(())
@@ -51,7 +62,7 @@ def best_pair(before: Fit, screenings: Mapping[str, Screened]) -> tuple[str, str
     if pairs[best] < max(LEAST, RATIO * max(alone.values())):
         return None
     first, second = sorted(best, key=lambda effect: -alone[effect])
-    return first, second
+    return BestPair(first, second, pairs[best])
 
 
 @dataclass(frozen=True)
