@@ -87,8 +87,8 @@ def pair_sentence(pair: Pair | None) -> str:
         return ""
     return (
         f"Together, {pair.first.effect} and {pair.second} lower the held-out error by "
-        f"{percent(pair.fall)}, and no effect nearly as much alone: two missing causes may hide each "
-        f"other. `improve` adds both where they stand all tests."
+        f"{percent(pair.fall)}, and no effect nearly as much alone: two missing causes may hide "
+        f"each other. `improve` adds both where they stand all tests."
     )
 
 
