@@ -42,3 +42,24 @@ def test_a_form_does_not_extrapolate(tmp_path: Path) -> None:
     assert np.all(per_block[0] <= per_block[1])
     assert np.array_equal(refit.held_out[block == 0], plain[block == 0])
     assert not np.array_equal(refit.held_out, plain)
+
+
+def test_a_form_that_predicts_better_explains_what_hardly_adds_to_it(tmp_path: Path) -> None:
+    """A curve at low speed, which nonlinear viscous friction follows in part."""
+    _, q, v, _ = motion()
+    curve = 1.5 * np.exp(-np.abs(v) / 0.1) * np.sign(v)
+    more = 0.06 * v * np.abs(v)
+    fitted = sb.fit("coulomb", record(tmp_path, joint(curve + more)), starts=1)
+    after = sb.add(fitted, "nonlinear_viscous", starts=4)
+    trial = Trial("nonlinear_viscous", after, evidence(fitted, after))
+    form = FlexibleRefit.beside(fitted, curve[fitted.rows, None])
+    fall, p_value = form.beside_columns(trial)
+    assert form.advantage(trial) < -TIE and fall > 0.01 and p_value < 1e-4
+    assert form.explains(trial, 20, 0.01)
+    # What the form leaves in full is not explained, though the form predicts better.
+    place = 0.05 * np.sin(2.0 * q) * np.sign(v)
+    fitted = sb.fit("coulomb", record(tmp_path, joint(curve + place), "place"), starts=1)
+    after = sb.add(fitted, "position", starts=1)
+    trial = Trial("position", after, evidence(fitted, after))
+    form = FlexibleRefit.beside(fitted, curve[fitted.rows, None])
+    assert form.advantage(trial) < -TIE and not form.explains(trial, 20, 0.01)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.flexible_shape import flexible_columns
-from stribeck.diagnosis.trials.evidence import Difference
+from stribeck.diagnosis.trials.evidence import Difference, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial
 from stribeck.fitting.result import Fit
 from stribeck.identify.added_torque import added_torque_test
@@ -16,6 +16,9 @@ from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
 
 Array = NDArray[np.float64]
+
+#: Least share of what a trial explains that it explains beside a better flexible form as well.
+KEPT = 0.25
 
 
 @dataclass(frozen=True)
@@ -58,12 +61,18 @@ class FlexibleRefit:
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
         """Whether a trial among `tried`, which must bring the fall `least`, no longer passes.
 
-        One that predicts better than the flexible form by two standard errors is not explained.
+        One that predicts better than the flexible form by two standard errors is not explained. One
+        that predicts worse by as much is where it hardly explains anything beside that form.
         """
-        if self.advantage(trial) > TIE:
+        advantage = self.advantage(trial)
+        if advantage > TIE:
             return False
         fall, p_value = self.beside_columns(trial)
-        return fall < least / 2 or p_value * tried > SIGNIFICANCE
+        if fall < least / 2 or p_value * tried > SIGNIFICANCE:
+            return True
+        level = float(np.sum(self.held_out**2))
+        alone = held_out_square(self.before, self.before) - held_out_square(trial.fit, self.before)
+        return advantage < -TIE and level * (1.0 - (1.0 - fall) ** 2) < KEPT * alone
 
     def advantage(self, trial: Trial) -> float:
         """Standard errors by which the columns leave a larger held-out error than a trial."""
