@@ -70,9 +70,9 @@ class FlexibleRefit:
         fall, p_value = self.beside_columns(trial)
         if fall < least / 2 or p_value * tried > SIGNIFICANCE:
             return True
-        level = float(np.sum(self.held_out**2))
+        kept = float(np.sum(self.held_out**2)) * (1.0 - (1.0 - fall) ** 2)
         alone = held_out_square(self.before, self.before) - held_out_square(trial.fit, self.before)
-        return advantage < -TIE and level * (1.0 - (1.0 - fall) ** 2) < KEPT * alone
+        return advantage < -TIE and kept < KEPT * alone
 
     def advantage(self, trial: Trial) -> float:
         """Standard errors by which the columns leave a larger held-out error than a trial."""

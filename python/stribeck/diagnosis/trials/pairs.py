@@ -15,11 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base import linear
-from stribeck.diagnosis.trials.screening import ROWS, Screened
+from stribeck.diagnosis.trials.screening import ROWS, Screened, problem_of
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.normal import NormalEquations
-from stribeck.identify.problem import Problem
 from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
@@ -87,7 +85,7 @@ class _Columns:
     @classmethod
     def of(cls, before: Fit, screenings: Sequence[Screened]) -> _Columns:
         """Linearised at the fit, and for each effect at the values of its screening."""
-        whole = _problem(before, before.model).thinned(ROWS)
+        whole = problem_of(before.model, before).thinned(ROWS)
         residual, jacobian = map(whole.weighted, whole.linearise(before.model.values))
         columns = [jacobian]
         own: dict[str, Indices] = {}
@@ -95,7 +93,7 @@ class _Columns:
         for screening in screenings:
             names = screening.model.names
             new = np.array([k for k, name in enumerate(names) if name not in before.model.names])
-            problem = _problem(before, screening.model).thinned(ROWS)
+            problem = problem_of(screening.model, before).thinned(ROWS)
             added = problem.weighted(problem.linearise(screening.model.values, new)[1])
             if not np.all(np.isfinite(added)):
                 continue
@@ -127,8 +125,3 @@ class _Columns:
 def _has_memory_of(screening: Screened, base: Model) -> bool:
     model = screening.model
     return model.has_state == base.has_state and model.memoryless == base.memoryless
-
-
-def _problem(before: Fit, model: Model) -> Problem:
-    load = before.load if before.load is not None else own_load(before.model, before.recording)
-    return Problem(before.recording, model, before.rows, load, loss_weight=before.loss_weight)

@@ -74,13 +74,17 @@ def extended_model(before: Fit, effect: str) -> Model:
     return extended_models(before.model, effect, before.recording, load, before.residual)[-1]
 
 
+def problem_of(model: Model, before: Fit) -> Problem:
+    """The problem of another model on the samples of a fit, with its load torque and weights."""
+    load = before.load if before.load is not None else own_load(before.model, before.recording)
+    return Problem(before.recording, model, before.rows, load, loss_weight=before.loss_weight)
+
+
 def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
     """Try `effect` on few samples; None where the model cannot take it."""
     try:
         model = model_for(extended_model(before, effect), before.recording)
-        load = before.load if before.load is not None else own_load(before.model, before.recording)
-        whole = Problem(before.recording, model, before.rows, load, loss_weight=before.loss_weight)
-        problem = _few_samples(whole, before.model)
+        problem = _few_samples(problem_of(model, before), before.model)
         lower, upper, first = bounds(model, before.recording)
         found = _search(problem, lower, upper, first, seed)
         if not np.isfinite(found.square):
