@@ -88,7 +88,7 @@ def pair_sentence(pair: Pair | None) -> str:
     return (
         f"Together, {pair.first.effect} and {pair.second} lower the held-out error by "
         f"{percent(pair.fall)}, and no effect nearly as much alone: two missing causes may hide "
-        f"each other. `improve` adds both where they stand all tests."
+        f"each other. `improve` adds both if they pass all tests."
     )
 
 

@@ -22,8 +22,8 @@ from stribeck.fitting.result import Fit
 #: What a free function may explain beyond an effect, as a share of what the effect explains.
 BEYOND = 1 / 3
 OTHER_FORM = (
-    "a free function of the same variable explains much more, so friction depends on it in a way "
-    "that no effect of the catalog has"
+    "a free function of the same variable explains much more: friction depends on it in a way that "
+    "no effect of the catalog describes"
 )
 
 
